@@ -1,0 +1,29 @@
+# How every target of ours is made: includes from the root, warnings as errors on our code only.
+add_library(strainwave_flags INTERFACE)
+target_include_directories(strainwave_flags INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_definitions(strainwave_flags INTERFACE STRAINWAVE_VERSION="${PROJECT_VERSION}")
+if(STRAINWAVE_SANITIZE)
+  target_compile_options(strainwave_flags INTERFACE
+    -fsanitize=${STRAINWAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(strainwave_flags INTERFACE -fsanitize=${STRAINWAVE_SANITIZE})
+endif()
+
+add_library(strainwave_warnings INTERFACE)
+target_compile_options(strainwave_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-align -Wcast-qual
+  -Wformat=2 -Wimplicit-fallthrough -Wnull-dereference -Wundef -Wunused -Wextra-semi)
+
+# strainwave_library(NAME SOURCES file... [PUBLIC lib...] [PRIVATE lib...])
+function(strainwave_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_link_libraries(${name} PUBLIC strainwave_flags ${arg_PUBLIC} PRIVATE strainwave_warnings ${arg_PRIVATE})
+endfunction()
+
+# strainwave_program(NAME SOURCES file... [PRIVATE lib...])
+function(strainwave_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PRIVATE" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE strainwave_flags strainwave_warnings ${arg_PRIVATE})
+endfunction()

@@ -1,0 +1,69 @@
+// The seam between the loop and a drive. Everything behind it (CAN, GPIO, the simulated plant) looks the same: once a
+// period the loop reads, computes, writes. All quantities at the joint side, SI.
+//
+// Real-time rules: the constructor of a driver may block, allocate and throw InputError; read(), write() and stop() are
+// called from the real-time thread, never block, allocate or throw, and report trouble as a fault in the reading.
+#pragma once
+
+#include <cstdint>
+
+namespace strainwave {
+
+/// What the drive itself can do for us now.
+enum class DriveState : std::int32_t {
+  kDisabled = 0,  ///< no torque; the joint is free
+  kEnabling = 1,  ///< asked to enable, still on its way (brake, drive state machine)
+  kEnabled = 2,   ///< torque commands take effect
+  kFault = 3,     ///< the drive reports a fault; see ActuatorReading::fault
+};
+
+/// Trouble as the driver sees it. Numbers are fixed; docs/faults.md has the cause, effect and remedy of each.
+enum class ActuatorFault : std::int32_t {
+  kNone = 0,
+  kReadFailed = 1,     ///< no fresh position for longer than the driver tolerates
+  kWriteRefused = 2,   ///< the drive did not take the torque command
+  kDriveFault = 3,     ///< the drive reports its own fault
+  kPowerLost = 4,      ///< supply absent or out of range
+  kImplausible = 5,    ///< the reading contradicts itself (stuck, jumped, not finite)
+  kLinkLost = 6,       ///< bus or device gone
+  kEmergencyStop = 7,  ///< the e-stop input is active
+};
+
+/// One period's measurements.
+struct ActuatorReading {
+  double joint_position_rad = 0.0;     ///< accumulated, not wrapped
+  double joint_velocity_rad_s = 0.0;   ///< valid only when has_velocity
+  double torque_applied_Nm = 0.0;      ///< what the drive says it applied last period
+  double temperature_C = 0.0;          ///< latest known value; valid only when has_temperature
+  std::int64_t temperature_age_ns = 0; ///< since the sensor produced it
+  DriveState drive_state = DriveState::kDisabled;
+  ActuatorFault fault = ActuatorFault::kNone;
+  bool has_position = false;           ///< false: no fresh sample this period, the value is the last one
+  bool has_velocity = false;
+  bool has_temperature = false;
+};
+
+/// One period's order. With enable false the torque is ignored and the drive is brought to kDisabled.
+struct ActuatorCommand {
+  double torque_Nm = 0.0;
+  bool enable = false;
+};
+
+class Actuator {
+ public:
+  virtual ~Actuator() = default;
+  Actuator() = default;
+  Actuator(const Actuator&) = delete;
+  Actuator& operator=(const Actuator&) = delete;
+
+  /// Latest measurements. `now_ns` is CLOCK_MONOTONIC at the start of this period; drivers read no clock themselves.
+  virtual ActuatorReading read(std::int64_t now_ns) noexcept = 0;
+  /// Sends this period's order.
+  virtual void write(const ActuatorCommand& command) noexcept = 0;
+  /// Zero torque and disable, by the surest way the drive knows. May be called at any time, repeatedly.
+  virtual void stop() noexcept = 0;
+  /// Clears the drive's latched fault, on an operator's order only. The drive stays disabled.
+  virtual void clear_fault() noexcept = 0;
+};
+
+}  // namespace strainwave
