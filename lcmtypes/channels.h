@@ -1,0 +1,42 @@
+// Channel names: <prefix>.<joint>.<KIND>, and <prefix>.TIMING for the daemon as a whole. Not real-time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace strainwave {
+
+/// Last part of a channel name.
+namespace channel_kind {
+inline constexpr std::string_view kState = "STATE";
+inline constexpr std::string_view kTemperature = "TEMPERATURE";
+inline constexpr std::string_view kTiming = "TIMING";
+inline constexpr std::string_view kSetpoint = "SETPOINT";
+inline constexpr std::string_view kCommand = "COMMAND";
+inline constexpr std::string_view kTable = "TABLE";
+inline constexpr std::string_view kAck = "ACK";
+}  // namespace channel_kind
+
+/// LCM's own bound on a channel name, without the terminating zero.
+inline constexpr std::size_t kMaxChannelLength = 63;
+
+struct ChannelName {
+  std::string prefix;
+  std::string joint;  ///< empty for <prefix>.TIMING
+  std::string kind;
+};
+
+/// A prefix or joint name: 1 to 24 of A-Z a-z 0-9 _ and -.
+bool is_valid_name(std::string_view name);
+
+std::string channel(std::string_view prefix, std::string_view joint, std::string_view kind);
+std::string timing_channel(std::string_view prefix);
+
+/// The parts of a channel name, or nothing when it is none of ours.
+std::optional<ChannelName> parse_channel(std::string_view name);
+
+/// A regular expression as LCM's subscribe() takes it, for one kind of every joint under `prefix`; "[^.]+" for any prefix.
+std::string channel_pattern(std::string_view prefix, std::string_view kind);
+
+}  // namespace strainwave

@@ -1,0 +1,113 @@
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+std::string_view to_text(Mode mode) noexcept {
+  switch (mode) {
+    case Mode::kOff: return "off";
+    case Mode::kStarting: return "starting";
+    case Mode::kHolding: return "holding";
+    case Mode::kTracking: return "tracking";
+    case Mode::kStopping: return "stopping";
+    case Mode::kFaulted: return "faulted";
+  }
+  return "unknown";
+}
+
+std::string_view to_text(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::kNone: return "none";
+    case Fault::kReadFailed: return "position reading failed";
+    case Fault::kWriteRefused: return "torque command refused by the drive";
+    case Fault::kDriveFault: return "drive fault";
+    case Fault::kPowerLost: return "supply lost";
+    case Fault::kImplausibleReading: return "implausible reading";
+    case Fault::kLinkLost: return "link to the drive lost";
+    case Fault::kEmergencyStop: return "emergency stop";
+    case Fault::kStartTimeout: return "drive did not enable in time";
+    case Fault::kStopTimeout: return "joint did not stop in time";
+    case Fault::kPositionLimit: return "position limit";
+    case Fault::kSpeedLimit: return "speed limit";
+    case Fault::kFollowingError: return "following error";
+    case Fault::kNotFinite: return "not-a-number in the loop";
+    case Fault::kOverruns: return "too many overruns in a row";
+    case Fault::kTemperatureLimit: return "temperature limit";
+    case Fault::kGroup: return "another joint of the group faulted";
+  }
+  return "unknown";
+}
+
+std::string_view to_text(Notice notice) noexcept {
+  switch (notice) {
+    case Notice::kTorqueLimited: return "torque limited";
+    case Notice::kTemperatureClamped: return "temperature outside the table";
+    case Notice::kFallbackGains: return "temperature-free gains in use";
+    case Notice::kSetpointExpired: return "setpoint stream expired";
+    case Notice::kReadingMissed: return "reading missed";
+    case Notice::kSpeedLimited: return "speed limited";
+  }
+  return "unknown";
+}
+
+std::string_view to_text(Reason reason) noexcept {
+  switch (reason) {
+    case Reason::kAccepted: return "accepted";
+    case Reason::kMalformed: return "malformed message";
+    case Reason::kNotFinite: return "not a finite number";
+    case Reason::kOutOfRange: return "out of range";
+    case Reason::kWrongMode: return "not possible in this mode";
+    case Reason::kNoTable: return "no gain table loaded";
+    case Reason::kUnknownJoint: return "unknown joint";
+    case Reason::kWrongSession: return "another session of the daemon";
+    case Reason::kOldSequence: return "sequence not rising";
+    case Reason::kUnsigned: return "not signed";
+    case Reason::kBadSignature: return "wrong signature";
+    case Reason::kRoleNotAllowed: return "role not allowed to do this";
+    case Reason::kTableDefect: return "table has a defect";
+    case Reason::kTableIdentity: return "table is for another joint";
+    case Reason::kTablePeriod: return "table is for another period";
+    case Reason::kTableNotCertified: return "table not certified for this joint";
+    case Reason::kFaulted: return "joint is faulted";
+    case Reason::kBusy: return "busy, try again";
+    case Reason::kMoving: return "joint is moving";
+    case Reason::kNoPreviousTable: return "no previous table";
+    case Reason::kUnknownAction: return "unknown action";
+    case Reason::kTimedOut: return "timed out";
+    case Reason::kDriveNotReady: return "drive not ready";
+    case Reason::kSuperseded: return "superseded by a newer command";
+  }
+  return "unknown";
+}
+
+std::string_view to_text(Action action) noexcept {
+  switch (action) {
+    case Action::kEnable: return "enable";
+    case Action::kDisable: return "disable";
+    case Action::kHold: return "hold";
+    case Action::kClearFault: return "clear-fault";
+    case Action::kRevertTable: return "revert-table";
+  }
+  return "unknown";
+}
+
+std::string_view to_text(TemperatureStatus status) noexcept {
+  switch (status) {
+    case TemperatureStatus::kValid: return "valid";
+    case TemperatureStatus::kNeverSeen: return "never seen";
+    case TemperatureStatus::kTooOld: return "too old";
+    case TemperatureStatus::kOutOfRange: return "out of range";
+    case TemperatureStatus::kTooFast: return "changing too fast";
+  }
+  return "unknown";
+}
+
+std::string_view to_text(GainsInUse gains) noexcept {
+  switch (gains) {
+    case GainsInUse::kNone: return "none";
+    case GainsInUse::kScheduled: return "scheduled";
+    case GainsInUse::kFallback: return "temperature-free";
+  }
+  return "unknown";
+}
+
+}  // namespace strainwave

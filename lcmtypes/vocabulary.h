@@ -1,0 +1,92 @@
+// The numbers that travel in messages and what they mean: modes, faults, notices, reasons, actions. A number, once
+// published, is never given another meaning. Texts are for people; programs compare numbers. Real-time safe: the texts
+// are constants. docs/faults.md and docs/messages.md explain each.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace strainwave {
+
+/// state_v1.mode
+enum class Mode : std::int32_t { kOff = 0, kStarting = 1, kHolding = 2, kTracking = 3, kStopping = 4, kFaulted = 5 };
+
+/// state_v1.fault: latched, the joint is stopped.
+enum class Fault : std::int32_t {
+  kNone = 0,
+  kReadFailed = 1,
+  kWriteRefused = 2,
+  kDriveFault = 3,
+  kPowerLost = 4,
+  kImplausibleReading = 5,
+  kLinkLost = 6,
+  kEmergencyStop = 7,
+  kStartTimeout = 10,
+  kStopTimeout = 11,
+  kPositionLimit = 12,
+  kSpeedLimit = 13,
+  kFollowingError = 14,
+  kNotFinite = 15,
+  kOverruns = 16,
+  kTemperatureLimit = 17,
+  kGroup = 18,
+};
+
+/// state_v1.notices: a bit set; the joint goes on, limited.
+enum class Notice : std::int32_t {
+  kTorqueLimited = 1 << 0,
+  kTemperatureClamped = 1 << 1,
+  kFallbackGains = 1 << 2,
+  kSetpointExpired = 1 << 3,
+  kReadingMissed = 1 << 4,
+  kSpeedLimited = 1 << 5,
+};
+
+/// ack_v1.reason; also the index into timing_v1.rejects (< 32).
+enum class Reason : std::int32_t {
+  kAccepted = 0,
+  kMalformed = 1,
+  kNotFinite = 2,
+  kOutOfRange = 3,
+  kWrongMode = 4,
+  kNoTable = 5,
+  kUnknownJoint = 6,
+  kWrongSession = 7,
+  kOldSequence = 8,
+  kUnsigned = 9,
+  kBadSignature = 10,
+  kRoleNotAllowed = 11,
+  kTableDefect = 12,
+  kTableIdentity = 13,
+  kTablePeriod = 14,
+  kTableNotCertified = 15,
+  kFaulted = 16,
+  kBusy = 17,
+  kMoving = 18,
+  kNoPreviousTable = 19,
+  kUnknownAction = 20,
+  kTimedOut = 21,
+  kDriveNotReady = 22,
+  kSuperseded = 23,
+};
+inline constexpr int kReasonCount = 32;
+
+/// command_v1.action
+enum class Action : std::int32_t { kEnable = 1, kDisable = 2, kHold = 3, kClearFault = 4, kRevertTable = 5 };
+
+/// state_v1.temperature_status
+enum class TemperatureStatus : std::int32_t { kValid = 0, kNeverSeen = 1, kTooOld = 2, kOutOfRange = 3, kTooFast = 4 };
+
+/// state_v1.gains_in_use
+enum class GainsInUse : std::int32_t { kNone = 0, kScheduled = 1, kFallback = 2 };
+
+/// One or two words each, lower case; "unknown" for a number without a meaning.
+std::string_view to_text(Mode mode) noexcept;
+std::string_view to_text(Fault fault) noexcept;
+std::string_view to_text(Notice notice) noexcept;
+std::string_view to_text(Reason reason) noexcept;
+std::string_view to_text(Action action) noexcept;
+std::string_view to_text(TemperatureStatus status) noexcept;
+std::string_view to_text(GainsInUse gains) noexcept;
+
+}  // namespace strainwave

@@ -1,0 +1,30 @@
+// Bytes on the wire to and from a generated message, exact sizes only. Every type has fixed-size fields, so a message of
+// another length is malformed by definition. Not real-time. No LCM library is needed, only its header.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace strainwave {
+
+/// The message in `bytes`, or nothing when the length or the type's fingerprint is not exactly T's.
+template <typename T>
+std::optional<T> decode_exactly(std::span<const std::uint8_t> bytes) {
+  T message{};
+  const int size = message.getEncodedSize();
+  if (bytes.size() != static_cast<std::size_t>(size)) return std::nullopt;
+  if (message.decode(bytes.data(), 0, size) != size) return std::nullopt;
+  return message;
+}
+
+/// The wire form of `message`.
+template <typename T>
+std::vector<std::uint8_t> encode(const T& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace strainwave
