@@ -9,8 +9,10 @@
 namespace strainwave {
 
 namespace {
-// Rounding, relative to what one sample at the limits moves: below it the target counts as reached.
-constexpr double kRounding = 1e-9;
+// A speed this far below one sample's deceleration is the rounding of a motion that has ended.
+constexpr double kRelativeRounding = 1e-9;
+// What thousands of samples may add up to; far below any encoder's count.
+constexpr double kPositionRounding_rad = 1e-12;
 }  // namespace
 
 void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept {
@@ -65,13 +67,12 @@ Reference ReferenceShaper::step() noexcept {
   double velocity = stopping_ ? brake_to_rest(velocity_rad_s_) : next_velocity_rad_s();
   double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
 
-  const double speed_rounding = kRounding * period_s_ * limits_.deceleration_rad_s2;
-  if (std::abs(velocity) <= speed_rounding) {
+  if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {
     velocity = 0.0;
     if (stopping_) target_rad_ = position;
-    const double position_rounding = std::max(
-        period_s_ * speed_rounding, 4.0 * std::numeric_limits<double>::epsilon() * std::abs(target_rad_));
-    if (std::abs(position - target_rad_) <= position_rounding) position = target_rad_;
+    const double rounding_rad =
+        kPositionRounding_rad + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(target_rad_);
+    if (std::abs(position - target_rad_) <= rounding_rad) position = target_rad_;
   }
   const Reference reference{position_rad_, velocity_rad_s_, (velocity - velocity_rad_s_) / period_s_};
   position_rad_ = position;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPeriod_s = 0.001;
 constexpr double kRelativeRounding = 1e-6;
-constexpr double kPositionRounding_rad = 1e-15;
+constexpr double kPositionRounding_rad = 1e-12;
 
 class Cases {
  public:
