@@ -69,6 +69,8 @@ class JointController {
   void set_target(double position_rad) noexcept { shaper_.set_target(position_rad); }
   /// Decelerates to rest and holds.
   void stop() noexcept { shaper_.stop(); }
+  /// Where the motion ends.
+  double target_rad() const noexcept { return shaper_.target_rad(); }
 
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;

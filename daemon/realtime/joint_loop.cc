@@ -89,7 +89,6 @@ Reason JointLoop::use_table(std::size_t slot) noexcept {
   controller_.load(tables_[slot].table);
   table_id_ = tables_[slot].id;
   temperature_rules_ = tables_[slot].table.friction.rule_count;
-  schedule_due_ns_ = 0;
   return Reason::kAccepted;
 }
 

@@ -29,7 +29,6 @@ struct JointLoopConfig {
   JointControllerConfig controller;
   JointLimits limits;
   TemperatureCheckConfig temperature;
-  double schedule_period_s = 0.01;   ///< layer 1 of the fuzzy model
   double start_timeout_s = 2.0;      ///< from enable to the drive's readiness
   double stop_timeout_s = 3.0;       ///< from disable to standstill
   double standstill_rad_s = 0.01;
@@ -111,7 +110,6 @@ class JointLoop {
   std::int64_t mode_since_ns_ = 0;
   std::int64_t faults_total_ = 0;
   std::int64_t setpoint_expires_ns_ = 0;  ///< 0: a move, which does not expire
-  std::int64_t schedule_due_ns_ = 0;
   std::int64_t table_id_ = 0;
   std::int32_t temperature_rules_ = 0;
   std::int32_t notices_ = 0;
