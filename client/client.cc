@@ -11,22 +11,27 @@ namespace strainwave {
 
 namespace {
 
-// All joints of a daemon are published together; at the slowest sensible rate the next round comes within this time.
+// All joints of a daemon are published together; at the slowest sensible rate the next round comes within
+// this time.
 constexpr double kOtherJoints_s = 0.3;
 
 Answer to_answer(const ack_v1& ack) {
-  return {ack.accepted == 1, static_cast<Reason>(ack.reason), printable({ack.text, sizeof(ack.text)})};
+  const std::string text(std::begin(ack.text), std::end(ack.text));
+  return {ack.accepted == 1, static_cast<Reason>(ack.reason), printable(text)};
 }
 
 }  // namespace
 
 Client::Client(Connection& connection, const ClientOptions& options)
-    : connection_(connection), options_(options), states_(connection) {
-  connection_.subscribe(channel_pattern(options_.prefix, channel_kind::kAck), &Client::on_ack, this);
-}
+    : connection_(connection),
+      options_(options),
+      states_(connection),
+      acknowledgements_(
+          connection.subscribe(channel_pattern(options.prefix, channel_kind::kAck), &Client::on_ack, this)) {}
 
 const JointView& Client::wait_for_joint(const std::string& joint) {
-  if (!wait_until([&] { return find(joint) != nullptr; }, Deadline(options_.timeout_s))) explain_silence(joint);
+  if (!wait_until([&] { return find(joint) != nullptr; }, Deadline(options_.timeout_s)))
+    explain_silence(joint);
   return *find(joint);
 }
 
@@ -51,9 +56,11 @@ Answer Client::exchange(const std::string& joint, const SealedMessage& order) {
   if (find(joint) == nullptr) explain_silence(joint);
   throw ClientError(
       ExitStatus::kNoAnswer,
-      fmt::format("{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does not "
-                  "answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
-                  joint, options_.timeout_s, 1 + kRepetitions, joint));
+      fmt::format(
+          "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
+          "not "
+          "answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
+          joint, options_.timeout_s, 1 + kRepetitions, joint));
 }
 
 void Client::handle(int timeout_ms) {
@@ -71,15 +78,17 @@ void Client::explain_silence(const std::string& joint) const {
   const auto& prefix = options_.prefix;
   const std::vector<std::string> joints = states_.joints(prefix);
   if (!joints.empty()) {
-    throw ClientError(ExitStatus::kNoAnswer, fmt::format("no joint '{}' on prefix {}; its joints are: {}", joint, prefix,
-                                                         fmt::join(joints, ", ")));
+    throw ClientError(ExitStatus::kNoAnswer, fmt::format("no joint '{}' on prefix {}; its joints are: {}",
+                                                         joint, prefix, fmt::join(joints, ", ")));
   }
-  std::string message = fmt::format("no daemon on prefix {} in {} s ({}).", prefix, options_.timeout_s,
-                                    connection_.url());
+  std::string message =
+      fmt::format("no daemon on prefix {} in {} s ({}).", prefix, options_.timeout_s, connection_.url());
   if (const std::vector<std::string> prefixes = states_.prefixes(); !prefixes.empty()) {
-    message += fmt::format(" Daemons are heard on: {} (choose one with --prefix).", fmt::join(prefixes, ", "));
+    message +=
+        fmt::format(" Daemons are heard on: {} (choose one with --prefix).", fmt::join(prefixes, ", "));
   } else {
-    message += " Is strainwaved running, and are its lcm_url and prefix the same as --lcm-url and --prefix here?";
+    message +=
+        " Is strainwaved running, and are its lcm_url and prefix the same as --lcm-url and --prefix here?";
   }
   throw ClientError(ExitStatus::kNoAnswer, message);
 }

@@ -1,10 +1,10 @@
-// A conversation with one daemon: learn its session from the state it publishes, send an order, repeat it until it is
-// acknowledged. Everything waits on one thread and ends in time. Not real-time.
+// A conversation with one daemon: learn its session from the state it publishes, send an order, repeat it
+// until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
 #pragma once
 
 #include <optional>
-#include <string>
 #include <strainwave/ack_v1.hpp>
+#include <string>
 #include <vector>
 
 #include "client/connection.h"
@@ -17,7 +17,8 @@ namespace strainwave {
 
 struct ClientOptions {
   std::string prefix = "SW";
-  double timeout_s = 2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
+  double timeout_s =
+      2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
 };
 
 /// The daemon's answer to one order.
@@ -29,8 +30,8 @@ struct Answer {
 
 class Client {
  public:
-  /// How often an order is repeated while no answer comes: LCM may lose messages. The daemon answers a repetition as it
-  /// answered the first.
+  /// How often an order is repeated while no answer comes: LCM may lose messages. The daemon answers a
+  /// repetition as it answered the first.
   static constexpr int kRepetitions = 3;
 
   Client(Connection& connection, const ClientOptions& options);
@@ -48,16 +49,16 @@ class Client {
   /// Waits until a joint is heard, then a little for the others of the daemon. Throws like wait_for_joint().
   std::vector<std::string> wait_for_joints();
 
-  /// Sends `message` (setpoint_v1, command_v1 or gain_table_v1) to `joint` on the channel of `kind` and waits for the
-  /// answer. Throws ClientError when the joint is not heard or no answer comes.
+  /// Sends `message` (setpoint_v1, command_v1 or gain_table_v1) to `joint` on the channel of `kind` and waits
+  /// for the answer. Throws ClientError when the joint is not heard or no answer comes.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {
     const std::int64_t session_id = wait_for_joint(joint).state.session_id;
     return exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, session_id));
   }
 
-  /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait for a
-  /// state; without one the session is 0, which the daemon ignores in a disable.
+  /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait
+  /// for a state; without one the session is 0, which the daemon ignores in a disable.
   template <typename Message>
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
@@ -65,7 +66,8 @@ class Client {
     return exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, session_id));
   }
 
-  /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError (interrupted).
+  /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError
+  /// (interrupted).
   template <typename Done>
   bool wait_until(const Done& done, const Deadline& deadline) {
     while (!done()) {
@@ -88,6 +90,7 @@ class Client {
   const SealedMessage* awaited_ = nullptr;  ///< the order whose answer counts
   std::string awaited_channel_;             ///< where its answer comes from
   std::optional<ack_v1> ack_;
+  Subscription acknowledgements_;
 };
 
 }  // namespace strainwave

@@ -9,7 +9,9 @@ namespace {
 constexpr double kLongestWait_s = 365.0 * 24.0 * 3600.0;
 }  // namespace
 
-Instant now() noexcept { return std::chrono::steady_clock::now(); }
+Instant now() noexcept {
+  return std::chrono::steady_clock::now();
+}
 
 double seconds_between(Instant earlier, Instant later) noexcept {
   return std::chrono::duration<double>(later - earlier).count();
@@ -24,7 +26,9 @@ Deadline::Deadline(double seconds)
     : end_(now() + std::chrono::duration_cast<Instant::duration>(
                        std::chrono::duration<double>(std::clamp(seconds, 0.0, kLongestWait_s)))) {}
 
-bool Deadline::passed() const noexcept { return now() >= end_; }
+bool Deadline::passed() const noexcept {
+  return now() >= end_;
+}
 
 int Deadline::remaining_ms() const noexcept {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(end_ - now()).count();

@@ -22,10 +22,11 @@ const std::string& checked(const std::string& lcm_url) {
 Connection::Connection(const std::string& lcm_url) : url_(checked(lcm_url)), lcm_(lcm_url) {
   // The descriptor exists only once the receiving half is set up; without it subscribe() would fail unseen.
   if (!lcm_.good() || lcm_.getFileno() < 0) {
-    throw ClientError(ExitStatus::kLcmUnavailable,
-                      "LCM is not available on '" + lcm_url +
-                          "': check the URL (--lcm-url, or LCM_DEFAULT_URL in the environment); the usual one is "
-                          "udpm://239.255.76.67:7667?ttl=0");
+    throw ClientError(
+        ExitStatus::kLcmUnavailable,
+        "LCM is not available on '" + lcm_url +
+            "': check the URL (--lcm-url, or LCM_DEFAULT_URL in the environment); the usual one is "
+            "udpm://239.255.76.67:7667?ttl=0");
   }
 }
 

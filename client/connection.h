@@ -1,5 +1,5 @@
-// The client's LCM handle: subscriptions, publishing, waiting. Knows bytes and channels, not messages. One thread.
-// Not real-time.
+// The client's LCM handle: subscriptions, publishing, waiting. Knows bytes and channels, not messages. One
+// thread. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,19 @@
 #include <string>
 
 namespace strainwave {
+
+/// Ends a subscription with its owner. Must not outlive the connection.
+class Subscription {
+ public:
+  Subscription(lcm::LCM& lcm, lcm::Subscription* handle) : lcm_(&lcm), handle_(handle) {}
+  ~Subscription() { lcm_->unsubscribe(handle_); }
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
+
+ private:
+  lcm::LCM* lcm_;
+  lcm::Subscription* handle_;
+};
 
 class Connection {
  public:
@@ -19,13 +32,17 @@ class Connection {
 
   const std::string& url() const noexcept { return url_; }
 
-  /// Calls `method` of `handler` from handle() for each message whose channel matches `pattern` as a whole (a regular
-  /// expression). The handler must not throw: the call comes through C. It must live as long as handle() is called.
+  /// Calls `method` of `handler` from handle() for each message whose channel matches `pattern` as a whole (a
+  /// regular expression), as long as the returned object lives. The handler must not throw: the call comes
+  /// through C.
   template <typename Handler>
-  void subscribe(const std::string& pattern,
-                 void (Handler::*method)(const lcm::ReceiveBuffer* buffer, const std::string& channel),
-                 Handler* handler) {
-    lcm_.subscribe(pattern, method, handler)->setQueueCapacity(kQueueCapacity);
+  [[nodiscard]] Subscription subscribe(const std::string& pattern,
+                                       void (Handler::*method)(const lcm::ReceiveBuffer* buffer,
+                                                               const std::string& channel),
+                                       Handler* handler) {
+    lcm::Subscription* const subscription = lcm_.subscribe(pattern, method, handler);
+    subscription->setQueueCapacity(kQueueCapacity);
+    return {lcm_, subscription};
   }
 
   /// Throws ClientError when LCM does not take the message.

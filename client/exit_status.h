@@ -8,8 +8,8 @@ namespace strainwave {
 
 enum class ExitStatus : int {
   kDone = 0,
-  kRefused = 1,         ///< the daemon refused, or the joint faulted or was stopped before the order was carried out
-  kUsage = 2,           ///< the command line makes no sense
+  kRefused = 1,  ///< the daemon refused, or the joint faulted or was stopped before the order was carried out
+  kUsage = 2,    ///< the command line makes no sense
   kNoAnswer = 3,        ///< no daemon, no such joint, or no acknowledgement in time
   kFile = 4,            ///< a file cannot be read or written, or its content is wrong
   kLcmUnavailable = 5,  ///< LCM cannot be used on this PC as it is set up

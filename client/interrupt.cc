@@ -8,7 +8,9 @@ namespace {
 
 volatile std::sig_atomic_t signal_seen = 0;
 
-void note_signal(int) { signal_seen = 1; }
+void note_signal(int) {
+  signal_seen = 1;
+}
 
 }  // namespace
 
@@ -21,6 +23,8 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool interrupted() noexcept { return signal_seen != 0; }
+bool interrupted() noexcept {
+  return signal_seen != 0;
+}
 
 }  // namespace strainwave

@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM as a flag, so that a wait ends in order: files closed, the user told what goes on. Not real-time.
+// Ctrl-C and SIGTERM as a flag, so that a wait ends in order: files closed, the user told what goes on. Not
+// real-time.
 #pragma once
 
 namespace strainwave {

@@ -37,7 +37,9 @@ sockaddr* as_sockaddr(sockaddr_in& address) {
   return static_cast<sockaddr*>(static_cast<void*>(&address));
 }
 
-std::string last_error() { return std::system_category().message(errno); }
+std::string last_error() {
+  return std::system_category().message(errno);
+}
 
 /// Why a datagram to `group` does not come back, or an empty text.
 std::string echo_failure(in_addr group) {
@@ -59,7 +61,8 @@ std::string echo_failure(in_addr group) {
     return last_error();
   }
   const std::array<char, 4> probe{'p', 'i', 'n', 'g'};
-  if (::sendto(sender.get(), probe.data(), probe.size(), 0, as_sockaddr(address), length) < 0) return last_error();
+  if (::sendto(sender.get(), probe.data(), probe.size(), 0, as_sockaddr(address), length) < 0)
+    return last_error();
   pollfd waiting{receiver.get(), POLLIN, 0};
   if (::poll(&waiting, 1, kEcho_ms) == 1) return "";
   return "a datagram sent to the group did not come back; a firewall may drop it";
@@ -76,7 +79,8 @@ std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url) {
   if (const std::string_view group = lcm_url.substr(0, colon); !group.empty()) address.group = group;
   if (colon != std::string_view::npos) {
     const std::string_view port = lcm_url.substr(colon + 1);
-    if (std::from_chars(port.data(), port.data() + port.size(), address.port).ec != std::errc()) address.port = 0;
+    if (std::from_chars(port.data(), port.data() + port.size(), address.port).ec != std::errc())
+      address.port = 0;
   }
   return address;
 }
@@ -86,18 +90,21 @@ std::optional<std::string> find_multicast_problem(std::string_view lcm_url) {
   if (!address) return std::nullopt;
   in_addr group{};
   if (::inet_pton(AF_INET, address->group.c_str(), &group) != 1 || !IN_MULTICAST(ntohl(group.s_addr))) {
-    return "'" + address->group + "' is not an IPv4 multicast group (224.0.0.0 to 239.255.255.255); the usual URL is "
+    return "'" + address->group +
+           "' is not an IPv4 multicast group (224.0.0.0 to 239.255.255.255); the usual URL is "
            "udpm://239.255.76.67:7667?ttl=0";
   }
   if (address->port < 1 || address->port > 65535) {
-    return std::string("the port must be a number from 1 to 65535; the usual URL is udpm://239.255.76.67:7667?ttl=0");
+    return std::string(
+        "the port must be a number from 1 to 65535; the usual URL is udpm://239.255.76.67:7667?ttl=0");
   }
   const std::string failure = echo_failure(group);
   if (failure.empty()) return std::nullopt;
   return "multicast to " + address->group + " does not work here (" + failure +
          "). To keep LCM on this PC, run as root:\n"
          "  ip link set lo up multicast on\n"
-         "  ip route add " + address->group + "/32 dev lo src 127.0.0.1";
+         "  ip route add " +
+         address->group + "/32 dev lo src 127.0.0.1";
 }
 
 }  // namespace strainwave

@@ -1,6 +1,6 @@
-// Does a multicast datagram that this PC sends come back to it? LCM needs that, and its own test of it takes ten
-// seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it disturbs nobody.
-// Not real-time.
+// Does a multicast datagram that this PC sends come back to it? LCM needs that, and its own test of it takes
+// ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it
+// disturbs nobody. Not real-time.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace strainwave {
 
-/// Group and port of an LCM URL "udpm://GROUP:PORT?..."; LCM's own defaults for what is left out. Nothing for another
-/// kind of URL. The group is text as the URL has it.
+/// Group and port of an LCM URL "udpm://GROUP:PORT?..."; LCM's own defaults for what is left out. Nothing for
+/// another kind of URL. The group is text as the URL has it.
 struct MulticastAddress {
   std::string group;
   int port = 0;

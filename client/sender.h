@@ -1,5 +1,5 @@
-// Seals messages to the daemon: the one place that fills in who sends, for which session, in which order, and (once
-// keys exist) the signature. Not real-time.
+// Seals messages to the daemon: the one place that fills in who sends, for which session, in which order, and
+// (once keys exist) the signature. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ class Sender {
 
   std::int64_t sender_id() const noexcept { return sender_id_; }
 
-  /// Completes `message` (a setpoint, command or table) for the daemon of `session_id`. key_id and signature stay zero:
-  /// unsigned.
+  /// Completes `message` (a setpoint, command or table) for the daemon of `session_id`. key_id and signature
+  /// stay zero: unsigned.
   template <typename Message>
   SealedMessage seal(std::string channel, Message message, std::int64_t session_id) {
     message.utime = utime_us();

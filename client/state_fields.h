@@ -1,5 +1,5 @@
-// Every field of a state message under its own name: the one list that CSV, JSON and the detailed status are made from.
-// A test compares it with lcmtypes/state_v1.lcm. Not real-time.
+// Every field of a state message under its own name: the one list that CSV, JSON and the detailed status are
+// made from. A test compares it with lcmtypes/state_v1.lcm. Not real-time.
 #pragma once
 
 #include <span>

@@ -30,7 +30,8 @@ nlohmann::ordered_json joint_json(const std::string& joint, const JointView& vie
 }  // namespace
 
 std::string to_json(const Client& client, const std::vector<std::string>& joints) {
-  nlohmann::ordered_json json{{"prefix", client.options().prefix}, {"joints", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json{{"prefix", client.options().prefix},
+                              {"joints", nlohmann::ordered_json::array()}};
   for (const std::string& joint : joints) {
     if (const JointView* view = client.find(joint)) json["joints"].push_back(joint_json(joint, *view));
   }

@@ -5,9 +5,9 @@
 
 namespace strainwave {
 
-StateView::StateView(Connection& connection) {
-  connection.subscribe(channel_pattern("[^.]+", channel_kind::kState), &StateView::on_state, this);
-}
+StateView::StateView(Connection& connection)
+    : subscription_(
+          connection.subscribe(channel_pattern("[^.]+", channel_kind::kState), &StateView::on_state, this)) {}
 
 const JointView* StateView::find(const std::string& prefix, const std::string& joint) const {
   const auto found = joints_.find({prefix, joint});

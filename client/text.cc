@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kSilence_s = 1.0;  // a daemon publishes at least this often at any sensible rate
 
-constexpr std::array kNotices{Notice::kTorqueLimited,    Notice::kTemperatureClamped, Notice::kFallbackGains,
-                              Notice::kSetpointExpired,  Notice::kReadingMissed,      Notice::kSpeedLimited};
+constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
+                              Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
@@ -56,11 +56,13 @@ double parse_position_rad(std::string_view text) {
   const std::string_view rest(end, static_cast<std::size_t>(number.data() + number.size() - end));
   if (error == std::errc() && rest.empty() && std::isfinite(value)) return value;
   if (error == std::errc() && is_degree_mark(rest) && std::isfinite(value)) {
-    throw ClientError(ExitStatus::kUsage, fmt::format("positions are in rad, not in degrees: {} is {:.6g} rad", text,
-                                                      value * std::numbers::pi / 180.0));
+    throw ClientError(ExitStatus::kUsage,
+                      fmt::format("positions are in rad, not in degrees: {} is {:.6g} rad", text,
+                                  value * std::numbers::pi / 180.0));
   }
-  throw ClientError(ExitStatus::kUsage,
-                    fmt::format("'{}' is not a position: give a finite number in rad, such as 0.1 or -1.5e-3", text));
+  throw ClientError(
+      ExitStatus::kUsage,
+      fmt::format("'{}' is not a position: give a finite number in rad, such as 0.1 or -1.5e-3", text));
 }
 
 std::string printable(std::string_view text) {
@@ -69,7 +71,8 @@ std::string printable(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const auto before = static_cast<unsigned char>(i > 0 ? text[i - 1] : '\0');
-    const bool control = byte < 0x20 || byte == 0x7F || (before == 0xC2 && byte < 0xA0);  // U+0080..U+009F in UTF-8
+    const bool control =
+        byte < 0x20 || byte == 0x7F || (before == 0xC2 && byte < 0xA0);  // U+0080..U+009F in UTF-8
     safe += control ? '?' : text[i];
   }
   return safe;
@@ -85,17 +88,18 @@ std::string clipped(std::string_view line, std::size_t columns) {
 }
 
 std::string state_header() {
-  return fmt::format("{:<12} {:<9} {:>13} {:>14} {:>10} {:>9} {:>13}  {:<16}  {}", "joint", "mode", "setpoint_rad",
-                     "position_rad", "error_rad", "torque_Nm", "temperature_C", "gains", "notes");
+  return fmt::format("{:<12} {:<9} {:>13} {:>14} {:>10} {:>9} {:>13}  {:<16}  {}", "joint", "mode",
+                     "setpoint_rad", "position_rad", "error_rad", "torque_Nm", "temperature_C", "gains",
+                     "notes");
 }
 
 std::string state_row(const std::string& joint, const JointView& view, double age_s) {
   const state_v1& state = view.state;
   return fmt::format("{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>+13.1f}  {:<16}  {}", joint,
-                     to_text(static_cast<Mode>(state.mode)), state.setpoint_position_rad, state.joint_position_rad,
-                     state.joint_position_rad - state.setpoint_position_rad, state.torque_commanded_Nm,
-                     state.temperature_C, to_text(static_cast<GainsInUse>(state.gains_in_use)),
-                     state_notes(view, age_s));
+                     to_text(static_cast<Mode>(state.mode)), state.setpoint_position_rad,
+                     state.joint_position_rad, state.joint_position_rad - state.setpoint_position_rad,
+                     state.torque_commanded_Nm, state.temperature_C,
+                     to_text(static_cast<GainsInUse>(state.gains_in_use)), state_notes(view, age_s));
 }
 
 std::string state_notes(const JointView& view, double age_s) {

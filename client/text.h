@@ -1,4 +1,5 @@
-// Text in and out: positions as people type them, states as lines for a terminal. No network, no clock. Not real-time.
+// Text in and out: positions as people type them, states as lines for a terminal. No network, no clock. Not
+// real-time.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@
 
 namespace strainwave {
 
-/// A position in rad: a plain finite decimal number and nothing else. Throws ClientError (usage) that names what was
-/// typed; for an angle with a degree mark it says the same angle in rad.
+/// A position in rad: a plain finite decimal number and nothing else. Throws ClientError (usage) that names
+/// what was typed; for an angle with a degree mark it says the same angle in rad.
 double parse_position_rad(std::string_view text);
 
 /// `text` up to its first zero byte, without anything that could command a terminal.
@@ -25,7 +26,8 @@ std::string state_header();
 /// One joint in one line: what is wanted, what is, and why not. `age_s`: since the state was received.
 std::string state_row(const std::string& joint, const JointView& view, double age_s);
 
-/// What an operator should know beyond the numbers: fault, limits in force, silence, two daemons; empty when all is well.
+/// What an operator should know beyond the numbers: fault, limits in force, silence, two daemons; empty when
+/// all is well.
 std::string state_notes(const JointView& view, double age_s);
 
 /// Every field of the state with its meaning, one per line.
