@@ -68,6 +68,20 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
   return locks;
 }
 
+// What the loop's refusal means for whoever asked: the mode it met, and the way on.
+std::string advice(const Reply& reply) {
+  const std::string mode = "the joint is " + std::string(to_text(reply.mode));
+  switch (reply.reason) {
+    case Reason::kNoTable: return mode + ": load a gain table first";
+    case Reason::kFaulted: return mode + ": see its fault, remove the cause, clear the fault";
+    case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
+    case Reason::kWrongMode:
+      return mode + (reply.mode == Mode::kOff ? ": enable it first" : ": this order does nothing in this mode");
+    default: return mode;
+  }
+}
+
 std::vector<std::string> names_of(const DaemonConfig& config) {
   std::vector<std::string> names;
   for (const JointConfig& joint : config.joints) names.push_back(joint.name);
@@ -249,8 +263,7 @@ void Supervisor::take_replies(std::int64_t now_ns) {
     const bool accepted = reply.reason == Reason::kAccepted;
     if (pending.is_table) books_[pending.requester.joint].end(accepted);
     if (!accepted) admission_.count_reject(reply.reason);
-    const std::string refusal = std::string(to_text(reply.reason)) + " (the joint is " + std::string(to_text(reply.mode)) + ")";
-    answers_.answer(pending.requester, reply.reason, accepted ? pending.text : refusal);
+    answers_.answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply));
     pending_.erase(found);
   }
   for (auto it = pending_.begin(); it != pending_.end() && it->second.deadline_ns < now_ns;) {

@@ -6,8 +6,8 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
 namespace strainwave {
@@ -20,8 +20,9 @@ std::string error_text(int error) { return std::generic_category().message(error
 
 // Pages of the stack that the loop may reach exist before it starts.
 __attribute__((noinline)) void touch_stack() {
-  volatile char stack[kStackToTouch];
-  for (std::size_t i = 0; i < kStackToTouch; i += 1024) stack[i] = 0;
+  std::array<char, kStackToTouch> stack;
+  volatile char* page = stack.data();
+  for (std::size_t i = 0; i < kStackToTouch; i += 1024) page[i] = 0;
 }
 
 }  // namespace
