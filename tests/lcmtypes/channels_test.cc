@@ -8,8 +8,9 @@
 namespace strainwave {
 namespace {
 
-constexpr std::string_view kKinds[] = {channel_kind::kState,   channel_kind::kTemperature, channel_kind::kSetpoint,
-                                       channel_kind::kCommand, channel_kind::kTable,       channel_kind::kAck};
+constexpr std::string_view kKinds[] = {channel_kind::kState,    channel_kind::kTemperature,
+                                       channel_kind::kSetpoint, channel_kind::kCommand,
+                                       channel_kind::kTable,    channel_kind::kAck};
 
 TEST(ChannelName, ReadsBackAsItWasMade) {
   for (const std::string_view kind : kKinds) {
@@ -35,18 +36,35 @@ TEST(ChannelName, OfTimingHasNoJoint) {
 
 TEST(ChannelName, OfTheLongestNamesFitsIntoLcm) {
   const std::string longest(24, 'x');
-  for (const std::string_view kind : kKinds) EXPECT_LE(channel(longest, longest, kind).size(), kMaxChannelLength);
+  for (const std::string_view kind : kKinds)
+    EXPECT_LE(channel(longest, longest, kind).size(), kMaxChannelLength);
 }
 
 TEST(ChannelName, FromAHostileSenderIsNoneOfOurs) {
   const std::string long_name(25, 'x');
-  for (const std::string& name :
-       {std::string(), std::string("."), std::string(".."), std::string("..."), std::string("SW"), std::string("SW."),
-        std::string("SW.STATE"), std::string(".elbow.STATE"), std::string("SW..STATE"), std::string("SW.elbow."),
-        std::string("SW.elbow.STATE.x"), std::string("SW.el bow.STATE"), std::string("SW.el\nbow.STATE"),
-        std::string("SW.el\0bow.STATE", 15), std::string("SW.\xC3\xA9.STATE"), std::string("SW.../etc.STATE"),
-        std::string("S/W.elbow.STATE"), std::string("SW.[^.]+.STATE"), long_name + ".elbow.STATE",
-        "SW." + long_name + ".STATE", "SW.elbow." + long_name, std::string(10'000, '.'), std::string(10'000, 'x')}) {
+  for (const std::string& name : {std::string(),
+                                  std::string("."),
+                                  std::string(".."),
+                                  std::string("..."),
+                                  std::string("SW"),
+                                  std::string("SW."),
+                                  std::string("SW.STATE"),
+                                  std::string(".elbow.STATE"),
+                                  std::string("SW..STATE"),
+                                  std::string("SW.elbow."),
+                                  std::string("SW.elbow.STATE.x"),
+                                  std::string("SW.el bow.STATE"),
+                                  std::string("SW.el\nbow.STATE"),
+                                  std::string("SW.el\0bow.STATE", 15),
+                                  std::string("SW.\xC3\xA9.STATE"),
+                                  std::string("SW.../etc.STATE"),
+                                  std::string("S/W.elbow.STATE"),
+                                  std::string("SW.[^.]+.STATE"),
+                                  long_name + ".elbow.STATE",
+                                  "SW." + long_name + ".STATE",
+                                  "SW.elbow." + long_name,
+                                  std::string(10'000, '.'),
+                                  std::string(10'000, 'x')}) {
     EXPECT_FALSE(parse_channel(name)) << name.substr(0, 80);
   }
 }
@@ -71,8 +89,8 @@ TEST(ChannelPattern, MatchesEveryJointOfItsPrefixAndNothingElse) {
   const std::regex pattern(channel_pattern("SW", channel_kind::kState));
   EXPECT_TRUE(std::regex_match("SW.elbow.STATE", pattern));
   EXPECT_TRUE(std::regex_match("SW.j-1_x.STATE", pattern));
-  for (const char* other : {"SWX.elbow.STATE", "XSW.elbow.STATE", "SW.elbow.STATES", "SW.elbow.ACK", "SW.STATE",
-                            "SWxelbowxSTATE", "SW.a.b.STATE", "SW..STATE"}) {
+  for (const char* other : {"SWX.elbow.STATE", "XSW.elbow.STATE", "SW.elbow.STATES", "SW.elbow.ACK",
+                            "SW.STATE", "SWxelbowxSTATE", "SW.a.b.STATE", "SW..STATE"}) {
     EXPECT_FALSE(std::regex_match(other, pattern)) << other;
   }
 }

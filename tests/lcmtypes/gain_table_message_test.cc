@@ -51,7 +51,8 @@ TEST(GainTableMessage, LeavesTheEnvelopeToTheSender) {
   EXPECT_EQ(message.session_id, 0);
   EXPECT_EQ(message.sender_id, 0);
   EXPECT_EQ(message.sequence, 0);
-  EXPECT_TRUE(std::all_of(std::begin(message.signature), std::end(message.signature), [](auto b) { return b == 0; }));
+  EXPECT_TRUE(
+      std::all_of(std::begin(message.signature), std::end(message.signature), [](auto b) { return b == 0; }));
 }
 
 TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {

@@ -1,4 +1,5 @@
-// The numbers of the vocabulary are on wires and in logs for ever: this list is written by hand, and only grows.
+// The numbers of the vocabulary are on wires and in logs for ever: this list is written by hand, and only
+// grows.
 #include "lcmtypes/vocabulary.h"
 
 #include <gtest/gtest.h>
@@ -76,11 +77,12 @@ constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {4, Action::kClearFault, "clear-fault"},
                                      {5, Action::kRevertTable, "revert-table"}};
 
-constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {{0, TemperatureStatus::kValid, "valid"},
-                                                            {1, TemperatureStatus::kNeverSeen, "never seen"},
-                                                            {2, TemperatureStatus::kTooOld, "too old"},
-                                                            {3, TemperatureStatus::kOutOfRange, "out of range"},
-                                                            {4, TemperatureStatus::kTooFast, "changing too fast"}};
+constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
+    {0, TemperatureStatus::kValid, "valid"},
+    {1, TemperatureStatus::kNeverSeen, "never seen"},
+    {2, TemperatureStatus::kTooOld, "too old"},
+    {3, TemperatureStatus::kOutOfRange, "out of range"},
+    {4, TemperatureStatus::kTooFast, "changing too fast"}};
 
 constexpr Word<GainsInUse> kGains[] = {{0, GainsInUse::kNone, "none"},
                                        {1, GainsInUse::kPrimary, "scheduled"},
@@ -100,17 +102,32 @@ void check(const Word<Enum> (&words)[N]) {
   EXPECT_EQ(texts.size(), N) << "two numbers share a text";
   for (int number = -3; number < 300; ++number) {
     if (known.contains(number)) continue;
-    EXPECT_EQ(to_text(static_cast<Enum>(number)), "unknown") << number << " is new: add it to this list and to docs/";
+    EXPECT_EQ(to_text(static_cast<Enum>(number)), "unknown")
+        << number << " is new: add it to this list and to docs/";
   }
 }
 
-TEST(Vocabulary, OfModesIsFixed) { check(kModes); }
-TEST(Vocabulary, OfFaultsIsFixed) { check(kFaults); }
-TEST(Vocabulary, OfNoticesIsFixed) { check(kNotices); }
-TEST(Vocabulary, OfReasonsIsFixed) { check(kReasons); }
-TEST(Vocabulary, OfActionsIsFixed) { check(kActions); }
-TEST(Vocabulary, OfTemperatureStatusesIsFixed) { check(kTemperatureStatuses); }
-TEST(Vocabulary, OfGainsInUseIsFixed) { check(kGains); }
+TEST(Vocabulary, OfModesIsFixed) {
+  check(kModes);
+}
+TEST(Vocabulary, OfFaultsIsFixed) {
+  check(kFaults);
+}
+TEST(Vocabulary, OfNoticesIsFixed) {
+  check(kNotices);
+}
+TEST(Vocabulary, OfReasonsIsFixed) {
+  check(kReasons);
+}
+TEST(Vocabulary, OfActionsIsFixed) {
+  check(kActions);
+}
+TEST(Vocabulary, OfTemperatureStatusesIsFixed) {
+  check(kTemperatureStatuses);
+}
+TEST(Vocabulary, OfGainsInUseIsFixed) {
+  check(kGains);
+}
 
 TEST(Vocabulary, HasEveryReasonInTheCountsOfTheTimingMessage) {
   for (const auto& word : kReasons) EXPECT_LT(word.number, kReasonCount);
