@@ -1,8 +1,12 @@
 // The joint as a Takagi-Sugeno plant, sampled: what the gains are designed for and certified against.
-// J dw/dt = Tm - friction, d(theta)/dt = w; friction feed-forward removes the static and Coulomb parts, so that each
-// rule is linear with its own viscous coefficient. Source: Zhao (2006), (2-10), (3-9)..(3-35). Real-time safe.
+// J dw/dt = Tm - friction, d(theta)/dt = w; friction feed-forward removes the static and Coulomb parts, so
+// that each rule is linear with its own viscous coefficient. Source: Zhao (2006), (2-10), (3-9)..(3-35).
+// Real-time safe.
 #pragma once
 
+#include <array>
+
+#include "control/bounded.h"
 #include "control/gain_table.h"
 
 namespace strainwave {
@@ -13,15 +17,26 @@ struct SampledDynamics {
   StateVector B = StateVector::Zero();
 };
 
-/// One rule: a joint of `plant` with viscous coefficient `viscous_Nms_rad`, sampled by the plant's own method.
-/// Forward Euler: [theta, w] -> (I + ts Ac, ts Bc). Zero-order hold: the exact solution. The integral row is the sum
-/// that the controller computes: integral[k+1] = integral[k] + ts * error[k].
-SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad, bool has_integrator) noexcept;
+/// One rule: a joint of `plant` with viscous coefficient `viscous_Nms_rad`, sampled by the plant's own
+/// method. Forward Euler: [theta, w] -> (I + ts Ac, ts Bc). Zero-order hold: the exact solution. The integral
+/// row is the sum that the controller computes: integral[k+1] = integral[k] + ts * error[k].
+SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
+                                 bool has_integrator) noexcept;
+
+/// The same with a bound on the rounding of every entry, for proofs; inertia, period and viscous are taken as
+/// exact.
+struct BoundedDynamics {
+  std::array<std::array<Bounded, kMaxStates>, kMaxStates> A{};
+  std::array<Bounded, kMaxStates> B{};
+};
+BoundedDynamics bounded_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
+                                 bool has_integrator) noexcept;
 
 /// Number of rules of the plant: the zero-velocity rule and one per temperature rule.
 int plant_rule_count(const FuzzyFriction& friction) noexcept;
 
-/// Viscous coefficient of a plant rule: 0 for rule 0 ("zero velocity"), that of temperature rule j-1 otherwise.
+/// Viscous coefficient of a plant rule: 0 for rule 0 ("zero velocity"), that of temperature rule j-1
+/// otherwise.
 double plant_rule_viscous_Nms_rad(const FuzzyFriction& friction, int rule) noexcept;
 
 }  // namespace strainwave

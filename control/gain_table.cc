@@ -1,0 +1,198 @@
+#include "control/gain_table.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <type_traits>
+
+namespace strainwave {
+
+static_assert(std::is_trivially_copyable_v<GainTable>, "tables are exchanged as bytes");
+
+namespace {
+
+// Beyond these no joint of this kind exists; they catch wrong units and hostile tables before any arithmetic.
+constexpr double kMaxInertia_kgm2 = 1e4;
+constexpr double kMaxGearRatio = 1e4;
+constexpr double kMinPeriod_s = 1e-5;
+constexpr double kMaxPeriod_s = 1.0;
+constexpr double kMaxTorque_Nm = 1e5;
+constexpr double kMaxFriction = 1e5;
+constexpr double kMaxGain = 1e9;
+constexpr double kMaxWeight = 1e12;
+constexpr double kMaxLyapunov = 1e15;
+constexpr double kMinTemperature_C = -273.15;
+constexpr double kMaxTemperature_C = 1000.0;
+constexpr double kIdentityTolerance = 1e-9;
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.10g", value);
+  return text.data();
+}
+
+// Collects the first defect only: every check after it is skipped.
+class Inspector {
+ public:
+  /// low <= value <= high, not NaN.
+  void in_range(const std::string& key, double value, double low, double high) {
+    if (found_ || (value >= low && value <= high)) return;
+    found_ = key + " = " + number(value) + ": must be from " + number(low) + " to " + number(high);
+  }
+  /// 0 < value <= high.
+  void positive(const std::string& key, double value, double high) {
+    if (found_ || (value > 0.0 && value <= high)) return;
+    found_ = key + " = " + number(value) + ": must be above 0 and at most " + number(high);
+  }
+  void require(bool condition, const std::string& message) {
+    if (!found_ && !condition) found_ = message;
+  }
+  /// Printable ASCII, terminated, zeros after it: the bytes are compared and printed as they are.
+  template <std::size_t N>
+  void text(const std::string& key, const FixedString<N>& value, bool may_be_empty) {
+    if (found_) return;
+    const std::string_view view = value.view();
+    bool good = view.size() < N && (may_be_empty || !view.empty());
+    for (const char c : view) good = good && c >= ' ' && c <= '~';
+    for (std::size_t i = view.size(); i < N; ++i) good = good && value.bytes[i] == '\0';
+    require(good, key + ": must be " + (may_be_empty ? "0" : "1") + " to " + std::to_string(N - 1) +
+                      " printable ASCII characters, zero padded");
+  }
+  bool ok() const { return !found_; }
+  std::optional<std::string> defect() const { return found_; }
+
+ private:
+  std::optional<std::string> found_;
+};
+
+void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
+  inspector.text("plant.joint_model", plant.joint_model, false);
+  inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMaxInertia_kgm2);
+  inspector.positive("plant.gear_ratio", plant.gear_ratio, kMaxGearRatio);
+  inspector.in_range("plant.period_s", plant.period_s, kMinPeriod_s, kMaxPeriod_s);
+  inspector.require(plant.sampling == Sampling::kForwardEuler || plant.sampling == Sampling::kZeroOrderHold,
+                    "plant.sampling = " + std::to_string(static_cast<std::int32_t>(plant.sampling)) +
+                        ": must be 0 (forward Euler) or 1 (zero-order hold)");
+}
+
+void inspect_friction(Inspector& inspector, const FuzzyFriction& friction) {
+  inspector.in_range("friction.rule_count", friction.rule_count, 1, kMaxTemperatureRules);
+  inspector.in_range("friction.temperature_min_C", friction.temperature_min_C, kMinTemperature_C,
+                     kMaxTemperature_C);
+  inspector.in_range("friction.temperature_max_C", friction.temperature_max_C, kMinTemperature_C,
+                     kMaxTemperature_C);
+  inspector.require(friction.temperature_min_C < friction.temperature_max_C,
+                    "friction.temperature_max_C: must be above friction.temperature_min_C");
+  inspector.in_range("friction.velocity.zero_center_rad_s", friction.velocity.zero_center_rad_s, 0.0, 1e6);
+  inspector.positive("friction.velocity.zero_width_rad_s", friction.velocity.zero_width_rad_s, 1e6);
+  inspector.in_range("friction.velocity.high_center_rad_s", friction.velocity.high_center_rad_s, 0.0, 1e6);
+  inspector.positive("friction.velocity.high_width_rad_s", friction.velocity.high_width_rad_s, 1e6);
+  for (int i = 0; inspector.ok() && i < friction.rule_count; ++i) {
+    const TemperatureRule& rule = friction.rules[static_cast<std::size_t>(i)];
+    const std::string key = "friction.rules[" + std::to_string(i) + "].";
+    inspector.in_range(key + "center_C", rule.center_C, kMinTemperature_C, kMaxTemperature_C);
+    inspector.in_range(key + "width_C", rule.width_C, 1e-3, 1e4);
+    inspector.in_range(key + "static_Nm", rule.friction.static_Nm, 0.0, kMaxFriction);
+    inspector.in_range(key + "coulomb_Nm", rule.friction.coulomb_Nm, 0.0, kMaxFriction);
+    inspector.in_range(key + "viscous_Nms_rad", rule.friction.viscous_Nms_rad, 0.0, kMaxFriction);
+    const bool ascending = i == 0 || friction.rules[static_cast<std::size_t>(i - 1)].center_C < rule.center_C;
+    inspector.require(ascending, key + "center_C = " + number(rule.center_C) + ": centres must ascend");
+  }
+}
+
+void inspect_rule(Inspector& inspector, const FeedbackGains& gains, int rule, const std::string& key) {
+  const std::string where = key + ".rules[" + std::to_string(rule) + "].";
+  const GainRow F = gains.gain(rule);
+  const StateMatrix P = gains.lyapunov(rule);
+  for (Eigen::Index a = 0; a < kMaxStates; ++a) {
+    const std::string row = "[" + std::to_string(a) + "]";
+    const bool unused = a == 0 && !gains.has_integrator;
+    inspector.in_range(where + "F" + row, F(a), -kMaxGain, kMaxGain);
+    inspector.require(!unused || F(a) == 0.0, where + "F" + row + ": must be 0 without an integrator");
+    for (Eigen::Index b = 0; b < kMaxStates; ++b) {
+      const std::string entry = where + "P" + row + "[" + std::to_string(b) + "]";
+      inspector.in_range(entry, P(a, b), -kMaxLyapunov, kMaxLyapunov);
+      inspector.require(P(a, b) == P(b, a), entry + " = " + number(P(a, b)) + ": P must be symmetric");
+      inspector.require(!unused || P(a, b) == 0.0, entry + ": must be 0 without an integrator");
+    }
+  }
+}
+
+void inspect_gains(Inspector& inspector, const FeedbackGains& gains, int plant_rules,
+                   const std::string& key) {
+  inspector.require(gains.has_integrator == 0 || gains.has_integrator == 1,
+                    key + ".has_integrator: must be 0 or 1");
+  inspector.require(gains.rule_count == 1 || gains.rule_count == plant_rules,
+                    key + ".rule_count = " + std::to_string(gains.rule_count) +
+                        ": must be 1 (temperature-free) or 1 + the number of temperature rules");
+  if (!inspector.ok()) return;
+  const char* const expected =
+      gains.has_integrator ? (gains.scheduled() ? "C4" : "C3") : (gains.scheduled() ? "C2" : "C1");
+  inspector.require(gains.controller == FixedString<8>(expected),
+                    key + ".controller: must be " + expected + " for these states and this number of rules");
+  inspector.in_range(key + ".weights.integral", gains.weights.integral, 0.0, kMaxWeight);
+  inspector.require((gains.weights.integral > 0.0) == (gains.has_integrator == 1),
+                    key + ".weights.integral: must be above 0 with an integrator and 0 without");
+  inspector.positive(key + ".weights.position", gains.weights.position, kMaxWeight);
+  inspector.in_range(key + ".weights.velocity", gains.weights.velocity, 0.0, kMaxWeight);
+  inspector.positive(key + ".weights.torque", gains.weights.torque, kMaxWeight);
+  inspector.positive(key + ".decay_rate", gains.decay_rate, 1.0);
+  inspector.in_range(key + ".cost_bound", gains.cost_bound, 0.0, kMaxLyapunov);
+  for (int j = 0; inspector.ok() && j < gains.rule_count; ++j) inspect_rule(inspector, gains, j, key);
+  for (std::size_t j = static_cast<std::size_t>(gains.rule_count); inspector.ok() && j < kMaxRules; ++j) {
+    const bool zero =
+        gains.F[j] == decltype(gains.F)::value_type{} && gains.P[j] == decltype(gains.P)::value_type{};
+    inspector.require(zero, key + ": entries beyond rule_count must be 0");
+  }
+}
+
+bool nearly_equal(double a, double b) {
+  return std::abs(a - b) <= kIdentityTolerance * std::abs(b);
+}
+
+}  // namespace
+
+std::optional<std::string> find_defect(const GainTable& table) {
+  Inspector inspector;
+  inspector.require(table.format == kGainTableFormat, "format = " + std::to_string(table.format) +
+                                                          ": this program reads format " +
+                                                          std::to_string(kGainTableFormat));
+  inspector.text("name", table.name, false);
+  inspect_plant(inspector, table.plant);
+  inspect_friction(inspector, table.friction);
+  inspector.positive("torque_limit_Nm", table.torque_limit_Nm, kMaxTorque_Nm);
+  const int plant_rules = 1 + table.friction.rule_count;
+  inspect_gains(inspector, table.primary, plant_rules, "primary");
+  inspect_gains(inspector, table.fallback, plant_rules, "fallback");
+  inspector.require(table.fallback.rule_count == 1,
+                    "fallback.rule_count: must be 1: it runs without temperature");
+  inspector.require(table.fallback.has_integrator == table.primary.has_integrator,
+                    "fallback.has_integrator: must be that of primary, for a change-over without a bump");
+  inspector.text("provenance.created_utc", table.provenance.created_utc, true);
+  inspector.text("provenance.tool", table.provenance.tool, true);
+  inspector.text("provenance.friction_sha256", table.provenance.friction_sha256, true);
+  inspector.text("provenance.note", table.provenance.note, true);
+  return inspector.defect();
+}
+
+std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected) {
+  const PlantIdentity& plant = table.plant;
+  const auto differs = [](const std::string& key, double value, double wanted) {
+    return "plant." + key + " = " + number(value) + ": this joint has " + number(wanted);
+  };
+  if (!(plant.joint_model == expected.joint_model)) {
+    return "plant.joint_model = " + std::string(plant.joint_model.view()) + ": this joint is a " +
+           std::string(expected.joint_model.view());
+  }
+  if (!nearly_equal(plant.inertia_kgm2, expected.inertia_kgm2)) {
+    return differs("inertia_kgm2", plant.inertia_kgm2, expected.inertia_kgm2);
+  }
+  if (!nearly_equal(plant.gear_ratio, expected.gear_ratio)) {
+    return differs("gear_ratio", plant.gear_ratio, expected.gear_ratio);
+  }
+  if (!nearly_equal(plant.period_s, expected.period_s))
+    return differs("period_s", plant.period_s, expected.period_s);
+  return std::nullopt;
+}
+
+}  // namespace strainwave

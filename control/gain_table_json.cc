@@ -1,0 +1,157 @@
+#include "control/gain_table_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "control/fuzzy_friction_json.h"
+#include "control/input_error.h"
+#include "control/strict_json.h"
+#include "control/text_file.h"
+
+namespace strainwave {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kForwardEulerName = "forward-euler";
+constexpr const char* kZeroOrderHoldName = "zero-order-hold";
+
+ordered_json plant_to_json(const PlantIdentity& plant) {
+  return {{"joint_model", plant.joint_model.view()},
+          {"inertia_kgm2", plant.inertia_kgm2},
+          {"gear_ratio", plant.gear_ratio},
+          {"period_s", plant.period_s},
+          {"sampling", plant.sampling == Sampling::kForwardEuler ? kForwardEulerName : kZeroOrderHoldName}};
+}
+
+ordered_json gains_to_json(const FeedbackGains& gains) {
+  ordered_json rules = ordered_json::array();
+  for (std::size_t j = 0; j < static_cast<std::size_t>(gains.rule_count); ++j) {
+    const auto& P = gains.P[j];
+    ordered_json rows = ordered_json::array();
+    for (std::size_t a = 0; a < kMaxStates; ++a) rows.push_back({P[3 * a], P[3 * a + 1], P[3 * a + 2]});
+    rules.push_back({{"F", gains.F[j]}, {"P", std::move(rows)}});
+  }
+  return {{"controller", gains.controller.view()},
+          {"has_integrator", gains.has_integrator != 0},
+          {"weights",
+           {{"integral", gains.weights.integral},
+            {"position", gains.weights.position},
+            {"velocity", gains.weights.velocity},
+            {"torque", gains.weights.torque}}},
+          {"decay_rate", gains.decay_rate},
+          {"cost_bound", gains.cost_bound},
+          {"rules", std::move(rules)}};
+}
+
+template <std::size_t N>
+FixedString<N> text_field(StrictObject& object, const std::string& key) {
+  return FixedString<N>(object.text(key, N - 1));
+}
+
+PlantIdentity plant_from_json(StrictObject object) {
+  PlantIdentity plant;
+  plant.joint_model = text_field<32>(object, "joint_model");
+  plant.inertia_kgm2 = object.number("inertia_kgm2");
+  plant.gear_ratio = object.number("gear_ratio");
+  plant.period_s = object.number("period_s");
+  const std::string sampling = object.text("sampling", 32);
+  if (sampling != kForwardEulerName && sampling != kZeroOrderHoldName) {
+    throw InputError(object.where("sampling") + " = " + sampling + ": must be " + kForwardEulerName + " or " +
+                     kZeroOrderHoldName);
+  }
+  plant.sampling = sampling == kForwardEulerName ? Sampling::kForwardEuler : Sampling::kZeroOrderHold;
+  object.finish();
+  return plant;
+}
+
+CostWeights weights_from_json(StrictObject object) {
+  CostWeights weights;
+  weights.integral = object.number("integral");
+  weights.position = object.number("position");
+  weights.velocity = object.number("velocity");
+  weights.torque = object.number("torque");
+  object.finish();
+  return weights;
+}
+
+FeedbackGains gains_from_json(StrictObject object) {
+  FeedbackGains gains;
+  gains.controller = text_field<8>(object, "controller");
+  gains.has_integrator = object.boolean("has_integrator") ? 1 : 0;
+  gains.weights = weights_from_json(object.object("weights"));
+  gains.decay_rate = object.number("decay_rate");
+  gains.cost_bound = object.number("cost_bound");
+  std::vector<StrictObject> rules = object.objects("rules", 1, kMaxRules);
+  gains.rule_count = static_cast<std::int32_t>(rules.size());
+  for (std::size_t j = 0; j < rules.size(); ++j) {
+    std::ranges::copy(rules[j].numbers("F", kMaxStates), gains.F[j].begin());
+    std::ranges::copy(rules[j].matrix("P", kMaxStates, kMaxStates), gains.P[j].begin());
+    rules[j].finish();
+  }
+  object.finish();
+  return gains;
+}
+
+Provenance provenance_from_json(StrictObject object) {
+  Provenance provenance;
+  provenance.created_utc = text_field<32>(object, "created_utc");
+  provenance.tool = text_field<32>(object, "tool");
+  provenance.friction_sha256 = text_field<72>(object, "friction_sha256");
+  provenance.note = text_field<64>(object, "note");
+  object.finish();
+  return provenance;
+}
+
+}  // namespace
+
+std::string to_json(const GainTable& table) {
+  const ordered_json document = {{"format", table.format},
+                                 {"name", table.name.view()},
+                                 {"plant", plant_to_json(table.plant)},
+                                 {"friction", fuzzy_friction_to_json(table.friction)},
+                                 {"torque_limit_Nm", table.torque_limit_Nm},
+                                 {"primary", gains_to_json(table.primary)},
+                                 {"fallback", gains_to_json(table.fallback)},
+                                 {"provenance",
+                                  {{"created_utc", table.provenance.created_utc.view()},
+                                   {"tool", table.provenance.tool.view()},
+                                   {"friction_sha256", table.provenance.friction_sha256.view()},
+                                   {"note", table.provenance.note.view()}}}};
+  return document.dump(2) + "\n";
+}
+
+GainTable gain_table_from_json(std::string_view text, const std::string& source) {
+  const ordered_json document = parse_strict_json(text, source);
+  StrictObject object(document, source);
+  GainTable table;
+  // The format first: another one has other keys.
+  const long long format = object.integer("format");
+  if (format != kGainTableFormat) {
+    throw InputError(
+        source, "format", std::to_string(format),
+        "this program reads format " + std::to_string(kGainTableFormat) + "; design the table again");
+  }
+  table.name = text_field<48>(object, "name");
+  table.plant = plant_from_json(object.object("plant"));
+  table.friction = fuzzy_friction_from_json(object.object("friction"));
+  table.torque_limit_Nm = object.number("torque_limit_Nm");
+  table.primary = gains_from_json(object.object("primary"));
+  table.fallback = gains_from_json(object.object("fallback"));
+  table.provenance = provenance_from_json(object.object("provenance"));
+  object.finish();
+  if (const auto defect = find_defect(table)) throw InputError(source + ": " + *defect);
+  return table;
+}
+
+GainTable read_gain_table(const std::filesystem::path& path) {
+  return gain_table_from_json(read_text_file(path), path.string());
+}
+
+void write_gain_table(const GainTable& table, const std::filesystem::path& path) {
+  if (const auto defect = find_defect(table)) throw InputError(path.string() + ": not written: " + *defect);
+  write_text_file(path, to_json(table));
+}
+
+}  // namespace strainwave

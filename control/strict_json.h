@@ -1,0 +1,53 @@
+// Strict reading of JSON, shared by the files of this project. Not real-time. Every complaint is an
+// InputError that names the source, the key and what is allowed; repeated, unknown and missing keys are
+// errors.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strainwave {
+
+/// Parses `text`; malformed JSON and repeated keys are errors. `source` is named in messages.
+nlohmann::ordered_json parse_strict_json(std::string_view text, const std::string& source);
+
+/// One object that is read key by key, then finish()ed: keys that nobody asked for are errors. Refers to the
+/// parsed document, which must outlive it.
+class StrictObject {
+ public:
+  StrictObject(const nlohmann::ordered_json& value, const std::string& source, const std::string& path = "");
+
+  bool has(const std::string& key) const;
+  double number(const std::string& key);
+  long long integer(const std::string& key);
+  bool boolean(const std::string& key);
+  /// At most `max_bytes` bytes.
+  std::string text(const std::string& key, std::size_t max_bytes);
+  StrictObject object(const std::string& key);
+  /// An array of objects with `min` to `max` elements.
+  std::vector<StrictObject> objects(const std::string& key, std::size_t min, std::size_t max);
+  /// An array of exactly `size` numbers.
+  std::vector<double> numbers(const std::string& key, std::size_t size);
+  /// An array of `rows` arrays of `columns` numbers, row by row.
+  std::vector<double> matrix(const std::string& key, std::size_t rows, std::size_t columns);
+
+  /// Accepts a key without reading it.
+  void ignore(const std::string& key) { read_.insert(key); }
+  void finish() const;
+  /// "source: path.key": what messages begin with.
+  std::string where(const std::string& key) const;
+
+ private:
+  const nlohmann::ordered_json& get(const std::string& key);
+  [[noreturn]] void complain(const std::string& key, const std::string& allowed) const;
+
+  const nlohmann::ordered_json* value_;
+  std::string source_;
+  std::string path_;
+  std::set<std::string> read_;
+};
+
+}  // namespace strainwave

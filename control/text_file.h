@@ -1,0 +1,17 @@
+// Whole files: read at once, replaced at once. Not real-time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace strainwave {
+
+/// The file's bytes. Throws InputError when it cannot be read or is larger than 16 MiB (no file of ours is).
+std::string read_text_file(const std::filesystem::path& path);
+
+/// Replaces `path` by `text` in one step: a reader sees the old file or the new one, never a part, even
+/// across a power failure. Throws InputError with the system's reason; then the old file is untouched.
+void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace strainwave
