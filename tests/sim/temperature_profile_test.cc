@@ -51,6 +51,13 @@ TEST(TemperatureProfile, InterpolatesARecordAndHoldsItsEnds) {
   EXPECT_EQ(profile.at(9.0), 0.0);
 }
 
+TEST(TemperatureProfile, HoldsEachRowUntilTheNextWhenTold) {
+  const auto path = file_with("time_s,temperature_C\n1,10\n3,20\n");
+  const auto profile = TemperatureProfile::parse("hold:" + path.string());
+  EXPECT_EQ(profile.at(2.999), 10.0);
+  EXPECT_EQ(profile.at(3.0), 20.0);
+}
+
 TEST(TemperatureProfile, NamesTheFileAndLineOfABadRecord) {
   const auto refused_at = [](const std::string& text, const std::string& place) {
     const auto path = file_with(text);
