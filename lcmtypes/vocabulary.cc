@@ -104,7 +104,7 @@ std::string_view to_text(TemperatureStatus status) noexcept {
 std::string_view to_text(GainsInUse gains) noexcept {
   switch (gains) {
     case GainsInUse::kNone: return "none";
-    case GainsInUse::kScheduled: return "scheduled";
+    case GainsInUse::kPrimary: return "scheduled";
     case GainsInUse::kFallback: return "temperature-free";
   }
   return "unknown";

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "control/joint_controller.h"
+
 namespace strainwave {
 
 /// state_v1.mode
@@ -77,9 +79,6 @@ enum class Action : std::int32_t { kEnable = 1, kDisable = 2, kHold = 3, kClearF
 /// state_v1.temperature_status
 enum class TemperatureStatus : std::int32_t { kValid = 0, kNeverSeen = 1, kTooOld = 2, kOutOfRange = 3, kTooFast = 4 };
 
-/// state_v1.gains_in_use
-enum class GainsInUse : std::int32_t { kNone = 0, kScheduled = 1, kFallback = 2 };
-
 /// One or two words each, lower case; "unknown" for a number without a meaning.
 std::string_view to_text(Mode mode) noexcept;
 std::string_view to_text(Fault fault) noexcept;
@@ -87,6 +86,6 @@ std::string_view to_text(Notice notice) noexcept;
 std::string_view to_text(Reason reason) noexcept;
 std::string_view to_text(Action action) noexcept;
 std::string_view to_text(TemperatureStatus status) noexcept;
-std::string_view to_text(GainsInUse gains) noexcept;
+std::string_view to_text(GainsInUse gains) noexcept;  // state_v1.gains_in_use
 
 }  // namespace strainwave

@@ -1,0 +1,83 @@
+#include "control/reference_shaper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+// A speed this far below one sample's deceleration is the rounding of a motion that has ended.
+constexpr double kRelativeRounding = 1e-9;
+// What thousands of samples may add up to; far below any encoder's count.
+constexpr double kPositionRounding_rad = 1e-12;
+}  // namespace
+
+void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept {
+  position_rad_ = position_rad;
+  velocity_rad_s_ = velocity_rad_s;
+  target_rad_ = position_rad;
+  stopping_ = true;
+}
+
+void ReferenceShaper::set_target(double position_rad) noexcept {
+  target_rad_ = position_rad;
+  stopping_ = false;
+}
+
+// Towards zero by at most one sample's deceleration.
+double ReferenceShaper::brake_to_rest(double velocity_rad_s) const noexcept {
+  const double speed = std::max(0.0, std::abs(velocity_rad_s) - period_s_ * limits_.deceleration_rad_s2);
+  return std::copysign(speed, velocity_rad_s);
+}
+
+// Inverse of G(v') = S(v') + h v' / 2, which is piecewise linear with G(n D h) = D h^2 n (n + 1) / 2.
+double ReferenceShaper::largest_stoppable_velocity(double distance_rad) const noexcept {
+  if (distance_rad <= 0.0) return 0.0;
+  const double speed_step = period_s_ * limits_.deceleration_rad_s2;
+  const double scaled = distance_rad / (period_s_ * speed_step);
+  const double whole = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * scaled) - 1.0));
+  const double beyond = scaled - 0.5 * whole * (whole + 1.0);
+  return speed_step * (whole + beyond / (whole + 1.0));
+}
+
+// In the direction of the target: `velocity` < 0 moves away from it.
+double ReferenceShaper::next_velocity_rad_s() const noexcept {
+  const double to_target_rad = target_rad_ - position_rad_;
+  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s_);
+  const double velocity = direction * velocity_rad_s_;
+  const double speed_up = period_s_ * limits_.acceleration_rad_s2;
+  const double slow_down = period_s_ * limits_.deceleration_rad_s2;
+
+  if (velocity < 0.0) {
+    // A sample that turns round has one acceleration, so both limits hold in it.
+    const double turned = velocity + std::min(speed_up, slow_down);
+    if (turned <= 0.0) return direction * std::min(0.0, velocity + slow_down);
+    const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity);
+    return direction * std::min({turned, limits_.velocity_rad_s, stoppable});
+  }
+  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity);
+  const double wanted = std::min({velocity + speed_up, limits_.velocity_rad_s, stoppable});
+  return direction * std::max({wanted, velocity - slow_down, 0.0});
+}
+
+Reference ReferenceShaper::step() noexcept {
+  double velocity = stopping_ ? brake_to_rest(velocity_rad_s_) : next_velocity_rad_s();
+  double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
+
+  if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {
+    velocity = 0.0;
+    if (stopping_) target_rad_ = position;
+    const double rounding_rad =
+        kPositionRounding_rad + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(target_rad_);
+    if (std::abs(position - target_rad_) <= rounding_rad) position = target_rad_;
+  }
+  const Reference reference{position_rad_, velocity_rad_s_, (velocity - velocity_rad_s_) / period_s_};
+  position_rad_ = position;
+  velocity_rad_s_ = velocity;
+  return reference;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,62 @@
+// Reference shaping: turns targets, which may change at any moment, into a reference that the joint can
+// follow. Real-time safe: allocates nothing, throws nothing, one square root per sample.
+//
+// Time-optimal in discrete time. With period h, the acceleration is constant over a sample, so that
+//   v' = v + h a,   x' = x + h (v + v') / 2                            hold exactly, and J a is the torque to
+//   feed forward.
+// From speed v the joint can stop within S(v): full deceleration D for whole samples, the remainder in the
+// last one; S is the chord polygon of v^2 / 2D with nodes at v = n D h. Each sample takes the largest
+//   v' <= min(v + A h, V)  with  S(v') + h v' / 2 <= d - h v / 2       d: distance to the target,
+// which keeps the target reachable exactly, at rest, on a sample: no overshoot, no chatter around the target.
+#pragma once
+
+namespace strainwave {
+
+/// All > 0 and finite.
+struct MotionLimits {
+  double velocity_rad_s = 1.0;
+  double acceleration_rad_s2 = 1.0;  ///< while the speed grows
+  double deceleration_rad_s2 = 1.0;  ///< while it falls; friction makes it the larger one
+};
+
+/// The reference at a sample. The acceleration is that of the period that follows it.
+struct Reference {
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  double acceleration_rad_s2 = 0.0;
+};
+
+class ReferenceShaper {
+ public:
+  /// `period_s` > 0. At rest at 0.
+  explicit ReferenceShaper(double period_s) noexcept : period_s_(period_s) {}
+
+  /// Continues from here; the target becomes the nearest point where the motion can stop.
+  void reset(double position_rad, double velocity_rad_s) noexcept;
+  /// In force from the next step. When they shrink while moving, the speed falls with the new deceleration.
+  void set_limits(const MotionLimits& limits) noexcept { limits_ = limits; }
+  void set_target(double position_rad) noexcept;
+  /// Decelerates to rest and stays where that ends, until the next target.
+  void stop() noexcept { stopping_ = true; }
+
+  /// The reference for this sample; the motion then advances by one period.
+  Reference step() noexcept;
+
+  /// Whether the motion has ended, exactly on the target.
+  bool at_target() const noexcept { return position_rad_ == target_rad_ && velocity_rad_s_ == 0.0; }
+  double target_rad() const noexcept { return target_rad_; }
+
+ private:
+  double next_velocity_rad_s() const noexcept;
+  double brake_to_rest(double velocity_rad_s) const noexcept;
+  double largest_stoppable_velocity(double distance_rad) const noexcept;
+
+  double period_s_;
+  MotionLimits limits_;
+  double position_rad_ = 0.0;
+  double velocity_rad_s_ = 0.0;
+  double target_rad_ = 0.0;
+  bool stopping_ = false;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,172 @@
+#include "daemon/admission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <sstream>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+
+#include "daemon/table_admission.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/gain_table_message.h"
+#include "lcmtypes/wire.h"
+
+namespace strainwave {
+
+namespace {
+
+// More senders than any real installation has; past it the memory starts afresh, and the session id still protects.
+constexpr std::size_t kMaxSenders = 1024;
+constexpr double kMaxValidFor_s = 3600.0;
+
+std::span<const std::uint8_t> payload(const WireMessage& message) {
+  return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
+}
+
+Verdict refuse(const Requester& requester, Reason reason, const std::string& text) {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kRefuse;
+  verdict.reason = reason;
+  verdict.text = text;
+  verdict.requester = requester;
+  return verdict;
+}
+
+Verdict discard(Reason reason) {
+  Verdict verdict;
+  verdict.reason = reason;
+  return verdict;
+}
+
+Verdict pass(const Requester& requester, OrderKind kind) {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kOrder;
+  verdict.requester = requester;
+  verdict.order.kind = kind;
+  return verdict;
+}
+
+std::optional<OrderKind> order_of(Action action) {
+  switch (action) {
+    case Action::kEnable: return OrderKind::kEnable;
+    case Action::kDisable: return OrderKind::kDisable;
+    case Action::kHold: return OrderKind::kHold;
+    case Action::kClearFault: return OrderKind::kClearFault;
+    case Action::kRevertTable: return OrderKind::kUseTable;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints)
+    : prefix_(std::move(prefix)), session_id_(session_id), joints_(std::move(joints)) {}
+
+Verdict Admission::consider(const WireMessage& message) {
+  const auto name = parse_channel(message.channel.view());
+  Verdict verdict = discard(Reason::kMalformed);
+  if (name && name->prefix == prefix_ && message.size <= message.bytes.size()) {
+    const auto joint = std::find_if(joints_.begin(), joints_.end(),
+                                    [&](const JointAdmission& candidate) { return candidate.name == name->joint; });
+    verdict = joint == joints_.end()
+                  ? discard(Reason::kUnknownJoint)
+                  : judge(name->kind, static_cast<std::size_t>(joint - joints_.begin()), message);
+  }
+  if (verdict.kind == Verdict::Kind::kRefuse || verdict.kind == Verdict::Kind::kDiscard) count_reject(verdict.reason);
+  return verdict;
+}
+
+Verdict Admission::judge(std::string_view kind, std::size_t joint, const WireMessage& message) {
+  if (kind == channel_kind::kSetpoint) return judge_setpoint(joint, message);
+  if (kind == channel_kind::kCommand) return judge_command(joint, message);
+  if (kind == channel_kind::kTable) return judge_table_message(joint, message);
+  return discard(Reason::kMalformed);
+}
+
+bool Admission::remember(std::int64_t sender_id, std::int64_t sequence) {
+  if (last_sequence_.size() >= kMaxSenders && !last_sequence_.contains(sender_id)) last_sequence_.clear();
+  const auto [entry, is_new] = last_sequence_.try_emplace(sender_id, sequence);
+  if (!is_new && sequence <= entry->second) return false;
+  entry->second = sequence;
+  return true;
+}
+
+std::optional<Verdict> Admission::check_envelope(const Envelope& envelope, const Requester& requester) {
+  if (envelope.session_id != session_id_)
+    return refuse(requester, Reason::kWrongSession,
+                  "the message is meant for session " + std::to_string(envelope.session_id) +
+                      ", this daemon's is another: read session_id from the STATE channel and send again");
+  const auto last = last_sequence_.find(envelope.sender_id);
+  if (last != last_sequence_.end() && last->second == envelope.sequence) {
+    Verdict verdict;
+    verdict.kind = Verdict::Kind::kRepeat;
+    verdict.requester = requester;
+    return verdict;
+  }
+  if (!remember(envelope.sender_id, envelope.sequence))
+    return refuse(requester, Reason::kOldSequence,
+                  "sequence " + std::to_string(envelope.sequence) + " does not rise above the sender's last");
+  return std::nullopt;
+}
+
+Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message) {
+  const auto setpoint = decode_exactly<setpoint_v1>(payload(message));
+  if (!setpoint) return discard(Reason::kMalformed);
+  const Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
+  if (auto verdict = check_envelope({setpoint->session_id, setpoint->sender_id, setpoint->sequence}, requester))
+    return std::move(*verdict);
+  if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s))
+    return refuse(requester, Reason::kNotFinite, "position_rad and valid_for_s must be finite numbers");
+  const JointAdmission& limits = joints_[joint];
+  std::ostringstream text;
+  if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
+    text << "position_rad = " << setpoint->position_rad << ": from " << limits.position_min_rad << " to "
+         << limits.position_max_rad << " is allowed (joint.limits of " << limits.name << ")";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s) {
+    text << "valid_for_s = " << setpoint->valid_for_s << ": from 0 (a move) to " << kMaxValidFor_s << " is allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  Verdict verdict = pass(requester, OrderKind::kSetpoint);
+  verdict.order.position_rad = setpoint->position_rad;
+  verdict.order.valid_for_s = setpoint->valid_for_s;
+  return verdict;
+}
+
+Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) {
+  const auto command = decode_exactly<command_v1>(payload(message));
+  if (!command) return discard(Reason::kMalformed);
+  const Requester requester{joint, command->sender_id, command->sequence, true};
+  const auto action = static_cast<Action>(command->action);
+  // Stopping is for everybody, whatever session they believe in and whatever they sent before.
+  if (action == Action::kDisable) return pass(requester, OrderKind::kDisable);
+  if (auto verdict = check_envelope({command->session_id, command->sender_id, command->sequence}, requester))
+    return std::move(*verdict);
+  const auto kind = order_of(action);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction, "action = " + std::to_string(command->action) + ": see docs/messages.md");
+  Verdict verdict = pass(requester, *kind);
+  verdict.revert_table = action == Action::kRevertTable;
+  return verdict;
+}
+
+Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& message) {
+  const auto table_message = decode_exactly<gain_table_v1>(payload(message));
+  if (!table_message) return discard(Reason::kMalformed);
+  const Requester requester{joint, table_message->sender_id, table_message->sequence, true};
+  if (auto verdict = check_envelope(
+          {table_message->session_id, table_message->sender_id, table_message->sequence}, requester))
+    return std::move(*verdict);
+  auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
+  const TableVerdict judged = judge_table(*table, joints_[joint].plant, joints_[joint].torque_limit_Nm);
+  if (judged.reason != Reason::kAccepted) return refuse(requester, judged.reason, judged.text);
+  Verdict verdict = pass(requester, OrderKind::kUseTable);
+  verdict.text = judged.text;
+  verdict.table = std::move(table);
+  return verdict;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,69 @@
+// A histogram of durations with fixed buckets, written by one thread and read by others. Real-time safe.
+// Bucket i counts values below bucket_upper_ns(i) = 1000 * 2^(i/4) ns and not below the bound before; the last takes the
+// rest. 64 buckets reach from 1 us to 55 ms at 19 % resolution.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace strainwave {
+
+inline constexpr std::size_t kHistogramBuckets = 64;
+using HistogramCounts = std::array<std::int64_t, kHistogramBuckets>;
+
+inline double bucket_upper_ns(std::size_t bucket) { return 1000.0 * std::exp2(static_cast<double>(bucket) / 4.0); }
+
+/// The value below which `fraction` of the counted durations lie, as the upper bound of its bucket; 0 when empty.
+inline double percentile_ns(const HistogramCounts& counts, double fraction) {
+  std::int64_t total = 0;
+  for (const std::int64_t count : counts) total += count;
+  const double wanted = fraction * static_cast<double>(total);
+  std::int64_t seen = 0;
+  for (std::size_t i = 0; i < counts.size() && total > 0; ++i) {
+    seen += counts[i];
+    if (static_cast<double>(seen) >= wanted) return bucket_upper_ns(i);
+  }
+  return 0.0;
+}
+
+class Histogram {
+ public:
+  Histogram() noexcept {
+    for (std::size_t i = 0; i < kHistogramBuckets; ++i) upper_ns_[i] = static_cast<std::int64_t>(bucket_upper_ns(i));
+  }
+
+  /// Counts one duration; negative ones count as 0. One thread only.
+  void add(std::int64_t duration_ns) noexcept {
+    std::size_t low = 0;
+    std::size_t high = kHistogramBuckets - 1;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (duration_ns < upper_ns_[middle]) high = middle;
+      else low = middle + 1;
+    }
+    bump(counts_[low]);
+    if (duration_ns > max_ns_.load(std::memory_order_relaxed)) max_ns_.store(duration_ns, std::memory_order_relaxed);
+  }
+
+  /// A copy for another thread; counts added meanwhile may or may not be in it.
+  HistogramCounts counts() const noexcept {
+    HistogramCounts copy{};
+    for (std::size_t i = 0; i < kHistogramBuckets; ++i) copy[i] = counts_[i].load(std::memory_order_relaxed);
+    return copy;
+  }
+  std::int64_t max_ns() const noexcept { return max_ns_.load(std::memory_order_relaxed); }
+
+ private:
+  static void bump(std::atomic<std::int64_t>& count) noexcept {
+    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+
+  std::array<std::int64_t, kHistogramBuckets> upper_ns_{};
+  std::array<std::atomic<std::int64_t>, kHistogramBuckets> counts_{};
+  std::atomic<std::int64_t> max_ns_{0};
+};
+
+}  // namespace strainwave

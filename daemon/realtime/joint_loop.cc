@@ -1,0 +1,266 @@
+#include "daemon/realtime/joint_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+Fault fault_of(ActuatorFault fault) noexcept {
+  switch (fault) {
+    case ActuatorFault::kNone: return Fault::kNone;
+    case ActuatorFault::kReadFailed: return Fault::kReadFailed;
+    case ActuatorFault::kWriteRefused: return Fault::kWriteRefused;
+    case ActuatorFault::kDriveFault: return Fault::kDriveFault;
+    case ActuatorFault::kPowerLost: return Fault::kPowerLost;
+    case ActuatorFault::kImplausible: return Fault::kImplausibleReading;
+    case ActuatorFault::kLinkLost: return Fault::kLinkLost;
+    case ActuatorFault::kEmergencyStop: return Fault::kEmergencyStop;
+  }
+  return Fault::kDriveFault;
+}
+
+}  // namespace
+
+JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::unique_ptr<Actuator> actuator,
+                     ReplyQueue& replies, EventQueue& events)
+    : index_(index),
+      config_(config),
+      actuator_(std::move(actuator)),
+      replies_(replies),
+      events_(events),
+      controller_(config.controller),
+      temperature_(config.temperature) {
+  record_.joint_index = index;
+}
+
+void JointLoop::step(const CycleTime& time) noexcept {
+  notices_ = 0;
+  take_orders(time);
+  read_drive(time);
+  check_reading(time);
+  check_temperature(time);
+  expire_setpoint(time);
+  control(time);
+  check_motion(time);
+  advance_mode(time);
+  command_drive(time);
+  fill_record(time);
+}
+
+void JointLoop::take_orders(const CycleTime& time) noexcept {
+  Order order;
+  while (orders_.pop(order)) {
+    const Reason reason = obey(order, time);
+    // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
+    if (order.id != 0) (void)replies_.push({order.id, reason, mode_});
+  }
+}
+
+Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
+  switch (order.kind) {
+    case OrderKind::kEnable: return enable(time);
+    case OrderKind::kDisable: return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
+    case OrderKind::kHold:
+      if (!is_controlled(mode_)) return Reason::kWrongMode;
+      controller_.stop();
+      return Reason::kAccepted;
+    case OrderKind::kClearFault: return clear_fault(time);
+    case OrderKind::kSetpoint: return begin_setpoint(order, time);
+    case OrderKind::kUseTable: return use_table(static_cast<std::size_t>(order.table_slot));
+  }
+  return Reason::kUnknownAction;
+}
+
+Reason JointLoop::enable(const CycleTime& time) noexcept {
+  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
+  if (!controller_.has_table()) return Reason::kNoTable;
+  if (mode_ == Mode::kOff && !reading_fresh_) return Reason::kDriveNotReady;
+  return change_mode(ModeEvent::kEnableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
+}
+
+Reason JointLoop::use_table(std::size_t slot) noexcept {
+  // At rest a swap is always allowed; under control only while the reference stands still.
+  const bool at_standstill = mode_ == Mode::kHolding;
+  if (!at_rest() && !at_standstill) return Reason::kMoving;
+  controller_.load(tables_[slot].table);
+  table_id_ = tables_[slot].id;
+  temperature_rules_ = tables_[slot].table.friction.rule_count;
+  return Reason::kAccepted;
+}
+
+Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
+  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
+  if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
+  controller_.set_target(order.position_rad);
+  setpoint_expires_ns_ =
+      order.valid_for_s > 0.0 ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
+  setpoint_expired_ = false;
+  return Reason::kAccepted;
+}
+
+Reason JointLoop::clear_fault(const CycleTime& time) noexcept {
+  if (mode_ != Mode::kFaulted) return Reason::kWrongMode;
+  actuator_->clear_fault();
+  missed_readings_ = 0;
+  return change_mode(ModeEvent::kFaultCleared, time) ? Reason::kAccepted : Reason::kWrongMode;
+}
+
+void JointLoop::read_drive(const CycleTime& time) noexcept {
+  const ActuatorReading reading = actuator_->read(time.now_ns);
+  reading_fresh_ = reading.has_position && std::isfinite(reading.joint_position_rad) &&
+                   (!reading.has_velocity || std::isfinite(reading.joint_velocity_rad_s)) &&
+                   std::isfinite(reading.torque_applied_Nm);
+  const double last_position_rad = reading_.joint_position_rad;
+  const bool malformed = reading.has_position && !reading_fresh_;
+  reading_ = reading;
+  if (!reading_fresh_) {
+    reading_.joint_position_rad = last_position_rad;
+    reading_.has_velocity = false;
+    reading_.torque_applied_Nm = 0.0;
+  }
+  ever_read_ = ever_read_ || reading_fresh_;
+  if (malformed && reading_.fault == ActuatorFault::kNone) reading_.fault = ActuatorFault::kImplausible;
+}
+
+void JointLoop::check_reading(const CycleTime& time) noexcept {
+  missed_readings_ = reading_fresh_ ? 0 : std::min(missed_readings_ + 1, config_.missed_readings_limit + 1);
+  if (missed_readings_ > 0) notice(Notice::kReadingMissed);
+  // A drive that is off may be unreadable; it then cannot be enabled, which is enough.
+  if (mode_ == Mode::kOff) return;
+  if (reading_.fault != ActuatorFault::kNone) return raise_fault(fault_of(reading_.fault), time);
+  if (missed_readings_ > config_.missed_readings_limit) raise_fault(Fault::kReadFailed, time);
+}
+
+void JointLoop::check_temperature(const CycleTime& time) noexcept {
+  temperature_.update(reading_.has_temperature, reading_.temperature_C, time.now_ns - reading_.temperature_age_ns,
+                      time.now_ns);
+  const bool hot = temperature_.status() == TemperatureStatus::kValid && temperature_.used_C() > config_.limits.hot_C;
+  if (hot && mode_ != Mode::kOff) raise_fault(Fault::kTemperatureLimit, time);
+}
+
+void JointLoop::expire_setpoint(const CycleTime& time) noexcept {
+  if (mode_ == Mode::kTracking && setpoint_expires_ns_ != 0 && time.now_ns > setpoint_expires_ns_) {
+    controller_.stop();
+    setpoint_expires_ns_ = 0;
+    setpoint_expired_ = true;
+  }
+  if (setpoint_expired_) notice(Notice::kSetpointExpired);
+}
+
+void JointLoop::control(const CycleTime& time) noexcept {
+  if (!is_controlled(mode_)) {
+    motion_ = JointStep{};
+    return;
+  }
+  JointMeasurement measurement;
+  measurement.joint_position_rad = reading_.joint_position_rad;
+  measurement.joint_velocity_rad_s = reading_.joint_velocity_rad_s;
+  measurement.torque_applied_Nm = reading_.torque_applied_Nm;
+  measurement.temperature_C = temperature_.used_C();
+  measurement.has_velocity = reading_.has_velocity;
+  measurement.temperature_valid = temperature_.usable();
+  motion_ = controller_.step(measurement);
+  if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
+  if (motion_.output.saturated) notice(Notice::kTorqueLimited);
+  if (motion_.gains_in_use == GainsInUse::kFallback) notice(Notice::kFallbackGains);
+}
+
+void JointLoop::check_motion(const CycleTime& time) noexcept {
+  if (!is_controlled(mode_)) return;
+  const JointLimits& limits = config_.limits;
+  const double position_rad = reading_.joint_position_rad;
+  if (position_rad < limits.position_min_rad - limits.position_margin_rad ||
+      position_rad > limits.position_max_rad + limits.position_margin_rad)
+    return raise_fault(Fault::kPositionLimit, time);
+  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s) return raise_fault(Fault::kSpeedLimit, time);
+  if (std::abs(motion_.reference.position_rad - position_rad) > limits.following_error_rad)
+    raise_fault(Fault::kFollowingError, time);
+}
+
+void JointLoop::advance_mode(const CycleTime& time) noexcept {
+  switch (mode_) {
+    case Mode::kStarting:
+      if (reading_.drive_state == DriveState::kEnabled && reading_fresh_) {
+        controller_.start(reading_.joint_position_rad);
+        (void)change_mode(ModeEvent::kDriveReady, time);
+      } else if (seconds_in_mode(time) > config_.start_timeout_s) {
+        raise_fault(Fault::kStartTimeout, time);
+      }
+      return;
+    case Mode::kTracking:
+      // A stream rests at its last setpoint until the next one comes or it expires.
+      if (motion_.at_target && setpoint_expires_ns_ == 0) (void)change_mode(ModeEvent::kArrived, time);
+      return;
+    case Mode::kStopping:
+      if (motion_.at_target && std::abs(motion_.joint_velocity_rad_s) < config_.standstill_rad_s)
+        (void)change_mode(ModeEvent::kStopped, time);
+      else if (seconds_in_mode(time) > config_.stop_timeout_s)
+        raise_fault(Fault::kStopTimeout, time);
+      return;
+    case Mode::kOff:
+    case Mode::kHolding:
+    case Mode::kFaulted: return;
+  }
+}
+
+void JointLoop::command_drive(const CycleTime& /*time*/) noexcept {
+  if (mode_ == Mode::kFaulted) {
+    actuator_->stop();
+    return;
+  }
+  actuator_->write({is_controlled(mode_) ? motion_.output.torque_Nm : 0.0, wants_drive_enabled(mode_)});
+}
+
+void JointLoop::raise_fault(Fault fault, const CycleTime& time) noexcept {
+  if (mode_ == Mode::kFaulted) return;  // the first fault is the one that is shown
+  ++faults_total_;
+  (void)change_mode(ModeEvent::kFaultRaised, time, fault);
+}
+
+bool JointLoop::change_mode(ModeEvent event, const CycleTime& time, Fault fault) noexcept {
+  const auto next = next_mode(mode_, event);
+  if (!next) return false;
+  if (*next != mode_) {
+    (void)events_.push({index_, time.cycle, mode_, *next, fault});
+    mode_ = *next;
+    mode_since_ns_ = time.now_ns;
+    if (mode_ == Mode::kStopping) controller_.stop();
+  }
+  fault_ = mode_ == Mode::kFaulted ? (fault == Fault::kNone ? fault_ : fault) : Fault::kNone;
+  return true;
+}
+
+void JointLoop::fill_record(const CycleTime& time) noexcept {
+  state_v1& state = record_.state;
+  const bool controlled = is_controlled(mode_);
+  state.cycle = time.cycle;
+  state.table_id = table_id_;
+  state.setpoint_position_rad = controlled ? motion_.reference.position_rad : reading_.joint_position_rad;
+  state.setpoint_velocity_rad_s = controlled ? motion_.reference.velocity_rad_s : 0.0;
+  state.target_position_rad = controlled ? controller_.target_rad() : reading_.joint_position_rad;
+  state.joint_position_rad = reading_.joint_position_rad;
+  state.joint_velocity_rad_s = controlled ? motion_.joint_velocity_rad_s : reading_.joint_velocity_rad_s;
+  state.torque_commanded_Nm = controlled ? motion_.output.torque_Nm : 0.0;
+  state.torque_applied_Nm = reading_.torque_applied_Nm;
+  state.torque_feedback_Nm = motion_.output.feedback_torque_Nm;
+  state.torque_feedforward_Nm = motion_.output.feedforward_torque_Nm;
+  state.temperature_C = temperature_.used_C();
+  state.zero_velocity_weight = motion_.output.zero_velocity_weight;
+  const TemperatureWeights& weights = controller_.temperature_weights();
+  std::copy(weights.weight.begin(), weights.weight.end(), state.temperature_weights);
+  state.rule_count = temperature_rules_;
+  state.mode = static_cast<std::int32_t>(mode_);
+  state.fault = static_cast<std::int32_t>(fault_);
+  state.notices = notices_;
+  state.gains_in_use = static_cast<std::int32_t>(motion_.gains_in_use);
+  state.temperature_status = static_cast<std::int32_t>(temperature_.status());
+  state.faults_total = faults_total_;
+  record_.temperature_measured_C = temperature_.measured_C();
+  record_.temperature_age_s = temperature_.age_s(time.now_ns);
+}
+
+}  // namespace strainwave

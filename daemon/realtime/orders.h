@@ -1,0 +1,42 @@
+// What crosses between the supervisor's thread and the real-time thread. Plain data. Real-time safe.
+#pragma once
+
+#include <cstdint>
+
+#include "daemon/realtime/spsc_queue.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable };
+
+/// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
+struct Order {
+  std::int64_t id = 0;          ///< quoted in the reply; 0: nobody waits for one
+  OrderKind kind = OrderKind::kDisable;
+  std::int32_t table_slot = 0;  ///< kUseTable
+  double position_rad = 0.0;    ///< kSetpoint
+  double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
+};
+
+/// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.
+struct Reply {
+  std::int64_t id = 0;
+  Reason reason = Reason::kAccepted;
+  Mode mode = Mode::kOff;  ///< at that moment
+};
+
+/// A change worth a line in the log.
+struct LoopEvent {
+  std::int64_t joint = 0;
+  std::int64_t cycle = 0;
+  Mode from = Mode::kOff;
+  Mode to = Mode::kOff;
+  Fault fault = Fault::kNone;
+};
+
+using OrderQueue = SpscQueue<Order, 64>;
+using ReplyQueue = SpscQueue<Reply, 4096>;
+using EventQueue = SpscQueue<LoopEvent, 1024>;
+
+}  // namespace strainwave

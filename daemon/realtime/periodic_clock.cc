@@ -1,0 +1,34 @@
+#include "daemon/realtime/periodic_clock.h"
+
+#include <cerrno>
+#include <ctime>
+
+namespace strainwave {
+
+namespace {
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+}
+
+std::int64_t monotonic_now_ns() noexcept {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+}
+
+PeriodicClock::Wake PeriodicClock::wait() noexcept {
+  Wake wake;
+  const std::int64_t late_ns = monotonic_now_ns() - next_ns_;
+  if (late_ns > 0) {
+    wake.skipped = (late_ns + period_ns_ - 1) / period_ns_;
+    next_ns_ += wake.skipped * period_ns_;
+  }
+  const timespec until{next_ns_ / kNanosecondsPerSecond, next_ns_ % kNanosecondsPerSecond};
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+  wake.planned_ns = next_ns_;
+  wake.woke_ns = monotonic_now_ns();
+  next_ns_ += period_ns_;
+  return wake;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,33 @@
+// The period: absolute sleeps on CLOCK_MONOTONIC. The only place of the real-time thread that reads a clock. Real-time
+// safe.
+#pragma once
+
+#include <cstdint>
+
+namespace strainwave {
+
+/// CLOCK_MONOTONIC now.
+std::int64_t monotonic_now_ns() noexcept;
+
+class PeriodicClock {
+ public:
+  struct Wake {
+    std::int64_t planned_ns = 0;  ///< when the cycle should have begun
+    std::int64_t woke_ns = 0;     ///< when it did
+    std::int64_t skipped = 0;     ///< whole periods left out because the cycle before ran past their start
+  };
+
+  explicit PeriodicClock(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
+
+  /// The first cycle begins one period from now.
+  void start() noexcept { next_ns_ = monotonic_now_ns() + period_ns_; }
+
+  /// Sleeps until the next cycle begins. A cycle that is already over is skipped, never squeezed in.
+  Wake wait() noexcept;
+
+ private:
+  std::int64_t period_ns_;
+  std::int64_t next_ns_ = 0;
+};
+
+}  // namespace strainwave

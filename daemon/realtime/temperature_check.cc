@@ -1,0 +1,63 @@
+#include "daemon/realtime/temperature_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace strainwave {
+
+namespace {
+constexpr double kSecondsPerNanosecond = 1e-9;
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
+  return static_cast<double>(to_ns - from_ns) * kSecondsPerNanosecond;
+}
+}  // namespace
+
+double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
+  return seen_ ? seconds_between(measured_ns_, now_ns) : -1.0;
+}
+
+TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t produced_ns,
+                                          std::int64_t now_ns) const noexcept {
+  if (!std::isfinite(temperature_C) || temperature_C < config_.min_C || temperature_C > config_.max_C)
+    return TemperatureStatus::kOutOfRange;
+  if (seconds_between(produced_ns, now_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
+  if (accepted_) {
+    // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
+    // nothing was believed, the more may have changed, so that the signal can return.
+    const double silence_s = std::max(0.0, seconds_between(accepted_ns_, produced_ns));
+    const double allowed_C = config_.max_step_C + config_.max_rate_C_s * silence_s;
+    if (std::abs(temperature_C - recent_C_) > allowed_C) return TemperatureStatus::kTooFast;
+  }
+  return TemperatureStatus::kValid;
+}
+
+void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64_t produced_ns,
+                              std::int64_t now_ns) noexcept {
+  if (has_reading) {
+    seen_ = true;
+    measured_C_ = std::isfinite(temperature_C) ? temperature_C : std::numeric_limits<double>::quiet_NaN();
+    measured_ns_ = produced_ns;
+    status_ = judge(temperature_C, produced_ns, now_ns);
+  } else if (seen_ && seconds_between(measured_ns_, now_ns) > config_.max_age_s) {
+    status_ = TemperatureStatus::kTooOld;
+  }
+
+  if (status_ != TemperatureStatus::kValid) {
+    lost_once_ = lost_once_ || usable_;
+    usable_ = false;
+    good_since_ns_ = now_ns;
+    return;
+  }
+  if (has_reading) {
+    const double time_constant_s = config_.max_step_C / config_.max_rate_C_s;
+    const double elapsed_s = std::max(0.0, seconds_between(accepted_ns_, produced_ns));
+    recent_C_ += accepted_ ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s) : temperature_C;
+    accepted_ = true;
+    accepted_C_ = temperature_C;
+    accepted_ns_ = produced_ns;
+  }
+  usable_ = usable_ || !lost_once_ || seconds_between(good_since_ns_, now_ns) >= config_.recovery_s;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,51 @@
+// Whether the temperature signal can be believed, and which value the schedule uses. Real-time safe; time is an argument.
+#pragma once
+
+#include <cstdint>
+
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+struct TemperatureCheckConfig {
+  double min_C = -40.0;           ///< plausible range of the sensor
+  double max_C = 90.0;
+  double max_rate_C_s = 20.0;     ///< faster lasting changes are not heat but a broken wire
+  double max_step_C = 6.0;        ///< a reading may differ by this much from the recent past whatever the rate
+  double max_age_s = 5.0;         ///< older values are not used
+  double recovery_s = 2.0;        ///< after a loss the signal must be good for this long before it is used again
+};
+
+class TemperatureCheck {
+ public:
+  explicit TemperatureCheck(const TemperatureCheckConfig& config) noexcept : config_(config) {}
+
+  /// One reading. `produced_ns` is when the sensor produced it (monotonic), `now_ns` the present.
+  void update(bool has_reading, double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) noexcept;
+
+  TemperatureStatus status() const noexcept { return status_; }
+  /// Whether the schedule may use temperature: valid, and not within the recovery time after a loss.
+  bool usable() const noexcept { return usable_; }
+  /// The last plausible value; meaningful only once a value has been plausible.
+  double used_C() const noexcept { return accepted_C_; }
+  double measured_C() const noexcept { return measured_C_; }
+  double age_s(std::int64_t now_ns) const noexcept;
+
+ private:
+  TemperatureStatus judge(double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) const noexcept;
+
+  TemperatureCheckConfig config_;
+  TemperatureStatus status_ = TemperatureStatus::kNeverSeen;
+  bool seen_ = false;       ///< any reading at all
+  bool accepted_ = false;   ///< any plausible reading
+  bool usable_ = false;
+  bool lost_once_ = false;
+  double measured_C_ = 0.0;
+  double accepted_C_ = 0.0;
+  double recent_C_ = 0.0;   ///< accepted readings, low-passed so that a ramp of max_rate lags by max_step
+  std::int64_t measured_ns_ = 0;
+  std::int64_t accepted_ns_ = 0;
+  std::int64_t good_since_ns_ = 0;
+};
+
+}  // namespace strainwave

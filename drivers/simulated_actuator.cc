@@ -1,0 +1,91 @@
+#include "drivers/simulated_actuator.h"
+
+#include <cmath>
+#include <string>
+
+#include "control/input_error.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+double checked_not_negative(double value, const char* key) {
+  if (!(std::isfinite(value) && value >= 0.0))
+    throw InputError("simulated actuator", key, std::to_string(value), "must be finite and >= 0");
+  return value;
+}
+
+long whole_periods(double duration_s, double period_s) {
+  return std::lround(std::ceil(duration_s / period_s - 1e-9));
+}
+
+}  // namespace
+
+SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
+    : plant_(config.plant),
+      ambient_(config.ambient),
+      load_torque_Nm_(config.load_torque_Nm),
+      enable_delay_periods_(whole_periods(checked_not_negative(config.enable_delay_s, "enable_delay_s"),
+                                          config.plant.period_s)),
+      temperature_periods_(whole_periods(
+          checked_not_negative(config.temperature_period_s, "temperature_period_s"), config.plant.period_s)),
+      temperature_noise_C_(checked_not_negative(config.temperature_noise_C, "temperature_noise_C")),
+      random_(config.seed) {
+  if (!std::isfinite(config.load_torque_Nm))
+    throw InputError("simulated actuator", "load_torque_Nm", std::to_string(config.load_torque_Nm),
+                     "must be finite");
+  plant_.set_ambient_temperature(ambient_.at(0.0));
+  sample_temperature();
+}
+
+ActuatorReading SimulatedActuator::read(std::int64_t /*now_ns*/) noexcept {
+  ActuatorReading reading;
+  reading.joint_position_rad = plant_.measured_position_rad();
+  reading.has_position = true;
+  reading.has_velocity = plant_.config().encoder.counts_per_joint_revolution <= 0.0;
+  if (reading.has_velocity) reading.joint_velocity_rad_s = plant_.state().velocity_rad_s;
+  reading.torque_applied_Nm = plant_.applied_torque_Nm();
+  reading.temperature_C = temperature_C_;
+  reading.temperature_age_ns = std::llround(static_cast<double>(temperature_age_periods_) *
+                                            plant_.config().period_s * kNanosecondsPerSecond);
+  reading.has_temperature = true;
+  reading.drive_state = fault_ == ActuatorFault::kNone ? drive_state_ : DriveState::kFault;
+  reading.fault = fault_;
+  return reading;
+}
+
+void SimulatedActuator::write(const ActuatorCommand& command) noexcept {
+  if (command.enable && !std::isfinite(command.torque_Nm)) fault_ = ActuatorFault::kWriteRefused;
+  advance_drive(command.enable && fault_ == ActuatorFault::kNone);
+  const bool powered = drive_state_ == DriveState::kEnabled;
+  if (!powered) plant_.clear_pending_torque();
+  plant_.step(powered ? command.torque_Nm : 0.0, load_torque_Nm_);
+  plant_.set_ambient_temperature(ambient_.at(plant_.time_s()));
+  if (++temperature_age_periods_ >= temperature_periods_) sample_temperature();
+}
+
+void SimulatedActuator::stop() noexcept {
+  drive_state_ = DriveState::kDisabled;
+  enabling_periods_ = 0;
+  plant_.clear_pending_torque();
+}
+
+void SimulatedActuator::advance_drive(bool enable) noexcept {
+  if (!enable) {
+    drive_state_ = DriveState::kDisabled;
+    enabling_periods_ = 0;
+  } else if (drive_state_ != DriveState::kEnabled) {
+    drive_state_ = enabling_periods_ >= enable_delay_periods_ ? DriveState::kEnabled : DriveState::kEnabling;
+    ++enabling_periods_;
+  }
+}
+
+void SimulatedActuator::sample_temperature() noexcept {
+  temperature_C_ = plant_.sensor_temperature_C();
+  if (temperature_noise_C_ > 0.0) temperature_C_ += temperature_noise_C_ * normal_(random_);
+  temperature_age_periods_ = 0;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,65 @@
+// The simulated joint behind the seam: a drive with an enable delay, an encoder and a slow temperature sensor
+// around sim/joint_plant.h. Each write() advances the plant by one period; nothing here reads a clock, so the
+// same calls give the same motion. read(), write(), stop() and clear_fault() are real-time safe; the
+// constructor is not.
+//
+// It never fails by itself. Faults are injected by a decorator: another Actuator that holds this one.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "drivers/actuator.h"
+#include "sim/joint_plant.h"
+#include "sim/temperature_profile.h"
+
+namespace strainwave {
+
+struct SimulatedActuatorConfig {
+  JointPlantConfig plant;             ///< with an ideal encoder the reading has the exact velocity as well
+  TemperatureProfile ambient;         ///< over plant time, which starts at 0 with the first write()
+  double load_torque_Nm = 0.0;        ///< constant, opposes positive motor torque
+  double enable_delay_s = 0.05;       ///< from the first enabling write() to kEnabled, >= 0
+  double temperature_period_s = 0.1;  ///< the sensor produces a value this often, >= 0 (0: every period)
+  double temperature_noise_C = 0.0;   ///< standard deviation of each value, >= 0
+  std::uint64_t seed = 1;             ///< of the noise
+};
+
+class SimulatedActuator final : public Actuator {
+ public:
+  /// Throws InputError naming the key, the value and what is allowed.
+  explicit SimulatedActuator(const SimulatedActuatorConfig& config);
+
+  ActuatorReading read(std::int64_t now_ns) noexcept override;
+  /// A torque that is not finite is refused: kWriteRefused is latched and the drive disabled.
+  void write(const ActuatorCommand& command) noexcept override;
+  void stop() noexcept override;
+  void clear_fault() noexcept override { fault_ = ActuatorFault::kNone; }
+
+  /// External torque from now on; opposes positive motor torque.
+  void set_load_torque_Nm(double load_torque_Nm) noexcept { load_torque_Nm_ = load_torque_Nm; }
+
+  /// The truth, for tests and plots.
+  const JointPlant& plant() const noexcept { return plant_; }
+
+ private:
+  void advance_drive(bool enable) noexcept;
+  void sample_temperature() noexcept;
+
+  JointPlant plant_;
+  TemperatureProfile ambient_;
+  double load_torque_Nm_;
+  long enable_delay_periods_;
+  long temperature_periods_;
+  double temperature_noise_C_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+
+  DriveState drive_state_ = DriveState::kDisabled;
+  ActuatorFault fault_ = ActuatorFault::kNone;
+  long enabling_periods_ = 0;
+  long temperature_age_periods_ = 0;
+  double temperature_C_ = 0.0;
+};
+
+}  // namespace strainwave
