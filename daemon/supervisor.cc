@@ -177,6 +177,7 @@ void Supervisor::run() {
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
   else
     spdlog::warn("no real time: {}", loop_.real_time_refusal());
+  if (!loop_.sleep_state_refusal().empty()) spdlog::warn("{}", loop_.sleep_state_refusal());
   spdlog::info("prefix {}, {} joint(s), period {} s, session {}", config_.prefix, config_.joints.size(),
                config_.loop.period_s, session_id_);
   while (!loop_.finished()) {

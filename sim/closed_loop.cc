@@ -25,7 +25,6 @@ double error_rad(const TracePoint& point) {
 std::size_t checked_sample_count(const ClosedLoopConfig& config) {
   if (!(config.duration_s > 0.0 && config.duration_s <= kLongestRun_s))
     throw InputError("closed loop", "duration_s", std::to_string(config.duration_s), "must be in (0, 1e6]");
-  if (!config.reference) throw InputError("closed loop: reference is missing; give one");
   return static_cast<std::size_t>(std::ceil(config.duration_s / config.plant.period_s - 1e-9));
 }
 
@@ -119,11 +118,11 @@ ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController&
     const double time_s = static_cast<double>(k) * config.plant.period_s;
     plant.set_ambient_temperature(config.ambient.at(time_s));
     const JointState state = plant.state();
-    LoopSample sample{time_s, config.reference(time_s), plant.measured_position_rad(), std::nullopt,
-                      plant.sensor_temperature_C()};
+    LoopSample sample{time_s,       config.setpoint_rad.at(time_s), plant.measured_position_rad(),
+                      std::nullopt, plant.sensor_temperature_C(),   plant.applied_torque_Nm()};
     if (exact) sample.joint_velocity_rad_s = state.velocity_rad_s;
     const double torque_Nm = controller.torque_Nm(sample);
-    plant.step(torque_Nm, config.load_torque_Nm ? config.load_torque_Nm(time_s) : 0.0);
+    plant.step(torque_Nm, config.load_torque_Nm.at(time_s));
     result.trace.push_back({time_s, sample.setpoint_position_rad, state.position_rad, state.velocity_rad_s,
                             torque_Nm, plant.applied_torque_Nm(), plant.joint_temperature_C()});
     if (!(std::abs(plant.state().position_rad) < kLargestPosition_rad)) {

@@ -7,7 +7,6 @@
 //   PI1 = sum e_k^2,   PI2 = sum |e_k / r_k|,   the initial transient included.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,6 +22,7 @@ struct LoopSample {
   double joint_position_rad = 0.0;             ///< as measured
   std::optional<double> joint_velocity_rad_s;  ///< exact; only with an ideal encoder
   double temperature_C = 0.0;                  ///< as the sensor shows it
+  double torque_applied_Nm = 0.0;              ///< over the period that ends now
 };
 
 /// Anything that closes the loop.
@@ -38,15 +38,12 @@ class LoopController {
   virtual void reset() noexcept = 0;
 };
 
-/// Setpoint in rad at a time in s.
-using Reference = std::function<double(double)>;
-
 struct ClosedLoopConfig {
   JointPlantConfig plant;
   TemperatureProfile ambient;
-  Reference reference;
-  std::function<double(double)> load_torque_Nm;  ///< over time; empty: none
-  double duration_s = 0.0;                       ///< > 0
+  TimeProfile setpoint_rad;
+  TimeProfile load_torque_Nm;  ///< opposes positive motor torque
+  double duration_s = 0.0;     ///< > 0
 };
 
 /// One sample of a run: the truth at its start, the torque wanted there and the one applied over it.

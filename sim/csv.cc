@@ -17,9 +17,9 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string joined(std::initializer_list<std::string_view> columns) {
+std::string joined(const std::vector<std::string>& columns) {
   std::string header;
-  for (const auto column : columns) header.append(header.empty() ? "" : ",").append(column);
+  for (const std::string& column : columns) header += (header.empty() ? "" : ",") + column;
   return header;
 }
 
@@ -44,12 +44,12 @@ double parse_number(std::string_view text, const std::string& where, const std::
   return value;
 }
 
-std::vector<CsvRow> read_csv(const std::filesystem::path& path,
-                             std::initializer_list<std::string_view> columns) {
+std::vector<CsvTextRow> read_csv_text(const std::filesystem::path& path,
+                                      const std::vector<std::string>& columns) {
   std::ifstream file(path);
   if (!file) throw InputError(path.string() + ": cannot be read; check the path and its permissions");
   const std::string header = joined(columns);
-  std::vector<CsvRow> rows;
+  std::vector<CsvTextRow> rows;
   bool header_seen = false;
   std::string text;
   for (int line = 1; std::getline(file, text); ++line) {
@@ -66,14 +66,22 @@ std::vector<CsvRow> read_csv(const std::filesystem::path& path,
     if (fields.size() != columns.size())
       throw InputError(where, "fields", std::to_string(fields.size()),
                        "must be " + std::to_string(columns.size()) + " (" + header + ")");
-    CsvRow row{line, {}};
-    std::size_t i = 0;
-    for (const auto column : columns)
-      row.values.push_back(parse_number(fields[i++], where, std::string(column)));
-    rows.push_back(std::move(row));
+    rows.push_back({line, {fields.begin(), fields.end()}});
   }
   if (rows.empty())
     throw InputError(path.string() + ": has no rows; expected '" + header + "' and at least one row");
+  return rows;
+}
+
+std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::vector<std::string>& columns) {
+  std::vector<CsvRow> rows;
+  for (const CsvTextRow& text : read_csv_text(path, columns)) {
+    CsvRow row{text.line, {}};
+    const std::string where = path.string() + ":" + std::to_string(text.line);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      row.values.push_back(parse_number(text.fields[i], where, columns[i]));
+    rows.push_back(std::move(row));
+  }
   return rows;
 }
 

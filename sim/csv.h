@@ -2,23 +2,30 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace strainwave {
 
-/// One row: its line in the file (from 1) and its values in the order of the columns asked for.
+/// One row: its line in the file (from 1) and its fields in the order of the columns asked for.
+struct CsvTextRow {
+  int line = 0;
+  std::vector<std::string> fields;
+};
 struct CsvRow {
   int line = 0;
   std::vector<double> values;
 };
 
 /// Reads a file whose header is exactly `columns`, comma separated. Lines that start with '#' and empty lines
-/// are skipped. Throws InputError "<file>:<line>: ..." on another header, a wrong number of fields, anything
-/// that is not a finite number, and when there is no row.
-std::vector<CsvRow> read_csv(const std::filesystem::path& path,
-                             std::initializer_list<std::string_view> columns);
+/// are skipped. Throws InputError "<file>:<line>: ..." on another header, a wrong number of fields, and when
+/// there is no row. Fields are not quoted.
+std::vector<CsvTextRow> read_csv_text(const std::filesystem::path& path,
+                                      const std::vector<std::string>& columns);
+
+/// The same for finite numbers; anything else in a field is an InputError.
+std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
 /// The number that `text` is, whole; throws InputError "<where>: <key> = <text>: must be a finite number".
 double parse_number(std::string_view text, const std::string& where, const std::string& key);

@@ -1,0 +1,54 @@
+// How fast the simulated joint is: sub-steps of its physics and whole periods of the plant. Read `items_per_second`.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "sim/joint_plant.h"
+#include "sim/loop_controllers.h"
+#include "sim/reference_plant.h"
+
+namespace strainwave {
+namespace {
+
+constexpr int kSubsteps = 10;
+
+/// Swings with the given amplitude: 0.1 rad/s stays in the Stribeck range, where each slope costs an exponential.
+void physics_substep(benchmark::State& bench) {
+  const JointParameters joint = reference_joint();
+  JointInput input;
+  input.friction = joint.friction.at(-10.0);
+  input.motor = torque_envelope(reference_motor());
+  JointState state;
+  const double speed_rad_s = static_cast<double>(bench.range(0)) * 1e-3;
+  input.torque_Nm = 10.0;
+  for (auto _ : bench) {
+    if (std::abs(state.velocity_rad_s) > speed_rad_s) input.torque_Nm = -std::copysign(10.0, state.velocity_rad_s);
+    advance(state, joint, input, 1e-4, kSubsteps);
+    benchmark::DoNotOptimize(state);
+  }
+  bench.SetItemsProcessed(bench.iterations() * kSubsteps);
+}
+BENCHMARK(physics_substep)->Arg(100)->Arg(3000)->ArgName("speed_mrad_s");
+
+/// One period of the closed loop with the realistic plant and the PID, which keeps it moving.
+void plant_period(benchmark::State& bench) {
+  JointPlantConfig config = realistic_plant();
+  config.substeps = kSubsteps;
+  JointPlant plant(config);
+  PidLoopController pid({}, config.period_s);
+  LoopSample sample;
+  long k = 0;
+  for (auto _ : bench) {
+    plant.set_ambient_temperature(15.0 + 25.0 * std::sin(plant.time_s()));
+    sample.setpoint_position_rad = (k++ / 500) % 2 == 0 ? 0.1 : -0.1;
+    sample.joint_position_rad = plant.measured_position_rad();
+    plant.step(pid.torque_Nm(sample));
+  }
+  bench.SetItemsProcessed(bench.iterations());
+}
+BENCHMARK(plant_period);
+
+}  // namespace
+}  // namespace strainwave
+
+BENCHMARK_MAIN();

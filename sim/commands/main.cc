@@ -1,0 +1,39 @@
+// strainwave-sim: the closed loop without real time. See `strainwave-sim --help`.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <system_error>
+
+#include "control/input_error.h"
+#include "sim/commands/commands.h"
+
+namespace strainwave {
+
+std::filesystem::path shared_folder(const std::filesystem::path& name) {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto installed = program.parent_path().parent_path() / "share" / "strainwave" / name;
+  if (!error && std::filesystem::is_directory(installed)) return installed;
+  const auto source = std::filesystem::path(STRAINWAVE_SOURCE_DIR) / name;
+  if (std::filesystem::is_directory(source)) return source;
+  throw InputError("the folder '" + name.string() + "' is neither at " + installed.string() + " nor at " +
+                   source.string() + "; say where it is");
+}
+
+}  // namespace strainwave
+
+int main(int argc, char** argv) {
+  CLI::App program("Simulates a strain-wave joint under control, faster than real time.");
+  program.set_version_flag("--version", STRAINWAVE_VERSION);
+  program.require_subcommand(1);
+  strainwave::add_chapter6_command(program);
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error);
+  } catch (const std::exception& error) {
+    std::cerr << "strainwave-sim: " << error.what() << '\n';
+    return 1;
+  }
+}

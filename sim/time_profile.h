@@ -1,0 +1,58 @@
+// A quantity over time: constant, steps, sine, or a recorded CSV. What setpoints, loads and temperatures are
+// made of. at() is real-time safe; everything else is not.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strainwave {
+
+/// What the numbers of a profile are: named in messages and as the CSV column, and the range they must stay
+/// in.
+struct ProfileQuantity {
+  std::string key;  ///< e.g. "temperature_C"
+  double min = -std::numeric_limits<double>::max();
+  double max = std::numeric_limits<double>::max();
+};
+
+class TimeProfile {
+ public:
+  /// 0 throughout.
+  TimeProfile() = default;
+
+  static TimeProfile constant(double value, const ProfileQuantity& quantity);
+  /// `start`, then `rise` more at every whole multiple of `interval_s` > 0, `count` >= 1 times.
+  static TimeProfile steps(double start, double rise, double interval_s, double count,
+                           const ProfileQuantity& quantity);
+  /// mean + amplitude sin(angular_frequency t).
+  static TimeProfile sine(double mean, double amplitude, double angular_frequency_rad_s,
+                          const ProfileQuantity& quantity);
+  /// Columns time_s and quantity.key, times strictly rising; held before the first row and after the last.
+  /// Between two rows a straight line, or, with `hold`, the earlier row's value.
+  static TimeProfile from_csv(const std::filesystem::path& path, bool hold, const ProfileQuantity& quantity);
+  /// "constant:25", "steps:-10,5,1,11", "sine:15,25,1", "csv:FILE" (straight lines) or "hold:FILE", arguments
+  /// as above. All factories throw InputError.
+  static TimeProfile parse(std::string_view text, const ProfileQuantity& quantity);
+
+  /// The value at `time_s`.
+  double at(double time_s) const noexcept;
+
+ private:
+  enum class Kind { kConstant, kSteps, kSine, kLines, kHold };
+  struct Point {
+    double time_s, value;
+  };
+  double interpolate(double time_s) const noexcept;
+
+  Kind kind_ = Kind::kConstant;
+  double base_ = 0.0;    ///< constant, start or mean
+  double change_ = 0.0;  ///< rise or amplitude
+  double rate_ = 1.0;    ///< interval_s or angular frequency
+  double count_ = 0.0;   ///< number of steps
+  std::vector<Point> points_;
+};
+
+}  // namespace strainwave
