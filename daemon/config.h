@@ -10,6 +10,8 @@
 
 #include "control/gain_table.h"
 #include "daemon/admission.h"
+#include "daemon/authorized_keys.h"
+#include "daemon/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
 
@@ -44,6 +46,8 @@ struct DaemonConfig {
   LoopConfig loop;
   std::string prefix;
   std::string lcm_url;
+  GatewayUser gateway_user;
+  SecurityPolicy security;
   std::vector<JointConfig> joints;
 };
 
