@@ -12,7 +12,7 @@ add_library(strainwave_warnings INTERFACE)
 target_compile_options(strainwave_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
   -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-align -Wcast-qual
-  -Wformat=2 -Wimplicit-fallthrough -Wnull-dereference -Wundef -Wunused -Wextra-semi)
+  -Wformat=2 -Wimplicit-fallthrough -Wundef -Wunused -Wextra-semi)
 
 # strainwave_library(NAME SOURCES file... [PUBLIC lib...] [PRIVATE lib...])
 function(strainwave_library name)

@@ -96,15 +96,20 @@ std::vector<StrictObject> StrictObject::objects(const std::string& key, std::siz
   return result;
 }
 
-std::vector<double> StrictObject::numbers(const std::string& key, std::size_t size) {
+std::vector<double> StrictObject::numbers(const std::string& key) {
   const ordered_json& value = get(key);
-  const std::string allowed = "a list of " + std::to_string(size) + " numbers";
-  if (!value.is_array() || value.size() != size) complain(key, allowed);
+  if (!value.is_array()) complain(key, "a list of numbers");
   std::vector<double> result;
   for (const ordered_json& entry : value) {
-    if (!entry.is_number()) complain(key, allowed);
+    if (!entry.is_number()) complain(key, "a list of numbers");
     result.push_back(entry.get<double>());
   }
+  return result;
+}
+
+std::vector<double> StrictObject::numbers(const std::string& key, std::size_t size) {
+  std::vector<double> result = numbers(key);
+  if (result.size() != size) complain(key, "a list of " + std::to_string(size) + " numbers");
   return result;
 }
 

@@ -31,6 +31,8 @@ class StrictObject {
   std::vector<StrictObject> objects(const std::string& key, std::size_t min, std::size_t max);
   /// An array of exactly `size` numbers.
   std::vector<double> numbers(const std::string& key, std::size_t size);
+  /// An array of any number of numbers.
+  std::vector<double> numbers(const std::string& key);
   /// An array of `rows` arrays of `columns` numbers, row by row.
   std::vector<double> matrix(const std::string& key, std::size_t rows, std::size_t columns);
 

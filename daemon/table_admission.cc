@@ -21,8 +21,8 @@ TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const Pl
                          const FuzzyFriction& friction) {
   const CertificateReport report = certify(gains, plant, friction);
   std::ostringstream text;
-  text << which << " gains " << gains.controller.view() << ": worst pair of rules (" << report.worst_from << ", "
-       << report.worst_to << "), margin " << report.worst_margin;
+  text << which << " gains " << gains.controller.view() << ": worst pair of rules (" << report.worst.from << ", "
+       << report.worst.to << "), margin " << report.worst.margin;
   if (report.certified) return {Reason::kAccepted, text.str()};
   text << ": stability is not proved for this joint; design the table for it with strainwave-design gains";
   return {Reason::kTableNotCertified, text.str()};

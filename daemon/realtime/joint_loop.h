@@ -104,7 +104,7 @@ class JointLoop {
   TemperatureCheck temperature_;
   ActuatorReading reading_;
   JointStep motion_;
-  StateRecord record_;
+  StateRecord record_{};
   Mode mode_ = Mode::kOff;
   Fault fault_ = Fault::kNone;
   std::int64_t mode_since_ns_ = 0;

@@ -1,0 +1,96 @@
+// A conversation with one daemon: learn its session from the state it publishes, send an order, repeat it
+// until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
+#pragma once
+
+#include <optional>
+#include <strainwave/ack_v1.hpp>
+#include <string>
+#include <vector>
+
+#include "client/connection.h"
+#include "client/sender.h"
+#include "client/state_view.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+struct ClientOptions {
+  std::string prefix = "SW";
+  double timeout_s =
+      2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
+};
+
+/// The daemon's answer to one order.
+struct Answer {
+  bool accepted = false;
+  Reason reason = Reason::kAccepted;
+  std::string text;  ///< the daemon's words, safe to print
+};
+
+class Client {
+ public:
+  /// How often an order is repeated while no answer comes: LCM may lose messages. The daemon answers a
+  /// repetition as it answered the first.
+  static constexpr int kRepetitions = 3;
+
+  Client(Connection& connection, const ClientOptions& options);
+
+  const ClientOptions& options() const noexcept { return options_; }
+  Connection& connection() noexcept { return connection_; }
+  const StateView& states() const noexcept { return states_; }
+
+  /// The latest view of `joint`, or null when nothing was heard of it.
+  const JointView* find(const std::string& joint) const { return states_.find(options_.prefix, joint); }
+
+  /// Waits until `joint` is heard. Throws ClientError (no answer) that says what is heard instead.
+  const JointView& wait_for_joint(const std::string& joint);
+
+  /// Waits until a joint is heard, then a little for the others of the daemon. Throws like wait_for_joint().
+  std::vector<std::string> wait_for_joints();
+
+  /// Sends `message` (setpoint_v1, command_v1 or gain_table_v1) to `joint` on the channel of `kind` and waits
+  /// for the answer. Throws ClientError when the joint is not heard or no answer comes.
+  template <typename Message>
+  Answer request(const std::string& joint, std::string_view kind, const Message& message) {
+    const std::int64_t session_id = wait_for_joint(joint).state.session_id;
+    return exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, session_id));
+  }
+
+  /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait
+  /// for a state; without one the session is 0, which the daemon ignores in a disable.
+  template <typename Message>
+  Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
+    const JointView* view = find(joint);
+    const std::int64_t session_id = view != nullptr ? view->state.session_id : 0;
+    return exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, session_id));
+  }
+
+  /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError
+  /// (interrupted).
+  template <typename Done>
+  bool wait_until(const Done& done, const Deadline& deadline) {
+    while (!done()) {
+      if (deadline.passed()) return false;
+      handle(deadline.remaining_ms());
+    }
+    return true;
+  }
+
+ private:
+  Answer exchange(const std::string& joint, const SealedMessage& order);
+  void handle(int timeout_ms);
+  void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  [[noreturn]] void explain_silence(const std::string& joint) const;
+
+  Connection& connection_;
+  ClientOptions options_;
+  StateView states_;
+  Sender sender_;
+  const SealedMessage* awaited_ = nullptr;  ///< the order whose answer counts
+  std::string awaited_channel_;             ///< where its answer comes from
+  std::optional<ack_v1> ack_;
+  Subscription acknowledgements_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,32 @@
+// The only file of the client that reads a clock. Not real-time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace strainwave {
+
+/// A point of the monotonic clock: the only one that ages and time-outs are judged by.
+using Instant = std::chrono::steady_clock::time_point;
+
+Instant now() noexcept;
+
+/// Seconds from `earlier` to `later`.
+double seconds_between(Instant earlier, Instant later) noexcept;
+
+/// us since the epoch, for the utime of messages: records only.
+std::int64_t utime_us() noexcept;
+
+/// A wait that ends.
+class Deadline {
+ public:
+  explicit Deadline(double seconds);
+  bool passed() const noexcept;
+  /// Milliseconds left, rounded up so that waiting this long reaches the deadline; 0 when it has passed.
+  int remaining_ms() const noexcept;
+
+ private:
+  Instant end_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,13 @@
+// Ctrl-C and SIGTERM as a flag, so that a wait ends in order: files closed, the user told what goes on. Not
+// real-time.
+#pragma once
+
+namespace strainwave {
+
+/// From now on SIGINT and SIGTERM set the flag instead of ending the program. A second one ends it at once.
+void catch_interrupts();
+
+/// True once a signal has come.
+bool interrupted() noexcept;
+
+}  // namespace strainwave

@@ -1,0 +1,13 @@
+// strainwavectl: the operator's program.
+#include <unistd.h>
+
+#include <iostream>
+
+#include "client/command_line.h"
+#include "client/interrupt.h"
+
+int main(int argc, char** argv) {
+  strainwave::catch_interrupts();
+  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+  return static_cast<int>(strainwave::run_command_line(argc, argv, std::cout, std::cerr, terminal));
+}

@@ -1,0 +1,23 @@
+// Does a multicast datagram that this PC sends come back to it? LCM needs that, and its own test of it takes
+// ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it
+// disturbs nobody. Not real-time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace strainwave {
+
+/// Group and port of an LCM URL "udpm://GROUP:PORT?..."; LCM's own defaults for what is left out. Nothing for
+/// another kind of URL. The group is text as the URL has it.
+struct MulticastAddress {
+  std::string group;
+  int port = 0;
+};
+std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url);
+
+/// What is wrong and what to do about it, or nothing when multicast works or the URL is not of the kind udpm.
+std::optional<std::string> find_multicast_problem(std::string_view lcm_url);
+
+}  // namespace strainwave

@@ -1,0 +1,161 @@
+// enable, disable, hold, clear-fault, move: one message each, its answer, and where asked the mode that
+// follows.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+
+#include "client/commands.h"
+#include "client/exit_status.h"
+
+namespace strainwave {
+
+namespace {
+
+// A state that left the daemon before it took the order may still arrive after the acknowledgement.
+constexpr double kOldStates_s = 0.1;
+
+Mode mode_of(const JointView& view) {
+  return static_cast<Mode>(view.state.mode);
+}
+
+command_v1 command(Action action) {
+  command_v1 message{};
+  message.action = static_cast<std::int32_t>(action);
+  return message;
+}
+
+void order(Client& client, const std::string& joint, Action action) {
+  const Answer answer = client.request(joint, channel_kind::kCommand, command(action));
+  require_accepted(answer, joint, std::string(to_text(action)));
+}
+
+ClientError faulted(const std::string& joint, const JointView& view) {
+  const auto fault = static_cast<Fault>(view.state.fault);
+  return {ExitStatus::kRefused,
+          fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
+                      view.state.fault, to_text(fault), joint)};
+}
+
+/// What ends the wait of a move before the joint is there, in words; empty while it is on its way.
+std::string move_ended(const JointView& view, double position_rad, std::int64_t session_id) {
+  if (view.state.session_id != session_id) return "the daemon was restarted";
+  const Mode mode = mode_of(view);
+  if (mode == Mode::kOff || mode == Mode::kStopping) return "the joint was disabled";
+  if (view.state.target_position_rad != position_rad) return "another order replaced this one";
+  return "";
+}
+
+void wait_for_arrival(Client& client, const std::string& joint, double position_rad) {
+  const JointView& view = *client.find(joint);
+  const std::int64_t session_id = view.state.session_id;
+  const Deadline old_states(kOldStates_s);
+  bool tracking_seen = false;
+  while (true) {
+    const std::int64_t seen = view.messages;
+    if (!client.wait_until([&] { return view.messages != seen; }, Deadline(client.options().timeout_s))) {
+      throw ClientError(
+          ExitStatus::kNoAnswer,
+          fmt::format("{}: the daemon fell silent during the move; the joint's state is not known", joint));
+    }
+    const Mode mode = mode_of(view);
+    if (mode == Mode::kFaulted) throw faulted(joint, view);
+    tracking_seen = tracking_seen || mode == Mode::kTracking;
+    if (!tracking_seen && !old_states.passed()) continue;
+    if (const std::string end = move_ended(view, position_rad, session_id); !end.empty()) {
+      throw ClientError(ExitStatus::kRefused,
+                        fmt::format("{}: did not arrive at {} rad: {}", joint, position_rad, end));
+    }
+    if (mode == Mode::kHolding) return;
+  }
+}
+
+}  // namespace
+
+void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
+                      const std::string& hint) {
+  if (answer.accepted) return;
+  std::string message = fmt::format("{}: {} refused ({}, {})", joint, what, static_cast<int>(answer.reason),
+                                    to_text(answer.reason));
+  if (!answer.text.empty()) message += ": " + answer.text;
+  if (!hint.empty()) message += "; " + hint;
+  throw ClientError(ExitStatus::kRefused, message);
+}
+
+void enable(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kEnable);
+  const JointView& view = *client.find(joint);
+  const Deadline old_states(kOldStates_s);
+  const auto decided = [&] {
+    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
+    if (mode_of(view) == Mode::kOff && old_states.passed()) {
+      throw ClientError(ExitStatus::kRefused,
+                        joint + ": went back to off while it was starting; see the daemon's log");
+    }
+    return mode_of(view) == Mode::kHolding || mode_of(view) == Mode::kTracking;
+  };
+  if (!client.wait_until(decided, Deadline(client.options().timeout_s))) {
+    throw ClientError(ExitStatus::kNoAnswer, fmt::format("{}: accepted, but still {} after {} s", joint,
+                                                         to_text(mode_of(view)), client.options().timeout_s));
+  }
+  output.stream << fmt::format("{}: enabled, holding at {:.6f} rad\n", joint, view.state.joint_position_rad);
+}
+
+void disable(Client& client, const Output& output, const std::string& joint) {
+  const Answer answer = client.request_unseen(joint, channel_kind::kCommand, command(Action::kDisable));
+  require_accepted(answer, joint, std::string(to_text(Action::kDisable)));
+  const JointView& view = client.wait_for_joint(joint);
+  const auto decided = [&] {
+    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
+    return mode_of(view) == Mode::kOff;
+  };
+  if (!client.wait_until(decided, Deadline(client.options().timeout_s))) {
+    throw ClientError(ExitStatus::kNoAnswer, fmt::format("{}: accepted, but still {} after {} s", joint,
+                                                         to_text(mode_of(view)), client.options().timeout_s));
+  }
+  output.stream << joint << ": disabled\n";
+}
+
+void hold(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kHold);
+  output.stream << joint << ": holding where it stops\n";
+}
+
+void clear_fault(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kClearFault);
+  output.stream << joint << ": fault cleared; enable it to go on\n";
+}
+
+void move(Client& client, const Output& output, const MoveArguments& arguments) {
+  const auto& [joint, position_rad, wait] = arguments;
+  setpoint_v1 message{};
+  message.position_rad = position_rad;
+  message.acknowledge = 1;
+  const Answer answer = client.request(joint, channel_kind::kSetpoint, message);
+  std::string hint;
+  if (answer.reason == Reason::kOutOfRange && std::abs(position_rad) > 2.0 * std::numbers::pi) {
+    hint = fmt::format("positions are in rad: {} degrees would be {:.6g}", position_rad,
+                       position_rad * std::numbers::pi / 180.0);
+  }
+  require_accepted(answer, joint, fmt::format("move to {} rad", position_rad), hint);
+  if (!wait) {
+    output.stream << fmt::format("{}: moving to {} rad\n", joint, position_rad);
+    return;
+  }
+  try {
+    wait_for_arrival(client, joint, position_rad);
+  } catch (const ClientError& error) {
+    if (error.status() != ExitStatus::kInterrupted) throw;
+    throw ClientError(error.status(),
+                      fmt::format("stopped waiting; {} goes on to {} rad. To stop it: strainwavectl "
+                                  "hold {}",
+                                  joint, position_rad, joint));
+  }
+  const state_v1& state = client.find(joint)->state;
+  output.stream << fmt::format("{}: arrived at {} rad, error {:.2e} rad\n", joint, position_rad,
+                               state.joint_position_rad - state.setpoint_position_rad);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,153 @@
+#include "daemon/config.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include "control/input_error.h"
+#include "daemon/config_simulated.h"
+#include "daemon/toml_section.h"
+#include "lcmtypes/channels.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr Range kAnyAngle{-1e4, 1e4};
+constexpr Range kPositive{1e-9, 1e9};
+constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+LoopConfig read_loop(TomlSection& section) {
+  LoopConfig loop;
+  loop.period_s = section.number_or("period_s", loop.period_s, {1e-4, 0.1});
+  loop.real_time = section.choice_or("real_time", "enforce", {"enforce", "ignore"}) == "ignore"
+                       ? RealTimePolicy::kIgnore
+                       : RealTimePolicy::kEnforce;
+  loop.priority = static_cast<int>(section.integer_or("priority", loop.priority, 1, 98));
+  loop.cpu = static_cast<int>(section.integer_or("cpu", loop.cpu, -1, 1023));
+  loop.overrun_limit = static_cast<int>(section.integer_or("overrun_limit", loop.overrun_limit, 1, 1000000));
+  loop.state_rate_Hz = section.number_or("state_rate_Hz", loop.state_rate_Hz, {0.1, 1.0 / loop.period_s});
+  return loop;
+}
+
+std::string read_name(TomlSection& section, std::string_view key, std::string fallback) {
+  std::string name = fallback.empty() ? section.text(key) : section.text_or(key, std::move(fallback));
+  if (!is_valid_name(name)) section.fail(key, "1 to 24 of the characters A-Z a-z 0-9 _ - are allowed");
+  return name;
+}
+
+void read_limits(TomlSection section, JointLoopConfig& loop) {
+  JointLimits& limits = loop.limits;
+  limits.position_min_rad = section.number("position_min_rad", kAnyAngle);
+  limits.position_max_rad = section.number("position_max_rad", kAnyAngle);
+  if (limits.position_min_rad >= limits.position_max_rad)
+    section.fail("position_max_rad", "a position above position_min_rad is allowed");
+  limits.position_margin_rad = section.number_or("position_margin_rad", 0.05, {0.0, 10.0});
+  loop.controller.motion.velocity_rad_s = section.number("speed_rad_s", {1e-4, 1e3});
+  loop.controller.motion.acceleration_rad_s2 = section.number("acceleration_rad_s2", {1e-3, 1e6});
+  loop.controller.motion.deceleration_rad_s2 =
+      section.number_or("deceleration_rad_s2", loop.controller.motion.acceleration_rad_s2, {1e-3, 1e6});
+  const double speed_rad_s = loop.controller.motion.velocity_rad_s;
+  limits.overspeed_rad_s = section.number_or("overspeed_rad_s", 1.25 * speed_rad_s + 0.1, {speed_rad_s, 1e3});
+  limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
+  loop.controller.torque_limit_Nm = section.number("torque_Nm", kPositive);
+  limits.hot_C = section.number_or("temperature_C", 80.0, {-50.0, 200.0});
+  section.refuse_unknown_keys();
+}
+
+void read_temperature_check(TomlSection section, TemperatureCheckConfig& check) {
+  check.min_C = section.number_or("min_C", check.min_C, {-273.0, 300.0});
+  check.max_C = section.number_or("max_C", check.max_C, {check.min_C, 300.0});
+  check.max_rate_C_s = section.number_or("max_rate_C_s", check.max_rate_C_s, {1e-3, 1e3});
+  check.max_step_C = section.number_or("max_step_C", check.max_step_C, {1e-3, 300.0});
+  check.max_age_s = section.number_or("max_age_s", check.max_age_s, {1e-3, 3600.0});
+  check.recovery_s = section.number_or("recovery_s", check.recovery_s, {0.0, 3600.0});
+  section.refuse_unknown_keys();
+}
+
+void read_timeouts(TomlSection section, JointLoopConfig& loop) {
+  loop.start_timeout_s = section.number_or("start_timeout_s", loop.start_timeout_s, {0.01, 60.0});
+  loop.stop_timeout_s = section.number_or("stop_timeout_s", loop.stop_timeout_s, {0.01, 60.0});
+  loop.standstill_rad_s = section.number_or("standstill_rad_s", loop.standstill_rad_s, {1e-6, 1.0});
+  loop.missed_readings_limit =
+      static_cast<int>(section.integer_or("missed_readings_limit", loop.missed_readings_limit, 0, 1000));
+  section.refuse_unknown_keys();
+}
+
+void read_features(TomlSection section, JointControllerConfig& controller) {
+  controller.use_observer = section.boolean_or("observer", controller.use_observer);
+  controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
+  controller.use_rest = section.boolean_or("rest", controller.use_rest);
+  section.refuse_unknown_keys();
+}
+
+JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder) {
+  JointConfig joint;
+  joint.name = read_name(section, "name", "");
+  joint.plant.joint_model = FixedString<32>(section.text("joint_model"));
+  joint.plant.inertia_kgm2 = section.number("inertia_kgm2", kPositive);
+  joint.plant.gear_ratio = section.number("gear_ratio", {1e-3, 1e5});
+  joint.plant.period_s = period_s;
+  joint.loop.controller.period_s = period_s;
+  if (section.has("table")) joint.table = folder / section.text("table");
+  read_limits(section.section("limits"), joint.loop);
+  read_temperature_check(section.section_or_empty("temperature"), joint.loop.temperature);
+  read_timeouts(section.section_or_empty("supervision"), joint.loop);
+  read_features(section.section_or_empty("control"), joint.loop.controller);
+  joint.driver = section.choice("driver", {"simulated"});
+  TomlSection driver = section.section_or_empty(joint.driver);
+  read_simulated_driver(driver, period_s, joint);
+  driver.refuse_unknown_keys();
+  section.refuse_unknown_keys();
+  return joint;
+}
+
+toml::table parse_file(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path.string() + ": cannot be read: give an existing file to --config");
+  std::ostringstream text;
+  text << file.rdbuf();
+  try {
+    return toml::parse(text.str(), path.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(path.string() + ":" + std::to_string(error.source().begin.line) + ": not valid TOML: " +
+                     std::string(error.description()));
+  }
+}
+
+}  // namespace
+
+DaemonConfig read_config(const std::filesystem::path& path) {
+  const toml::table file = parse_file(path);
+  TomlSection root(file, path.string(), "");
+  DaemonConfig config;
+  TomlSection daemon = root.section_or_empty("daemon");
+  config.loop = read_loop(daemon);
+  config.prefix = read_name(daemon, "prefix", "SW");
+  config.lcm_url = daemon.text_or("lcm_url", kDefaultLcmUrl);
+  daemon.refuse_unknown_keys();
+
+  std::vector<TomlSection> joints = root.sections("joint");
+  if (joints.size() > kMaxJoints) root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");
+  std::set<std::string> names;
+  for (TomlSection& section : joints) {
+    config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path()));
+    if (!names.insert(config.joints.back().name).second) section.fail("name", "each joint needs a name of its own");
+  }
+  root.refuse_unknown_keys();
+  return config;
+}
+
+std::vector<JointAdmission> admission_of(const DaemonConfig& config) {
+  std::vector<JointAdmission> joints;
+  for (const JointConfig& joint : config.joints)
+    joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad, joint.loop.limits.position_max_rad,
+                      joint.loop.controller.torque_limit_Nm});
+  return joints;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,57 @@
+// The configuration file of strainwaved: TOML, read once at start, strict. A value that exists is valid. Not real-time.
+// docs/configuration.md lists every key.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/gain_table.h"
+#include "daemon/admission.h"
+#include "daemon/realtime/joint_loop.h"
+#include "drivers/actuator.h"
+
+namespace strainwave {
+
+/// What to do when the system refuses real-time scheduling or memory locking.
+enum class RealTimePolicy { kEnforce, kIgnore };
+
+struct LoopConfig {
+  double period_s = 0.001;
+  RealTimePolicy real_time = RealTimePolicy::kEnforce;
+  int priority = 80;             ///< SCHED_FIFO
+  int cpu = -1;                  ///< pin to this processor; -1: do not
+  int overrun_limit = 10;        ///< cycles in a row that begin late by a period or more
+  double state_rate_Hz = 200.0;
+};
+
+/// Makes the joint's driver; called once, before the loop runs. Throws InputError.
+using ActuatorFactory = std::function<std::unique_ptr<Actuator>()>;
+
+struct JointConfig {
+  std::string name;
+  PlantIdentity plant;
+  JointLoopConfig loop;
+  std::string driver;
+  std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
+  ActuatorFactory make_actuator;
+  std::filesystem::path table;  ///< initial gain table; empty: none
+};
+
+struct DaemonConfig {
+  LoopConfig loop;
+  std::string prefix;
+  std::string lcm_url;
+  std::vector<JointConfig> joints;
+};
+
+/// Reads `path`. Throws InputError naming file, line, key, value and what is allowed: unreadable or malformed file,
+/// unknown, missing or repeated keys, impossible values, joints of the same name.
+DaemonConfig read_config(const std::filesystem::path& path);
+
+/// What admission needs of it.
+std::vector<JointAdmission> admission_of(const DaemonConfig& config);
+
+}  // namespace strainwave

@@ -1,0 +1,13 @@
+// The keys of [joint.simulated]: the simulated joint behind the drivers' seam. Not real-time.
+#pragma once
+
+#include "daemon/config.h"
+#include "daemon/toml_section.h"
+
+namespace strainwave {
+
+/// Reads the section and sets what depends on the driver: make_actuator and the encoder, delay and motor data of the
+/// controller. Throws InputError.
+void read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint);
+
+}  // namespace strainwave

@@ -1,0 +1,42 @@
+// Logging of the core's supervisor and the start-up: spdlog to the journal under systemd, else to stderr. Never from the
+// real-time thread.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace strainwave {
+
+/// Chooses the sink. Call once, first.
+void start_logging();
+
+/// Lets at most `burst` lines through per `window`, and says how many it kept back.
+class LogLimiter {
+ public:
+  LogLimiter(int burst, std::int64_t window_ns) : burst_(burst), window_ns_(window_ns) {}
+  /// Whether to log now; `suppressed` is set to the number kept back in the window before, else 0.
+  bool allow(std::int64_t now_ns, std::int64_t& suppressed) {
+    suppressed = 0;
+    if (now_ns - window_start_ns_ >= window_ns_) {
+      suppressed = suppressed_;
+      suppressed_ = 0;
+      used_ = 0;
+      window_start_ns_ = now_ns;
+    }
+    if (used_ < burst_) {
+      ++used_;
+      return true;
+    }
+    ++suppressed_;
+    return false;
+  }
+
+ private:
+  int burst_;
+  std::int64_t window_ns_;
+  std::int64_t window_start_ns_ = 0;
+  int used_ = 0;
+  std::int64_t suppressed_ = 0;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,34 @@
+// strainwaved: the real-time control daemon. `strainwaved --config FILE`; see docs/configuration.md.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "control/input_error.h"
+#include "daemon/config.h"
+#include "daemon/log.h"
+#include "daemon/supervisor.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Real-time control of strain-wave joints whose friction changes with temperature."};
+  std::string config_path;
+  bool check_only = false;
+  app.add_option("--config", config_path, "configuration file (TOML)")->required();
+  app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
+  app.set_version_flag("--version", STRAINWAVE_VERSION);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const strainwave::DaemonConfig config = strainwave::read_config(config_path);
+    if (check_only) {
+      std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix << '\n';
+      return 0;
+    }
+    strainwave::start_logging();
+    strainwave::Supervisor supervisor(config);
+    supervisor.run();
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "strainwaved: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,112 @@
+#include "daemon/realtime/realtime_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include "control/input_error.h"
+#include "daemon/realtime/realtime_setup.h"
+
+namespace strainwave {
+
+RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::states)& states)
+    : config_(config.loop),
+      period_ns_(std::llround(config.loop.period_s * 1e9)),
+      publish_every_(std::max<std::int64_t>(1, std::llround(1.0 / (config.loop.period_s * config.loop.state_rate_Hz)))),
+      stop_deadline_periods_(0),
+      states_(states),
+      replies_(std::make_unique<ReplyQueue>()),
+      events_(std::make_unique<EventQueue>()),
+      statistics_(std::make_unique<LoopStatistics>()) {
+  for (const JointConfig& joint : config.joints) {
+    joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
+                                                  joint.make_actuator(), *replies_, *events_));
+    // One more second than the slowest joint may take, which by then has faulted and is off.
+    const double allowed_s = joint.loop.stop_timeout_s + 1.0;
+    stop_deadline_periods_ =
+        std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.loop.period_s));
+  }
+}
+
+RealtimeLoop::~RealtimeLoop() {
+  request_stop();
+  may_run_.store(true, std::memory_order_release);
+  if (thread_.joinable()) thread_.join();
+}
+
+void RealtimeLoop::start() {
+  refusal_ = lock_memory();
+  sleep_state_refusal_ = dma_latency_.request();
+  thread_ = std::thread([this] { thread_main(); });
+  while (!set_up_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (!refusal_.empty() && config_.real_time == RealTimePolicy::kEnforce) {
+    request_stop();
+    may_run_.store(true, std::memory_order_release);
+    thread_.join();
+    throw InputError("real time refused: " + refusal_ +
+                     "; or set daemon.real_time = \"ignore\" to run without (never with a real joint)");
+  }
+  may_run_.store(true, std::memory_order_release);
+}
+
+void RealtimeLoop::thread_main() {
+  const std::string refused = make_thread_real_time(config_.priority, config_.cpu);
+  if (refusal_.empty()) refusal_ = refused;
+  set_up_.store(true, std::memory_order_release);
+  while (!may_run_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  run();
+  for (const auto& joint : joints_) joint->stop_drive();
+  finished_.store(true, std::memory_order_release);
+}
+
+void RealtimeLoop::run() noexcept {
+  const long page_faults_before = thread_page_faults();
+  PeriodicClock clock(period_ns_);
+  clock.start();
+  CycleTime time;
+  for (;;) {
+    const PeriodicClock::Wake wake = clock.wait();
+    time.cycle += 1 + wake.skipped;
+    time.now_ns = wake.woke_ns;
+    account_wake(wake, time);
+    bring_to_rest_when_asked(time);
+    for (const auto& joint : joints_) joint->step(time);
+    publish(time);
+
+    const bool at_rest = std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });
+    const bool waited_enough = time.cycle - stop_since_cycle_ > stop_deadline_periods_;
+    if (stop_since_cycle_ >= 0 && (at_rest || waited_enough)) return;
+
+    statistics_->execution_time.add(monotonic_now_ns() - wake.woke_ns);
+    statistics_->page_faults.store(thread_page_faults() - page_faults_before, std::memory_order_relaxed);
+    statistics_->cycles.store(statistics_->cycles.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
+}
+
+void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept {
+  statistics_->wakeup_latency.add(wake.woke_ns - wake.planned_ns);
+  if (previous_wake_ns_ != 0) statistics_->period_error.add(std::abs(wake.woke_ns - previous_wake_ns_ - period_ns_));
+  previous_wake_ns_ = wake.woke_ns;
+  statistics_->overruns.store(statistics_->overruns.load(std::memory_order_relaxed) + wake.skipped,
+                              std::memory_order_relaxed);
+  overruns_in_a_row_ = wake.skipped > 0 ? overruns_in_a_row_ + 1 : 0;
+  if (overruns_in_a_row_ < config_.overrun_limit) return;
+  overruns_in_a_row_ = 0;
+  for (const auto& joint : joints_)
+    if (joint->mode() != Mode::kOff) joint->raise_fault(Fault::kOverruns, time);
+}
+
+void RealtimeLoop::bring_to_rest_when_asked(const CycleTime& time) noexcept {
+  if (!stop_requested_.load(std::memory_order_acquire)) return;
+  if (stop_since_cycle_ < 0) stop_since_cycle_ = time.cycle;
+  for (const auto& joint : joints_) joint->order_disable(time);
+}
+
+void RealtimeLoop::publish(const CycleTime& time) noexcept {
+  if (time.cycle < next_publish_cycle_) return;
+  next_publish_cycle_ = time.cycle - time.cycle % publish_every_ + publish_every_;
+  for (const auto& joint : joints_) states_.write(joint->record());
+}
+
+}  // namespace strainwave

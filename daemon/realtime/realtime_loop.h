@@ -1,0 +1,89 @@
+// The loop: one real-time thread that runs every joint once a period.
+//
+// Constructing and starting it is not real-time; run() between its first and last line is: no allocation, lock, log,
+// exception or file access. It stops by bringing every joint to rest, never by leaving one driven.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "daemon/config.h"
+#include "daemon/realtime/dma_latency.h"
+#include "daemon/realtime/histogram.h"
+#include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/periodic_clock.h"
+#include "daemon/shared_memory.h"
+
+namespace strainwave {
+
+/// Written by the loop, read by anybody.
+struct LoopStatistics {
+  std::atomic<std::int64_t> cycles{0};
+  std::atomic<std::int64_t> overruns{0};
+  std::atomic<std::int64_t> page_faults{0};
+  Histogram wakeup_latency;
+  Histogram execution_time;
+  Histogram period_error;
+};
+
+class RealtimeLoop {
+ public:
+  /// Makes the drivers and the joints. `states` is where records go. Throws InputError.
+  RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::states)& states);
+  /// Stops and joins.
+  ~RealtimeLoop();
+  RealtimeLoop(const RealtimeLoop&) = delete;
+  RealtimeLoop& operator=(const RealtimeLoop&) = delete;
+
+  /// Locks memory, starts the thread, waits for its set-up. Throws InputError when real time is refused and the
+  /// configuration enforces it; otherwise real_time_refusal() says what was refused.
+  void start();
+  const std::string& real_time_refusal() const noexcept { return refusal_; }
+  /// What would have made wake-ups better but is not needed for real time; empty when granted.
+  const std::string& sleep_state_refusal() const noexcept { return sleep_state_refusal_; }
+
+  /// Brings every joint to rest, then ends the loop; finished() tells when.
+  void request_stop() noexcept { stop_requested_.store(true, std::memory_order_release); }
+  bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
+
+  JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
+  std::size_t joint_count() const noexcept { return joints_.size(); }
+  ReplyQueue& replies() noexcept { return *replies_; }
+  EventQueue& events() noexcept { return *events_; }
+  const LoopStatistics& statistics() const noexcept { return *statistics_; }
+
+ private:
+  void thread_main();
+  void run() noexcept;
+  void account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept;
+  void bring_to_rest_when_asked(const CycleTime& time) noexcept;
+  void publish(const CycleTime& time) noexcept;
+
+  LoopConfig config_;
+  std::int64_t period_ns_;
+  std::int64_t publish_every_;
+  std::int64_t stop_deadline_periods_;
+  decltype(OutboundMemory::states)& states_;
+  std::unique_ptr<ReplyQueue> replies_;
+  std::unique_ptr<EventQueue> events_;
+  std::unique_ptr<LoopStatistics> statistics_;
+  std::vector<std::unique_ptr<JointLoop>> joints_;
+  std::thread thread_;
+  std::string refusal_;
+  std::string sleep_state_refusal_;
+  DmaLatency dma_latency_;
+  std::atomic<bool> set_up_{false};
+  std::atomic<bool> may_run_{false};
+  std::atomic<bool> stop_requested_{false};
+  std::atomic<bool> finished_{false};
+  std::int64_t previous_wake_ns_ = 0;
+  std::int64_t next_publish_cycle_ = 0;
+  std::int64_t stop_since_cycle_ = -1;
+  int overruns_in_a_row_ = 0;
+};
+
+}  // namespace strainwave

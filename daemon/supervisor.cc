@@ -1,0 +1,345 @@
+#include "daemon/supervisor.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sodium.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <systemd/sd-daemon.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <new>
+#include <system_error>
+#include <thread>
+
+#include "control/gain_table_json.h"
+#include "control/input_error.h"
+#include "daemon/table_admission.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kTurn_ms = 5;
+constexpr std::int64_t kReplyTimeout_ns = 500 * kMillisecond_ns;
+constexpr std::int64_t kTemperatureEvery_ns = 100 * kMillisecond_ns;
+constexpr std::int64_t kTimingEvery_ns = 1000 * kMillisecond_ns;
+constexpr std::int64_t kWatchdogEvery_ns = 200 * kMillisecond_ns;
+constexpr std::int64_t kGatewayStart_ns = 5000 * kMillisecond_ns;
+/// The loop meets its timing when it has run this many cycles.
+constexpr std::int64_t kCyclesUntilReady = 100;
+
+std::int64_t make_session_id() {
+  if (::sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
+  std::int64_t id = 0;
+  ::randombytes_buf(&id, sizeof id);
+  return id & INT64_MAX;
+}
+
+int make_signal_fd() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGCHLD}) ::sigaddset(&signals, signal);
+  // Blocked before any thread starts, so that all signals arrive here.
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  const int descriptor = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+  return descriptor;
+}
+
+int make_wake_fd() {
+  const int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+  return descriptor;
+}
+
+std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
+  std::vector<InstanceLock> locks;
+  locks.emplace_back("prefix " + config.prefix,
+                     "stop that one (systemctl stop strainwaved), or give this one its own daemon.prefix");
+  for (const JointConfig& joint : config.joints)
+    if (!joint.driver_resource.empty())
+      locks.emplace_back("drive " + joint.driver_resource, "a drive has one master; stop the other daemon");
+  return locks;
+}
+
+// What the loop's refusal means for whoever asked: the mode it met, and the way on.
+std::string advice(const Reply& reply) {
+  const std::string mode = "the joint is " + std::string(to_text(reply.mode));
+  switch (reply.reason) {
+    case Reason::kNoTable: return mode + ": load a gain table first";
+    case Reason::kFaulted: return mode + ": see its fault, remove the cause, clear the fault";
+    case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
+    case Reason::kWrongMode:
+      return mode + (reply.mode == Mode::kOff ? ": enable it first" : ": this order does nothing in this mode");
+    default: return mode;
+  }
+}
+
+std::vector<std::string> names_of(const DaemonConfig& config) {
+  std::vector<std::string> names;
+  for (const JointConfig& joint : config.joints) names.push_back(joint.name);
+  return names;
+}
+
+}  // namespace
+
+Supervisor::Supervisor(const DaemonConfig& config)
+    : config_(config),
+      locks_(take_locks(config)),
+      session_id_(make_session_id()),
+      outbound_file_(MemoryFile::create("strainwave-outbound", sizeof(OutboundMemory), true)),
+      inbound_file_(MemoryFile::create("strainwave-inbound", sizeof(InboundMemory), false)),
+      outbound_(*new (outbound_file_.address()) OutboundMemory),
+      inbound_(*new (inbound_file_.address()) InboundMemory),
+      wake_fd_(make_wake_fd()),
+      signal_fd_(make_signal_fd()),
+      loop_(config, outbound_.states),
+      admission_(config.prefix, session_id_, admission_of(config)),
+      answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
+      gateway_(find_gateway_program(), {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_fd_}),
+      books_(config.joints.size()),
+      latest_(config.joints.size()),
+      refusal_log_(20, 10'000 * kMillisecond_ns),
+      incoming_(std::make_unique<WireMessage>()) {
+  fill_shared_memory();
+  load_initial_tables();
+}
+
+Supervisor::~Supervisor() {
+  ::close(wake_fd_);
+  ::close(signal_fd_);
+}
+
+void Supervisor::fill_shared_memory() {
+  outbound_.prefix = FixedString<32>(config_.prefix);
+  outbound_.lcm_url = FixedString<256>(config_.lcm_url);
+  outbound_.session_id = session_id_;
+  outbound_.joint_count = config_.joints.size();
+  for (std::size_t i = 0; i < config_.joints.size(); ++i)
+    outbound_.joint_names[i] = FixedString<32>(config_.joints[i].name);
+}
+
+// The loop has not started: the orders wait in the queues and are its first.
+void Supervisor::load_initial_tables() {
+  for (std::size_t i = 0; i < config_.joints.size(); ++i) {
+    const JointConfig& joint = config_.joints[i];
+    if (joint.table.empty()) continue;
+    Verdict verdict;
+    verdict.table = std::make_unique<GainTable>(read_gain_table(joint.table));
+    const TableVerdict judged = judge_table(*verdict.table, joint.plant, joint.loop.controller.torque_limit_Nm);
+    if (judged.reason != Reason::kAccepted)
+      throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
+    spdlog::info("{}: table {} from {}, {}", joint.name, verdict.table->name.view(), joint.table.string(), judged.text);
+    verdict.requester.joint = i;
+    verdict.order.kind = OrderKind::kUseTable;
+    if (!prepare_table(verdict) || !loop_.joint(i).orders().push(verdict.order))
+      throw InputError(joint.table.string() + ": cannot be loaded for joint " + joint.name);
+    books_[i].end(true);
+  }
+}
+
+void Supervisor::start_gateway() {
+  gateway_.start(monotonic_now_ns());
+  const std::int64_t deadline_ns = monotonic_now_ns() + kGatewayStart_ns;
+  while (inbound_.ready.load(std::memory_order_acquire) == 0) {
+    const std::int64_t now_ns = monotonic_now_ns();
+    if (const auto end = gateway_.take_end(now_ns))
+      throw InputError("the gateway ended with " + *end +
+                       (gateway_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
+    if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+void Supervisor::run() {
+  // The gateway first: a process started by a real-time one would inherit too much.
+  start_gateway();
+  loop_.start();
+  if (loop_.real_time_refusal().empty())
+    spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
+  else
+    spdlog::warn("no real time: {}", loop_.real_time_refusal());
+  if (!loop_.sleep_state_refusal().empty()) spdlog::warn("{}", loop_.sleep_state_refusal());
+  spdlog::info("prefix {}, {} joint(s), period {} s, session {}", config_.prefix, config_.joints.size(),
+               config_.loop.period_s, session_id_);
+  while (!loop_.finished()) {
+    wait(kTurn_ms);
+    turn(monotonic_now_ns());
+  }
+  turn(monotonic_now_ns());
+  spdlog::info("stopped: every joint is at rest");
+}
+
+void Supervisor::turn(std::int64_t now_ns) {
+  take_messages(now_ns);
+  take_replies(now_ns);
+  take_events();
+  take_states(now_ns);
+  watch_gateway(now_ns);
+  publish_timing(now_ns);
+  tell_systemd(now_ns);
+}
+
+void Supervisor::wait(std::int64_t wait_ms) {
+  // While the loop owes a reply, look often: it has no way to wake anybody.
+  const int timeout_ms = pending_.empty() ? static_cast<int>(wait_ms) : 1;
+  std::array<pollfd, 2> descriptors{{{wake_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
+  if (::poll(descriptors.data(), descriptors.size(), timeout_ms) <= 0) return;
+  std::uint64_t wakes = 0;
+  if ((descriptors[0].revents & POLLIN) != 0 && ::read(wake_fd_, &wakes, sizeof wakes) < 0) return;
+  signalfd_siginfo signal{};
+  while (::read(signal_fd_, &signal, sizeof signal) == sizeof signal) {
+    if (signal.ssi_signo == SIGCHLD || stopping_) continue;
+    stopping_ = true;
+    spdlog::info("signal {}: bringing every joint to rest", signal.ssi_signo);
+    ::sd_notify(0, "STOPPING=1");
+    loop_.request_stop();
+  }
+}
+
+void Supervisor::take_messages(std::int64_t now_ns) {
+  const std::uint64_t written = inbound_.written.load(std::memory_order_acquire);
+  // A gateway that lies about its counter loses what it sent and harms nobody.
+  if (written - inbound_taken_ > InboundMemory::kMessages) inbound_taken_ = written;
+  for (; inbound_taken_ != written; ++inbound_taken_) {
+    *incoming_ = inbound_.messages[inbound_taken_ % InboundMemory::kMessages];
+    outbound_.inbound_taken.store(inbound_taken_ + 1, std::memory_order_release);
+    dispatch(admission_.consider(*incoming_), now_ns);
+  }
+}
+
+void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
+  switch (verdict.kind) {
+    case Verdict::Kind::kDiscard: return log_refusal(verdict, now_ns);
+    case Verdict::Kind::kRepeat: return answers_.repeat(verdict.requester);
+    case Verdict::Kind::kRefuse:
+      log_refusal(verdict, now_ns);
+      return answers_.answer(verdict.requester, verdict.reason, verdict.text);
+    case Verdict::Kind::kOrder: break;
+  }
+  const bool is_table = verdict.order.kind == OrderKind::kUseTable;
+  if (is_table && !prepare_table(verdict)) {
+    admission_.count_reject(verdict.reason);
+    log_refusal(verdict, now_ns);
+    return answers_.answer(verdict.requester, verdict.reason, verdict.text);
+  }
+  verdict.order.id = next_order_id_++;
+  if (!loop_.joint(verdict.requester.joint).orders().push(verdict.order)) {
+    if (is_table) books_[verdict.requester.joint].end(false);
+    admission_.count_reject(Reason::kBusy);
+    return answers_.answer(verdict.requester, Reason::kBusy, "too many orders at once: send fewer, or wait for answers");
+  }
+  pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, is_table};
+}
+
+// Puts the table into a slot that the loop does not use, or names the slot to return to.
+bool Supervisor::prepare_table(Verdict& verdict) {
+  TableBook& book = books_[verdict.requester.joint];
+  const auto slot = verdict.revert_table ? book.previous_slot() : book.free_slot();
+  if (book.busy() || !slot) {
+    verdict.reason = book.busy() ? Reason::kBusy : Reason::kNoPreviousTable;
+    verdict.text = book.busy() ? "another table is just being taken over" : "there is no table to go back to";
+    return false;
+  }
+  JointLoop& joint = loop_.joint(verdict.requester.joint);
+  if (verdict.table) joint.table_slot(*slot) = {*verdict.table, table_digest(*verdict.table)};
+  verdict.order.table_slot = static_cast<std::int32_t>(*slot);
+  book.begin(*slot);
+  return true;
+}
+
+void Supervisor::take_replies(std::int64_t now_ns) {
+  Reply reply;
+  while (loop_.replies().pop(reply)) {
+    const auto found = pending_.find(reply.id);
+    if (found == pending_.end()) continue;
+    const Pending& pending = found->second;
+    const bool accepted = reply.reason == Reason::kAccepted;
+    if (pending.is_table) books_[pending.requester.joint].end(accepted);
+    if (!accepted) admission_.count_reject(reply.reason);
+    answers_.answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply));
+    pending_.erase(found);
+  }
+  for (auto it = pending_.begin(); it != pending_.end() && it->second.deadline_ns < now_ns;) {
+    // A table order stays pending in the book: the loop may still take it.
+    answers_.answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state");
+    it = it->second.is_table ? std::next(it) : pending_.erase(it);
+  }
+}
+
+void Supervisor::take_events() {
+  LoopEvent event;
+  while (loop_.events().pop(event)) {
+    const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
+    if (event.to == Mode::kFaulted)
+      spdlog::error("{}: fault {}: {} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
+                    to_text(event.from), event.cycle);
+    else
+      spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
+  }
+}
+
+void Supervisor::take_states(std::int64_t now_ns) {
+  StateRecord record{};
+  std::uint64_t dropped = 0;
+  while (outbound_.states.read(state_cursor_, record, dropped))
+    latest_[static_cast<std::size_t>(record.joint_index)] = record;
+  if (state_cursor_ == 0 || now_ns < temperature_due_ns_) return;
+  temperature_due_ns_ = now_ns + kTemperatureEvery_ns;
+  for (const StateRecord& latest : latest_) answers_.temperature(latest);
+}
+
+void Supervisor::watch_gateway(std::int64_t now_ns) {
+  if (const auto end = gateway_.take_end(now_ns)) spdlog::error("the gateway ended with {}: starting it again", *end);
+  if (!stopping_ && gateway_.start_due(now_ns)) {
+    try {
+      gateway_.start(now_ns);
+    } catch (const std::system_error& error) {
+      spdlog::error("{}", error.what());
+    }
+  }
+  const std::uint64_t foreign = inbound_.foreign_states.load(std::memory_order_relaxed);
+  if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
+    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix", config_.prefix);
+  foreign_states_seen_ = foreign;
+}
+
+void Supervisor::publish_timing(std::int64_t now_ns) {
+  if (now_ns < timing_due_ns_) return;
+  timing_due_ns_ = now_ns + kTimingEvery_ns;
+  answers_.timing(loop_.statistics(), admission_.rejects(), config_.loop, loop_.real_time_refusal().empty(),
+                  static_cast<std::int64_t>(inbound_.state_records_dropped.load(std::memory_order_relaxed)));
+}
+
+void Supervisor::tell_systemd(std::int64_t now_ns) {
+  const std::int64_t cycles = loop_.statistics().cycles.load(std::memory_order_acquire);
+  if (!ready_ && cycles >= kCyclesUntilReady) {
+    ready_ = true;
+    ::sd_notify(0, "READY=1");
+    spdlog::info("ready");
+  }
+  if (now_ns < watchdog_due_ns_) return;
+  watchdog_due_ns_ = now_ns + kWatchdogEvery_ns;
+  // Only a loop that goes round may keep the service alive.
+  if (cycles > watchdog_cycles_) ::sd_notify(0, "WATCHDOG=1");
+  watchdog_cycles_ = cycles;
+}
+
+void Supervisor::log_refusal(const Verdict& verdict, std::int64_t now_ns) {
+  std::int64_t suppressed = 0;
+  if (!refusal_log_.allow(now_ns, suppressed)) return;
+  if (suppressed > 0) spdlog::warn("{} more refused messages were not logged", suppressed);
+  if (verdict.kind == Verdict::Kind::kDiscard)
+    spdlog::warn("message on {} discarded: {}", incoming_->channel.view(), to_text(verdict.reason));
+  else
+    spdlog::warn("{}: refused: {}: {}", config_.joints[verdict.requester.joint].name, to_text(verdict.reason), verdict.text);
+}
+
+}  // namespace strainwave

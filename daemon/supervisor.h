@@ -1,0 +1,87 @@
+// The core's ordinary thread: everything around the loop that may block, allocate or log. It starts the gateway, admits
+// what comes from it, passes orders to the joints and answers, publishes slow messages, logs, tells systemd how it goes,
+// and ends the daemon in order. Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "daemon/admission.h"
+#include "daemon/answers.h"
+#include "daemon/config.h"
+#include "daemon/gateway_process.h"
+#include "daemon/instance_lock.h"
+#include "daemon/log.h"
+#include "daemon/realtime/realtime_loop.h"
+#include "daemon/shared_memory.h"
+#include "daemon/table_book.h"
+
+namespace strainwave {
+
+class Supervisor {
+ public:
+  /// Takes the locks, makes drivers and shared memory. Throws InputError or std::system_error.
+  explicit Supervisor(const DaemonConfig& config);
+  ~Supervisor();
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  /// Runs until SIGTERM or SIGINT has brought every joint to rest.
+  void run();
+
+ private:
+  struct Pending {
+    Requester requester;
+    std::string text;         ///< to send with the acceptance
+    std::int64_t deadline_ns;
+    bool is_table;
+  };
+  void fill_shared_memory();
+  void load_initial_tables();
+  void start_gateway();
+  void turn(std::int64_t now_ns);
+  void wait(std::int64_t wait_ms);
+  void take_messages(std::int64_t now_ns);
+  void dispatch(Verdict verdict, std::int64_t now_ns);
+  bool prepare_table(Verdict& verdict);
+  void take_replies(std::int64_t now_ns);
+  void take_events();
+  void take_states(std::int64_t now_ns);
+  void watch_gateway(std::int64_t now_ns);
+  void publish_timing(std::int64_t now_ns);
+  void tell_systemd(std::int64_t now_ns);
+  void log_refusal(const Verdict& verdict, std::int64_t now_ns);
+
+  DaemonConfig config_;
+  std::vector<InstanceLock> locks_;
+  std::int64_t session_id_;
+  MemoryFile outbound_file_;
+  MemoryFile inbound_file_;
+  OutboundMemory& outbound_;
+  InboundMemory& inbound_;
+  int wake_fd_;
+  int signal_fd_;
+  RealtimeLoop loop_;
+  Admission admission_;
+  Answers answers_;
+  GatewayProcess gateway_;
+  std::vector<TableBook> books_;
+  std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
+  std::vector<StateRecord> latest_;          ///< of each joint
+  LogLimiter refusal_log_;
+  std::unique_ptr<WireMessage> incoming_;
+  std::int64_t next_order_id_ = 1;
+  std::uint64_t inbound_taken_ = 0;
+  std::uint64_t state_cursor_ = 0;
+  std::uint64_t foreign_states_seen_ = 0;
+  std::int64_t temperature_due_ns_ = 0;
+  std::int64_t timing_due_ns_ = 0;
+  std::int64_t watchdog_due_ns_ = 0;
+  std::int64_t watchdog_cycles_ = -1;
+  bool ready_ = false;
+  bool stopping_ = false;
+};
+
+}  // namespace strainwave

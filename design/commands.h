@@ -1,0 +1,21 @@
+// The subcommands of strainwave-design. Each adds itself to the command line and returns what to run when it
+// was chosen. Offline.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace strainwave {
+
+/// Returns the exit status; throws InputError.
+using Action = std::function<int()>;
+
+Action add_fit_command(CLI::App& app, CLI::App*& command);
+Action add_gains_command(CLI::App& app, CLI::App*& command);
+Action add_verify_command(CLI::App& app, CLI::App*& command);
+Action add_show_command(CLI::App& app, CLI::App*& command);
+
+}  // namespace strainwave

@@ -1,0 +1,184 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+
+#include "control/gain_table_json.h"
+#include "control/input_error.h"
+#include "design/commands.h"
+#include "design/controller_design.h"
+#include "design/friction_file.h"
+#include "design/table_report.h"
+
+namespace strainwave {
+
+namespace {
+
+// The reference case: the RHS-17-6006 of the source with its weights.
+struct Options {
+  std::string friction;
+  std::string rules_side = "joint";
+  std::string out;
+  std::string name;
+  std::string controller = "C4";
+  std::string joint_model = "rhs17-6006";
+  double inertia_kgm2 = 0.089;
+  double gear_ratio = 50.0;
+  double period_s = 1e-3;
+  std::string sampling = "euler";
+  double torque_limit_Nm = 34.0;
+  std::vector<double> weights{0.1, 1.0, 1e-4, 1e-6};
+  std::vector<double> x0{0.0, 1.0, 0.0};
+  std::vector<double> x0_box;
+  double margin = 0.01;
+  double decay_rate = 1.0;
+  double max_torque_Nm = 0.0;
+  double max_position_rad = 0.0;
+  double max_velocity_rad_s = 0.0;
+  double max_integral_rad_s = 0.0;
+};
+
+// ISO 8601 of now, or of SOURCE_DATE_EPOCH for reproducible files.
+std::string utc_now() {
+  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");  // NOLINT(concurrency-mt-unsafe): one thread
+  const std::time_t now = epoch != nullptr ? static_cast<std::time_t>(std::atoll(epoch)) : std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+std::vector<StateVector> initial_states(const Options& options) {
+  if (options.x0_box.empty()) return {StateVector::Map(options.x0.data())};
+  for (const double half_width : options.x0_box) {
+    if (!(half_width >= 0.0)) throw InputError("gains: x0-box: half widths must not be negative");
+  }
+  return box_vertices(StateVector::Map(options.x0_box.data()));
+}
+
+TableRequest make_request(const Options& options, const CLI::App& command) {
+  const auto given = [&command](const char* name, double value) {
+    return command.count(name) > 0 ? std::optional<double>(value) : std::nullopt;
+  };
+  TableRequest request;
+  DesignRequest& design = request.design;
+  design.plant.joint_model = std::string_view(options.joint_model);
+  design.plant.inertia_kgm2 = options.inertia_kgm2;
+  design.plant.gear_ratio = options.gear_ratio;
+  design.plant.period_s = options.period_s;
+  design.plant.sampling = options.sampling == "zoh" ? Sampling::kZeroOrderHold : Sampling::kForwardEuler;
+  design.weights = {options.weights[0], options.weights[1], options.weights[2], options.weights[3]};
+  design.initial_states = initial_states(options);
+  design.margin = options.margin;
+  design.decay_rate = options.decay_rate;
+  design.max_torque_Nm = given("--max-torque_Nm", options.max_torque_Nm);
+  design.max_position_rad = given("--max-position_rad", options.max_position_rad);
+  design.max_velocity_rad_s = given("--max-velocity_rad_s", options.max_velocity_rad_s);
+  design.max_integral_rad_s = given("--max-integral_rad_s", options.max_integral_rad_s);
+  request.torque_limit_Nm = options.torque_limit_Nm;
+  request.created_utc = utc_now();
+  check_request(design);
+  const FrictionRules rules =
+      read_friction_rules(options.friction, options.gear_ratio,
+                          options.rules_side == "motor" ? GearSide::kMotor : GearSide::kJoint);
+  design.friction = rules.friction;
+  request.friction_sha256 = rules.sha256;
+  return request;
+}
+
+// TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
+int gains(const Options& options, const CLI::App& command) {
+  TableRequest request = make_request(options, command);
+  std::vector<Controller> wanted;
+  for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
+    if (options.controller == "all" || options.controller == name_of(controller))
+      wanted.push_back(controller);
+  }
+  std::vector<std::pair<std::filesystem::path, GainTable>> tables;
+  for (const Controller controller : wanted) {
+    const std::string label = name_of(controller);
+    request.name = options.name.empty() ? options.joint_model + " " + label : options.name;
+    std::filesystem::path path = options.out;
+    if (options.controller == "all") path /= "c" + label.substr(1) + ".json";
+    tables.emplace_back(path, design_table(controller, request));
+  }
+  for (const auto& [path, table] : tables) {
+    write_gain_table(table, path);
+    std::printf("%s: %s with fallback %s, certified; cost bound %.6g\n", path.c_str(),
+                std::string(table.primary.controller.view()).c_str(),
+                std::string(table.fallback.controller.view()).c_str(), table.primary.cost_bound);
+  }
+  return 0;
+}
+
+void add_plant_options(CLI::App& command, Options& options) {
+  command.add_option("--joint-model", options.joint_model, "identity of the joint; the daemon compares it")
+      ->capture_default_str();
+  command.add_option("--inertia_kgm2", options.inertia_kgm2, "inertia at the joint side")
+      ->capture_default_str();
+  command.add_option("--gear-ratio", options.gear_ratio, "reduction ratio")->capture_default_str();
+  command.add_option("--period_s", options.period_s, "sample period")->capture_default_str();
+  command.add_option("--sampling", options.sampling, "how the plant is sampled for the design")
+      ->check(CLI::IsMember({"euler", "zoh"}))
+      ->capture_default_str();
+  command.add_option("--torque-limit_Nm", options.torque_limit_Nm, "largest torque at the joint side")
+      ->capture_default_str();
+}
+
+void add_design_options(CLI::App& command, Options& options) {
+  command.add_option("--weights", options.weights, "cost: integral,position,velocity,torque")
+      ->delimiter(',')
+      ->expected(4)
+      ->capture_default_str();
+  CLI::Option* const x0 =
+      command.add_option("--x0", options.x0, "initial state: integral_rad_s,error_rad,velocity_rad_s")
+          ->delimiter(',')
+          ->expected(3)
+          ->capture_default_str();
+  command
+      .add_option("--x0-box", options.x0_box, "initial states: every state of the box with these half widths")
+      ->delimiter(',')
+      ->expected(3)
+      ->excludes(x0);
+  command
+      .add_option("--margin", options.margin,
+                  "fraction by which weights and limits are tightened in the design")
+      ->capture_default_str();
+  command
+      .add_option("--decay-rate", options.decay_rate, "the Lyapunov function falls by its square each sample")
+      ->capture_default_str();
+  command.add_option("--max-torque_Nm", options.max_torque_Nm,
+                     "bound on the feedback torque from --x0 (Theorem 2)");
+  command.add_option("--max-position_rad", options.max_position_rad,
+                     "bound on the position error from --x0 (Theorem 3)");
+  command.add_option("--max-velocity_rad_s", options.max_velocity_rad_s,
+                     "bound on the velocity from --x0 (Theorem 3)");
+  command.add_option("--max-integral_rad_s", options.max_integral_rad_s,
+                     "bound on the integral of the error from --x0 (Theorem 3)");
+}
+
+}  // namespace
+
+Action add_gains_command(CLI::App& app, CLI::App*& command) {
+  command =
+      app.add_subcommand("gains", "Design certified gains; the defaults are the RHS-17-6006 of the source");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--friction", options->friction, "fuzzy rules: JSON from fit, or CSV")->required();
+  command->add_option("--rules-side", options->rules_side, "side of the gear that a rules CSV is stated at")
+      ->check(CLI::IsMember({"joint", "motor"}))
+      ->capture_default_str();
+  command->add_option("--controller", options->controller, "C1, C2, C3, C4 or all")
+      ->check(CLI::IsMember({"C1", "C2", "C3", "C4", "all"}))
+      ->capture_default_str();
+  add_plant_options(*command, *options);
+  add_design_options(*command, *options);
+  command->add_option("--name", options->name, "name of the table; default: joint model and controller");
+  command
+      ->add_option("--out", options->out,
+                   "table to write; with --controller all the folder for c1.json .. c4.json")
+      ->required();
+  return [options, command] { return gains(*options, *command); };
+}
+
+}  // namespace strainwave

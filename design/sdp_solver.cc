@@ -1,0 +1,135 @@
+#include "design/sdp_solver.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "design/sdpa_call.h"
+
+namespace strainwave {
+
+namespace {
+
+// Makes the child silent and harmless, solves, and sends the result as bytes. Never returns.
+[[noreturn]] void run_child(const LmiProblem& problem, const SdpOptions& options, int result_fd) {
+  const int null_fd = ::open("/dev/null", O_RDWR);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null_fd, standard);
+  for (const int fatal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGTERM, SIGINT})
+    ::signal(fatal, SIG_DFL);
+  const auto seconds = static_cast<rlim_t>(std::ceil(options.time_limit_s)) + 1;
+  const rlimit cpu{seconds, seconds};
+  const rlimit core{0, 0};
+  ::setrlimit(RLIMIT_CPU, &cpu);
+  ::setrlimit(RLIMIT_CORE, &core);
+
+  const std::vector<double> answer = call_sdpa(problem, options.gap_tolerance);
+  const auto* bytes = reinterpret_cast<const char*>(answer.data());
+  std::size_t left = answer.size() * sizeof(double);
+  while (left > 0) {
+    const ssize_t written = ::write(result_fd, bytes, left);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) break;
+    bytes += written;
+    left -= static_cast<std::size_t>(written);
+  }
+  ::_exit(left == 0 ? 0 : 1);
+}
+
+enum class ReadOutcome { kWhole, kEnded, kTimeout };
+
+// Reads exactly `size` doubles, or until the child closes the pipe or the time is up.
+ReadOutcome read_answer(int fd, double time_limit_s, std::vector<double>& answer) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
+  std::size_t received = 0;
+  const std::size_t wanted = answer.size() * sizeof(double);
+  while (received < wanted) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return ReadOutcome::kTimeout;
+    pollfd poller{fd, POLLIN, 0};
+    const int ready = ::poll(&poller, 1, static_cast<int>(left));
+    if (ready < 0 && errno != EINTR) return ReadOutcome::kEnded;
+    if (ready <= 0) continue;
+    const ssize_t count = ::read(fd, reinterpret_cast<char*>(answer.data()) + received, wanted - received);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return ReadOutcome::kEnded;
+    received += static_cast<std::size_t>(count);
+  }
+  return ReadOutcome::kWhole;
+}
+
+SdpResult failure(SdpStatus status, const std::string& explanation) {
+  SdpResult result;
+  result.status = status;
+  result.explanation = explanation;
+  return result;
+}
+
+// What the solver says, corrected by what its point is worth.
+SdpResult judge(const LmiProblem& problem, const SdpOptions& options, const std::vector<double>& answer) {
+  SdpResult result;
+  const auto phase = static_cast<SdpaPhase>(static_cast<int>(answer[0]));
+  result.iterations = static_cast<int>(answer[1]);
+  result.unknowns = Eigen::VectorXd::Map(answer.data() + kSdpaHeader, problem.unknown_count());
+  result.violation = problem.violation(result.unknowns);
+  result.objective = problem.objective().at(result.unknowns)(0, 0);
+  const double gap = answer[2];
+  const bool feasible = result.violation <= options.tolerance;
+  const bool close = gap <= options.accepted_gap;
+  if (phase == SdpaPhase::kInfeasible) {
+    result.status = SdpStatus::kInfeasible;
+    result.explanation = "the matrix inequalities have no solution";
+  } else if (phase == SdpaPhase::kUnbounded) {
+    result.status = SdpStatus::kUnbounded;
+    result.explanation = "the objective has no lower bound";
+  } else if (feasible && close) {
+    result.status = SdpStatus::kSolved;
+    result.explanation = "solved";
+  } else {
+    result.status = SdpStatus::kInaccurate;
+    result.explanation = "the solver stopped with gap " + std::to_string(gap) + " and violation " +
+                         std::to_string(result.violation);
+  }
+  return result;
+}
+
+}  // namespace
+
+SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    return failure(SdpStatus::kCrashed, std::string("no pipe: ") + std::strerror(errno));
+  const pid_t child = ::fork();
+  if (child < 0) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    return failure(SdpStatus::kCrashed, std::string("no process for the solver: ") + std::strerror(errno));
+  }
+  if (child == 0) run_child(problem, options, ends[1]);
+  ::close(ends[1]);
+  std::vector<double> answer(kSdpaHeader + static_cast<std::size_t>(problem.unknown_count()));
+  const ReadOutcome outcome = read_answer(ends[0], options.time_limit_s, answer);
+  ::close(ends[0]);
+  if (outcome != ReadOutcome::kWhole) ::kill(child, SIGKILL);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (outcome == ReadOutcome::kTimeout)
+    return failure(SdpStatus::kTimeout, "the solver took too long and was stopped");
+  if (outcome == ReadOutcome::kEnded)
+    return failure(SdpStatus::kCrashed, "the solver gave up without a result");
+  return judge(problem, options, answer);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,18 @@
+// The call into SDPA itself, in the child process of sdp_solver.cc: may print, exit or crash. Only
+// sdpa_call.cc sees SDPA's headers.
+#pragma once
+
+#include <vector>
+
+#include "design/lmi.h"
+
+namespace strainwave {
+
+enum class SdpaPhase { kPoint = 0, kInfeasible = 1, kUnbounded = 2 };
+
+/// [phase, iterations, relative gap], then the unknowns.
+inline constexpr std::size_t kSdpaHeader = 3;
+
+std::vector<double> call_sdpa(const LmiProblem& problem, double gap_tolerance);
+
+}  // namespace strainwave

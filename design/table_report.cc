@@ -1,0 +1,99 @@
+#include "design/table_report.h"
+
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+
+namespace strainwave {
+
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::array<char, 512> text{};
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+template <std::size_t N>
+std::string str(const FixedString<N>& text) {
+  return std::string(text.view());
+}
+
+std::string gains_text(const FeedbackGains& gains, const char* role) {
+  std::string text =
+      format("%s: %s, %s, %s\n", role, str(gains.controller).c_str(),
+             gains.has_integrator ? "with integrator" : "without integrator",
+             gains.scheduled() ? "scheduled by temperature and velocity" : "one gain, no temperature");
+  text += format(
+      "  cost weights: integral %g, position %g, velocity %g, torque %g; decay rate %g; cost bound %.6g\n",
+      gains.weights.integral, gains.weights.position, gains.weights.velocity, gains.weights.torque,
+      gains.decay_rate, gains.cost_bound);
+  text += "  rule                    integral        error     velocity\n";
+  text += "                      [Nm/(rad s)]     [Nm/rad]   [Nm s/rad]\n";
+  for (int j = 0; j < gains.rule_count; ++j) {
+    const GainRow F = gains.gain(j);
+    const std::string rule = !gains.scheduled() ? "every"
+                             : j == 0           ? "zero velocity"
+                                                : "high velocity, T" + std::to_string(j);
+    text += format("  %-18s %13.4f %12.4f %12.5f\n", rule.c_str(), F(0), F(1), F(2));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string margins_text(const FeedbackGains& gains, const CertificateReport& report) {
+  std::string text =
+      format("%s: %s", str(gains.controller).c_str(), report.certified ? "certified" : "NOT CERTIFIED");
+  if (report.rule_count == 0) return text + ": gains and friction rules do not fit each other\n";
+  const WorstPair& worst = report.worst;
+  text +=
+      worst.from == worst.from_other
+          ? format("; smallest margin %.3g, from rule %d to rule %d\n", worst.margin, worst.from, worst.to)
+          : format("; smallest margin %.3g, from rules %d and %d blended to rule %d\n", worst.margin,
+                   worst.from, worst.from_other, worst.to);
+  text +=
+      "  margin (smallest eigenvalue after balancing, less all rounding errors); row: rule before, column: "
+      "rule after\n      ";
+  const auto count = static_cast<std::size_t>(report.rule_count);
+  for (std::size_t l = 0; l < count; ++l) text += format("%11zu", l);
+  text += "\n";
+  for (std::size_t j = 0; j < count; ++j) {
+    text += format("  %3zu ", j);
+    for (std::size_t l = 0; l < count; ++l) {
+      const PositiveDefiniteResult& pair = report.pairs[j][l];
+      text += format("  %8.2e%c", pair.margin, pair.certain ? ' ' : '!');
+    }
+    text += "\n";
+  }
+  if (report.cross_pair_count > 0)
+    text += format("  and %d cross pairs of the blend\n", report.cross_pair_count);
+  return text;
+}
+
+std::string description(const GainTable& table) {
+  const PlantIdentity& plant = table.plant;
+  std::string text = format("Gain table \"%s\" (format %d)\n", str(table.name).c_str(), table.format);
+  text += format("  for joint %s: inertia %g kg m^2 at the joint, ratio %g, period %g s, %s\n",
+                 str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s,
+                 plant.sampling == Sampling::kForwardEuler ? "forward Euler" : "zero-order hold");
+  text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
+                 table.friction.temperature_min_C, table.friction.temperature_max_C);
+  text += "\nfriction rules (joint side)\n";
+  text += "  rule  center [degC]  width [degC]  static [Nm]  Coulomb [Nm]  viscous [Nm s/rad]\n";
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.friction.rule_count); ++i) {
+    const TemperatureRule& rule = table.friction.rules[i];
+    text += format("  T%-3zu %14.4f %13.4f %12.5f %13.5f %19.6f\n", i + 1, rule.center_C, rule.width_C,
+                   rule.friction.static_Nm, rule.friction.coulomb_Nm, rule.friction.viscous_Nms_rad);
+  }
+  text += "\n" + gains_text(table.primary, "primary") + "\n" + gains_text(table.fallback, "fallback");
+  text += format("\ncreated %s by %s\nfriction file sha256 %s\n", str(table.provenance.created_utc).c_str(),
+                 str(table.provenance.tool).c_str(), str(table.provenance.friction_sha256).c_str());
+  if (!table.provenance.note.view().empty()) text += "note: " + str(table.provenance.note) + "\n";
+  return text;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,17 @@
+// Gain tables for people: the margins of the certificate, and a description. Offline.
+#pragma once
+
+#include <string>
+
+#include "control/certificate.h"
+#include "control/gain_table.h"
+
+namespace strainwave {
+
+/// The margin of every pair of rules as a table, rows: rule before the step, columns: rule after it.
+std::string margins_text(const FeedbackGains& gains, const CertificateReport& report);
+
+/// What the table is for, its rules, gains, and where it came from.
+std::string description(const GainTable& table);
+
+}  // namespace strainwave

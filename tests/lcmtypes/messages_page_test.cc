@@ -1,0 +1,102 @@
+// docs/messages.md against the declarations: every field with its type in its order, every number with its
+// text.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "lcmtypes/vocabulary.h"
+#include "tests/support/message_files.h"
+
+namespace strainwave {
+namespace {
+
+const std::filesystem::path kSource = STRAINWAVE_SOURCE_DIR;
+
+using Row = std::vector<std::string>;
+
+std::string trimmed(const std::string& cell) {
+  const std::size_t first = cell.find_first_not_of(" `");
+  if (first == std::string::npos) return "";
+  return cell.substr(first, cell.find_last_not_of(" `") - first + 1);
+}
+
+/// Rows of the table under "## title", without its two header lines; cells without blanks and back-quotes.
+std::vector<Row> table_under(const std::string& title) {
+  std::istringstream page(read_text(kSource / "docs/messages.md"));
+  std::vector<Row> rows;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("#")) inside = line == "## " + title;
+    if (!inside || !line.starts_with("|")) continue;
+    Row row;
+    std::istringstream cells(line.substr(1));
+    for (std::string cell; std::getline(cells, cell, '|');) row.push_back(trimmed(cell));
+    rows.push_back(row);
+  }
+  if (rows.size() < 2) return {};
+  rows.erase(rows.begin(), rows.begin() + 2);
+  return rows;
+}
+
+/// Every struct of lcmtypes/*.lcm with its file.
+std::map<std::string, std::filesystem::path> declared_messages() {
+  std::map<std::string, std::filesystem::path> messages;
+  for (const auto& entry : std::filesystem::directory_iterator(kSource / "lcmtypes")) {
+    if (entry.path().extension() != ".lcm") continue;
+    const std::string text = read_text(entry.path());
+    const std::regex declaration(R"(struct (\w+))");
+    for (std::sregex_iterator it(text.begin(), text.end(), declaration); it != std::sregex_iterator(); ++it) {
+      messages[(*it)[1]] = entry.path();
+    }
+  }
+  return messages;
+}
+
+TEST(MessagesPage, ListsEveryFieldOfEveryMessageInItsOrder) {
+  const auto messages = declared_messages();
+  ASSERT_GE(messages.size(), 8U);
+  for (const auto& [name, file] : messages) {
+    std::vector<Row> declared;
+    for (const MessageField& field : read_message_fields(file, name))
+      declared.push_back({field.declaration, field.type});
+    std::vector<Row> documented;
+    for (const Row& row : table_under(name)) documented.push_back({row.at(0), row.at(1)});
+    ASSERT_FALSE(declared.empty()) << name;
+    EXPECT_EQ(documented, declared) << name;
+  }
+}
+
+/// The page's numbers and texts under `title` are exactly those that `text_of` knows.
+void expect_numbers(const std::string& title, const std::function<std::string_view(int)>& text_of) {
+  std::map<int, std::string> documented;
+  for (const Row& row : table_under(title)) documented[std::stoi(row.at(0))] = row.at(1);
+  std::map<int, std::string> known;
+  for (int number = 0; number < 300; ++number) {
+    if (text_of(number) != "unknown") known[number] = text_of(number);
+  }
+  EXPECT_FALSE(known.empty());
+  EXPECT_EQ(documented, known) << title;
+}
+
+template <typename Enum>
+std::string_view text_of_number(int number) {
+  return to_text(static_cast<Enum>(number));
+}
+
+TEST(MessagesPage, GivesEveryNumberItsText) {
+  expect_numbers("Modes", text_of_number<Mode>);
+  expect_numbers("Faults", text_of_number<Fault>);
+  expect_numbers("Notices", text_of_number<Notice>);
+  expect_numbers("Reasons", text_of_number<Reason>);
+  expect_numbers("Actions", text_of_number<Action>);
+  expect_numbers("Temperature status", text_of_number<TemperatureStatus>);
+  expect_numbers("Gains in use", text_of_number<GainsInUse>);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,145 @@
+// The numbers of the vocabulary are on wires and in logs for ever: this list is written by hand, and only
+// grows.
+#include "lcmtypes/vocabulary.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace strainwave {
+namespace {
+
+template <typename Enum>
+struct Word {
+  int number;
+  Enum value;
+  const char* text;
+};
+
+constexpr Word<Mode> kModes[] = {{0, Mode::kOff, "off"},           {1, Mode::kStarting, "starting"},
+                                 {2, Mode::kHolding, "holding"},   {3, Mode::kTracking, "tracking"},
+                                 {4, Mode::kStopping, "stopping"}, {5, Mode::kFaulted, "faulted"}};
+
+constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
+                                   {1, Fault::kReadFailed, "position reading failed"},
+                                   {2, Fault::kWriteRefused, "torque command refused by the drive"},
+                                   {3, Fault::kDriveFault, "drive fault"},
+                                   {4, Fault::kPowerLost, "supply lost"},
+                                   {5, Fault::kImplausibleReading, "implausible reading"},
+                                   {6, Fault::kLinkLost, "link to the drive lost"},
+                                   {7, Fault::kEmergencyStop, "emergency stop"},
+                                   {10, Fault::kStartTimeout, "drive did not enable in time"},
+                                   {11, Fault::kStopTimeout, "joint did not stop in time"},
+                                   {12, Fault::kPositionLimit, "position limit"},
+                                   {13, Fault::kSpeedLimit, "speed limit"},
+                                   {14, Fault::kFollowingError, "following error"},
+                                   {15, Fault::kNotFinite, "not-a-number in the loop"},
+                                   {16, Fault::kOverruns, "too many overruns in a row"},
+                                   {17, Fault::kTemperatureLimit, "temperature limit"},
+                                   {18, Fault::kGroup, "another joint of the group faulted"}};
+
+constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited"},
+                                     {2, Notice::kTemperatureClamped, "temperature outside the table"},
+                                     {4, Notice::kFallbackGains, "temperature-free gains in use"},
+                                     {8, Notice::kSetpointExpired, "setpoint stream expired"},
+                                     {16, Notice::kReadingMissed, "reading missed"},
+                                     {32, Notice::kSpeedLimited, "speed limited"}};
+
+constexpr Word<Reason> kReasons[] = {{0, Reason::kAccepted, "accepted"},
+                                     {1, Reason::kMalformed, "malformed message"},
+                                     {2, Reason::kNotFinite, "not a finite number"},
+                                     {3, Reason::kOutOfRange, "out of range"},
+                                     {4, Reason::kWrongMode, "not possible in this mode"},
+                                     {5, Reason::kNoTable, "no gain table loaded"},
+                                     {6, Reason::kUnknownJoint, "unknown joint"},
+                                     {7, Reason::kWrongSession, "another session of the daemon"},
+                                     {8, Reason::kOldSequence, "sequence not rising"},
+                                     {9, Reason::kUnsigned, "not signed"},
+                                     {10, Reason::kBadSignature, "wrong signature"},
+                                     {11, Reason::kRoleNotAllowed, "role not allowed to do this"},
+                                     {12, Reason::kTableDefect, "table has a defect"},
+                                     {13, Reason::kTableIdentity, "table is for another joint"},
+                                     {14, Reason::kTablePeriod, "table is for another period"},
+                                     {15, Reason::kTableNotCertified, "table not certified for this joint"},
+                                     {16, Reason::kFaulted, "joint is faulted"},
+                                     {17, Reason::kBusy, "busy, try again"},
+                                     {18, Reason::kMoving, "joint is moving"},
+                                     {19, Reason::kNoPreviousTable, "no previous table"},
+                                     {20, Reason::kUnknownAction, "unknown action"},
+                                     {21, Reason::kTimedOut, "timed out"},
+                                     {22, Reason::kDriveNotReady, "drive not ready"},
+                                     {23, Reason::kSuperseded, "superseded by a newer command"}};
+
+constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
+                                     {2, Action::kDisable, "disable"},
+                                     {3, Action::kHold, "hold"},
+                                     {4, Action::kClearFault, "clear-fault"},
+                                     {5, Action::kRevertTable, "revert-table"}};
+
+constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
+    {0, TemperatureStatus::kValid, "valid"},
+    {1, TemperatureStatus::kNeverSeen, "never seen"},
+    {2, TemperatureStatus::kTooOld, "too old"},
+    {3, TemperatureStatus::kOutOfRange, "out of range"},
+    {4, TemperatureStatus::kTooFast, "changing too fast"}};
+
+constexpr Word<GainsInUse> kGains[] = {{0, GainsInUse::kNone, "none"},
+                                       {1, GainsInUse::kPrimary, "scheduled"},
+                                       {2, GainsInUse::kFallback, "temperature-free"}};
+
+/// Each word has its number and text, and no other small number has a text.
+template <typename Enum, std::size_t N>
+void check(const Word<Enum> (&words)[N]) {
+  std::set<int> known;
+  std::set<std::string_view> texts;
+  for (const Word<Enum>& word : words) {
+    EXPECT_EQ(static_cast<int>(word.value), word.number) << word.text;
+    EXPECT_EQ(to_text(static_cast<Enum>(word.number)), word.text) << word.number;
+    known.insert(word.number);
+    texts.insert(word.text);
+  }
+  EXPECT_EQ(texts.size(), N) << "two numbers share a text";
+  for (int number = -3; number < 300; ++number) {
+    if (known.contains(number)) continue;
+    EXPECT_EQ(to_text(static_cast<Enum>(number)), "unknown")
+        << number << " is new: add it to this list and to docs/";
+  }
+}
+
+TEST(Vocabulary, OfModesIsFixed) {
+  check(kModes);
+}
+TEST(Vocabulary, OfFaultsIsFixed) {
+  check(kFaults);
+}
+TEST(Vocabulary, OfNoticesIsFixed) {
+  check(kNotices);
+}
+TEST(Vocabulary, OfReasonsIsFixed) {
+  check(kReasons);
+}
+TEST(Vocabulary, OfActionsIsFixed) {
+  check(kActions);
+}
+TEST(Vocabulary, OfTemperatureStatusesIsFixed) {
+  check(kTemperatureStatuses);
+}
+TEST(Vocabulary, OfGainsInUseIsFixed) {
+  check(kGains);
+}
+
+TEST(Vocabulary, HasEveryReasonInTheCountsOfTheTimingMessage) {
+  for (const auto& word : kReasons) EXPECT_LT(word.number, kReasonCount);
+}
+
+TEST(Vocabulary, HasOneBitPerNotice) {
+  int all = 0;
+  for (const auto& word : kNotices) {
+    EXPECT_EQ(all & word.number, 0) << word.text;
+    all |= word.number;
+  }
+}
+
+}  // namespace
+}  // namespace strainwave

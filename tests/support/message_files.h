@@ -1,0 +1,25 @@
+// Reads the .lcm files as they are written, so that tests can compare code and documents with them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace strainwave {
+
+/// One field of a message as its .lcm file declares it; count is 1 for a scalar, the product of an array's
+/// sizes else.
+struct MessageField {
+  std::string type;
+  std::string name;
+  std::string declaration;  ///< as written, e.g. "temperature_weights[16]"
+  int count = 1;
+};
+
+/// Fields of struct `name` in the file, in order. Empty when there is none.
+std::vector<MessageField> read_message_fields(const std::filesystem::path& file, const std::string& name);
+
+/// The whole file. Fails the running test when it cannot be read.
+std::string read_text(const std::filesystem::path& file);
+
+}  // namespace strainwave
