@@ -23,9 +23,9 @@ void add_row(TextTable& result, const std::string& reference, const ClosedLoopCo
   std::vector<std::string> row = {reference, number(1e3 * limit.first_arrival_s),
                                   number(limit.statistics.pi2), number(limit.statistics.pi1_rad2)};
   for (const Contender& contender : contenders) {
-    const ClosedLoopResult result = run_closed_loop(config, *contender.make(config.plant));
-    row.push_back(number(result.statistics.pi2));
-    row.push_back(number(result.statistics.pi2 / limit.statistics.pi2, 3));
+    const ClosedLoopResult closed = run_closed_loop(config, *contender.make(config.plant));
+    row.push_back(number(closed.statistics.pi2));
+    row.push_back(number(closed.statistics.pi2 / limit.statistics.pi2, 3));
   }
   result.rows.push_back(row);
 }

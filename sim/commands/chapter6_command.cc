@@ -47,7 +47,7 @@ void run(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path data =
       options.data.empty() ? shared_folder("data") : std::filesystem::path(options.data);
-  const auto tables = read_controller_tables(options.tables.empty() ? shared_folder("tables")
+  const auto tables = read_controller_tables(options.tables.empty() ? shared_folder("data") / "tables"
                                                                     : std::filesystem::path(options.tables));
   const auto source = read_source_indices(data / "performance_index.csv");
   const Chapter6 chapter = run_chapter6(chapter6_contenders(tables));
