@@ -68,8 +68,8 @@ std::string style(const Series& series) {
 void write_panel(std::string& script, const Panel& panel, std::size_t figure, std::size_t index) {
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     write_data(script, block_name(figure, index, i), thinned(panel.series[i].points));
-  script += "set title " + quoted(panel.title) + "\nset xlabel " + quoted(panel.x_label) + "\nset ylabel " +
-            quoted(panel.y_label) + "\n";
+  script += "set title " + quoted(panel.title) + "\nset xlabel " + quoted(panel.x_label) +
+            " offset 0,0.5\nset ylabel " + quoted(panel.y_label) + "\n";
   script += panel.log_y ? "set logscale y\nset format y '%.0e'\n" : "unset logscale\nset format y '%g'\n";
   script += range("x", panel.x_range) + range("y", panel.y_range);
   script += panel.show_key ? "set key below horizontal samplen 2\n" : "unset key\n";

@@ -65,7 +65,9 @@ class HeatRecorder {
       move_ = move;
     }
     const double window_s = config_.duration_s / kWindows;
-    if (point.time_s >= window_s * static_cast<double>(run_.pi2_over_time.size() + 1) && moves_ > 0)
+    if (point.time_s + config_.plant.period_s >=
+            window_s * static_cast<double>(run_.pi2_over_time.size() + 1) - 1e-9 &&
+        moves_ > 0)
       close_window(point, told_C);
   }
   void finish() {

@@ -95,7 +95,7 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
 
 /// The error in urad around two steps of the temperature, which is on the right axis.
 Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s, double to_s,
-                         const std::string& id, const std::string& caption) {
+                         double largest_urad, const std::string& id, const std::string& caption) {
   Figure figure{
       id + "_" + std::string(name(setting)), caption + " " + std::string(name(setting)) + " setting.", 2, {}};
   for (int range = 0; range < kRangeCount; ++range) {
@@ -107,7 +107,7 @@ Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s
                 {},
                 false,
                 {from_s, to_s},
-                {},
+                {-largest_urad, largest_urad},
                 true};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(contender_series(chapter, key, contender, from_s, to_s, error_urad));
@@ -172,9 +172,9 @@ std::vector<Figure> response_figures(const Chapter6& chapter) {
       figures.push_back(error_magnitudes(chapter, setting, scenario));
   for (const Setting setting : {Setting::kIdeal, Setting::kRealistic}) {
     figures.push_back(
-        temperature_steps(chapter, setting, 0.5, 12.0, "temperature_ramp",
+        temperature_steps(chapter, setting, 0.5, 12.0, 4000.0, "temperature_ramp",
                           "Error while the temperature rises from -10 to 45 degC, after the first move;"));
-    figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, "temperature_zoom",
+    figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, 400.0, "temperature_zoom",
                                         "The same around two steps of the temperature, enlarged;"));
   }
   figures.push_back(against_the_limit(chapter, Setting::kLimited));
