@@ -1,8 +1,9 @@
 # Draws what the demo recorded. Variables: record (CSV of strainwavectl record), picture (PNG to write).
 set datafile separator ","
+set datafile columnheaders
 set terminal pngcairo size 1200,1300 font "sans,11" linewidth 1.5
 set output picture
-stats record using (column("utime")) skip 1 nooutput
+stats record using "utime" nooutput
 start = STATS_min
 time_s(dummy) = (column("utime") - start) * 1e-6
 error_urad(dummy) = (column("joint_position_rad") - column("setpoint_position_rad")) * 1e6
