@@ -8,12 +8,11 @@ if(STRAINWAVE_SANITIZE)
   target_link_options(strainwave_flags INTERFACE -fsanitize=${STRAINWAVE_SANITIZE})
 endif()
 
-# GCC 12 finds overlapping copies inside std::string when it optimises for release that are not there (its bug 105329).
 add_library(strainwave_warnings INTERFACE)
 target_compile_options(strainwave_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion -Wdouble-promotion
   -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-align -Wcast-qual
-  -Wformat=2 -Wimplicit-fallthrough -Wundef -Wunused -Wextra-semi -Wno-restrict)
+  -Wformat=2 -Wimplicit-fallthrough -Wundef -Wunused -Wextra-semi)
 
 # GCC 12 warns of overlapping copies inside its own std::string (its bug 105651) as soon as it inlines operator+.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
