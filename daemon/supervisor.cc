@@ -177,6 +177,7 @@ void Supervisor::run() {
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
   else
     spdlog::warn("no real time: {}", loop_.real_time_refusal());
+  if (!loop_.sleep_state_refusal().empty()) spdlog::warn("{}", loop_.sleep_state_refusal());
   spdlog::info("prefix {}, {} joint(s), period {} s, session {}", config_.prefix, config_.joints.size(),
                config_.loop.period_s, session_id_);
   while (!loop_.finished()) {
@@ -277,10 +278,20 @@ void Supervisor::take_replies(std::int64_t now_ns) {
     answers_.answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply));
     pending_.erase(found);
   }
-  for (auto it = pending_.begin(); it != pending_.end() && it->second.deadline_ns < now_ns;) {
-    // A table order stays pending in the book: the loop may still take it.
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    if (it->second.deadline_ns >= now_ns) {
+      ++it;
+      continue;
+    }
     answers_.answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state");
-    it = it->second.is_table ? std::next(it) : pending_.erase(it);
+    if (it->second.is_table) {
+      // The loop may still take it: its slot stays reserved until it says so, silently.
+      it->second.deadline_ns = INT64_MAX;
+      it->second.requester.wants_acknowledgement = false;
+      ++it;
+    } else {
+      it = pending_.erase(it);
+    }
   }
 }
 

@@ -52,9 +52,9 @@ int fit(const Options& options) {
     throw InputError("fit", "gear-ratio", std::to_string(options.gear_ratio), "must be above 0");
   if (!(options.starting_torque_Ncm >= 0.0))
     throw InputError("fit: starting-torque_Ncm: must not be negative");
-  if (options.rules < 1 || options.rules > kMaxTemperatureRules) {
+  if (options.rules < 2 || options.rules > kMaxTemperatureRules) {
     throw InputError("fit", "rules", std::to_string(options.rules),
-                     "must be from 1 to " + std::to_string(kMaxTemperatureRules));
+                     "must be from 2 to " + std::to_string(kMaxTemperatureRules));
   }
   const FrictionData data = read_catalogue(options.catalogue, options.starting_torque_Ncm);
   const FitProblem problem = make_problem(data, options);
@@ -69,10 +69,8 @@ int fit(const Options& options) {
   file.exponential = ExponentialFriction{to_joint_side(exponential, options.gear_ratio),
                                          source_stribeck_shape(options.gear_ratio),
                                          make_record(data, problem, options, exponential)};
-  const Eigen::VectorXd centers = Eigen::VectorXd::LinSpaced(options.rules, min_C, max_C);
-  const Eigen::VectorXd widths =
-      Eigen::VectorXd::Constant(options.rules, (max_C - min_C) / std::max(1, options.rules - 1) / 1.5);
-  const FuzzyFit fuzzy = fit_consequents(problem, centers, widths);
+  const Memberships memberships = graded_memberships(options.rules, min_C, max_C);
+  const FuzzyFit fuzzy = fit_consequents(problem, memberships.center_C, memberships.width_C);
   file.fuzzy = FuzzyFrictionRecord{to_joint_side(fuzzy, options.gear_ratio, min_C, max_C),
                                    make_record(data, problem, options, fuzzy)};
   write_text_file(options.out, to_json(file));

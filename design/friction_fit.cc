@@ -115,6 +115,22 @@ FuzzyFit fit_consequents(const FitProblem& problem, const Eigen::VectorXd& cente
   return fit;
 }
 
+Memberships graded_memberships(Index count, double min_C, double max_C) {
+  constexpr double kGrowth = 1.6;
+  constexpr double kOverlap = 0.8;
+  Eigen::VectorXd gap(count - 1);
+  for (Index i = 0; i < count - 1; ++i) gap(i) = std::pow(kGrowth, static_cast<double>(i));
+  gap *= (max_C - min_C) / gap.sum();
+  Memberships memberships{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  for (Index i = 0; i < count; ++i) {
+    const double before = gap(std::max<Index>(i - 1, 0));
+    const double after = gap(std::min(i, count - 2));
+    memberships.center_C(i) = min_C + gap.head(i).sum();
+    memberships.width_C(i) = kOverlap * std::sqrt(before * after);
+  }
+  return memberships;
+}
+
 Eigen::MatrixX3d predict(const ExponentialFit& fit, const Eigen::VectorXd& temperature_C) {
   const Eigen::VectorXd decay = (-(temperature_C.array() - fit.reference_C) / fit.decay_C).exp();
   return Eigen::VectorXd::Ones(temperature_C.size()) * fit.p0 + decay * fit.p1;

@@ -46,6 +46,14 @@ ExponentialFit fit_exponential(const FitProblem& problem, double low_C, double h
 FuzzyFit fit_consequents(const FitProblem& problem, const Eigen::VectorXd& center_C,
                          const Eigen::VectorXd& width_C);
 
+/// Fixed memberships for plain least squares, for friction that falls steeply in the cold and levels off:
+/// from one centre to the next the gap grows by 1.6, from min to max; a width is 0.8 of the geometric mean of
+/// the gaps beside it. count >= 2.
+struct Memberships {
+  Eigen::VectorXd center_C, width_C;
+};
+Memberships graded_memberships(Eigen::Index count, double min_C, double max_C);
+
 /// Parameters (static, Coulomb, viscous) at the data's temperatures.
 Eigen::MatrixX3d predict(const ExponentialFit& fit, const Eigen::VectorXd& temperature_C);
 Eigen::MatrixX3d predict(const FuzzyFit& fit, const Eigen::VectorXd& temperature_C);

@@ -46,6 +46,7 @@ RealtimeLoop::~RealtimeLoop() {
 
 void RealtimeLoop::start() {
   refusal_ = lock_memory();
+  sleep_state_refusal_ = dma_latency_.request();
   thread_ = std::thread([this] { thread_main(); });
   while (!set_up_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (!refusal_.empty() && config_.real_time == RealTimePolicy::kEnforce) {

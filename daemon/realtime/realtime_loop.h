@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "daemon/config.h"
+#include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/periodic_clock.h"
@@ -42,6 +43,8 @@ class RealtimeLoop {
   /// configuration enforces it; otherwise real_time_refusal() says what was refused.
   void start();
   const std::string& real_time_refusal() const noexcept { return refusal_; }
+  /// What would have made wake-ups better but is not needed for real time; empty when granted.
+  const std::string& sleep_state_refusal() const noexcept { return sleep_state_refusal_; }
 
   /// Brings every joint to rest, then ends the loop; finished() tells when.
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_release); }
@@ -74,6 +77,8 @@ class RealtimeLoop {
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::thread thread_;
   std::string refusal_;
+  std::string sleep_state_refusal_;
+  DmaLatency dma_latency_;
   std::atomic<bool> set_up_{false};
   std::atomic<bool> may_run_{false};
   std::atomic<bool> stop_requested_{false};
