@@ -138,6 +138,33 @@ void number_groups(std::vector<JointConfig>& joints) {
   }
 }
 
+GatewayUser read_gateway_user(TomlSection& section) {
+  const bool chosen = section.has("gateway_user");
+  const std::string name = section.text_or("gateway_user", "");
+  try {
+    return chosen ? gateway_user_named(name) : default_gateway_user();
+  } catch (const InputError& error) {
+    section.fail("gateway_user", error.what());
+  }
+}
+
+SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>& joints,
+                             const std::filesystem::path& folder) {
+  SecurityPolicy security;
+  security.unsigned_allowed = section.choice_or("unsigned_orders", "refuse", {"refuse", "allow"}) == "allow";
+  const bool simulated =
+      std::all_of(joints.begin(), joints.end(), [](const JointConfig& joint) { return joint.driver == "simulated"; });
+  if (security.unsigned_allowed && !simulated)
+    section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
+  if (section.has("authorized_keys"))
+    security.keys = read_authorized_keys(folder / section.text("authorized_keys"));
+  else if (!security.unsigned_allowed)
+    section.fail("authorized_keys", "give the file with the public keys that may give orders (strainwavectl keygen makes "
+                                    "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
+  section.refuse_unknown_keys();
+  return security;
+}
+
 toml::table parse_file(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw InputError(path.string() + ": cannot be read: give an existing file to --config");
@@ -161,6 +188,7 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   config.loop = read_loop(daemon);
   config.prefix = read_name(daemon, "prefix", "SW");
   config.lcm_url = daemon.text_or("lcm_url", kDefaultLcmUrl);
+  config.gateway_user = read_gateway_user(daemon);
   daemon.refuse_unknown_keys();
 
   std::vector<TomlSection> joints = root.sections("joint");
@@ -178,6 +206,7 @@ DaemonConfig read_config(const std::filesystem::path& path) {
     root.fail("recorder", "fewer seconds are allowed: " + std::to_string(std::lround(recorder_MB)) +
                               " MB of memory would be locked for " + std::to_string(config.joints.size()) +
                               " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)));
+  config.security = read_security(root.section_or_empty("security"), config.joints, path.parent_path());
   root.refuse_unknown_keys();
   return config;
 }

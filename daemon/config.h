@@ -10,7 +10,9 @@
 
 #include "control/gain_table.h"
 #include "daemon/admission.h"
+#include "daemon/authorized_keys.h"
 #include "daemon/flight_record_writer.h"
+#include "daemon/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
 
@@ -48,6 +50,8 @@ struct DaemonConfig {
   RecorderConfig recorder;
   std::string prefix;
   std::string lcm_url;
+  GatewayUser gateway_user;
+  SecurityPolicy security;
   std::vector<JointConfig> joints;
 };
 

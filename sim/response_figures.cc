@@ -82,7 +82,7 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
       2,
       {}};
   for (int range = 0; range < kRangeCount; ++range) {
-    Panel panel{"from " + range_text(range), "time (s)", "|error| (rad)", "", {}, true, {}, {}, range == 0};
+    Panel panel{"from " + range_text(range), "time (s)", "|error| (rad)", "", {}, true, {}, {}, true};
     for (const std::string& contender : chapter.contenders) {
       Series series = contender_series(chapter, {setting, scenario, range}, contender, 0, 12, error);
       for (auto& [time_s, value] : series.points) value = std::max(std::abs(value), 1e-9);
@@ -95,7 +95,7 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
 
 /// The error in urad around two steps of the temperature, which is on the right axis.
 Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s, double to_s,
-                         const std::string& id, const std::string& caption) {
+                         double largest_urad, const std::string& id, const std::string& caption) {
   Figure figure{
       id + "_" + std::string(name(setting)), caption + " " + std::string(name(setting)) + " setting.", 2, {}};
   for (int range = 0; range < kRangeCount; ++range) {
@@ -107,8 +107,8 @@ Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s
                 {},
                 false,
                 {from_s, to_s},
-                {},
-                range == 0};
+                {-largest_urad, largest_urad},
+                true};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(contender_series(chapter, key, contender, from_s, to_s, error_urad));
     panel.series.push_back({"temperature",
@@ -131,15 +131,8 @@ Figure against_the_limit(const Chapter6& chapter, Setting setting) {
   for (int range = 0; range < kRangeCount; ++range) {
     const Chapter6Key key{setting, Scenario::kRamp, range};
     const double to_s = kWindow_s[static_cast<std::size_t>(range)];
-    Panel panel{"setpoint " + range_text(range),
-                "time (s)",
-                "position (rad)",
-                "",
-                {},
-                false,
-                {0, to_s},
-                {},
-                range == 0};
+    Panel panel{
+        "setpoint " + range_text(range), "time (s)", "position (rad)", "", {}, false, {0, to_s}, {}, true};
     for (const std::string& contender : chapter.contenders)
       panel.series.push_back(contender_series(chapter, key, contender, 0, to_s, position));
     panel.series.push_back({"time-optimal", over_time(chapter.limit(key)->trace, 0, to_s, position),
@@ -157,7 +150,7 @@ Figure resting_torque(const Chapter6& chapter) {
       {}};
   for (int range = 0; range < kRangeCount; ++range) {
     Panel panel{
-        "setpoint " + range_text(range), "time (s)", "torque (N.m)", "", {}, false, {11, 12}, {}, range == 0};
+        "setpoint " + range_text(range), "time (s)", "torque (N.m)", "", {}, false, {11, 12}, {}, true};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(
           contender_series(chapter, {Setting::kRealistic, Scenario::kRamp, range}, contender, 11, 12,
@@ -179,9 +172,9 @@ std::vector<Figure> response_figures(const Chapter6& chapter) {
       figures.push_back(error_magnitudes(chapter, setting, scenario));
   for (const Setting setting : {Setting::kIdeal, Setting::kRealistic}) {
     figures.push_back(
-        temperature_steps(chapter, setting, 0.5, 12.0, "temperature_ramp",
+        temperature_steps(chapter, setting, 0.5, 12.0, 4000.0, "temperature_ramp",
                           "Error while the temperature rises from -10 to 45 degC, after the first move;"));
-    figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, "temperature_zoom",
+    figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, 400.0, "temperature_zoom",
                                         "The same around two steps of the temperature, enlarged;"));
   }
   figures.push_back(against_the_limit(chapter, Setting::kLimited));
