@@ -127,6 +127,17 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   return joint;
 }
 
+// Names of groups become numbers, which the loop compares.
+void number_groups(std::vector<JointConfig>& joints) {
+  std::vector<std::string> groups;
+  for (JointConfig& joint : joints) {
+    if (joint.group.empty()) continue;
+    const auto found = std::find(groups.begin(), groups.end(), joint.group);
+    joint.loop.group = static_cast<int>(found - groups.begin());
+    if (found == groups.end()) groups.push_back(joint.group);
+  }
+}
+
 GatewayUser read_gateway_user(TomlSection& section) {
   const bool chosen = section.has("gateway_user");
   const std::string name = section.text_or("gateway_user", "");
@@ -152,17 +163,6 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
                                     "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
   section.refuse_unknown_keys();
   return security;
-}
-
-// Names of groups become numbers, which the loop compares.
-void number_groups(std::vector<JointConfig>& joints) {
-  std::vector<std::string> groups;
-  for (JointConfig& joint : joints) {
-    if (joint.group.empty()) continue;
-    const auto found = std::find(groups.begin(), groups.end(), joint.group);
-    joint.loop.group = static_cast<int>(found - groups.begin());
-    if (found == groups.end()) groups.push_back(joint.group);
-  }
 }
 
 toml::table parse_file(const std::filesystem::path& path) {
@@ -198,7 +198,6 @@ DaemonConfig read_config(const std::filesystem::path& path) {
     config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path()));
     if (!names.insert(config.joints.back().name).second) section.fail("name", "each joint needs a name of its own");
   }
-  config.security = read_security(root.section_or_empty("security"), config.joints, path.parent_path());
   number_groups(config.joints);
   config.recorder = read_recorder(root.section_or_empty("recorder"), path.parent_path());
   const double recorder_MB = static_cast<double>(config.joints.size() * sizeof(FlightSample)) *
@@ -207,6 +206,7 @@ DaemonConfig read_config(const std::filesystem::path& path) {
     root.fail("recorder", "fewer seconds are allowed: " + std::to_string(std::lround(recorder_MB)) +
                               " MB of memory would be locked for " + std::to_string(config.joints.size()) +
                               " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)));
+  config.security = read_security(root.section_or_empty("security"), config.joints, path.parent_path());
   root.refuse_unknown_keys();
   return config;
 }

@@ -11,8 +11,8 @@
 #include "control/gain_table.h"
 #include "daemon/admission.h"
 #include "daemon/authorized_keys.h"
-#include "daemon/gateway_user.h"
 #include "daemon/flight_record_writer.h"
+#include "daemon/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
 

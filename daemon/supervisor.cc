@@ -180,9 +180,9 @@ void Supervisor::start_gateway() {
 void Supervisor::run() {
   // The gateway first: a process started by a real-time one would inherit too much.
   start_gateway();
+  flight_records_.start();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
                                                                : "as user " + config_.gateway_user.name);
-  flight_records_.start();
   loop_.start();
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
