@@ -20,7 +20,7 @@ struct ClientOptions {
   std::string prefix = "SW";
   double timeout_s =
       2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
-  std::filesystem::path key_file;  ///< secret key to sign orders with; empty: unsigned
+  std::filesystem::path key_file = {};  ///< secret key to sign orders with; empty: unsigned
 };
 
 /// The daemon's answer to one order.

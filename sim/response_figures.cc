@@ -93,9 +93,19 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
   return figure;
 }
 
+/// What the scale must hold: the error of the scheduled controllers; the others may leave the figure.
+double largest_error_urad(const Chapter6& chapter, const Chapter6Key& key, double from_s, double to_s) {
+  double largest_urad = 20.0;
+  for (const char* contender : {"C4", "C4+"})
+    for (const auto& [time_s, urad] :
+         contender_series(chapter, key, contender, from_s, to_s, error_urad).points)
+      largest_urad = std::max(largest_urad, 1.2 * std::abs(urad));
+  return largest_urad;
+}
+
 /// The error in urad around two steps of the temperature, which is on the right axis.
 Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s, double to_s,
-                         double largest_urad, const std::string& id, const std::string& caption) {
+                         const std::string& id, const std::string& caption) {
   Figure figure{
       id + "_" + std::string(name(setting)), caption + " " + std::string(name(setting)) + " setting.", 2, {}};
   for (int range = 0; range < kRangeCount; ++range) {
@@ -107,8 +117,10 @@ Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s
                 {},
                 false,
                 {from_s, to_s},
-                {-largest_urad, largest_urad},
+                {},
                 true};
+    const double largest_urad = largest_error_urad(chapter, key, from_s, to_s);
+    panel.y_range = {-largest_urad, largest_urad};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(contender_series(chapter, key, contender, from_s, to_s, error_urad));
     panel.series.push_back({"temperature",
@@ -172,9 +184,9 @@ std::vector<Figure> response_figures(const Chapter6& chapter) {
       figures.push_back(error_magnitudes(chapter, setting, scenario));
   for (const Setting setting : {Setting::kIdeal, Setting::kRealistic}) {
     figures.push_back(
-        temperature_steps(chapter, setting, 0.5, 12.0, 4000.0, "temperature_ramp",
+        temperature_steps(chapter, setting, 0.5, 12.0, "temperature_ramp",
                           "Error while the temperature rises from -10 to 45 degC, after the first move;"));
-    figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, 400.0, "temperature_zoom",
+    figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, "temperature_zoom",
                                         "The same around two steps of the temperature, enlarged;"));
   }
   figures.push_back(against_the_limit(chapter, Setting::kLimited));
