@@ -6,6 +6,7 @@
 #include <sstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
+#include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
 #include "daemon/table_admission.h"
@@ -18,6 +19,7 @@ namespace strainwave {
 namespace {
 
 constexpr double kMaxValidFor_s = 3600.0;
+constexpr double kMaxInjection_s = 3600.0;
 
 std::span<const std::uint8_t> payload(const WireMessage& message) {
   return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
@@ -86,6 +88,7 @@ Verdict Admission::judge(std::string_view kind, std::size_t joint, const WireMes
   if (kind == channel_kind::kSetpoint) return judge_setpoint(joint, message);
   if (kind == channel_kind::kCommand) return judge_command(joint, message);
   if (kind == channel_kind::kTable) return judge_table_message(joint, message);
+  if (kind == channel_kind::kInject) return judge_injection(joint, message);
   return discard(Reason::kMalformed);
 }
 
@@ -195,6 +198,35 @@ Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& mes
   Verdict verdict = pass(requester, OrderKind::kUseTable);
   verdict.text = judged.text;
   verdict.table = std::move(table);
+  return verdict;
+}
+
+Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message) {
+  const auto inject = decode_exactly<inject_v1>(payload(message));
+  if (!inject) return discard(Reason::kMalformed);
+  Requester requester{joint, inject->sender_id, inject->sequence};
+  if (auto verdict = check_envelope(message, {inject->session_id, Role::kEngineer}, requester))
+    return std::move(*verdict);
+  if (!joints_[joint].takes_injected_faults)
+    return refuse(requester, Reason::kNotSimulated, joints_[joint].name + " has a real drive: faults are not injected there");
+  if (!std::isfinite(inject->for_s) || !std::isfinite(inject->amount))
+    return refuse(requester, Reason::kNotFinite, "for_s and amount must be finite numbers");
+  const auto kind = injected_fault_of(inject->kind);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction, "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
+  const AmountRange range = amount_range(*kind);
+  std::ostringstream text;
+  if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {
+    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s << " is allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (inject->amount < range.min || inject->amount > range.max) {
+    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max << " is allowed for "
+         << to_text(*kind);
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  Verdict verdict = pass(requester, OrderKind::kInject);
+  verdict.order.injection = {*kind, 0.0, inject->for_s, inject->amount};
   return verdict;
 }
 

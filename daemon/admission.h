@@ -31,6 +31,7 @@ struct JointAdmission {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
   double torque_limit_Nm = 0.0;
+  bool takes_injected_faults = false;  ///< the simulated driver's
 };
 
 /// Whom an answer is for.
@@ -87,6 +88,7 @@ class Admission {
   Verdict judge_setpoint(std::size_t joint, const WireMessage& message);
   Verdict judge_command(std::size_t joint, const WireMessage& message);
   Verdict judge_table_message(std::size_t joint, const WireMessage& message);
+  Verdict judge_injection(std::size_t joint, const WireMessage& message);
   /// A refusal or a repeat, or nothing when the envelope is in order; then the requester is authentic.
   std::optional<Verdict> check_envelope(const WireMessage& message, const Envelope& envelope,
                                         Requester& requester);

@@ -80,11 +80,20 @@ std::string advice(const Reply& reply) {
     case Reason::kNoTable: return mode + ": load a gain table first";
     case Reason::kFaulted: return mode + ": see its fault, remove the cause, clear the fault";
     case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kStreamExpired:
+      return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
     case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
       return mode + (reply.mode == Mode::kOff ? ": enable it first" : ": this order does nothing in this mode");
     default: return mode;
   }
+}
+
+std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
+  std::vector<FlightRecordWriter::Source> sources;
+  for (std::size_t i = 0; i < config.joints.size() && config.recorder.enabled(); ++i)
+    sources.push_back({config.joints[i].name, std::string(config.joints[i].plant.joint_model.view()), loop.recorder(i)});
+  return sources;
 }
 
 std::vector<std::string> names_of(const DaemonConfig& config) {
@@ -106,6 +115,7 @@ Supervisor::Supervisor(const DaemonConfig& config)
       wake_fd_(make_wake_fd()),
       signal_fd_(make_signal_fd()),
       loop_(config, outbound_.states),
+      flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_)),
       admission_(config.prefix, session_id_, admission_of(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
       gateway_(find_gateway_program(), {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_fd_}),
@@ -170,6 +180,7 @@ void Supervisor::start_gateway() {
 void Supervisor::run() {
   // The gateway first: a process started by a real-time one would inherit too much.
   start_gateway();
+  flight_records_.start();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
                                                                : "as user " + config_.gateway_user.name);
   loop_.start();
@@ -284,10 +295,20 @@ void Supervisor::take_replies(std::int64_t now_ns) {
     answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply), now_ns);
     pending_.erase(found);
   }
-  for (auto it = pending_.begin(); it != pending_.end() && it->second.deadline_ns < now_ns;) {
-    // A table order stays pending in the book: the loop may still take it.
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    if (it->second.deadline_ns >= now_ns) {
+      ++it;
+      continue;
+    }
     answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
-    it = it->second.is_table ? std::next(it) : pending_.erase(it);
+    if (it->second.is_table) {
+      // The loop may still take it: its slot stays reserved until it says so, silently.
+      it->second.deadline_ns = INT64_MAX;
+      it->second.requester.wants_acknowledgement = false;
+      ++it;
+    } else {
+      it = pending_.erase(it);
+    }
   }
 }
 
@@ -295,10 +316,11 @@ void Supervisor::take_events() {
   LoopEvent event;
   while (loop_.events().pop(event)) {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
-    if (event.to == Mode::kFaulted)
-      spdlog::error("{}: fault {}: {} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
-                    to_text(event.from), event.cycle);
-    else
+    if (event.to == Mode::kFaulted) {
+      const std::string_view key = configuration_key(event.fault);
+      spdlog::error("{}: fault {}: {}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
+                    key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
+    } else
       spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
   }
 }

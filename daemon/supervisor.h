@@ -67,6 +67,7 @@ class Supervisor {
   int wake_fd_;
   int signal_fd_;
   RealtimeLoop loop_;
+  FlightRecordWriter flight_records_;
   Admission admission_;
   Answers answers_;
   GatewayProcess gateway_;

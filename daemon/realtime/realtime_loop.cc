@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "control/input_error.h"
+#include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
 
 namespace strainwave {
@@ -22,6 +23,14 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
   for (const JointConfig& joint : config.joints) {
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
                                                   joint.make_actuator(), *replies_, *events_));
+    if (config.recorder.enabled()) {
+      const auto samples = [&](double duration_s) {
+        return static_cast<std::size_t>(std::llround(duration_s / config.loop.period_s));
+      };
+      recorders_.push_back(std::make_unique<FlightRecorder>(samples(config.recorder.seconds) + 2,
+                                                            samples(config.recorder.post_trigger_s)));
+      joints_.back()->record_into(*recorders_.back());
+    }
     // One more second than the slowest joint may take, which by then has faulted and is off.
     const double allowed_s = joint.loop.stop_timeout_s + 1.0;
     stop_deadline_periods_ =
@@ -72,6 +81,7 @@ void RealtimeLoop::run() noexcept {
     account_wake(wake, time);
     bring_to_rest_when_asked(time);
     for (const auto& joint : joints_) joint->step(time);
+    stop_faulted_groups(joints_, time);
     publish(time);
 
     const bool at_rest = std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });

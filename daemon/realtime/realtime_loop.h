@@ -51,6 +51,8 @@ class RealtimeLoop {
   bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
 
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
+  /// Null when the configuration wants none.
+  FlightRecorder* recorder(std::size_t index) noexcept { return recorders_.empty() ? nullptr : recorders_[index].get(); }
   std::size_t joint_count() const noexcept { return joints_.size(); }
   ReplyQueue& replies() noexcept { return *replies_; }
   EventQueue& events() noexcept { return *events_; }
@@ -71,6 +73,7 @@ class RealtimeLoop {
   std::unique_ptr<ReplyQueue> replies_;
   std::unique_ptr<EventQueue> events_;
   std::unique_ptr<LoopStatistics> statistics_;
+  std::vector<std::unique_ptr<FlightRecorder>> recorders_;
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::thread thread_;
   std::string refusal_;

@@ -1,0 +1,54 @@
+// Landing: the last counts of a motion, and rest. Over a period or two the known torque moves the joint far
+// more exactly than feedback on counts could: one period's push and one period's braking end where they are
+// meant to. Real-time safe.
+//
+// Within a count the encoder is silent, but its edges are not: the joint is placed on the edge nearest to the
+// target, as it is believed to lie; the count then tells on which side it really is, which halves the doubt.
+// When the position is known to a small part of a count, one push goes from there to the target. Then the
+// joint rests: the torque is what holds the load, constant, and nothing hunts.
+#pragma once
+
+#include "control/joint_model.h"
+#include "control/velocity_observer.h"
+
+namespace strainwave {
+
+/// Torque for the coming period so that a joint at `velocity_rad_s` ends at rest `distance_rad` ahead as soon
+/// as it can: push or slow down to a speed from which friction alone, or braking in half a period, stops it
+/// there. Not limited.
+double landing_torque_Nm(const JointModel& model, const JointDisturbance& disturbance, double velocity_rad_s,
+                         double distance_rad, double period_s) noexcept;
+
+struct LandingConfig {
+  double period_s = 0.001;              ///< > 0
+  double encoder_resolution_rad = 0.0;  ///< 0: exact, nothing to find out
+  int delay_samples = 0;                ///< periods between a torque's computation and its effect
+  double certainty_counts = 0.01;  ///< standard deviation of the position at which the search for it ends
+  int probe_limit = 12;            ///< pushes to an edge, per landing
+};
+
+class Landing {
+ public:
+  explicit Landing(const LandingConfig& config) noexcept : config_(config) {}
+
+  /// A landing on `target_rad` begins.
+  void begin(double target_rad) noexcept;
+  /// Torque for the period that begins when `then` is reached; `now` is the present estimate, `reading_rad`
+  /// the encoder's.
+  double step(const JointEstimate& now, const JointEstimate& then, double reading_rad,
+              const JointModel& model) noexcept;
+  /// Landed: the torque only holds the load.
+  bool resting() const noexcept { return resting_; }
+
+ private:
+  double choose_aim(const JointEstimate& then, double reading_rad) noexcept;
+
+  LandingConfig config_;
+  double target_rad_ = 0.0;
+  double aim_rad_ = 0.0;
+  int still_samples_ = 0;
+  int probes_ = 0;
+  bool resting_ = false;
+};
+
+}  // namespace strainwave
