@@ -19,6 +19,11 @@ constexpr double kSurprise = 4.0;  // this many outside, the model did not fores
 // by.
 constexpr double kModelChange = 0.2;
 constexpr double kRestDrift_Nm = 0.001;  // per period in motion, however slow
+constexpr double kLoadDrift = 0.1;       // a load's share of the drift
+// Deviations of the velocity that a stop is doubted by; share of a period's friction that a doubtful
+// direction may cost.
+constexpr double kDoubtfulStop = 1.5;
+constexpr double kDirectionShare = 0.25;
 // What is left of an exact position and velocity after rounding.
 constexpr double kExactVelocity_rad_s = 1e-6;
 
@@ -65,10 +70,31 @@ void VelocityObserver::predict(double torque_Nm, const JointModel& model) noexce
       motion.displacement_by_load, motion.displacement_by_inertia / inertia_ratio();
   transition.row(kVelocity) << 0.0, motion.velocity_by_velocity, motion.velocity_by_friction,
       motion.velocity_by_load, motion.velocity_by_inertia / inertia_ratio();
+  const double start_deviation = std::sqrt(covariance_(kVelocity, kVelocity));
   covariance_ = transition * covariance_ * transition.transpose();
+  doubt_direction(motion, start_deviation, adapted);
   drift(motion.velocity_rad_s, model);
   state_(kPosition) += motion.displacement_rad;
   state_(kVelocity) = motion.velocity_rad_s;
+}
+
+// Friction turns round with the velocity, which no derivative sees: a velocity of doubtful sign may have met
+// either friction, and a joint that is taken to have stopped may not yet have.
+void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_deviation,
+                                       const JointModel& model) noexcept {
+  const double start_speed = std::abs(state_(kVelocity));
+  if (start_speed == 0.0) return;
+  double& variance = covariance_(kVelocity, kVelocity);
+  if (motion.velocity_rad_s == 0.0) {
+    const double deceleration = start_speed / motion.displacement_by_velocity;
+    const double still_moving =
+        kDoubtfulStop * start_deviation - (deceleration * config_.period_s - start_speed);
+    if (still_moving > 0.0) variance += square(0.5 * still_moving);
+  } else if (square(motion.velocity_rad_s) < square(kSurprise) * variance) {
+    const double doubt = std::exp(-0.5 * square(motion.velocity_rad_s) / variance);
+    variance +=
+        square(kDirectionShare * doubt * model.friction.static_Nm * config_.period_s / model.inertia_kgm2);
+  }
 }
 
 // What the model gets wrong differs from speed to speed (friction), and grows with the acceleration
@@ -76,9 +102,9 @@ void VelocityObserver::predict(double torque_Nm, const JointModel& model) noexce
 void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model) noexcept {
   const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
   const double share = std::min(1.0, speed / model.stribeck.velocity_rad_s);
-  const double drift = square(config_.friction_drift_Nm * share) + square(kRestDrift_Nm);
+  const double drift = square(config_.friction_drift_Nm * share * share) + square(kRestDrift_Nm);
   covariance_(kFriction, kFriction) += drift;
-  covariance_(kLoad, kLoad) += 0.1 * drift;
+  covariance_(kLoad, kLoad) += kLoadDrift * drift;
   covariance_(kInertia, kInertia) += square(config_.inertia_drift * (end_velocity_rad_s - state_(kVelocity)));
   covariance_(kVelocity, kVelocity) +=
       end_velocity_rad_s != 0.0
@@ -160,7 +186,8 @@ JointEstimate VelocityObserver::estimate() const noexcept {
           state_(kVelocity),
           {state_(kFriction), state_(kLoad)},
           inertia_ratio(),
-          std::sqrt(covariance_(kPosition, kPosition))};
+          std::sqrt(covariance_(kPosition, kPosition)),
+          std::sqrt(covariance_(kFriction, kFriction) + covariance_(kLoad, kLoad))};
 }
 
 double VelocityObserver::inertia_ratio() const noexcept {

@@ -18,14 +18,14 @@ namespace strainwave {
 struct VelocityObserverConfig {
   double period_s = 0.001;              ///< > 0
   double encoder_resolution_rad = 0.0;  ///< position of one count; 0: exact
-  double edge_deviation_counts = 0.01;  ///< how evenly the encoder's edges lie
+  double edge_deviation_counts = 0.02;  ///< how evenly the encoder's edges lie
   double friction_uncertainty_Nm =
       0.3;  ///< of the model's friction before the joint has moved, standard deviation
   double load_uncertainty_Nm = 0.1;   ///< of an external torque that has not shown yet
   double friction_drift_Nm = 0.05;    ///< change of friction's error from one speed to another
   double inertia_uncertainty = 0.1;   ///< of the model's inertia before the joint has moved, relative
-  double inertia_drift = 0.005;       ///< per rad/s of change of speed, relative
-  double torque_uncertainty = 0.003;  ///< of the accelerating torque from period to period, relative
+  double inertia_drift = 0.003;       ///< per rad/s of change of speed, relative
+  double torque_uncertainty = 0.005;  ///< of the accelerating torque from period to period, relative
 };
 
 /// The estimate at a sample.
@@ -35,6 +35,7 @@ struct JointEstimate {
   JointDisturbance disturbance;
   double inertia_ratio = 1.0;           ///< the joint's inertia in units of the model's
   double position_deviation_rad = 0.0;  ///< standard deviation of the position
+  double friction_deviation_Nm = 0.0;   ///< the same of friction and load together
 };
 
 class VelocityObserver {
@@ -58,6 +59,7 @@ class VelocityObserver {
   using Covariance = Eigen::Matrix<double, 5, 5>;
 
   void drift(double end_velocity_rad_s, const JointModel& model) noexcept;
+  void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
   void truncate(double edge_rad, double side) noexcept;
   void admit_surprise(double distance_rad) noexcept;
   void condition(int component, double shift, double variance_ratio) noexcept;

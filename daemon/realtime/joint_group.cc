@@ -13,4 +13,10 @@ void stop_faulted_groups(std::span<const std::unique_ptr<JointLoop>> joints, con
   }
 }
 
+void fault_driven_joints(std::span<const std::unique_ptr<JointLoop>> joints, Fault fault,
+                         const CycleTime& time) noexcept {
+  for (const auto& joint : joints)
+    if (joint->mode() != Mode::kOff) joint->raise_fault(fault, time);
+}
+
 }  // namespace strainwave

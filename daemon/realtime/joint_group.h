@@ -13,4 +13,8 @@ namespace strainwave {
 /// the other joints go on.
 void stop_faulted_groups(std::span<const std::unique_ptr<JointLoop>> joints, const CycleTime& time) noexcept;
 
+/// A fault of the loop itself, for every joint that is not off.
+void fault_driven_joints(std::span<const std::unique_ptr<JointLoop>> joints, Fault fault,
+                         const CycleTime& time) noexcept;
+
 }  // namespace strainwave

@@ -183,7 +183,7 @@ void JointLoop::check_temperature(const CycleTime& time) noexcept {
 }
 
 void JointLoop::expire_setpoint(const CycleTime& time) noexcept {
-  if (mode_ == Mode::kTracking && setpoint_expires_ns_ != 0 && time.now_ns > setpoint_expires_ns_) {
+  if (mode_ == Mode::kTracking && setpoint_expires_ns_ != 0 && time.now_ns >= setpoint_expires_ns_) {
     controller_.stop();
     setpoint_expires_ns_ = 0;
     setpoint_expired_ = true;

@@ -19,7 +19,8 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
       states_(states),
       replies_(std::make_unique<ReplyQueue>()),
       events_(std::make_unique<EventQueue>()),
-      statistics_(std::make_unique<LoopStatistics>()) {
+      statistics_(std::make_unique<LoopStatistics>()),
+      overrun_watch_(config.loop.overrun_limit) {
   for (const JointConfig& joint : config.joints) {
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
                                                   joint.make_actuator(), *replies_, *events_));
@@ -100,11 +101,7 @@ void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime
   previous_wake_ns_ = wake.woke_ns;
   statistics_->overruns.store(statistics_->overruns.load(std::memory_order_relaxed) + wake.skipped,
                               std::memory_order_relaxed);
-  overruns_in_a_row_ = wake.skipped > 0 ? overruns_in_a_row_ + 1 : 0;
-  if (overruns_in_a_row_ < config_.overrun_limit) return;
-  overruns_in_a_row_ = 0;
-  for (const auto& joint : joints_)
-    if (joint->mode() != Mode::kOff) joint->raise_fault(Fault::kOverruns, time);
+  if (overrun_watch_.too_many(wake.skipped)) fault_driven_joints(joints_, Fault::kOverruns, time);
 }
 
 void RealtimeLoop::bring_to_rest_when_asked(const CycleTime& time) noexcept {

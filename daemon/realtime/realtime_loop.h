@@ -15,6 +15,7 @@
 #include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/overrun_watch.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/shared_memory.h"
 
@@ -86,7 +87,7 @@ class RealtimeLoop {
   std::int64_t previous_wake_ns_ = 0;
   std::int64_t next_publish_cycle_ = 0;
   std::int64_t stop_since_cycle_ = -1;
-  int overruns_in_a_row_ = 0;
+  OverrunWatch overrun_watch_;
 };
 
 }  // namespace strainwave

@@ -2,11 +2,23 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "control/gain_table_json.h"
 #include "sim/reference_plant.h"
 
 namespace strainwave::testing {
+
+namespace {
+
+/// Virtual time that drives have burned in the current period.
+std::int64_t burned_ns = 0;
+
+void burn(std::int64_t duration_ns) noexcept {
+  burned_ns += duration_ns;
+}
+
+}  // namespace
 
 BenchJoint demo_joint() {
   BenchJoint joint;
@@ -29,22 +41,26 @@ const GainTable& demo_table() {
   return table;
 }
 
-JointBench::JointBench(const std::vector<BenchJoint>& joints)
-    : period_ns_(std::llround(joints.at(0).loop.controller.period_s * 1e9)) {
+JointBench::JointBench(const std::vector<BenchJoint>& joints, int overrun_limit)
+    : period_ns_(std::llround(joints.at(0).loop.controller.period_s * 1e9)), overruns_(overrun_limit) {
   time_.now_ns = 1'000'000'000;
+  burned_ns = 0;
   for (const BenchJoint& joint : joints) {
     auto watched = std::make_unique<WatchedActuator>(std::make_unique<SimulatedActuator>(joint.drive));
     drives_.push_back(watched.get());
     auto faulty = std::make_unique<FaultyActuator>(
-        std::move(watched), FaultyActuatorConfig{joint.loop.controller.period_s, joint.faults, nullptr, 1});
+        std::move(watched), FaultyActuatorConfig{joint.loop.controller.period_s, joint.faults, &burn, 1});
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
                                                   std::move(faulty), *replies_, *events_));
   }
 }
 
 void JointBench::step() {
-  ++time_.cycle;
-  time_.now_ns += period_ns_;
+  const std::int64_t skipped = std::exchange(burned_ns, 0) / period_ns_;
+  skipped_periods_ += skipped;
+  time_.cycle += 1 + skipped;
+  time_.now_ns += (1 + skipped) * period_ns_;
+  if (overruns_.too_many(skipped)) fault_driven_joints(joints_, Fault::kOverruns, time_);
   for (const auto& joint : joints_) joint->step(time_);
   stop_faulted_groups(joints_, time_);
 }
@@ -75,7 +91,8 @@ void JointBench::bring_to_hold(std::size_t index) {
   joint(index).table_slot(0) = {demo_table(), 1};
   if (order(index, OrderKind::kUseTable) != Reason::kAccepted) throw std::runtime_error("table refused");
   if (order(index, OrderKind::kEnable) != Reason::kAccepted) throw std::runtime_error("enable refused");
-  if (step_until([&] { return mode(index) == Mode::kHolding; }, 1000) < 0) throw std::runtime_error("does not hold");
+  if (step_until([&] { return mode(index) == Mode::kHolding; }, 1000) < 0)
+    throw std::runtime_error("does not hold");
 }
 
 }  // namespace strainwave::testing

@@ -1,5 +1,5 @@
-// Joints in virtual time: real JointLoops over simulated drives that may be faulty, a period per step, nothing depends on
-// the host's clock. For tests of the loop and for benchmarks of it.
+// Joints in virtual time: real JointLoops over simulated drives that may be faulty, a period per step,
+// nothing depends on the host's clock. For tests of the loop and for benchmarks of it.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/overrun_watch.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
 
@@ -54,9 +55,10 @@ class WatchedActuator final : public Actuator {
 
 class JointBench {
  public:
-  explicit JointBench(const std::vector<BenchJoint>& joints);
+  explicit JointBench(const std::vector<BenchJoint>& joints, int overrun_limit = 10);
 
-  /// One period of every joint.
+  /// One period of every joint. A drive that burns more than a period makes the next ones be skipped, as in
+  /// the daemon.
   void step();
   void run(double duration_s);
   /// Steps until `condition` holds; how many steps that took, or -1 after `limit` of them.
@@ -64,7 +66,9 @@ class JointBench {
 
   /// Gives the order and makes one step; the loop's answer.
   Reason order(std::size_t joint, Order order);
-  Reason order(std::size_t joint, OrderKind kind) { return this->order(joint, Order{0, kind, 0, 0.0, 0.0, {}}); }
+  Reason order(std::size_t joint, OrderKind kind) {
+    return this->order(joint, Order{0, kind, 0, 0.0, 0.0, {}});
+  }
   Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0) {
     return order(joint, Order{0, OrderKind::kSetpoint, 0, position_rad, valid_for_s, {}});
   }
@@ -85,6 +89,7 @@ class JointBench {
   std::int64_t cycle() const { return time_.cycle; }
   const CycleTime& time() const { return time_; }
   EventQueue& events() { return *events_; }
+  std::int64_t skipped_periods() const { return skipped_periods_; }
 
  private:
   std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
@@ -93,6 +98,8 @@ class JointBench {
   std::vector<WatchedActuator*> drives_;
   std::int64_t period_ns_;
   CycleTime time_;
+  OverrunWatch overruns_;
+  std::int64_t skipped_periods_ = 0;
   std::int64_t next_order_id_ = 1;
 };
 
