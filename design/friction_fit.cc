@@ -26,6 +26,34 @@ Eigen::MatrixXd normalised_memberships(const Eigen::VectorXd& temperature_C, con
   return Phi;
 }
 
+// Phi = softmax of a = -((T - c)/s)^2 along each row, so that d(Phi C)_k / d a_kj = Phi_kj (C_j - (Phi C)_k).
+void differentiate(const FitProblem& problem, const LinearFit& linear, const Eigen::MatrixXd& Phi,
+                   const std::vector<Index>& order, FuzzyFit& fit) {
+  const Index m = Phi.cols();
+  const Index n = Phi.rows();
+  const Eigen::MatrixX3d predicted = problem.targets.parameters - linear.errors();
+  Eigen::MatrixXd change(3 * n, 2 * m);
+  for (Index j = 0; j < m; ++j) {
+    const double width = fit.width_C(j);
+    const Eigen::ArrayXd distance = (problem.targets.temperature_C.array() - fit.center_C(j)) / width;
+    const Eigen::ArrayXd by_center = Phi.col(j).array() * distance * (2.0 / width);
+    const Eigen::MatrixX3d by_a = linear.C().row(j).replicate(n, 1) - predicted;
+    const Index original = order[static_cast<std::size_t>(j)];
+    for (Index p = 0; p < 3; ++p) {
+      change.col(original).segment(p * n, n) = by_center * by_a.col(p).array();
+      change.col(m + original).segment(p * n, n) = by_center * distance * by_a.col(p).array();
+    }
+  }
+  Eigen::MatrixXd weighted(3 * n, 2 * m);
+  for (Index p = 0; p < 3; ++p) {
+    weighted.middleRows(p * n, n) = problem.metric(p, 0) * change.topRows(n) +
+                                    problem.metric(p, 1) * change.middleRows(n, n) +
+                                    problem.metric(p, 2) * change.bottomRows(n);
+  }
+  fit.gradient = -(weighted.transpose() * linear.errors().reshaped());
+  fit.curvature = change.transpose() * weighted - linear.curvature_loss(weighted);
+}
+
 FrictionParameters joint_parameters(const Eigen::RowVector3d& motor, double gear_ratio) {
   return {joint_torque_Nm_from_motor_Ncm(motor(0), gear_ratio),
           joint_torque_Nm_from_motor_Ncm(motor(1), gear_ratio),
@@ -42,14 +70,17 @@ ExponentialFit fit_exponential_at(const FitProblem& problem, double decay_C) {
   const Eigen::ArrayXd distance = T.array() - fit.reference_C;
   Eigen::MatrixXd Phi = Eigen::MatrixXd::Ones(T.size(), 2);
   Phi.col(1) = (-distance / decay_C).exp();
-  const LinearFit linear =
-      fit_linear(problem.targets, problem.metric, Phi,
-                 problem.physical ? LinearConstraint::kNonNegative : LinearConstraint::kNone);
-  fit.p0 = linear.C.row(0);
-  fit.p1 = linear.C.row(1);
-  fit.cost = linear.cost;
-  fit.cost_by_decay =
-      (linear.cost_by_phi.col(1).array() * Phi.col(1).array() * distance).sum() / (decay_C * decay_C);
+  const LinearFit linear(problem.targets, problem.metric, Phi,
+                         problem.physical ? LinearConstraint::kNonNegative : LinearConstraint::kNone);
+  fit.p0 = linear.C().row(0);
+  fit.p1 = linear.C().row(1);
+  fit.cost = linear.cost();
+  const Eigen::ArrayXd by_decay = Phi.col(1).array() * distance / (decay_C * decay_C);
+  fit.gradient = (linear.cost_by_phi().col(1).array() * by_decay).sum();
+  const Eigen::MatrixX3d change = by_decay.matrix() * fit.p1;
+  const Eigen::MatrixX3d weighted = change * problem.metric;
+  fit.curvature =
+      (weighted.array() * change.array()).sum() - linear.curvature_loss(weighted.reshaped())(0, 0);
   return fit;
 }
 
@@ -92,26 +123,12 @@ FuzzyFit fit_consequents(const FitProblem& problem, const Eigen::VectorXd& cente
   fit.width_C = width_C(order);
   const Eigen::VectorXd& T = problem.targets.temperature_C;
   const Eigen::MatrixXd Phi = normalised_memberships(T, fit.center_C, fit.width_C);
-  const LinearFit linear =
-      fit_linear(problem.targets, problem.metric, Phi,
-                 problem.physical ? LinearConstraint::kNonNegativeDescending : LinearConstraint::kNone);
-  fit.consequents = linear.C;
-  fit.cost = linear.cost;
-
-  // Phi = softmax of a = -((T - c)/s)^2 along each row, so that d cost/d a_kj = Phi_kj (G_kj - sum_i G_ki
-  // Phi_ki).
-  const Eigen::ArrayXd mean = (linear.cost_by_phi.array() * Phi.array()).rowwise().sum();
-  const Eigen::ArrayXXd cost_by_a = Phi.array() * (linear.cost_by_phi.array().colwise() - mean);
-  fit.cost_by_center.resize(m);
-  fit.cost_by_width.resize(m);
-  for (Index j = 0; j < m; ++j) {
-    const double width = fit.width_C(j);
-    const Eigen::ArrayXd distance = T.array() - fit.center_C(j);
-    const Index original = order[static_cast<std::size_t>(j)];
-    fit.cost_by_center(original) = (cost_by_a.col(j) * 2.0 * distance).sum() / (width * width);
-    fit.cost_by_width(original) =
-        (cost_by_a.col(j) * 2.0 * distance.square()).sum() / (width * width * width);
-  }
+  const LinearFit linear(
+      problem.targets, problem.metric, Phi,
+      problem.physical ? LinearConstraint::kNonNegativeDescending : LinearConstraint::kNone);
+  fit.consequents = linear.C();
+  fit.cost = linear.cost();
+  differentiate(problem, linear, Phi, order, fit);
   return fit;
 }
 

@@ -18,7 +18,8 @@ struct ExponentialFit {
   double decay_C = 0.0;
   Eigen::RowVector3d p0, p1;  ///< static, Coulomb, viscous
   double cost = 0.0;
-  double cost_by_decay = 0.0;  ///< derivative of the cost over decay_C
+  double gradient = 0.0;   ///< derivative of the cost over decay_C
+  double curvature = 0.0;  ///< Gauss-Newton's approximation of the second one
 };
 
 /// Rules mu_i = exp(-((T - center_i)/width_i)^2), centres ascending, and their parameters.
@@ -26,7 +27,10 @@ struct FuzzyFit {
   Eigen::VectorXd center_C, width_C;
   Eigen::MatrixX3d consequents;  ///< one row per rule: static, Coulomb, viscous
   double cost = 0.0;
-  Eigen::VectorXd cost_by_center, cost_by_width;
+  /// Derivative of the cost, and Gauss-Newton's approximation of the second one, over [centres, widths] in
+  /// the order of the arguments.
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd curvature;
 };
 
 /// What both fits need to know.

@@ -7,6 +7,7 @@
 //   PI1 = sum e_k^2,   PI2 = sum |e_k / r_k|,   the initial transient included.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -72,7 +73,12 @@ struct ClosedLoopResult {
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 
-/// Runs `controller` from rest at the plant's initial position. Throws InputError for a bad configuration.
+/// Runs `controller` from rest at the plant's initial position and shows every sample to `visit`. False when
+/// the run diverged and ended early. Throws InputError for a bad configuration.
+bool simulate(const ClosedLoopConfig& config, LoopController& controller,
+              const std::function<void(const TracePoint&)>& visit);
+
+/// The same, with the whole trace kept.
 ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController& controller);
 
 /// Statistics of a trace with one point per `period_s`.

@@ -15,6 +15,7 @@
 #include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/overrun_watch.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/shared_memory.h"
 
@@ -51,6 +52,8 @@ class RealtimeLoop {
   bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
 
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
+  /// Null when the configuration wants none.
+  FlightRecorder* recorder(std::size_t index) noexcept { return recorders_.empty() ? nullptr : recorders_[index].get(); }
   std::size_t joint_count() const noexcept { return joints_.size(); }
   ReplyQueue& replies() noexcept { return *replies_; }
   EventQueue& events() noexcept { return *events_; }
@@ -71,6 +74,7 @@ class RealtimeLoop {
   std::unique_ptr<ReplyQueue> replies_;
   std::unique_ptr<EventQueue> events_;
   std::unique_ptr<LoopStatistics> statistics_;
+  std::vector<std::unique_ptr<FlightRecorder>> recorders_;
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::thread thread_;
   std::string refusal_;
@@ -83,7 +87,7 @@ class RealtimeLoop {
   std::int64_t previous_wake_ns_ = 0;
   std::int64_t next_publish_cycle_ = 0;
   std::int64_t stop_since_cycle_ = -1;
-  int overruns_in_a_row_ = 0;
+  OverrunWatch overrun_watch_;
 };
 
 }  // namespace strainwave

@@ -149,6 +149,22 @@ TEST(JointPhysics, FollowsTheViscousExponential) {
   EXPECT_NEAR(state.position_rad, 3.0 / rate * -std::expm1(-rate * 0.1), 1e-9);
 }
 
+TEST(JointPhysics, StopsUnderCoulombAndViscousFrictionWhereTheLogarithmSays) {
+  const JointParameters joint = reference_joint();
+  JointInput input = constant_friction(0.0);
+  input.friction.viscous_Nms_rad = 2.5;
+  const double w0 = 0.9;
+  const double relaxation_s = joint.inertia_kgm2 / 2.5;
+  const double logarithm = std::log1p(2.5 * w0 / kCoulomb_Nm);
+  JointState state = moving(w0);
+  advance(state, joint, input, 0.1, 1000);
+  EXPECT_TRUE(state.stuck);
+  EXPECT_NEAR(state.position_rad, relaxation_s * (w0 - kCoulomb_Nm / 2.5 * logarithm), 1e-13);
+  JointState before = moving(w0);
+  advance(before, joint, input, relaxation_s * logarithm - 1e-10, 300);
+  EXPECT_FALSE(before.stuck);
+}
+
 // The velocity after 20 ms of motion inside the Stribeck range, and the position after a stop in it.
 double final_velocity(int substeps) {
   JointState state = moving(0.01);

@@ -43,6 +43,7 @@ const std::vector<Library> kLibraries{
     {"lcm/", {"daemon/gateway/", "client/", "tests/"}},
     {"strainwave/", {"lcmtypes/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"daemon/", "tests/"}},
+    {"seccomp", {"daemon/gateway/"}},
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},

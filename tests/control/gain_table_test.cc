@@ -1,0 +1,121 @@
+#include "control/gain_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "control/gain_table_json.h"
+
+namespace strainwave {
+namespace {
+
+GainTable reference_table() {
+  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
+}
+
+TEST(GainTable, TheReferenceTableHasNoDefect) {
+  EXPECT_EQ(find_defect(reference_table()), std::nullopt);
+}
+
+TEST(GainTable, EveryNumberThatIsNotFiniteIsADefect) {
+  const std::vector<std::function<double&(GainTable&)>> numbers{
+      [](GainTable& t) -> double& { return t.plant.inertia_kgm2; },
+      [](GainTable& t) -> double& { return t.plant.gear_ratio; },
+      [](GainTable& t) -> double& { return t.plant.period_s; },
+      [](GainTable& t) -> double& { return t.friction.temperature_min_C; },
+      [](GainTable& t) -> double& { return t.friction.temperature_max_C; },
+      [](GainTable& t) -> double& { return t.friction.velocity.zero_center_rad_s; },
+      [](GainTable& t) -> double& { return t.friction.velocity.zero_width_rad_s; },
+      [](GainTable& t) -> double& { return t.friction.velocity.high_center_rad_s; },
+      [](GainTable& t) -> double& { return t.friction.velocity.high_width_rad_s; },
+      [](GainTable& t) -> double& { return t.friction.rules[2].center_C; },
+      [](GainTable& t) -> double& { return t.friction.rules[2].width_C; },
+      [](GainTable& t) -> double& { return t.friction.rules[2].friction.static_Nm; },
+      [](GainTable& t) -> double& { return t.friction.rules[2].friction.coulomb_Nm; },
+      [](GainTable& t) -> double& { return t.friction.rules[2].friction.viscous_Nms_rad; },
+      [](GainTable& t) -> double& { return t.torque_limit_Nm; },
+      [](GainTable& t) -> double& { return t.primary.weights.integral; },
+      [](GainTable& t) -> double& { return t.primary.weights.position; },
+      [](GainTable& t) -> double& { return t.primary.weights.velocity; },
+      [](GainTable& t) -> double& { return t.primary.weights.torque; },
+      [](GainTable& t) -> double& { return t.primary.decay_rate; },
+      [](GainTable& t) -> double& { return t.primary.cost_bound; },
+      [](GainTable& t) -> double& { return t.primary.F[3][1]; },
+      [](GainTable& t) -> double& { return t.primary.P[3][4]; },
+      [](GainTable& t) -> double& { return t.fallback.F[0][2]; },
+  };
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (const double bad :
+         {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+      GainTable table = reference_table();
+      numbers[i](table) = bad;
+      EXPECT_NE(find_defect(table), std::nullopt) << "number " << i << " = " << bad;
+    }
+  }
+}
+
+TEST(GainTable, CountsOutsideTheirRangeAreDefectsAndNotReadAsIndices) {
+  for (const std::int32_t bad : {-1, 0, kMaxTemperatureRules + 1, 2000000000}) {
+    GainTable table = reference_table();
+    table.friction.rule_count = bad;
+    EXPECT_NE(find_defect(table), std::nullopt);
+  }
+  for (const std::int32_t bad : {-1, 0, 2, 5, 7, kMaxRules + 1, 2000000000}) {
+    GainTable table = reference_table();
+    table.primary.rule_count = bad;
+    EXPECT_NE(find_defect(table), std::nullopt);
+  }
+}
+
+TEST(GainTable, AnAsymmetricLyapunovMatrixIsADefectAndItsNameSaysWhere) {
+  GainTable table = reference_table();
+  table.primary.P[2][1] += 1e-9;
+  ASSERT_NE(find_defect(table), std::nullopt);
+  EXPECT_NE(find_defect(table)->find("primary.rules[2].P[0][1]"), std::string::npos) << *find_defect(table);
+}
+
+TEST(GainTable, HiddenContentBeyondTheCountsIsADefect) {
+  GainTable table = reference_table();
+  table.fallback.F[1][0] = 1.0;
+  EXPECT_NE(find_defect(table), std::nullopt);
+  table = reference_table();
+  table.name.bytes[40] = 'x';
+  EXPECT_NE(find_defect(table), std::nullopt);
+}
+
+TEST(GainTable, AFallbackNeedsTheStatesOfThePrimaryAndNoTemperature) {
+  GainTable table = reference_table();
+  table.fallback = table.primary;
+  EXPECT_NE(find_defect(table), std::nullopt);
+  table = reference_table();
+  table.fallback = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c1.json").fallback;
+  EXPECT_NE(find_defect(table), std::nullopt);
+}
+
+TEST(GainTable, AControllerNameThatContradictsItsGainsIsADefect) {
+  GainTable table = reference_table();
+  table.primary.controller = FixedString<8>("C3");
+  EXPECT_NE(find_defect(table), std::nullopt);
+}
+
+TEST(GainTable, IdentityComparesModelInertiaRatioAndPeriod) {
+  const GainTable table = reference_table();
+  EXPECT_EQ(find_identity_mismatch(table, table.plant), std::nullopt);
+  PlantIdentity other = table.plant;
+  other.inertia_kgm2 *= 1.0 + 1e-8;
+  EXPECT_NE(find_identity_mismatch(table, other), std::nullopt);
+  other = table.plant;
+  other.inertia_kgm2 *= 1.0 + 1e-10;
+  EXPECT_EQ(find_identity_mismatch(table, other), std::nullopt);
+  other.period_s = 0.002;
+  EXPECT_NE(find_identity_mismatch(table, other)->find("period_s"), std::string::npos);
+  other = table.plant;
+  other.joint_model = FixedString<32>("another");
+  EXPECT_NE(find_identity_mismatch(table, other)->find("another"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace strainwave
