@@ -20,7 +20,6 @@
 #include "control/input_error.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/simulated_actuator.h"
-#include "sim/reference_plant.h"
 
 namespace strainwave {
 namespace {
@@ -38,9 +37,7 @@ DaemonConfig bench_config(int joints) {
     joint.loop.limits = {-10.0, 10.0, 1.0, 100.0, 10.0, 200.0};
     joint.loop.controller.torque_limit_Nm = 34.0;
     joint.make_actuator = [] {
-      SimulatedActuatorConfig simulated;
-      simulated.plant = realistic_plant();
-      return std::make_unique<SimulatedActuator>(simulated);
+      return std::make_unique<SimulatedActuator>(simulated_reference_joint(false));
     };
     config.joints.push_back(joint);
   }
