@@ -101,8 +101,8 @@ void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_d
 // (inertia).
 void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model) noexcept {
   const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
-  const double share = std::min(1.0, speed / model.stribeck.velocity_rad_s);
-  const double drift = square(config_.friction_drift_Nm * share * share) + square(kRestDrift_Nm);
+  const double share = square(square(std::min(1.0, speed / model.stribeck.velocity_rad_s)));
+  const double drift = square(config_.friction_drift_Nm * share) + square(kRestDrift_Nm);
   covariance_(kFriction, kFriction) += drift;
   covariance_(kLoad, kLoad) += kLoadDrift * drift;
   covariance_(kInertia, kInertia) += square(config_.inertia_drift * (end_velocity_rad_s - state_(kVelocity)));

@@ -22,7 +22,7 @@ struct VelocityObserverConfig {
   double friction_uncertainty_Nm =
       0.3;  ///< of the model's friction before the joint has moved, standard deviation
   double load_uncertainty_Nm = 0.1;   ///< of an external torque that has not shown yet
-  double friction_drift_Nm = 0.05;    ///< change of friction's error from one speed to another
+  double friction_drift_Nm = 0.1;     ///< change of friction's error from one speed to another
   double inertia_uncertainty = 0.1;   ///< of the model's inertia before the joint has moved, relative
   double inertia_drift = 0.003;       ///< per rad/s of change of speed, relative
   double torque_uncertainty = 0.005;  ///< of the accelerating torque from period to period, relative

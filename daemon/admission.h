@@ -65,8 +65,8 @@ struct Verdict {
 class Admission {
  public:
   /// Verifications a second that may end in a refusal, on the average and at once. One costs about 0.1 ms:
-  /// whoever sends forgeries gets at most a fifth of one processor, and beyond it they are refused unread.
-  static constexpr double kWastedVerificationsPer_s = 2000.0;
+  /// whoever sends forgeries gets at most an eighth of one processor, and beyond it they are refused unread.
+  static constexpr double kWastedVerificationsPer_s = 1000.0;
   static constexpr double kWastedVerificationsAtOnce = 200.0;
 
   Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints,
