@@ -106,6 +106,12 @@ void ScheduledController::reset() noexcept {
   saturated_ = false;
 }
 
+double ScheduledController::integral_torque_Nm() const noexcept {
+  if (!gains_.scheduled()) return high_velocity_gain_(0) * integral_rad_s_;
+  const double zero_weight = friction_.velocity.zero_weight(0.0);
+  return (zero_weight * gains_.gain(0)(0) + (1.0 - zero_weight) * high_velocity_gain_(0)) * integral_rad_s_;
+}
+
 void ScheduledController::carry_over(const ControllerInput& input, double torque_Nm) noexcept {
   last_setpoint_rad_ = input.setpoint_position_rad;
   has_setpoint_ = true;

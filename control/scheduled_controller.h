@@ -74,6 +74,8 @@ class ScheduledController {
   /// Friction at the last temperature; the table's, also for controllers that do not use it.
   const FrictionParameters& friction() const noexcept { return blended_friction_; }
   double integral_rad_s() const noexcept { return integral_rad_s_; }
+  /// The integral's part of the torque of a joint at rest: what it has learnt of load and friction.
+  double integral_torque_Nm() const noexcept;
 
  private:
   struct Terms {
