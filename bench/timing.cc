@@ -54,19 +54,25 @@ void add(Slice& to, const Slice& from) {
   to.max_ns = std::max(to.max_ns, from.max_ns);
 }
 
+Order order(OrderKind kind) {
+  Order order;
+  order.kind = kind;
+  return order;
+}
+
 Slice run_ours(double seconds, int joints, const GainTable& table) {
   auto states = std::make_unique<decltype(OutboundMemory::states)>();
   RealtimeLoop loop(bench_config(joints), *states);
   for (std::size_t i = 0; i < loop.joint_count(); ++i) {
     loop.joint(i).table_slot(0) = {table, 1};
-    loop.joint(i).orders().push({0, OrderKind::kUseTable, 0, 0.0, 0.0});
+    loop.joint(i).orders().push(order(OrderKind::kUseTable));
   }
   loop.start();
   if (!loop.real_time_refusal().empty()) throw InputError(loop.real_time_refusal());
   // The first order is taken with the first reading; enabling must come a cycle later.
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   for (std::size_t i = 0; i < loop.joint_count(); ++i)
-    loop.joint(i).orders().push({0, OrderKind::kEnable, 0, 0.0, 0.0});
+    loop.joint(i).orders().push(order(OrderKind::kEnable));
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   const Slice slice{loop.statistics().wakeup_latency.counts(), loop.statistics().wakeup_latency.max_ns()};
   loop.request_stop();
