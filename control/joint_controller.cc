@@ -16,10 +16,12 @@ constexpr double kStribeckExponent = 2.0;
 // Landing begins where one push with this share of the torque, and one period's braking, can end on the
 // target.
 constexpr double kLandingShare = 0.5;
+// A landing that finds itself this many times farther away is given up: something pushed the joint.
+constexpr double kLandingLost = 4.0;
 // A saturated joint that is farther behind than this many such pushes needs a new plan.
 constexpr double kReplanPushes = 4.0;
-// New plans per target. A joint that is blocked uses them up, keeps its reference, and its following error grows until
-// someone notices.
+// New plans per target. A joint that is blocked uses them up, keeps its reference, and its following error
+// grows until someone notices.
 constexpr int kPlanLimit = 50;
 
 VelocityObserverConfig observer_config(const JointControllerConfig& config) noexcept {
@@ -176,10 +178,17 @@ double JointController::distance_to_target_rad() const noexcept {
   return std::abs(then_.position_rad - shaper_.target_rad());
 }
 
-bool JointController::within_landing_reach() const noexcept {
+// How far one period's push, and one period's braking, can take the joint.
+double JointController::landing_reach_rad() const noexcept {
   const double torque_Nm = kLandingShare * std::max(0.0, torque_limit_Nm_ - model_.friction.static_Nm);
-  const double speed = torque_Nm * config_.period_s / adapted_.inertia_kgm2;
-  return distance_to_target_rad() <= speed * config_.period_s && std::abs(then_.velocity_rad_s) <= speed;
+  return torque_Nm * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
+}
+
+bool JointController::landing_possible() const noexcept {
+  const double reach_rad = landing_reach_rad();
+  if (phase_ != MotionPhase::kTracking) return distance_to_target_rad() <= kLandingLost * reach_rad;
+  return distance_to_target_rad() <= reach_rad &&
+         std::abs(then_.velocity_rad_s) * config_.period_s <= reach_rad;
 }
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
@@ -189,7 +198,7 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
-  if (!within_landing_reach()) {
+  if (!landing_possible()) {
     ask_for_new_plan();
     return enter(MotionPhase::kTracking);
   }
@@ -241,6 +250,7 @@ ControllerOutput JointController::track() noexcept {
   input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
   input.planned = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
   input.planned_torque_Nm = input.planned ? planned_torque_Nm() : now_.disturbance.load_Nm;
+  if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
   input.torque_limit_Nm = torque_limit_Nm_;
   input.torque_max_Nm = config_.motor.available_Nm(then_.velocity_rad_s);
   input.torque_min_Nm = -config_.motor.available_Nm(-then_.velocity_rad_s);
@@ -248,10 +258,9 @@ ControllerOutput JointController::track() noexcept {
   carry_over_ = false;
   const ControllerOutput output = active().step(input);
 
-  const double push_rad =
-      kLandingShare * torque_limit_Nm_ * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
   const double behind_rad = std::abs(then_.position_rad - reference_.position_rad);
-  if (config_.use_observer && output.saturated && behind_rad > kReplanPushes * push_rad) ask_for_new_plan();
+  if (config_.use_observer && output.saturated && behind_rad > kReplanPushes * landing_reach_rad())
+    ask_for_new_plan();
   return output;
 }
 

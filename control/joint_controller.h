@@ -106,7 +106,8 @@ class JointController {
   ControllerOutput apply(double torque_Nm) const noexcept;
   double planned_torque_Nm() const noexcept;
   bool reference_moves() const noexcept;
-  bool within_landing_reach() const noexcept;
+  double landing_reach_rad() const noexcept;
+  bool landing_possible() const noexcept;
   double distance_to_target_rad() const noexcept;
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
@@ -134,7 +135,7 @@ class JointController {
   double previous_position_rad_ = 0.0;
   double hold_torque_Nm_ = 0.0;
   double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
-  int plans_ = 0;  ///< new ones since the target or the phase changed
+  int plans_ = 0;                      ///< new ones since the target or the phase changed
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;

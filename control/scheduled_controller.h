@@ -34,6 +34,8 @@ struct ControllerInput {
   double setpoint_velocity_rad_s = 0.0;  ///< 0 for a step reference
   bool planned = false;                  ///< the setpoint's motion is planned and comes with its torque
   double planned_torque_Nm = 0.0;        ///< what the plan needs: inertia, friction, load; only when planned
+  /// Nearer than this to the setpoint a joint at rest is left alone.
+  double rest_zone_rad = 1e-6;
   double torque_limit_Nm = 0.0;          ///< >= 0
   /// What the supply leaves of it at this speed.
   double torque_min_Nm = -std::numeric_limits<double>::infinity();
