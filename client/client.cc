@@ -26,6 +26,7 @@ Client::Client(Connection& connection, const ClientOptions& options)
     : connection_(connection),
       options_(options),
       states_(connection),
+      sender_(options.key_file),
       acknowledgements_(
           connection.subscribe(channel_pattern(options.prefix, channel_kind::kAck), &Client::on_ack, this)) {}
 

@@ -2,6 +2,7 @@
 // until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <strainwave/ack_v1.hpp>
 #include <string>
@@ -19,6 +20,7 @@ struct ClientOptions {
   std::string prefix = "SW";
   double timeout_s =
       2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
+  std::filesystem::path key_file = {};  ///< secret key to sign orders with; empty: unsigned
 };
 
 /// The daemon's answer to one order.
@@ -58,12 +60,12 @@ class Client {
   }
 
   /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait
-  /// for a state; without one the session is 0, which the daemon ignores in a disable.
+  /// for a state, and is not signed; without a state the session is 0, which the daemon ignores in a disable.
   template <typename Message>
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
     const std::int64_t session_id = view != nullptr ? view->state.session_id : 0;
-    return exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, session_id));
+    return exchange(joint, sender_.seal_unsigned(channel(options_.prefix, joint, kind), message, session_id));
   }
 
   /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError

@@ -30,6 +30,7 @@ struct Invocation {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   ClientOptions options;
   std::function<void(Client&, const Output&)> command;
+  std::function<void(const Output&)> local_command;  ///< instead of `command`: needs neither LCM nor a daemon
 };
 
 CLI::Validator name_validator() {
@@ -159,6 +160,23 @@ void add_load_table(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_keygen(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("keygen", "a new key to sign orders with");
+  auto arguments = std::make_shared<KeygenArguments>();
+  auto role = std::make_shared<std::string>(to_text(Role::kOperator));
+  command->add_option("--out", arguments->out, "the secret key; its public line goes to FILE.pub")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--role", *role, "operator: setpoints and commands; engineer: also gain tables")
+      ->check(CLI::IsMember({"operator", "engineer"}))
+      ->capture_default_str();
+  command->add_option("--comment", arguments->comment, "whose key it is; otherwise user@host");
+  command->callback([&invocation, arguments, role] {
+    arguments->role = *parse_role(*role);
+    invocation.local_command = [arguments](const Output& output) { keygen(output, *arguments); };
+  });
+}
+
 void configure(CLI::App& app, Invocation& invocation) {
   app.set_version_flag("--version", std::string("strainwavectl ") + STRAINWAVE_VERSION);
   app.require_subcommand(1);
@@ -172,6 +190,9 @@ void configure(CLI::App& app, Invocation& invocation) {
       ->check(name_validator())
       ->capture_default_str()
       ->type_name("NAME");
+  app.add_option("--key", invocation.options.key_file, "the secret key to sign orders with (see keygen)")
+      ->envname("STRAINWAVE_KEY")
+      ->type_name("FILE");
   add_seconds(app, "--timeout_s", invocation.options.timeout_s,
               "longest wait for a state, an answer or a change of mode")
       ->capture_default_str();
@@ -184,6 +205,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
   add_load_table(app, invocation);
   add_record(app, invocation);
+  add_keygen(app, invocation);
 }
 
 /// The arguments as CLI11 takes them: last first, and "-.5" as "-0.5", which it would take for an option.
@@ -227,6 +249,10 @@ ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out
   try {
     configure(app, invocation);
     app.parse(reversed_arguments(argc, argv));
+    if (invocation.local_command) {
+      invocation.local_command({out, terminal});
+      return ExitStatus::kDone;
+    }
     Connection connection(invocation.lcm_url);
     Client client(connection, invocation.options);
     invocation.command(client, {out, terminal});

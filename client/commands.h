@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/client.h"
+#include "lcmtypes/key_text.h"
 
 namespace strainwave {
 
@@ -68,6 +69,14 @@ struct LoadTableArguments {
   std::filesystem::path file;
 };
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
+
+/// Makes a key pair: the secret key in `out`, its public line in `out`.pub. Neither may exist.
+struct KeygenArguments {
+  std::filesystem::path out;
+  Role role = Role::kOperator;
+  std::optional<std::string> comment;  ///< nothing: user@host
+};
+void keygen(const Output& output, const KeygenArguments& arguments);
 
 /// Throws ClientError (refused) with the reason unless `answer` accepts what `what` names.
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,

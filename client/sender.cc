@@ -1,6 +1,9 @@
 #include "client/sender.h"
 
+#include <algorithm>
 #include <random>
+
+#include "client/key_file.h"
 
 namespace strainwave {
 
@@ -15,6 +18,17 @@ std::int64_t random_identity() {
 
 }  // namespace
 
-Sender::Sender() : sender_id_(random_identity()) {}
+Sender::Sender(std::filesystem::path key_file)
+    : sender_id_(random_identity()), key_file_(std::move(key_file)) {}
+
+std::int64_t Sender::next_sequence(std::int64_t utime) noexcept {
+  sequence_ = std::max(sequence_ + 1, utime);
+  return sequence_;
+}
+
+void Sender::sign_if_keyed(const std::string& channel, std::span<std::uint8_t> bytes) {
+  if (!key_ && !key_file_.empty()) key_ = read_secret_key(key_file_).key;
+  if (key_) sign(channel, *key_, bytes);
+}
 
 }  // namespace strainwave

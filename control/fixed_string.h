@@ -1,4 +1,5 @@
-// Text in a plain struct: at most N-1 bytes, zero padded, so that the struct can be copied as bytes. Real-time safe.
+// Text in a plain struct: at most N-1 bytes, zero padded, so that the struct can be copied as bytes.
+// Real-time safe.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,8 @@ struct FixedString {
   }
   /// The text up to the first zero byte; never reads past the array.
   std::string_view view() const noexcept {
-    return {bytes.data(), static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), '\0') - bytes.begin())};
+    return {bytes.data(),
+            static_cast<std::size_t>(std::find(bytes.begin(), bytes.end(), '\0') - bytes.begin())};
   }
   bool operator==(const FixedString&) const = default;
 };

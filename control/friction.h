@@ -1,10 +1,11 @@
-// Friction of a strain-wave joint: the Stribeck curve at one temperature and the exponential law over temperature.
-// Joint side, SI. Real-time safe. Source: Zhao (2006), (2-1)..(2-4) and (2-7)..(2-9).
+// Friction of a strain-wave joint: the Stribeck curve at one temperature and the exponential law over
+// temperature. Joint side, SI. Real-time safe. Source: Zhao (2006), (2-1)..(2-4) and (2-7)..(2-9).
 #pragma once
 
 namespace strainwave {
 
-/// Friction at one temperature, joint side. All three are >= 0 and static_Nm >= coulomb_Nm for a physical joint.
+/// Friction at one temperature, joint side. All three are >= 0 and static_Nm >= coulomb_Nm for a physical
+/// joint.
 struct FrictionParameters {
   double static_Nm = 0.0;        ///< Fs: largest torque that the joint at rest withstands.
   double coulomb_Nm = 0.0;       ///< Fc: friction of slow motion, beyond the Stribeck range.
@@ -26,10 +27,10 @@ double stribeck_friction_Nm(const FrictionParameters& friction, const StribeckSh
 /// Friction over temperature, each parameter p(T) = p0 + p1 exp(-(T - T0)/Ts), clamped to be non-negative.
 /// T0 and the three p1 are redundant (only p1 exp(T0/Ts) matters): compare curves, never parameters.
 struct ExponentialTemperatureLaw {
-  FrictionParameters asymptote;     ///< p0: the warm limit.
-  FrictionParameters amplitude;     ///< p1: the part that vanishes as the joint warms.
-  double reference_C = 0.0;         ///< T0.
-  double decay_C = 1.0;             ///< Ts > 0.
+  FrictionParameters asymptote;  ///< p0: the warm limit.
+  FrictionParameters amplitude;  ///< p1: the part that vanishes as the joint warms.
+  double reference_C = 0.0;      ///< T0.
+  double decay_C = 1.0;          ///< Ts > 0.
 
   /// Friction at `temperature_C`.
   FrictionParameters at(double temperature_C) const noexcept;

@@ -13,7 +13,8 @@ double VelocityMemberships::zero_weight(double velocity_rad_s) const noexcept {
   const double speed = std::abs(velocity_rad_s);
   const double beyond_zero = std::max(0.0, speed - zero_center_rad_s) / zero_width_rad_s;
   const double below_high = std::max(0.0, high_center_rad_s - speed) / high_width_rad_s;
-  // mu_zero / (mu_zero + mu_high) with the quotient taken inside one exponential, so that neither can underflow.
+  // mu_zero / (mu_zero + mu_high) with the quotient taken inside one exponential, so that neither can
+  // underflow.
   return 1.0 / (1.0 + std::exp(beyond_zero * beyond_zero - below_high * below_high));
 }
 

@@ -1,8 +1,8 @@
 // The cascaded Takagi-Sugeno friction model that the controller carries. Joint side, SI. Real-time safe.
 //
-// Layer 1 (temperature, may run slowly): Gaussian memberships mu_i(T) = exp(-((T - center_i)/width_i)^2) blend the
-// rules' friction parameters. Layer 2 (velocity, every sample): two memberships, "zero" and "high", blend static
-// friction with Coulomb plus viscous friction. Source: Zhao (2006), (3-1)..(3-8).
+// Layer 1 (temperature, may run slowly): Gaussian memberships mu_i(T) = exp(-((T - center_i)/width_i)^2)
+// blend the rules' friction parameters. Layer 2 (velocity, every sample): two memberships, "zero" and "high",
+// blend static friction with Coulomb plus viscous friction. Source: Zhao (2006), (3-1)..(3-8).
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ struct TemperatureRule {
   FrictionParameters friction;
 };
 
-/// Layer 2, joint side. mu_zero is 1 up to zero_center and falls as exp(-((|w|-zero_center)/zero_width)^2) beyond it;
-/// mu_high is 1 from high_center and falls likewise below it. Widths > 0, centres >= 0.
+/// Layer 2, joint side. mu_zero is 1 up to zero_center and falls as exp(-((|w|-zero_center)/zero_width)^2)
+/// beyond it; mu_high is 1 from high_center and falls likewise below it. Widths > 0, centres >= 0.
 struct VelocityMemberships {
   double zero_center_rad_s = 0.0;
   double zero_width_rad_s = 1.0;
@@ -39,7 +39,8 @@ struct TemperatureWeights {
   std::int32_t count = 0;
 };
 
-/// The whole model, as it travels in a gain table. 1 <= rule_count <= kMaxTemperatureRules, centres ascending.
+/// The whole model, as it travels in a gain table. 1 <= rule_count <= kMaxTemperatureRules, centres
+/// ascending.
 struct FuzzyFriction {
   std::int32_t rule_count = 0;
   std::array<TemperatureRule, kMaxTemperatureRules> rules{};
@@ -47,8 +48,8 @@ struct FuzzyFriction {
   double temperature_min_C = 0.0;  ///< Range the rules were fitted over; temperatures are clamped to it.
   double temperature_max_C = 0.0;
 
-  /// Memberships at `temperature_C`, normalised in the log domain so that they never become 0/0 far from every
-  /// centre. The temperature is clamped to the table's range first; it must not be NaN.
+  /// Memberships at `temperature_C`, normalised in the log domain so that they never become 0/0 far from
+  /// every centre. The temperature is clamped to the table's range first; it must not be NaN.
   TemperatureWeights weights(double temperature_C) const noexcept;
 
   /// Layer 1: the friction parameters blended by `weights`.

@@ -1,9 +1,11 @@
-// The gain table: everything that the loop needs to control one kind of joint, and what proves it. A plain struct that
-// can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see docs/theory.md.
+// The gain table: everything that the loop needs to control one kind of joint, and what proves it. A plain
+// struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see
+// docs/theory.md.
 //
-// State of the error dynamics, in this order:  x = [ integral of error (rad.s), error (rad), velocity (rad/s) ],
-// error = joint position - setpoint. Feedback torque u = F x (N.m, joint side), so stabilising gains are negative.
-// Controllers without an integrator keep the same layout with zeros in the integral's row and column.
+// State of the error dynamics, in this order:  x = [ integral of error (rad.s), error (rad), velocity (rad/s)
+// ], error = joint position - setpoint. Feedback torque u = F x (N.m, joint side), so stabilising gains are
+// negative. Controllers without an integrator keep the same layout with zeros in the integral's row and
+// column.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,17 +48,19 @@ struct CostWeights {
   double torque = 0.0;
 };
 
-/// Gains of one controller with their Lyapunov matrices. Rule 0 is "zero velocity", rule i the i-th temperature rule
-/// at high velocity. A temperature-free controller has rule_count 1: one gain for every rule of the plant.
+/// Gains of one controller with their Lyapunov matrices. Rule 0 is "zero velocity", rule i the i-th
+/// temperature rule at high velocity. A temperature-free controller has rule_count 1: one gain for every rule
+/// of the plant.
 struct FeedbackGains {
   FixedString<8> controller;  ///< "C1".."C4"
   std::int32_t has_integrator = 0;
   std::int32_t rule_count = 0;
   CostWeights weights;
-  double decay_rate = 1.0;     ///< in (0, 1]: V falls at least by its square each sample
-  double cost_bound = 0.0;     ///< lambda: bound on the cost from the declared initial states
-  std::array<std::array<double, kMaxStates>, kMaxRules> F{};                ///< F_j, 1x3 rows
-  std::array<std::array<double, kMaxStates * kMaxStates>, kMaxRules> P{};   ///< P_j, 3x3, symmetric, row by row
+  double decay_rate = 1.0;  ///< in (0, 1]: V falls at least by its square each sample
+  double cost_bound = 0.0;  ///< lambda: bound on the cost from the declared initial states
+  std::array<std::array<double, kMaxStates>, kMaxRules> F{};  ///< F_j, 1x3 rows
+  std::array<std::array<double, kMaxStates * kMaxStates>, kMaxRules>
+      P{};  ///< P_j, 3x3, symmetric, row by row
 
   GainRow gain(int rule) const noexcept { return GainRow::Map(F[static_cast<std::size_t>(rule)].data()); }
   StateMatrix lyapunov(int rule) const noexcept {
@@ -77,7 +81,8 @@ struct Provenance {
   FixedString<64> note;
 };
 
-/// One table: the controller in use and the temperature-free one that replaces it when temperature is not known.
+/// One table: the controller in use and the temperature-free one that replaces it when temperature is not
+/// known.
 struct GainTable {
   std::int32_t format = kGainTableFormat;
   FixedString<48> name;
@@ -89,11 +94,13 @@ struct GainTable {
   Provenance provenance;
 };
 
-/// Structural check: counts, finite numbers, signs and ranges of every field. The first defect in words (key, value,
-/// what is allowed), or nothing. Whether the gains stabilise the plant is certificate.h's question. Not real-time.
+/// Structural check: counts, finite numbers, signs and ranges of every field. The first defect in words (key,
+/// value, what is allowed), or nothing. Whether the gains stabilise the plant is certificate.h's question.
+/// Not real-time.
 std::optional<std::string> find_defect(const GainTable& table);
 
-/// Why `table` is not for the joint that `expected` describes (model, inertia and ratio to 1e-9, period), or nothing.
+/// Why `table` is not for the joint that `expected` describes (model, inertia and ratio to 1e-9, period), or
+/// nothing.
 std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected);
 
 }  // namespace strainwave

@@ -1,15 +1,25 @@
-// Everything that one joint needs each period, in one object that the daemon and the simulator both run:
-// gains chosen by the state of the temperature signal, velocity estimate, reference shaping, control law.
+// Everything that one joint needs each period, in one object that the daemon and the simulator both run.
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Joint side, SI.
 //
-//   measurement -> gains in use -> velocity -> reference -> feedback + feed-forward -> saturate -> torque
+//   measurement -> gains in use -> estimate, as it will be when the torque acts -> reference -> torque
+//   tracking:  scheduled feedback on the reference + what its motion needs (inertia, friction, load),
+//   saturated landing:   the last counts, by pushes (control/landing.h) resting:   the torque that holds the
+//   load, nothing else
 #pragma once
 
+#include <array>
+
 #include "control/gain_table.h"
+#include "control/joint_model.h"
+#include "control/landing.h"
 #include "control/reference_shaper.h"
+#include "control/rest_detector.h"
 #include "control/scheduled_controller.h"
+#include "control/velocity_observer.h"
 
 namespace strainwave {
+
+inline constexpr int kMaxControlDelay = 8;
 
 /// The motor's limits as a line over speed: |Tm| <= min(peak, stall - slope * velocity along the torque), see
 /// data/rhs17_datasheet.csv. Infinite where unknown.
@@ -17,6 +27,9 @@ struct MotorLimits {
   double peak_torque_Nm = 0.0;            ///< > 0
   double stall_torque_Nm = 0.0;           ///< Kt V / R > 0
   double torque_per_speed_Nms_rad = 0.0;  ///< Kt Ke / R >= 0, Ke in V.s/rad
+
+  /// Largest torque, >= 0, in the direction in which the joint moves with `velocity_rad_s` (< 0: against it).
+  double available_Nm(double velocity_rad_s) const noexcept;
 };
 
 /// One joint's configuration. Each feature can be switched off, which leaves the plain control law of the
@@ -24,26 +37,33 @@ struct MotorLimits {
 struct JointControllerConfig {
   double period_s = 0.001;              ///< > 0, the table's
   double encoder_resolution_rad = 0.0;  ///< position of one count at the joint; 0: exact
-  int delay_samples = 0;                ///< periods between a torque's computation and its effect, 0 or 1
-  double torque_limit_Nm = 0.0;         ///< > 0; the table's limit applies as well
+  int delay_samples = 0;  ///< periods between a torque's computation and its effect, 0..kMaxControlDelay
+  double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
   MotorLimits motor;
-  MotionLimits motion;       ///< never exceeded by the reference; what the joint can do limits it further
-  bool use_observer = true;  ///< velocity from the encoder by a model, else by difference
-  bool use_shaping = true;   ///< else targets are steps
-  bool use_rest = true;      ///< quiet torque and integrator inside one count of the target
+  MotionLimits motion;  ///< never exceeded by the reference; what the joint can do limits it further
+  double torque_reserve =
+      0.03;  ///< share of the torque that the reference leaves to the feedback, 0 <= reserve < 1
+  bool use_observer =
+      true;                 ///< estimate from encoder and torque, over the delay; else velocity by difference
+  bool use_shaping = true;  ///< else targets are steps
+  bool use_rest = true;     ///< at the target the torque and the integral stand still
+  bool use_landing = true;  ///< with the observer and rest: the last counts by pushes
 };
 
 /// One period's measurements.
 struct JointMeasurement {
   double joint_position_rad = 0.0;
   double joint_velocity_rad_s = 0.0;  ///< used only when has_velocity
-  double torque_applied_Nm = 0.0;     ///< what acted during the period that ends now
+  double torque_applied_Nm = 0.0;     ///< over the period that ends now, as the drive says
   double temperature_C = 0.0;         ///< used only when temperature_valid
   bool has_velocity = false;
   bool temperature_valid = false;
 };
 
 enum class GainsInUse : int { kNone = 0, kPrimary = 1, kFallback = 2 };
+
+/// How the torque comes about.
+enum class MotionPhase : int { kTracking = 0, kLanding = 1, kResting = 2 };
 
 /// One period's result.
 struct JointStep {
@@ -52,6 +72,8 @@ struct JointStep {
   double joint_velocity_rad_s = 0.0;  ///< measured or estimated, as the feedback used it
   GainsInUse gains_in_use = GainsInUse::kNone;
   bool at_target = false;  ///< the reference has ended on the target
+  MotionPhase phase = MotionPhase::kTracking;
+  JointEstimate estimate;  ///< of this sample
 };
 
 class JointController {
@@ -66,9 +88,9 @@ class JointController {
   /// Begins to hold `position_rad` with nothing remembered: call when the drive becomes enabled.
   void start(double position_rad) noexcept;
   /// Moves there, from now on.
-  void set_target(double position_rad) noexcept { shaper_.set_target(position_rad); }
+  void set_target(double position_rad) noexcept;
   /// Decelerates to rest and holds.
-  void stop() noexcept { shaper_.stop(); }
+  void stop() noexcept;
   /// Where the motion ends.
   double target_rad() const noexcept { return shaper_.target_rad(); }
 
@@ -80,24 +102,46 @@ class JointController {
 
  private:
   void choose_gains(const JointMeasurement& measurement) noexcept;
-  double estimate_velocity(const JointMeasurement& measurement) noexcept;
-  Reference next_reference() noexcept;
+  void estimate_state(const JointMeasurement& measurement) noexcept;
+  void look_ahead() noexcept;
+  void advance_reference() noexcept;
+  MotionLimits reachable_limits() const noexcept;
+  void choose_phase(const JointMeasurement& measurement) noexcept;
+  bool within_landing_reach() const noexcept;
+  ControllerOutput track() noexcept;
+  ControllerOutput land(const JointMeasurement& measurement) noexcept;
+  ControllerOutput rest() noexcept;
+  double planned_torque_Nm() const noexcept;
+  void remember(double torque_Nm) noexcept;
+  ControllerOutput only_feedforward(double torque_Nm) const noexcept;
   ScheduledController& active() noexcept {
     return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
   }
 
   JointControllerConfig config_;
   ReferenceShaper shaper_;
+  VelocityObserver observer_;
+  Landing landing_;
+  RestDetector rest_detector_;
   ScheduledController primary_;
   ScheduledController fallback_;
+  JointModel model_;    ///< the table's, at this temperature
+  JointModel adapted_;  ///< with the inertia that shows
   GainsInUse gains_in_use_ = GainsInUse::kNone;
+  MotionPhase phase_ = MotionPhase::kTracking;
+  JointEstimate now_;   ///< at this sample
+  JointEstimate then_;  ///< when this period's torque begins to act
+  Reference reference_;
+  std::array<double, kMaxControlDelay + 1> torques_Nm_{};  ///< computed, newest first
   double table_torque_limit_Nm_ = 0.0;
   double scheduled_temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;
-  double previous_torque_Nm_ = 0.0;
+  double hold_torque_Nm_ = 0.0;
   bool has_table_ = false;
   bool has_temperature_ = false;
+  bool started_ = false;     ///< a period has passed since start()
   bool carry_over_ = false;  ///< the gains have changed: continue from the previous torque
+  bool replan_ = false;      ///< the joint cannot follow the reference: begin it anew from where the joint is
 };
 
 }  // namespace strainwave

@@ -33,6 +33,16 @@ class ReferenceShaper {
 
   /// Continues from here; the target becomes the nearest point where the motion can stop.
   void reset(double position_rad, double velocity_rad_s) noexcept;
+  /// Continues from here to the target it has.
+  void restart(double position_rad, double velocity_rad_s) noexcept {
+    position_rad_ = position_rad;
+    velocity_rad_s_ = velocity_rad_s;
+  }
+  /// Takes the target at once, as a step.
+  void jump() noexcept {
+    position_rad_ = target_rad_;
+    velocity_rad_s_ = 0.0;
+  }
   /// In force from the next step. When they shrink while moving, the speed falls with the new deceleration.
   void set_limits(const MotionLimits& limits) noexcept { limits_ = limits; }
   void set_target(double position_rad) noexcept;

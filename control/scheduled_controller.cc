@@ -9,19 +9,18 @@ namespace strainwave {
 
 namespace {
 
-StateVector error_state(const ControllerInput& input, double integral_rad_s) noexcept {
-  return {integral_rad_s, input.joint_position_rad - input.setpoint_position_rad,
-          input.joint_velocity_rad_s - input.setpoint_velocity_rad_s};
+// More than the table's static friction to break away: its fit is no better than some per cent, and a joint
+// that is pushed too weakly stays where it is until the integral has grown.
+constexpr double kBreakawayMargin = 0.1;
+// Nearer than this a joint at rest is where it should be and is not pushed.
+constexpr double kAtSetpoint_rad = 1e-6;
+
+double position_error_rad(const ControllerInput& input) noexcept {
+  return input.joint_position_rad - input.setpoint_position_rad;
 }
 
-// The way the joint is being driven: the way it is meant to move, or, for a step reference, the way the feedback pulls.
-double drive_direction(const ControllerInput& input, double feedback_Nm) noexcept {
-  return input.setpoint_velocity_rad_s != 0.0 ? sign(input.setpoint_velocity_rad_s) : sign(feedback_Nm);
-}
-
-// Friction in motion opposes the velocity; at rest it opposes the drive.
-double motion_direction(const ControllerInput& input, double drive) noexcept {
-  return input.joint_velocity_rad_s != 0.0 ? sign(input.joint_velocity_rad_s) : drive;
+double velocity_error_rad_s(const ControllerInput& input) noexcept {
+  return input.joint_velocity_rad_s - input.setpoint_velocity_rad_s;
 }
 
 }  // namespace
@@ -29,61 +28,92 @@ double motion_direction(const ControllerInput& input, double drive) noexcept {
 ScheduledController::ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
                                          const PlantIdentity& plant) noexcept
     : gains_(gains), friction_(friction), plant_(plant) {
+  const StateMatrix P = gains.lyapunov(0);
+  if (gains.has_integrator != 0 && P(0, 0) > 0.0) {
+    position_share_s_ = P(0, 1) / P(0, 0);
+    velocity_share_s2_ = P(0, 2) / P(0, 0);
+  }
   set_temperature(0.5 * (friction.temperature_min_C + friction.temperature_max_C));
 }
 
 void ScheduledController::set_temperature(double temperature_C) noexcept {
   weights_ = friction_.weights(temperature_C);
+  blended_friction_ = friction_.blend(weights_);
   if (!gains_.scheduled()) {
     high_velocity_gain_ = gains_.gain(0);
     return;
   }
-  blended_friction_ = friction_.blend(weights_);
   high_velocity_gain_.setZero();
   for (int i = 0; i < weights_.count; ++i)
     high_velocity_gain_ += weights_.weight[static_cast<std::size_t>(i)] * gains_.gain(i + 1);
 }
 
-ScheduledController::Terms ScheduledController::evaluate(const ControllerInput& input,
-                                                         double integral_rad_s) const noexcept {
-  const StateVector x = error_state(input, integral_rad_s);
-  const double inertial_Nm = plant_.inertia_kgm2 * input.setpoint_acceleration_rad_s2;
-  if (!gains_.scheduled()) return {high_velocity_gain_.dot(x), inertial_Nm, high_velocity_gain_(0), 1.0};
+double ScheduledController::friction_torque_Nm(const ControllerInput& input,
+                                               double zero_weight) const noexcept {
+  const double error_rad = position_error_rad(input);
+  if (input.joint_velocity_rad_s == 0.0) {
+    if (std::abs(error_rad) <= kAtSetpoint_rad) return 0.0;
+    return -sign(error_rad) * (1.0 + kBreakawayMargin) * blended_friction_.static_Nm;
+  }
+  return -sign(error_rad) * zero_weight * blended_friction_.static_Nm +
+         sign(input.joint_velocity_rad_s) * (1.0 - zero_weight) * blended_friction_.coulomb_Nm;
+}
 
-  const double zero = friction_.velocity.zero_weight(input.joint_velocity_rad_s);
-  const double high = 1.0 - zero;
-  const GainRow gain = zero * gains_.gain(0) + high * high_velocity_gain_;
-  const double feedback_Nm = gain.dot(x);
-  const double drive = drive_direction(input, feedback_Nm);
-  const double friction_Nm = zero * blended_friction_.static_Nm * drive +
-                             high * blended_friction_.coulomb_Nm * motion_direction(input, drive);
-  const double viscous_Nm = high * blended_friction_.viscous_Nms_rad * input.setpoint_velocity_rad_s;
-  return {feedback_Nm, friction_Nm + viscous_Nm + inertial_Nm, gain(0), zero};
+ScheduledController::Terms ScheduledController::evaluate(const ControllerInput& input) const noexcept {
+  const StateVector x{integral_rad_s_, position_error_rad(input), velocity_error_rad_s(input)};
+  const double planned_Nm = input.planned ? input.planned_torque_Nm : 0.0;
+  if (!gains_.scheduled()) return {high_velocity_gain_.dot(x), planned_Nm, high_velocity_gain_(0), 1.0};
+
+  const double zero_weight = friction_.velocity.zero_weight(input.joint_velocity_rad_s);
+  const GainRow gain = zero_weight * gains_.gain(0) + (1.0 - zero_weight) * high_velocity_gain_;
+  const double feedforward_Nm = input.planned ? planned_Nm : friction_torque_Nm(input, zero_weight);
+  return {gain.dot(x), feedforward_Nm, gain(0), zero_weight};
+}
+
+double ScheduledController::fast_part(const ControllerInput& input,
+                                      double setpoint_position_rad) const noexcept {
+  return position_share_s_ * (input.joint_position_rad - setpoint_position_rad) +
+         velocity_share_s2_ * velocity_error_rad_s(input);
+}
+
+// Saturation and setpoint jumps leave the slow part of the state as it was; planned motion makes no jumps.
+void ScheduledController::keep_slow_part(const ControllerInput& input) noexcept {
+  if (gains_.has_integrator == 0) return;
+  const double last_setpoint_rad = has_setpoint_ ? last_setpoint_rad_ : input.joint_position_rad;
+  const bool jumped = !input.planned && input.setpoint_position_rad != last_setpoint_rad;
+  if (jumped && !saturated_) slow_rad_s_ = integral_rad_s_ + fast_part(input, last_setpoint_rad);
+  if (jumped || saturated_) integral_rad_s_ = slow_rad_s_ - fast_part(input, input.setpoint_position_rad);
 }
 
 ControllerOutput ScheduledController::step(const ControllerInput& input) noexcept {
-  const Terms terms = evaluate(input, integral_rad_s_);
+  keep_slow_part(input);
+  const Terms terms = evaluate(input);
   const double wanted_Nm = terms.feedback_Nm + terms.feedforward_Nm;
-  const double torque_Nm = std::clamp(wanted_Nm, -input.torque_limit_Nm, input.torque_limit_Nm);
-  const double excess_Nm = wanted_Nm - torque_Nm;
+  const double torque_Nm = std::clamp(wanted_Nm, std::max(-input.torque_limit_Nm, input.torque_min_Nm),
+                                      std::min(input.torque_limit_Nm, input.torque_max_Nm));
+  saturated_ = torque_Nm != wanted_Nm;
+  slow_rad_s_ = integral_rad_s_ + fast_part(input, input.setpoint_position_rad);
+  if (gains_.has_integrator != 0) integral_rad_s_ += plant_.period_s * position_error_rad(input);
+  last_setpoint_rad_ = input.setpoint_position_rad;
+  has_setpoint_ = true;
+  return {torque_Nm, terms.feedback_Nm, terms.feedforward_Nm, terms.zero_weight, saturated_};
+}
 
-  // Anti-windup: while saturated the integral may only move so as to leave saturation.
-  const double error_rad = input.joint_position_rad - input.setpoint_position_rad;
-  const bool winds_up = excess_Nm * terms.integral_gain * error_rad > 0.0;
-  if (gains_.has_integrator != 0 && !winds_up) integral_rad_s_ += plant_.period_s * error_rad;
-
-  return {torque_Nm, terms.feedback_Nm, terms.feedforward_Nm, terms.zero_weight, excess_Nm != 0.0};
+void ScheduledController::reset() noexcept {
+  integral_rad_s_ = 0.0;
+  slow_rad_s_ = 0.0;
+  has_setpoint_ = false;
+  saturated_ = false;
 }
 
 void ScheduledController::carry_over(const ControllerInput& input, double torque_Nm) noexcept {
+  last_setpoint_rad_ = input.setpoint_position_rad;
+  has_setpoint_ = true;
+  saturated_ = false;
   if (gains_.has_integrator == 0) return;
-  // The feed-forward's direction may follow the sign of the feedback, which depends on the integral sought: two passes
-  // settle it, and where both signs are consistent the first one found is kept.
-  for (int pass = 0; pass < 2; ++pass) {
-    const Terms terms = evaluate(input, integral_rad_s_);
-    if (terms.integral_gain == 0.0) return;
+  const Terms terms = evaluate(input);
+  if (terms.integral_gain != 0.0)
     integral_rad_s_ += (torque_Nm - terms.feedback_Nm - terms.feedforward_Nm) / terms.integral_gain;
-  }
 }
 
 }  // namespace strainwave

@@ -1,14 +1,26 @@
-// Scheduled state feedback with integrator, friction feed-forward, saturation and anti-windup: the control law of one
-// joint. Real-time safe: step() and set_temperature() allocate nothing and throw nothing.
+// Scheduled state feedback with integrator, friction compensation, saturation and anti-windup: the control
+// law of one joint. Real-time safe: nothing here allocates or throws.
 //
 //   e = position - setpoint,  x = [ integral e, e, velocity - setpoint velocity ]
 //   u = (alpha_0 F_0 + (1 - alpha_0) sum_i w_i(T) F_i) x                                        feedback
-//   d = drive direction;  f = (alpha_0 Fs(T) + (1 - alpha_0) Fc(T)) d                            friction feed-forward
-//   r = J setpoint acceleration + (1 - alpha_0) Fv(T) setpoint velocity                          reference feed-forward
-//   torque = clamp(u + f + r)
-// Source: Zhao (2006), (3-9)..(3-35), section 5.4. Temperature-free controllers (one rule) know no friction: f = 0 and
-// no viscous term, as in the source.
+//   f = (alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity))       moving                     friction
+//   compensation f = (1 + margin) Fs(T) d                                         at rest;  d = sign(-e):
+//   towards the setpoint torque = clamp(u + f)      or, when the setpoint's motion is planned:  torque =
+//   clamp(u + planned torque)
+// Source: Zhao (2006), (3-9)..(3-35), section 5.4. What he leaves open: d, which here is where the joint must
+// go (the sign of the velocity keeps an overshoot going, the sign of u chatters while the integral settles),
+// and the joint at rest, which needs all of Fs to move again. Controllers without temperature (one rule) know
+// no friction: f = 0.
+//
+// The integral is one number with two duties; only the slow one is wanted: what friction and load leave to
+// correct. With P the Lyapunov matrix of rule 0,  V(x) = P_00 (slow)^2 + (a form in e and velocity alone),
+//   slow = integral + (P_01 e + P_02 velocity error) / P_00,
+// so the integral that costs least for a given e and velocity is the one that leaves `slow` where it was. A
+// new setpoint and a saturated torque therefore keep `slow`: neither winds up, neither raises V, and the
+// certificate still holds.
 #pragma once
+
+#include <limits>
 
 #include "control/gain_table.h"
 
@@ -19,9 +31,13 @@ struct ControllerInput {
   double joint_position_rad = 0.0;
   double joint_velocity_rad_s = 0.0;
   double setpoint_position_rad = 0.0;
-  double setpoint_velocity_rad_s = 0.0;       ///< 0 for a step reference
-  double setpoint_acceleration_rad_s2 = 0.0;  ///< 0 for a step reference
-  double torque_limit_Nm = 0.0;               ///< what the drive can deliver this period, >= 0
+  double setpoint_velocity_rad_s = 0.0;  ///< 0 for a step reference
+  bool planned = false;                  ///< the setpoint's motion is planned and comes with its torque
+  double planned_torque_Nm = 0.0;        ///< what the plan needs: inertia, friction, load; only when planned
+  double torque_limit_Nm = 0.0;          ///< >= 0
+  /// What the supply leaves of it at this speed.
+  double torque_min_Nm = -std::numeric_limits<double>::infinity();
+  double torque_max_Nm = std::numeric_limits<double>::infinity();
 };
 
 /// One period's result, joint side; torque_Nm = feedback + feedforward, limited.
@@ -37,38 +53,50 @@ class ScheduledController {
  public:
   ScheduledController() = default;
   /// `gains` and `friction` must have passed find_defect(); they are copied.
-  ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction, const PlantIdentity& plant) noexcept;
+  ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
+                      const PlantIdentity& plant) noexcept;
 
-  /// Layer 1: recomputes the temperature weights and everything that depends only on them. May be called at a slower
-  /// rate than step(). The temperature must be finite; it is clamped to the table's range.
+  /// Layer 1: recomputes the temperature weights and everything that depends only on them. May be called at a
+  /// slower rate than step(). The temperature must be finite; it is clamped to the table's range.
   void set_temperature(double temperature_C) noexcept;
 
   /// Layer 2 and the control law: one sample.
   ControllerOutput step(const ControllerInput& input) noexcept;
 
   /// Forgets the integral.
-  void reset() noexcept { integral_rad_s_ = 0.0; }
+  void reset() noexcept;
 
-  /// Chooses the integral so that step(input) would give `torque_Nm` (unless it saturates): the change-over from
-  /// another controller makes no torque step. Without an integrator it does nothing.
+  /// Chooses the integral so that step(input) would give `torque_Nm` (unless it saturates): the change-over
+  /// from another controller makes no torque step. Without an integrator it does nothing.
   void carry_over(const ControllerInput& input, double torque_Nm) noexcept;
 
   const TemperatureWeights& temperature_weights() const noexcept { return weights_; }
+  /// Friction at the last temperature; the table's, also for controllers that do not use it.
+  const FrictionParameters& friction() const noexcept { return blended_friction_; }
   double integral_rad_s() const noexcept { return integral_rad_s_; }
 
  private:
   struct Terms {
     double feedback_Nm, feedforward_Nm, integral_gain, zero_weight;
   };
-  Terms evaluate(const ControllerInput& input, double integral_rad_s) const noexcept;
+  Terms evaluate(const ControllerInput& input) const noexcept;
+  double friction_torque_Nm(const ControllerInput& input, double zero_weight) const noexcept;
+  void keep_slow_part(const ControllerInput& input) noexcept;
+  double fast_part(const ControllerInput& input, double setpoint_position_rad) const noexcept;
 
   FeedbackGains gains_;
   FuzzyFriction friction_;
   PlantIdentity plant_;
   TemperatureWeights weights_;
-  FrictionParameters blended_friction_;     ///< at the last temperature
+  FrictionParameters blended_friction_;           ///< at the last temperature
   GainRow high_velocity_gain_ = GainRow::Zero();  ///< sum_i w_i F_i at the last temperature
+  double position_share_s_ = 0.0;                 ///< P_01 / P_00
+  double velocity_share_s2_ = 0.0;                ///< P_02 / P_00
   double integral_rad_s_ = 0.0;
+  double slow_rad_s_ = 0.0;  ///< of the last sample
+  double last_setpoint_rad_ = 0.0;
+  bool has_setpoint_ = false;
+  bool saturated_ = false;  ///< at the last sample
 };
 
 }  // namespace strainwave

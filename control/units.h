@@ -1,7 +1,8 @@
 // Conversions between the catalogue's units and ours. Real-time safe.
 //
-// Inside the project every quantity is SI and on the joint (output, low-speed) side of the gear. The manufacturer's
-// catalogue states torques in N.cm and speeds in RPM at the motor (high-speed) side. With ratio N:
+// Inside the project every quantity is SI and on the joint (output, low-speed) side of the gear. The
+// manufacturer's catalogue states torques in N.cm and speeds in RPM at the motor (high-speed) side. With
+// ratio N:
 //   joint torque   = N * motor torque            (no efficiency term: it is part of the measured friction)
 //   joint velocity = motor velocity / N
 //   joint viscous  = N^2 * motor viscous
@@ -40,11 +41,14 @@ constexpr double motor_torque_Ncm_from_joint_Nm(double joint_torque_Nm, double g
 constexpr double motor_rpm_from_joint_velocity_rad_s(double joint_velocity_rad_s, double gear_ratio) {
   return joint_velocity_rad_s * gear_ratio / kRadPerSecondPerRpm;
 }
-constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_viscous_Nms_rad, double gear_ratio) {
+constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_viscous_Nms_rad,
+                                                              double gear_ratio) {
   return joint_viscous_Nms_rad / (gear_ratio * gear_ratio * kNmPerNcm / kRadPerSecondPerRpm);
 }
 
 /// -1, 0 or 1.
-constexpr double sign(double value) { return static_cast<double>(value > 0.0) - static_cast<double>(value < 0.0); }
+constexpr double sign(double value) {
+  return static_cast<double>(value > 0.0) - static_cast<double>(value < 0.0);
+}
 
 }  // namespace strainwave

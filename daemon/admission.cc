@@ -6,6 +6,7 @@
 #include <sstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
+#include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
 #include "daemon/table_admission.h"
@@ -17,9 +18,8 @@ namespace strainwave {
 
 namespace {
 
-// More senders than any real installation has; past it the memory starts afresh, and the session id still protects.
-constexpr std::size_t kMaxSenders = 1024;
 constexpr double kMaxValidFor_s = 3600.0;
+constexpr double kMaxInjection_s = 3600.0;
 
 std::span<const std::uint8_t> payload(const WireMessage& message) {
   return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
@@ -61,10 +61,16 @@ std::optional<OrderKind> order_of(Action action) {
 
 }  // namespace
 
-Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints)
-    : prefix_(std::move(prefix)), session_id_(session_id), joints_(std::move(joints)) {}
+Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints,
+                     SecurityPolicy security)
+    : prefix_(std::move(prefix)),
+      session_id_(session_id),
+      joints_(std::move(joints)),
+      security_(std::move(security)),
+      sequences_(security_.keys.size()) {}
 
-Verdict Admission::consider(const WireMessage& message) {
+Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
+  now_ns_ = now_ns;
   const auto name = parse_channel(message.channel.view());
   Verdict verdict = discard(Reason::kMalformed);
   if (name && name->prefix == prefix_ && message.size <= message.bytes.size()) {
@@ -74,7 +80,7 @@ Verdict Admission::consider(const WireMessage& message) {
                   ? discard(Reason::kUnknownJoint)
                   : judge(name->kind, static_cast<std::size_t>(joint - joints_.begin()), message);
   }
-  if (verdict.kind == Verdict::Kind::kRefuse || verdict.kind == Verdict::Kind::kDiscard) count_reject(verdict.reason);
+  if (verdict.kind != Verdict::Kind::kOrder) count_reject(verdict.reason);
   return verdict;
 }
 
@@ -82,40 +88,66 @@ Verdict Admission::judge(std::string_view kind, std::size_t joint, const WireMes
   if (kind == channel_kind::kSetpoint) return judge_setpoint(joint, message);
   if (kind == channel_kind::kCommand) return judge_command(joint, message);
   if (kind == channel_kind::kTable) return judge_table_message(joint, message);
+  if (kind == channel_kind::kInject) return judge_injection(joint, message);
   return discard(Reason::kMalformed);
 }
 
-bool Admission::remember(std::int64_t sender_id, std::int64_t sequence) {
-  if (last_sequence_.size() >= kMaxSenders && !last_sequence_.contains(sender_id)) last_sequence_.clear();
-  const auto [entry, is_new] = last_sequence_.try_emplace(sender_id, sequence);
-  if (!is_new && sequence <= entry->second) return false;
-  entry->second = sequence;
-  return true;
-}
-
-std::optional<Verdict> Admission::check_envelope(const Envelope& envelope, const Requester& requester) {
+std::optional<Verdict> Admission::check_envelope(const WireMessage& message, const Envelope& envelope,
+                                                 Requester& requester) {
   if (envelope.session_id != session_id_)
     return refuse(requester, Reason::kWrongSession,
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is another: read session_id from the STATE channel and send again");
-  const auto last = last_sequence_.find(envelope.sender_id);
-  if (last != last_sequence_.end() && last->second == envelope.sequence) {
-    Verdict verdict;
-    verdict.kind = Verdict::Kind::kRepeat;
-    verdict.requester = requester;
-    return verdict;
+  if (is_unsigned(payload(message))) {
+    if (!security_.unsigned_allowed)
+      return refuse(requester, Reason::kUnsigned,
+                    "this daemon obeys signed orders only: strainwavectl --key FILE, see strainwavectl keygen --help");
+    return check_sequence(unsigned_sequences_, requester);
   }
-  if (!remember(envelope.sender_id, envelope.sequence))
-    return refuse(requester, Reason::kOldSequence,
-                  "sequence " + std::to_string(envelope.sequence) + " does not rise above the sender's last");
-  return std::nullopt;
+  const auto key = security_.keys.find(key_id_of(payload(message)));
+  if (!key)
+    return refuse(requester, Reason::kBadSignature,
+                  "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
+                  "and start the daemon again");
+  if (!verifications_.available(now_ns_))
+    return refuse(requester, Reason::kBusy, "too many forged or repeated orders at once: try again");
+  auto verdict = check_signed(message, *key, envelope.needed, requester);
+  if (verdict) verifications_.take();
+  return verdict;
+}
+
+std::optional<Verdict> Admission::check_signed(const WireMessage& message, std::size_t key, Role needed,
+                                               Requester& requester) {
+  const AuthorizedKey& signer = security_.keys[key];
+  if (!verify(message.channel.view(), signer.key, payload(message)))
+    return refuse(requester, Reason::kBadSignature,
+                  "the signature is not that of this message on this channel by the key it names");
+  if (signer.role < needed)
+    return refuse(requester, Reason::kRoleNotAllowed,
+                  "the key of " + signer.comment + " has the role " + std::string(to_text(signer.role)) +
+                      ", this order needs " + std::string(to_text(needed)));
+  return check_sequence(sequences_[key], requester);
+}
+
+std::optional<Verdict> Admission::check_sequence(SequenceMemory& memory, Requester& requester) {
+  const auto judgement = memory.judge(requester.sender_id, requester.sequence);
+  if (judgement == SequenceMemory::Judgement::kNew) {
+    requester.authentic = true;
+    return std::nullopt;
+  }
+  Verdict verdict = refuse(requester, Reason::kOldSequence,
+                           "sequence " + std::to_string(requester.sequence) +
+                               " does not rise above the sender's last, or above those of earlier senders with this key: "
+                               "use microseconds since the epoch, from a clock that is right");
+  if (judgement == SequenceMemory::Judgement::kRepeat) verdict.kind = Verdict::Kind::kRepeat;
+  return verdict;
 }
 
 Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message) {
   const auto setpoint = decode_exactly<setpoint_v1>(payload(message));
   if (!setpoint) return discard(Reason::kMalformed);
-  const Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
-  if (auto verdict = check_envelope({setpoint->session_id, setpoint->sender_id, setpoint->sequence}, requester))
+  Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
+  if (auto verdict = check_envelope(message, {setpoint->session_id, Role::kOperator}, requester))
     return std::move(*verdict);
   if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s))
     return refuse(requester, Reason::kNotFinite, "position_rad and valid_for_s must be finite numbers");
@@ -139,11 +171,12 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
 Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) {
   const auto command = decode_exactly<command_v1>(payload(message));
   if (!command) return discard(Reason::kMalformed);
-  const Requester requester{joint, command->sender_id, command->sequence, true};
+  Requester requester{joint, command->sender_id, command->sequence};
   const auto action = static_cast<Action>(command->action);
-  // Stopping is for everybody, whatever session they believe in and whatever they sent before.
+  // Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are.
   if (action == Action::kDisable) return pass(requester, OrderKind::kDisable);
-  if (auto verdict = check_envelope({command->session_id, command->sender_id, command->sequence}, requester))
+  const Role needed = action == Action::kRevertTable ? Role::kEngineer : Role::kOperator;
+  if (auto verdict = check_envelope(message, {command->session_id, needed}, requester))
     return std::move(*verdict);
   const auto kind = order_of(action);
   if (!kind)
@@ -156,9 +189,8 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
 Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& message) {
   const auto table_message = decode_exactly<gain_table_v1>(payload(message));
   if (!table_message) return discard(Reason::kMalformed);
-  const Requester requester{joint, table_message->sender_id, table_message->sequence, true};
-  if (auto verdict = check_envelope(
-          {table_message->session_id, table_message->sender_id, table_message->sequence}, requester))
+  Requester requester{joint, table_message->sender_id, table_message->sequence};
+  if (auto verdict = check_envelope(message, {table_message->session_id, Role::kEngineer}, requester))
     return std::move(*verdict);
   auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
   const TableVerdict judged = judge_table(*table, joints_[joint].plant, joints_[joint].torque_limit_Nm);
@@ -166,6 +198,35 @@ Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& mes
   Verdict verdict = pass(requester, OrderKind::kUseTable);
   verdict.text = judged.text;
   verdict.table = std::move(table);
+  return verdict;
+}
+
+Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message) {
+  const auto inject = decode_exactly<inject_v1>(payload(message));
+  if (!inject) return discard(Reason::kMalformed);
+  Requester requester{joint, inject->sender_id, inject->sequence};
+  if (auto verdict = check_envelope(message, {inject->session_id, Role::kEngineer}, requester))
+    return std::move(*verdict);
+  if (!joints_[joint].takes_injected_faults)
+    return refuse(requester, Reason::kNotSimulated, joints_[joint].name + " has a real drive: faults are not injected there");
+  if (!std::isfinite(inject->for_s) || !std::isfinite(inject->amount))
+    return refuse(requester, Reason::kNotFinite, "for_s and amount must be finite numbers");
+  const auto kind = injected_fault_of(inject->kind);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction, "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
+  const AmountRange range = amount_range(*kind);
+  std::ostringstream text;
+  if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {
+    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s << " is allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (inject->amount < range.min || inject->amount > range.max) {
+    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max << " is allowed for "
+         << to_text(*kind);
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  Verdict verdict = pass(requester, OrderKind::kInject);
+  verdict.order.injection = {*kind, 0.0, inject->for_s, inject->amount};
   return verdict;
 }
 

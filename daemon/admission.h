@@ -1,10 +1,13 @@
-// Every message from outside passes here before the loop may hear of it: exact size, channel, session, sequence, finite,
-// range, table certificate. Pure: bytes in, verdict out; no threads, sockets or clocks. Not real-time.
+// Every message from outside passes here before the loop may hear of it: exact size, channel, session,
+// signature and role, sequence, finite, range, table certificate. Pure: bytes in, verdict out; no threads,
+// sockets or clocks. Not real-time.
+//
+// What somebody without a key can change here: the counts of rejects and the budget of wasted verifications,
+// nothing else. Sequences are remembered per key, and only of messages whose signature is right.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,8 +15,11 @@
 #include <vector>
 
 #include "control/gain_table.h"
+#include "daemon/authorized_keys.h"
 #include "daemon/realtime/orders.h"
+#include "daemon/sequence_memory.h"
 #include "daemon/shared_memory.h"
+#include "daemon/token_bucket.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -25,6 +31,7 @@ struct JointAdmission {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
   double torque_limit_Nm = 0.0;
+  bool takes_injected_faults = false;  ///< the simulated driver's
 };
 
 /// Whom an answer is for.
@@ -33,6 +40,9 @@ struct Requester {
   std::int64_t sender_id = 0;
   std::int64_t sequence = 0;
   bool wants_acknowledgement = true;
+  /// From somebody who may give orders, and new: its answer is worth remembering for a resend. Others could
+  /// make the daemon forget answers or flood the bus with new ones.
+  bool authentic = false;
 };
 
 /// What to do with one message.
@@ -47,17 +57,23 @@ struct Verdict {
   Reason reason = Reason::kAccepted;
   std::string text;
   Requester requester;
-  Order order;                        ///< kOrder
-  std::unique_ptr<GainTable> table;   ///< kOrder of a table
-  bool revert_table = false;          ///< kOrder: use the previous table again
+  Order order;                       ///< kOrder
+  std::unique_ptr<GainTable> table;  ///< kOrder of a table
+  bool revert_table = false;         ///< kOrder: use the previous table again
 };
 
 class Admission {
  public:
-  Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints);
+  /// Verifications a second that may end in a refusal, on the average and at once. One costs about 0.1 ms:
+  /// whoever sends forgeries gets at most an eighth of one processor, and beyond it they are refused unread.
+  static constexpr double kWastedVerificationsPer_s = 1000.0;
+  static constexpr double kWastedVerificationsAtOnce = 200.0;
 
-  /// Judges one message and counts a refusal under its cause.
-  Verdict consider(const WireMessage& message);
+  Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints,
+            SecurityPolicy security);
+
+  /// Judges one message that is looked at at `now_ns` (monotonic) and counts a refusal under its cause.
+  Verdict consider(const WireMessage& message, std::int64_t now_ns);
 
   /// A refusal decided elsewhere (by the loop) belongs to the same counts.
   void count_reject(Reason reason) noexcept { ++rejects_[static_cast<std::size_t>(reason)]; }
@@ -66,21 +82,27 @@ class Admission {
  private:
   struct Envelope {
     std::int64_t session_id;
-    std::int64_t sender_id;
-    std::int64_t sequence;
+    Role needed;
   };
   Verdict judge(std::string_view kind, std::size_t joint, const WireMessage& message);
   Verdict judge_setpoint(std::size_t joint, const WireMessage& message);
   Verdict judge_command(std::size_t joint, const WireMessage& message);
   Verdict judge_table_message(std::size_t joint, const WireMessage& message);
-  /// A refusal or a repeat, or nothing when the envelope is in order.
-  std::optional<Verdict> check_envelope(const Envelope& envelope, const Requester& requester);
-  bool remember(std::int64_t sender_id, std::int64_t sequence);
+  Verdict judge_injection(std::size_t joint, const WireMessage& message);
+  /// A refusal or a repeat, or nothing when the envelope is in order; then the requester is authentic.
+  std::optional<Verdict> check_envelope(const WireMessage& message, const Envelope& envelope,
+                                        Requester& requester);
+  std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed, Requester& requester);
+  static std::optional<Verdict> check_sequence(SequenceMemory& memory, Requester& requester);
 
   std::string prefix_;
   std::int64_t session_id_;
   std::vector<JointAdmission> joints_;
-  std::map<std::int64_t, std::int64_t> last_sequence_;  ///< by sender, bounded
+  SecurityPolicy security_;
+  std::vector<SequenceMemory> sequences_;  ///< of each key
+  SequenceMemory unsigned_sequences_{false};
+  TokenBucket verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
+  std::int64_t now_ns_ = 0;
   std::array<std::int64_t, kReasonCount> rejects_{};
 };
 

@@ -49,8 +49,10 @@ void Answers::answer(const Requester& to, Reason reason, const std::string& text
   ack.reason = static_cast<std::int32_t>(reason);
   std::copy_n(text.begin(), std::min(text.size(), sizeof ack.text - 1), ack.text);
   const WireMessage message = wire(channel(prefix_, joints_[to.joint], channel_kind::kAck), ack);
-  if (last_.size() >= kMaxRemembered && !last_.contains(to.sender_id)) last_.clear();
-  last_[to.sender_id] = {to.sequence, message};
+  if (to.authentic) {
+    if (last_.size() >= kMaxRemembered && !last_.contains(to.sender_id)) last_.clear();
+    last_[to.sender_id] = {to.sequence, message};
+  }
   out_.write(message);
 }
 

@@ -1,5 +1,5 @@
-// Messages that the core sends by itself: acknowledgements, temperature, timing. Made here in wire form, published by the
-// gateway. Not real-time.
+// Messages that the core sends by itself: acknowledgements, temperature, timing. Made here in wire form,
+// published by the gateway. Not real-time.
 #pragma once
 
 #include <array>
@@ -12,14 +12,16 @@
 
 namespace strainwave {
 
-/// Writes acknowledgements and remembers the last one of every sender, so that a resent order gets the same answer.
+/// Writes acknowledgements and remembers the last one of every authentic sender, so that a resent order gets
+/// the same answer.
 class Answers {
  public:
   Answers(std::string prefix, std::int64_t session_id, std::vector<std::string> joints,
           decltype(OutboundMemory::messages)& out);
 
   void answer(const Requester& to, Reason reason, const std::string& text);
-  /// The last answer to this sender again, if it was to the same sequence; else nothing: it is still being worked on.
+  /// The last answer to this sender again, if it was to the same sequence; else nothing: it is still being
+  /// worked on.
   void repeat(const Requester& to);
 
   void temperature(const StateRecord& record);

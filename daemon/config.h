@@ -10,6 +10,9 @@
 
 #include "control/gain_table.h"
 #include "daemon/admission.h"
+#include "daemon/authorized_keys.h"
+#include "daemon/flight_record_writer.h"
+#include "daemon/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
 
@@ -35,6 +38,8 @@ struct JointConfig {
   PlantIdentity plant;
   JointLoopConfig loop;
   std::string driver;
+  std::string group;             ///< name of the joints that stop together; empty: none
+  bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
   ActuatorFactory make_actuator;
   std::filesystem::path table;  ///< initial gain table; empty: none
@@ -42,8 +47,11 @@ struct JointConfig {
 
 struct DaemonConfig {
   LoopConfig loop;
+  RecorderConfig recorder;
   std::string prefix;
   std::string lcm_url;
+  GatewayUser gateway_user;
+  SecurityPolicy security;
   std::vector<JointConfig> joints;
 };
 

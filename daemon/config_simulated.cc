@@ -1,8 +1,9 @@
 #include "daemon/config_simulated.h"
 
 #include "control/input_error.h"
+#include "daemon/realtime/periodic_clock.h"
+#include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
-#include "sim/reference_plant.h"
 
 namespace strainwave {
 
@@ -19,12 +20,35 @@ TemperatureProfile read_profile(TomlSection& section) {
   }
 }
 
+std::vector<std::string> injectable_faults() {
+  std::vector<std::string> names;
+  for (std::int32_t kind = 1; kind < kInjectedFaultCount; ++kind)
+    names.emplace_back(to_text(static_cast<InjectedFault>(kind)));
+  return names;
+}
+
+// [[joint.simulated.fault]]: faults that the drive has at set times.
+std::vector<Injection> read_faults(TomlSection& section) {
+  std::vector<Injection> faults;
+  if (!section.has("fault")) return faults;
+  for (TomlSection& fault : section.sections("fault")) {
+    Injection injection;
+    injection.kind = *injected_fault_of(fault.choice("kind", injectable_faults()));
+    injection.at_s = fault.number_or("at_s", 0.0, {0.0, 1e6});
+    injection.for_s = fault.number_or("for_s", 0.0, {0.0, 1e6});
+    const AmountRange range = amount_range(injection.kind);
+    if (range.min < range.max) injection.amount = fault.number("amount", {range.min, range.max});
+    fault.refuse_unknown_keys();
+    faults.push_back(injection);
+  }
+  return faults;
+}
+
 }  // namespace
 
 void read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint) {
-  SimulatedActuatorConfig config;
-  const bool ideal = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
-  config.plant = ideal ? torque_limited_plant() : realistic_plant();
+  const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
+  SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
   config.plant.joint.inertia_kgm2 = section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});
@@ -46,7 +70,11 @@ void read_simulated_driver(TomlSection& section, double period_s, JointConfig& j
   controller.encoder_resolution_rad = config.plant.encoder.resolution_rad();
   controller.delay_samples = config.plant.delay_samples;
   controller.motor = {config.plant.motor.peak_Nm, config.plant.motor.stall_Nm, config.plant.motor.slope_Nms_rad};
-  joint.make_actuator = [config] { return std::make_unique<SimulatedActuator>(config); };
+  const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
+  joint.takes_injected_faults = true;
+  joint.make_actuator = [config, faults] {
+    return std::make_unique<FaultyActuator>(std::make_unique<SimulatedActuator>(config), faults);
+  };
 }
 
 }  // namespace strainwave

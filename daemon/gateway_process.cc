@@ -18,7 +18,8 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kFirstBackoff_ns = 100'000'000;
-constexpr std::int64_t kLongestBackoff_ns = 10'000'000'000;
+/// Together with its start, which takes some 10 ms, it is back within a second however often it was killed.
+constexpr std::int64_t kLongestBackoff_ns = 800'000'000;
 /// One that lived this long is not a crash loop.
 constexpr std::int64_t kStable_ns = 5'000'000'000;
 
@@ -54,7 +55,10 @@ void GatewayProcess::start(std::int64_t now_ns) {
   const int error = ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
-  if (error != 0) throw std::system_error(error, std::generic_category(), "starting " + program_);
+  if (error != 0) {
+    back_off(now_ns);
+    throw std::system_error(error, std::generic_category(), "starting " + program_);
+  }
   pid_ = pid;
   started_ns_ = now_ns;
 }
@@ -64,11 +68,19 @@ std::optional<std::string> GatewayProcess::take_end(std::int64_t now_ns) {
   if (pid_ <= 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
   pid_ = -1;
   if (now_ns - started_ns_ > kStable_ns) backoff_ns_ = kFirstBackoff_ns;
-  not_before_ns_ = now_ns + backoff_ns_;
-  backoff_ns_ = std::min(2 * backoff_ns_, kLongestBackoff_ns);
+  back_off(now_ns);
   last_exit_status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return WIFEXITED(status) ? "exit status " + std::to_string(WEXITSTATUS(status))
                            : "signal " + std::to_string(WTERMSIG(status));
+}
+
+void GatewayProcess::kill() noexcept {
+  if (pid_ > 0) ::kill(pid_, SIGKILL);
+}
+
+void GatewayProcess::back_off(std::int64_t now_ns) noexcept {
+  not_before_ns_ = now_ns + backoff_ns_;
+  backoff_ns_ = std::min(2 * backoff_ns_, kLongestBackoff_ns);
 }
 
 std::string find_gateway_program() {

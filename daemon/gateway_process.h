@@ -1,5 +1,5 @@
-// The gateway as the core sees it: a child process that may die at any time and is started again, ever more slowly while
-// it keeps dying. Not real-time.
+// The gateway as the core sees it: a child process that may die at any time and is started again, more slowly
+// while it keeps dying, but always within a second: stops come through it. Not real-time.
 #pragma once
 
 #include <sys/types.h>
@@ -14,6 +14,7 @@ namespace strainwave {
 inline constexpr int kGatewayOutboundFd = 3;
 inline constexpr int kGatewayInboundFd = 4;
 inline constexpr int kGatewayWakeFd = 5;
+inline constexpr unsigned int kGatewayFirstFreeFd = 6;
 inline constexpr int kGatewayExitNoLcm = 69;
 
 class GatewayProcess {
@@ -29,16 +30,23 @@ class GatewayProcess {
   GatewayProcess(const GatewayProcess&) = delete;
   GatewayProcess& operator=(const GatewayProcess&) = delete;
 
-  /// Starts it. Throws std::system_error when the program cannot be run at all.
+  /// Starts it. Throws std::system_error when the program cannot be run at all; start_due() then waits as
+  /// after an end.
   void start(std::int64_t now_ns);
-  /// How it ended ("exit status 69", "signal 9"), once, when it has; start_due() then says when to start it again.
+  /// Ends it at once: it hangs. take_end() will tell.
+  void kill() noexcept;
+  /// How it ended ("exit status 69", "signal 9"), once, when it has; start_due() then says when to start it
+  /// again.
   std::optional<std::string> take_end(std::int64_t now_ns);
   bool running() const noexcept { return pid_ > 0; }
+  std::int64_t started_ns() const noexcept { return started_ns_; }
   bool start_due(std::int64_t now_ns) const noexcept { return pid_ <= 0 && now_ns >= not_before_ns_; }
   int last_exit_status() const noexcept { return last_exit_status_; }
   pid_t pid() const noexcept { return pid_; }
 
  private:
+  void back_off(std::int64_t now_ns) noexcept;
+
   std::string program_;
   Descriptors descriptors_;
   pid_t pid_ = -1;

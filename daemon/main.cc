@@ -1,4 +1,6 @@
 // strainwaved: the real-time control daemon. `strainwaved --config FILE`; see docs/configuration.md.
+#include <signal.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -17,6 +19,9 @@ int main(int argc, char** argv) {
   app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
   CLI11_PARSE(app, argc, argv);
+  // A log that may not grow or has lost its reader is no reason to end.
+  ::signal(SIGXFSZ, SIG_IGN);
+  ::signal(SIGPIPE, SIG_IGN);
   try {
     const strainwave::DaemonConfig config = strainwave::read_config(config_path);
     if (check_only) {

@@ -16,7 +16,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303031;  // "SWMEM001"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303032;  // "SWMEM002"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {
@@ -43,6 +43,9 @@ struct OutboundMemory {
   FixedString<32> prefix;
   FixedString<256> lcm_url;
   std::int64_t session_id = 0;
+  std::int64_t core_pid = 0;
+  std::int64_t gateway_uid = -1;  ///< whom the gateway becomes; -1: it stays who it is
+  std::int64_t gateway_gid = -1;
   std::uint64_t joint_count = 0;
   std::array<FixedString<32>, kMaxJoints> joint_names{};
   BroadcastRing<StateRecord, kStateRecords> states;
@@ -55,6 +58,7 @@ struct InboundMemory {
   static constexpr std::size_t kMessages = 128;
 
   std::atomic<std::uint64_t> ready{0};     ///< 1 once LCM works
+  std::atomic<std::uint64_t> turns{0};     ///< rises while the gateway lives
   std::atomic<std::uint64_t> written{0};   ///< how many messages were put in
   std::atomic<std::uint64_t> overflow{0};  ///< messages lost because the core was slow
   std::atomic<std::uint64_t> state_records_dropped{0};

@@ -30,6 +30,11 @@ constexpr std::int64_t kReplyTimeout_ns = 500 * kMillisecond_ns;
 constexpr std::int64_t kTemperatureEvery_ns = 100 * kMillisecond_ns;
 constexpr std::int64_t kTimingEvery_ns = 1000 * kMillisecond_ns;
 constexpr std::int64_t kWatchdogEvery_ns = 200 * kMillisecond_ns;
+/// A gateway that does nothing for this long hangs.
+constexpr std::int64_t kGatewaySilence_ns = 2000 * kMillisecond_ns;
+/// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others.
+constexpr double kStrangerAnswersPer_s = 200.0;
+constexpr double kStrangerAnswersAtOnce = 50.0;
 constexpr std::int64_t kGatewayStart_ns = 5000 * kMillisecond_ns;
 /// The loop meets its timing when it has run this many cycles.
 constexpr std::int64_t kCyclesUntilReady = 100;
@@ -75,11 +80,20 @@ std::string advice(const Reply& reply) {
     case Reason::kNoTable: return mode + ": load a gain table first";
     case Reason::kFaulted: return mode + ": see its fault, remove the cause, clear the fault";
     case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kStreamExpired:
+      return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
     case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
-      return mode + (reply.mode == Mode::kOff ? ": enable it first" : ": this order does nothing in this mode");
+      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
     default: return mode;
   }
+}
+
+std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
+  std::vector<FlightRecordWriter::Source> sources;
+  for (std::size_t i = 0; i < config.joints.size() && config.recorder.enabled(); ++i)
+    sources.push_back({config.joints[i].name, std::string(config.joints[i].plant.joint_model.view()), loop.recorder(i)});
+  return sources;
 }
 
 std::vector<std::string> names_of(const DaemonConfig& config) {
@@ -101,12 +115,14 @@ Supervisor::Supervisor(const DaemonConfig& config)
       wake_fd_(make_wake_fd()),
       signal_fd_(make_signal_fd()),
       loop_(config, outbound_.states),
-      admission_(config.prefix, session_id_, admission_of(config)),
+      flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_)),
+      admission_(config.prefix, session_id_, admission_of(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
       gateway_(find_gateway_program(), {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_fd_}),
       books_(config.joints.size()),
       latest_(config.joints.size()),
       refusal_log_(20, 10'000 * kMillisecond_ns),
+      stranger_answers_(kStrangerAnswersPer_s, kStrangerAnswersAtOnce),
       incoming_(std::make_unique<WireMessage>()) {
   fill_shared_memory();
   load_initial_tables();
@@ -121,6 +137,9 @@ void Supervisor::fill_shared_memory() {
   outbound_.prefix = FixedString<32>(config_.prefix);
   outbound_.lcm_url = FixedString<256>(config_.lcm_url);
   outbound_.session_id = session_id_;
+  outbound_.core_pid = ::getpid();
+  outbound_.gateway_uid = config_.gateway_user.uid;
+  outbound_.gateway_gid = config_.gateway_user.gid;
   outbound_.joint_count = config_.joints.size();
   for (std::size_t i = 0; i < config_.joints.size(); ++i)
     outbound_.joint_names[i] = FixedString<32>(config_.joints[i].name);
@@ -161,11 +180,15 @@ void Supervisor::start_gateway() {
 void Supervisor::run() {
   // The gateway first: a process started by a real-time one would inherit too much.
   start_gateway();
+  flight_records_.start();
+  spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
+                                                               : "as user " + config_.gateway_user.name);
   loop_.start();
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
   else
     spdlog::warn("no real time: {}", loop_.real_time_refusal());
+  if (!loop_.sleep_state_refusal().empty()) spdlog::warn("{}", loop_.sleep_state_refusal());
   spdlog::info("prefix {}, {} joint(s), period {} s, session {}", config_.prefix, config_.joints.size(),
                config_.loop.period_s, session_id_);
   while (!loop_.finished()) {
@@ -210,32 +233,38 @@ void Supervisor::take_messages(std::int64_t now_ns) {
   for (; inbound_taken_ != written; ++inbound_taken_) {
     *incoming_ = inbound_.messages[inbound_taken_ % InboundMemory::kMessages];
     outbound_.inbound_taken.store(inbound_taken_ + 1, std::memory_order_release);
-    dispatch(admission_.consider(*incoming_), now_ns);
+    dispatch(admission_.consider(*incoming_, now_ns), now_ns);
   }
 }
 
 void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
   switch (verdict.kind) {
     case Verdict::Kind::kDiscard: return log_refusal(verdict, now_ns);
-    case Verdict::Kind::kRepeat: return answers_.repeat(verdict.requester);
+    case Verdict::Kind::kRepeat:
+      if (stranger_answers_.try_take(now_ns)) answers_.repeat(verdict.requester);
+      return;
     case Verdict::Kind::kRefuse:
       log_refusal(verdict, now_ns);
-      return answers_.answer(verdict.requester, verdict.reason, verdict.text);
+      return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
     case Verdict::Kind::kOrder: break;
   }
   const bool is_table = verdict.order.kind == OrderKind::kUseTable;
   if (is_table && !prepare_table(verdict)) {
     admission_.count_reject(verdict.reason);
     log_refusal(verdict, now_ns);
-    return answers_.answer(verdict.requester, verdict.reason, verdict.text);
+    return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
   }
   verdict.order.id = next_order_id_++;
   if (!loop_.joint(verdict.requester.joint).orders().push(verdict.order)) {
     if (is_table) books_[verdict.requester.joint].end(false);
     admission_.count_reject(Reason::kBusy);
-    return answers_.answer(verdict.requester, Reason::kBusy, "too many orders at once: send fewer, or wait for answers");
+    return answer(verdict.requester, Reason::kBusy, "too many orders at once: send fewer, or wait for answers", now_ns);
   }
   pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, is_table};
+}
+
+void Supervisor::answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns) {
+  if (to.authentic || stranger_answers_.try_take(now_ns)) answers_.answer(to, reason, text);
 }
 
 // Puts the table into a slot that the loop does not use, or names the slot to return to.
@@ -263,13 +292,23 @@ void Supervisor::take_replies(std::int64_t now_ns) {
     const bool accepted = reply.reason == Reason::kAccepted;
     if (pending.is_table) books_[pending.requester.joint].end(accepted);
     if (!accepted) admission_.count_reject(reply.reason);
-    answers_.answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply));
+    answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply), now_ns);
     pending_.erase(found);
   }
-  for (auto it = pending_.begin(); it != pending_.end() && it->second.deadline_ns < now_ns;) {
-    // A table order stays pending in the book: the loop may still take it.
-    answers_.answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state");
-    it = it->second.is_table ? std::next(it) : pending_.erase(it);
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    if (it->second.deadline_ns >= now_ns) {
+      ++it;
+      continue;
+    }
+    answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
+    if (it->second.is_table) {
+      // The loop may still take it: its slot stays reserved until it says so, silently.
+      it->second.deadline_ns = INT64_MAX;
+      it->second.requester.wants_acknowledgement = false;
+      ++it;
+    } else {
+      it = pending_.erase(it);
+    }
   }
 }
 
@@ -277,10 +316,11 @@ void Supervisor::take_events() {
   LoopEvent event;
   while (loop_.events().pop(event)) {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
-    if (event.to == Mode::kFaulted)
-      spdlog::error("{}: fault {}: {} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
-                    to_text(event.from), event.cycle);
-    else
+    if (event.to == Mode::kFaulted) {
+      const std::string_view key = configuration_key(event.fault);
+      spdlog::error("{}: fault {}: {}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
+                    key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
+    } else
       spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
   }
 }
@@ -304,10 +344,24 @@ void Supervisor::watch_gateway(std::int64_t now_ns) {
       spdlog::error("{}", error.what());
     }
   }
+  end_hung_gateway(now_ns);
   const std::uint64_t foreign = inbound_.foreign_states.load(std::memory_order_relaxed);
   if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
     spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix", config_.prefix);
   foreign_states_seen_ = foreign;
+}
+
+void Supervisor::end_hung_gateway(std::int64_t now_ns) {
+  const std::uint64_t turns = inbound_.turns.load(std::memory_order_relaxed);
+  if (turns != gateway_turns_ || !gateway_.running()) {
+    gateway_turns_ = turns;
+    gateway_moved_ns_ = now_ns;
+  }
+  const bool starting = now_ns - gateway_.started_ns() < kGatewayStart_ns;
+  if (starting || now_ns - gateway_moved_ns_ < kGatewaySilence_ns) return;
+  gateway_moved_ns_ = now_ns;
+  spdlog::error("the gateway has done nothing for 2 s: ending it");
+  gateway_.kill();
 }
 
 void Supervisor::publish_timing(std::int64_t now_ns) {

@@ -17,6 +17,7 @@
 #include "daemon/realtime/realtime_loop.h"
 #include "daemon/shared_memory.h"
 #include "daemon/table_book.h"
+#include "daemon/token_bucket.h"
 
 namespace strainwave {
 
@@ -50,6 +51,8 @@ class Supervisor {
   void take_events();
   void take_states(std::int64_t now_ns);
   void watch_gateway(std::int64_t now_ns);
+  void end_hung_gateway(std::int64_t now_ns);
+  void answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns);
   void publish_timing(std::int64_t now_ns);
   void tell_systemd(std::int64_t now_ns);
   void log_refusal(const Verdict& verdict, std::int64_t now_ns);
@@ -64,6 +67,7 @@ class Supervisor {
   int wake_fd_;
   int signal_fd_;
   RealtimeLoop loop_;
+  FlightRecordWriter flight_records_;
   Admission admission_;
   Answers answers_;
   GatewayProcess gateway_;
@@ -71,11 +75,14 @@ class Supervisor {
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
   std::vector<StateRecord> latest_;          ///< of each joint
   LogLimiter refusal_log_;
+  TokenBucket stranger_answers_;  ///< to those who did not prove who they are
   std::unique_ptr<WireMessage> incoming_;
   std::int64_t next_order_id_ = 1;
   std::uint64_t inbound_taken_ = 0;
   std::uint64_t state_cursor_ = 0;
   std::uint64_t foreign_states_seen_ = 0;
+  std::uint64_t gateway_turns_ = 0;
+  std::int64_t gateway_moved_ns_ = 0;  ///< when it was last seen to do something
   std::int64_t temperature_due_ns_ = 0;
   std::int64_t timing_due_ns_ = 0;
   std::int64_t watchdog_due_ns_ = 0;

@@ -75,6 +75,8 @@ std::string_view to_text(Reason reason) noexcept {
     case Reason::kTimedOut: return "timed out";
     case Reason::kDriveNotReady: return "drive not ready";
     case Reason::kSuperseded: return "superseded by a newer command";
+    case Reason::kNotSimulated: return "only a simulated drive takes injected faults";
+    case Reason::kStreamExpired: return "setpoint stream has expired";
   }
   return "unknown";
 }
@@ -97,6 +99,7 @@ std::string_view to_text(TemperatureStatus status) noexcept {
     case TemperatureStatus::kTooOld: return "too old";
     case TemperatureStatus::kOutOfRange: return "out of range";
     case TemperatureStatus::kTooFast: return "changing too fast";
+    case TemperatureStatus::kNotChanging: return "not changing";
   }
   return "unknown";
 }
@@ -108,6 +111,41 @@ std::string_view to_text(GainsInUse gains) noexcept {
     case GainsInUse::kFallback: return "temperature-free";
   }
   return "unknown";
+}
+
+std::string_view configuration_key(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::kReadFailed: return "joint.supervision.missed_readings_limit";
+    case Fault::kImplausibleReading: return "joint.limits.overspeed_rad_s";
+    case Fault::kStartTimeout: return "joint.supervision.start_timeout_s";
+    case Fault::kStopTimeout: return "joint.supervision.stop_timeout_s";
+    case Fault::kPositionLimit: return "joint.limits.position_margin_rad";
+    case Fault::kSpeedLimit: return "joint.limits.overspeed_rad_s";
+    case Fault::kFollowingError: return "joint.limits.following_error_rad";
+    case Fault::kOverruns: return "daemon.overrun_limit";
+    case Fault::kTemperatureLimit: return "joint.limits.temperature_C";
+    case Fault::kGroup: return "joint.on_fault";
+    case Fault::kNone:
+    case Fault::kWriteRefused:
+    case Fault::kDriveFault:
+    case Fault::kPowerLost:
+    case Fault::kLinkLost:
+    case Fault::kEmergencyStop:
+    case Fault::kNotFinite: return "";
+  }
+  return "";
+}
+
+std::string_view configuration_key(Notice notice) noexcept {
+  switch (notice) {
+    case Notice::kTorqueLimited: return "joint.limits.torque_Nm";
+    case Notice::kTemperatureClamped: return "joint.table";
+    case Notice::kFallbackGains: return "joint.temperature";
+    case Notice::kSetpointExpired: return "";
+    case Notice::kReadingMissed: return "joint.supervision.missed_readings_limit";
+    case Notice::kSpeedLimited: return "joint.limits.speed_rad_s";
+  }
+  return "";
 }
 
 }  // namespace strainwave

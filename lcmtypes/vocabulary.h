@@ -70,6 +70,8 @@ enum class Reason : std::int32_t {
   kTimedOut = 21,
   kDriveNotReady = 22,
   kSuperseded = 23,
+  kNotSimulated = 24,
+  kStreamExpired = 25,
 };
 inline constexpr int kReasonCount = 32;
 
@@ -77,7 +79,7 @@ inline constexpr int kReasonCount = 32;
 enum class Action : std::int32_t { kEnable = 1, kDisable = 2, kHold = 3, kClearFault = 4, kRevertTable = 5 };
 
 /// state_v1.temperature_status
-enum class TemperatureStatus : std::int32_t { kValid = 0, kNeverSeen = 1, kTooOld = 2, kOutOfRange = 3, kTooFast = 4 };
+enum class TemperatureStatus : std::int32_t { kValid = 0, kNeverSeen = 1, kTooOld = 2, kOutOfRange = 3, kTooFast = 4, kNotChanging = 5 };
 
 /// One or two words each, lower case; "unknown" for a number without a meaning.
 std::string_view to_text(Mode mode) noexcept;
@@ -87,5 +89,9 @@ std::string_view to_text(Reason reason) noexcept;
 std::string_view to_text(Action action) noexcept;
 std::string_view to_text(TemperatureStatus status) noexcept;
 std::string_view to_text(GainsInUse gains) noexcept;  // state_v1.gains_in_use
+
+/// Where the limit behind a fault or notice is configured ("joint.limits.torque_Nm"); empty when nothing can be set.
+std::string_view configuration_key(Fault fault) noexcept;
+std::string_view configuration_key(Notice notice) noexcept;
 
 }  // namespace strainwave

@@ -22,7 +22,7 @@ double error_rad(const TracePoint& point) {
   return point.setpoint_position_rad - point.joint_position_rad;
 }
 
-std::size_t checked_sample_count(const ClosedLoopConfig& config) {
+std::size_t sample_count(const ClosedLoopConfig& config) {
   if (!(config.duration_s > 0.0 && config.duration_s <= kLongestRun_s))
     throw InputError("closed loop", "duration_s", std::to_string(config.duration_s), "must be in (0, 1e6]");
   return static_cast<std::size_t>(std::ceil(config.duration_s / config.plant.period_s - 1e-9));
@@ -107,29 +107,38 @@ LoopStatistics evaluate(const std::vector<TracePoint>& trace, double period_s) {
   return result;
 }
 
-ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController& controller) {
-  const std::size_t count = checked_sample_count(config);
+bool simulate(const ClosedLoopConfig& config, LoopController& controller,
+              const std::function<void(const TracePoint&)>& visit) {
+  const std::size_t count = sample_count(config);
   JointPlant plant(config.plant);
   const bool exact = config.plant.encoder.counts_per_joint_revolution <= 0.0;
-  ClosedLoopResult result;
-  result.trace.reserve(count);
   controller.reset();
   for (std::size_t k = 0; k < count; ++k) {
     const double time_s = static_cast<double>(k) * config.plant.period_s;
     plant.set_ambient_temperature(config.ambient.at(time_s));
     const JointState state = plant.state();
-    LoopSample sample{time_s,       config.setpoint_rad.at(time_s), plant.measured_position_rad(),
-                      std::nullopt, plant.sensor_temperature_C(),   plant.applied_torque_Nm()};
+    LoopSample sample;
+    sample.time_s = time_s;
+    sample.setpoint_position_rad = config.setpoint_rad.at(time_s);
+    sample.joint_position_rad = plant.measured_position_rad();
     if (exact) sample.joint_velocity_rad_s = state.velocity_rad_s;
+    sample.temperature_C = plant.sensor_temperature_C();
+    sample.torque_applied_Nm = plant.applied_torque_Nm();
     const double torque_Nm = controller.torque_Nm(sample);
+    const double joint_temperature_C = plant.joint_temperature_C();
     plant.step(torque_Nm, config.load_torque_Nm.at(time_s));
-    result.trace.push_back({time_s, sample.setpoint_position_rad, state.position_rad, state.velocity_rad_s,
-                            torque_Nm, plant.applied_torque_Nm(), plant.joint_temperature_C()});
-    if (!(std::abs(plant.state().position_rad) < kLargestPosition_rad)) {
-      result.diverged = true;
-      break;
-    }
+    visit({time_s, sample.setpoint_position_rad, state.position_rad, state.velocity_rad_s, torque_Nm,
+           plant.applied_torque_Nm(), joint_temperature_C});
+    if (!(std::abs(plant.state().position_rad) < kLargestPosition_rad)) return false;
   }
+  return true;
+}
+
+ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController& controller) {
+  ClosedLoopResult result;
+  result.trace.reserve(sample_count(config));
+  result.diverged =
+      !simulate(config, controller, [&](const TracePoint& point) { result.trace.push_back(point); });
   result.statistics = evaluate(result.trace, config.plant.period_s);
   if (result.diverged)
     result.statistics.pi1_rad2 = result.statistics.pi2 = std::numeric_limits<double>::infinity();

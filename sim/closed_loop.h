@@ -7,6 +7,7 @@
 //   PI1 = sum e_k^2,   PI2 = sum |e_k / r_k|,   the initial transient included.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct LoopSample {
   double setpoint_position_rad = 0.0;
   double joint_position_rad = 0.0;             ///< as measured
   std::optional<double> joint_velocity_rad_s;  ///< exact; only with an ideal encoder
-  double temperature_C = 0.0;                  ///< as the sensor shows it
+  double temperature_C = 0.0;                  ///< as the sensor shows it; NaN: not known
   double torque_applied_Nm = 0.0;              ///< over the period that ends now
 };
 
@@ -72,7 +73,12 @@ struct ClosedLoopResult {
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 
-/// Runs `controller` from rest at the plant's initial position. Throws InputError for a bad configuration.
+/// Runs `controller` from rest at the plant's initial position and shows every sample to `visit`. False when
+/// the run diverged and ended early. Throws InputError for a bad configuration.
+bool simulate(const ClosedLoopConfig& config, LoopController& controller,
+              const std::function<void(const TracePoint&)>& visit);
+
+/// The same, with the whole trace kept.
 ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController& controller);
 
 /// Statistics of a trace with one point per `period_s`.

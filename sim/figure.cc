@@ -15,7 +15,7 @@ namespace strainwave {
 namespace {
 
 constexpr int kPanelWidth = 460;
-constexpr int kPanelHeight = 300;
+constexpr int kPanelHeight = 330;
 // Okabe and Ito's palette: told apart by colour-blind readers.
 constexpr std::array<const char*, 8> kPalette = {"#000000", "#E69F00", "#56B4E9", "#009E73",
                                                  "#0072B2", "#D55E00", "#CC79A7", "#999999"};
@@ -68,11 +68,11 @@ std::string style(const Series& series) {
 void write_panel(std::string& script, const Panel& panel, std::size_t figure, std::size_t index) {
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     write_data(script, block_name(figure, index, i), thinned(panel.series[i].points));
-  script += "set title " + quoted(panel.title) + "\nset xlabel " + quoted(panel.x_label) + "\nset ylabel " +
-            quoted(panel.y_label) + "\n";
+  script += "set title " + quoted(panel.title) + "\nset xlabel " + quoted(panel.x_label) +
+            " offset 0,0.5\nset ylabel " + quoted(panel.y_label) + "\n";
   script += panel.log_y ? "set logscale y\nset format y '%.0e'\n" : "unset logscale\nset format y '%g'\n";
   script += range("x", panel.x_range) + range("y", panel.y_range);
-  script += panel.show_key ? "set key top right opaque samplen 2 spacing 0.9\n" : "unset key\n";
+  script += panel.show_key ? "set key below horizontal samplen 2\n" : "unset key\n";
   if (panel.right_label.empty()) {
     script += "unset y2tics\nunset y2label\nset ytics mirror\n";
   } else {

@@ -45,6 +45,6 @@ struct Figure {
 void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& directory);
 
 /// At most about `limit` points that keep every extreme: the smallest and largest of each group, in order.
-Points thinned(const Points& points, std::size_t limit = 800);
+Points thinned(const Points& points, std::size_t limit = 400);
 
 }  // namespace strainwave

@@ -82,7 +82,7 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
       2,
       {}};
   for (int range = 0; range < kRangeCount; ++range) {
-    Panel panel{"from " + range_text(range), "time (s)", "|error| (rad)", "", {}, true, {}, {}, range == 0};
+    Panel panel{"from " + range_text(range), "time (s)", "|error| (rad)", "", {}, true, {}, {}, true};
     for (const std::string& contender : chapter.contenders) {
       Series series = contender_series(chapter, {setting, scenario, range}, contender, 0, 12, error);
       for (auto& [time_s, value] : series.points) value = std::max(std::abs(value), 1e-9);
@@ -91,6 +91,16 @@ Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scena
     figure.panels.push_back(panel);
   }
   return figure;
+}
+
+/// What the scale must hold: the error of the scheduled controllers; the others may leave the figure.
+double largest_error_urad(const Chapter6& chapter, const Chapter6Key& key, double from_s, double to_s) {
+  double largest_urad = 20.0;
+  for (const char* contender : {"C4", "C4+"})
+    for (const auto& [time_s, urad] :
+         contender_series(chapter, key, contender, from_s, to_s, error_urad).points)
+      largest_urad = std::max(largest_urad, 1.2 * std::abs(urad));
+  return largest_urad;
 }
 
 /// The error in urad around two steps of the temperature, which is on the right axis.
@@ -108,7 +118,9 @@ Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s
                 false,
                 {from_s, to_s},
                 {},
-                range == 0};
+                true};
+    const double largest_urad = largest_error_urad(chapter, key, from_s, to_s);
+    panel.y_range = {-largest_urad, largest_urad};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(contender_series(chapter, key, contender, from_s, to_s, error_urad));
     panel.series.push_back({"temperature",
@@ -131,15 +143,8 @@ Figure against_the_limit(const Chapter6& chapter, Setting setting) {
   for (int range = 0; range < kRangeCount; ++range) {
     const Chapter6Key key{setting, Scenario::kRamp, range};
     const double to_s = kWindow_s[static_cast<std::size_t>(range)];
-    Panel panel{"setpoint " + range_text(range),
-                "time (s)",
-                "position (rad)",
-                "",
-                {},
-                false,
-                {0, to_s},
-                {},
-                range == 0};
+    Panel panel{
+        "setpoint " + range_text(range), "time (s)", "position (rad)", "", {}, false, {0, to_s}, {}, true};
     for (const std::string& contender : chapter.contenders)
       panel.series.push_back(contender_series(chapter, key, contender, 0, to_s, position));
     panel.series.push_back({"time-optimal", over_time(chapter.limit(key)->trace, 0, to_s, position),
@@ -157,7 +162,7 @@ Figure resting_torque(const Chapter6& chapter) {
       {}};
   for (int range = 0; range < kRangeCount; ++range) {
     Panel panel{
-        "setpoint " + range_text(range), "time (s)", "torque (N.m)", "", {}, false, {11, 12}, {}, range == 0};
+        "setpoint " + range_text(range), "time (s)", "torque (N.m)", "", {}, false, {11, 12}, {}, true};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(
           contender_series(chapter, {Setting::kRealistic, Scenario::kRamp, range}, contender, 11, 12,

@@ -51,6 +51,18 @@ TimeProfile TimeProfile::steps(double start, double rise, double interval_s, dou
   return profile;
 }
 
+TimeProfile TimeProfile::square(double first, double second, double interval_s,
+                                const ProfileQuantity& quantity) {
+  require(std::isfinite(interval_s) && interval_s > 0.0, quantity, "interval_s", interval_s,
+          "must be finite and > 0");
+  TimeProfile profile;
+  profile.kind_ = Kind::kSquare;
+  profile.base_ = checked(first, quantity, place(quantity));
+  profile.change_ = checked(second, quantity, place(quantity)) - first;
+  profile.rate_ = interval_s;
+  return profile;
+}
+
 TimeProfile TimeProfile::sine(double mean, double amplitude, double angular_frequency_rad_s,
                               const ProfileQuantity& quantity) {
   require(std::isfinite(angular_frequency_rad_s), quantity, "angular_frequency_rad_s",
@@ -91,11 +103,12 @@ TimeProfile TimeProfile::parse(std::string_view text, const ProfileQuantity& qua
   if (kind == "constant" && fields.size() == 1) return constant(number(0), quantity);
   if (kind == "steps" && fields.size() == 4)
     return steps(number(0), number(1), number(2), number(3), quantity);
+  if (kind == "square" && fields.size() == 3) return square(number(0), number(1), number(2), quantity);
   if (kind == "sine" && fields.size() == 3) return sine(number(0), number(1), number(2), quantity);
-  throw InputError(
-      place(quantity), "text", "'" + std::string(text) + "'",
-      "must be constant:VALUE, steps:START,RISE,INTERVAL_S,COUNT, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or "
-      "hold:FILE");
+  throw InputError(place(quantity), "text", "'" + std::string(text) + "'",
+                   "must be constant:VALUE, steps:START,RISE,INTERVAL_S,COUNT, "
+                   "square:FIRST,SECOND,INTERVAL_S, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or "
+                   "hold:FILE");
 }
 
 double TimeProfile::at(double time_s) const noexcept {
@@ -104,6 +117,8 @@ double TimeProfile::at(double time_s) const noexcept {
   switch (kind_) {
     case Kind::kSteps:
       return base_ + change_ * std::clamp(std::floor(time_s / rate_ + kRounding), 0.0, count_);
+    case Kind::kSquare:
+      return base_ + change_ * std::fmod(std::floor(std::max(0.0, time_s) / rate_ + kRounding), 2.0);
     case Kind::kSine:
       return base_ + change_ * std::sin(rate_ * time_s);
     case Kind::kLines:

@@ -27,29 +27,31 @@ class TimeProfile {
   /// `start`, then `rise` more at every whole multiple of `interval_s` > 0, `count` >= 1 times.
   static TimeProfile steps(double start, double rise, double interval_s, double count,
                            const ProfileQuantity& quantity);
+  /// `first` and `second` in turn, `interval_s` > 0 each.
+  static TimeProfile square(double first, double second, double interval_s, const ProfileQuantity& quantity);
   /// mean + amplitude sin(angular_frequency t).
   static TimeProfile sine(double mean, double amplitude, double angular_frequency_rad_s,
                           const ProfileQuantity& quantity);
   /// Columns time_s and quantity.key, times strictly rising; held before the first row and after the last.
   /// Between two rows a straight line, or, with `hold`, the earlier row's value.
   static TimeProfile from_csv(const std::filesystem::path& path, bool hold, const ProfileQuantity& quantity);
-  /// "constant:25", "steps:-10,5,1,11", "sine:15,25,1", "csv:FILE" (straight lines) or "hold:FILE", arguments
-  /// as above. All factories throw InputError.
+  /// "constant:25", "steps:-10,5,1,11", "square:0,1,0.5", "sine:15,25,1", "csv:FILE" (straight lines) or
+  /// "hold:FILE", arguments as above. All factories throw InputError.
   static TimeProfile parse(std::string_view text, const ProfileQuantity& quantity);
 
   /// The value at `time_s`.
   double at(double time_s) const noexcept;
 
  private:
-  enum class Kind { kConstant, kSteps, kSine, kLines, kHold };
+  enum class Kind { kConstant, kSteps, kSquare, kSine, kLines, kHold };
   struct Point {
     double time_s, value;
   };
   double interpolate(double time_s) const noexcept;
 
   Kind kind_ = Kind::kConstant;
-  double base_ = 0.0;    ///< constant, start or mean
-  double change_ = 0.0;  ///< rise or amplitude
+  double base_ = 0.0;    ///< constant, start, first or mean
+  double change_ = 0.0;  ///< rise, second less first, or amplitude
   double rate_ = 1.0;    ///< interval_s or angular frequency
   double count_ = 0.0;   ///< number of steps
   std::vector<Point> points_;

@@ -42,7 +42,8 @@ Gateway::Gateway(const OutboundMemory& outbound, InboundMemory& inbound, int wak
     return;
   }
   const std::string prefix(outbound_.prefix.view());
-  for (const auto kind : {channel_kind::kSetpoint, channel_kind::kCommand, channel_kind::kTable}) {
+  for (const auto kind :
+       {channel_kind::kSetpoint, channel_kind::kCommand, channel_kind::kTable, channel_kind::kInject}) {
     lcm::Subscription* subscription = lcm_.subscribe(channel_pattern(prefix, kind), &Gateway::on_order, this);
     if (subscription == nullptr) {
       problem_ = "LCM cannot receive at " + url + kRemedy;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "daemon/gateway/confinement.h"
 #include "daemon/gateway/gateway.h"
 #include "daemon/gateway_process.h"
 
@@ -16,9 +17,6 @@ constexpr int kTurn_ms = 2;
 
 int run() {
   using namespace strainwave;
-  // Without its core it has no purpose.
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const pid_t parent = ::getppid();
   const MemoryFile outbound_file = MemoryFile::open(kGatewayOutboundFd, sizeof(OutboundMemory), false);
   const MemoryFile inbound_file = MemoryFile::open(kGatewayInboundFd, sizeof(InboundMemory), true);
   const auto& outbound = *static_cast<const OutboundMemory*>(outbound_file.address());
@@ -27,13 +25,21 @@ int run() {
     std::fputs("strainwave-gateway: the shared memory is not strainwaved's\n", stderr);
     return 1;
   }
+  confine_before_setup(outbound.gateway_uid, outbound.gateway_gid, kGatewayFirstFreeFd);
+  // Without its core it has no purpose. (After the change of user, which clears this.)
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const auto core_lives = [&] { return ::getppid() == outbound.core_pid; };
   Gateway gateway(outbound, inbound, kGatewayWakeFd);
   if (!gateway.good()) {
     std::fprintf(stderr, "strainwave-gateway: %s\n", gateway.problem().c_str());
     return kGatewayExitNoLcm;
   }
+  confine_after_setup();
   inbound.ready.store(1, std::memory_order_release);
-  while (::getppid() == parent) gateway.turn(kTurn_ms);
+  while (core_lives()) {
+    gateway.turn(kTurn_ms);
+    inbound.turns.fetch_add(1, std::memory_order_relaxed);
+  }
   return 0;
 }
 

@@ -16,15 +16,19 @@ using HistogramCounts = std::array<std::int64_t, kHistogramBuckets>;
 
 inline double bucket_upper_ns(std::size_t bucket) { return 1000.0 * std::exp2(static_cast<double>(bucket) / 4.0); }
 
-/// The value below which `fraction` of the counted durations lie, as the upper bound of its bucket; 0 when empty.
+/// The value below which `fraction` of the counted durations lie, interpolated within its bucket; 0 when empty.
 inline double percentile_ns(const HistogramCounts& counts, double fraction) {
   std::int64_t total = 0;
   for (const std::int64_t count : counts) total += count;
   const double wanted = fraction * static_cast<double>(total);
-  std::int64_t seen = 0;
-  for (std::size_t i = 0; i < counts.size() && total > 0; ++i) {
-    seen += counts[i];
-    if (static_cast<double>(seen) >= wanted) return bucket_upper_ns(i);
+  double seen = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto count = static_cast<double>(counts[i]);
+    if (count > 0.0 && seen + count >= wanted) {
+      const double lower_ns = i == 0 ? 0.0 : bucket_upper_ns(i - 1);
+      return lower_ns + (bucket_upper_ns(i) - lower_ns) * (wanted - seen) / count;
+    }
+    seen += count;
   }
   return 0.0;
 }

@@ -8,6 +8,8 @@ namespace strainwave {
 namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
+/// A speed this close to its limit is at it.
+constexpr double kAtLimit = 1.0 - 1e-9;
 
 Fault fault_of(ActuatorFault fault) noexcept {
   switch (fault) {
@@ -23,6 +25,13 @@ Fault fault_of(ActuatorFault fault) noexcept {
   return Fault::kDriveFault;
 }
 
+double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
+  double largest_Nm = 0.0;
+  for (std::int32_t i = 0; i < friction.rule_count; ++i)
+    largest_Nm = std::max(largest_Nm, friction.rules[static_cast<std::size_t>(i)].friction.static_Nm);
+  return largest_Nm;
+}
+
 }  // namespace
 
 JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::unique_ptr<Actuator> actuator,
@@ -30,10 +39,14 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
     : index_(index),
       config_(config),
       actuator_(std::move(actuator)),
+      injector_(dynamic_cast<FaultyActuator*>(actuator_.get())),
       replies_(replies),
       events_(events),
       controller_(config.controller),
-      temperature_(config.temperature) {
+      temperature_(config.temperature),
+      position_check_({config.controller.period_s, config.limits.overspeed_rad_s, config.controller.encoder_resolution_rad}),
+      temperature_update_periods_(std::max<std::int64_t>(
+          1, std::llround(config.temperature_update_period_s / config.controller.period_s))) {
   record_.joint_index = index;
 }
 
@@ -49,6 +62,7 @@ void JointLoop::step(const CycleTime& time) noexcept {
   advance_mode(time);
   command_drive(time);
   fill_record(time);
+  record_flight(time);
 }
 
 void JointLoop::take_orders(const CycleTime& time) noexcept {
@@ -64,13 +78,11 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
   switch (order.kind) {
     case OrderKind::kEnable: return enable(time);
     case OrderKind::kDisable: return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
-    case OrderKind::kHold:
-      if (!is_controlled(mode_)) return Reason::kWrongMode;
-      controller_.stop();
-      return Reason::kAccepted;
+    case OrderKind::kHold: return hold();
     case OrderKind::kClearFault: return clear_fault(time);
     case OrderKind::kSetpoint: return begin_setpoint(order, time);
     case OrderKind::kUseTable: return use_table(static_cast<std::size_t>(order.table_slot));
+    case OrderKind::kInject: return inject(order.injection);
   }
   return Reason::kUnknownAction;
 }
@@ -79,26 +91,51 @@ Reason JointLoop::enable(const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return Reason::kFaulted;
   if (!controller_.has_table()) return Reason::kNoTable;
   if (mode_ == Mode::kOff && !reading_fresh_) return Reason::kDriveNotReady;
-  return change_mode(ModeEvent::kEnableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
+  if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
+  setpoint_expired_ = false;
+  stream_refused_ = false;
+  return Reason::kAccepted;
 }
 
 Reason JointLoop::use_table(std::size_t slot) noexcept {
   // At rest a swap is always allowed; under control only while the reference stands still.
   const bool at_standstill = mode_ == Mode::kHolding;
   if (!at_rest() && !at_standstill) return Reason::kMoving;
-  controller_.load(tables_[slot].table);
+  const GainTable& table = tables_[slot].table;
+  controller_.load(table);
   table_id_ = tables_[slot].id;
-  temperature_rules_ = tables_[slot].table.friction.rule_count;
+  temperature_rules_ = table.friction.rule_count;
+  table_min_C_ = table.friction.temperature_min_C;
+  table_max_C_ = table.friction.temperature_max_C;
+  position_check_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));
   return Reason::kAccepted;
 }
 
 Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return Reason::kFaulted;
+  const bool streamed = order.valid_for_s > 0.0;
+  // A late packet of a stream that has ended must not set the joint moving again.
+  if (streamed && stream_refused_) return Reason::kStreamExpired;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
   controller_.set_target(order.position_rad);
   setpoint_expires_ns_ =
-      order.valid_for_s > 0.0 ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
+      streamed ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
   setpoint_expired_ = false;
+  stream_refused_ = false;
+  return Reason::kAccepted;
+}
+
+Reason JointLoop::hold() noexcept {
+  if (!is_controlled(mode_)) return Reason::kWrongMode;
+  controller_.stop();
+  setpoint_expires_ns_ = 0;
+  stream_refused_ = false;
+  return Reason::kAccepted;
+}
+
+Reason JointLoop::inject(const Injection& injection) noexcept {
+  if (injector_ == nullptr) return Reason::kNotSimulated;
+  injector_->inject(injection);
   return Reason::kAccepted;
 }
 
@@ -123,7 +160,10 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
     reading_.torque_applied_Nm = 0.0;
   }
   ever_read_ = ever_read_ || reading_fresh_;
-  if (malformed && reading_.fault == ActuatorFault::kNone) reading_.fault = ActuatorFault::kImplausible;
+  const bool driven = reading.drive_state == DriveState::kEnabled && is_controlled(mode_);
+  const bool impossible = reading_fresh_ && !position_check_.plausible(reading.joint_position_rad,
+                                                                       reading.torque_applied_Nm, driven, time.now_ns);
+  if ((malformed || impossible) && reading_.fault == ActuatorFault::kNone) reading_.fault = ActuatorFault::kImplausible;
 }
 
 void JointLoop::check_reading(const CycleTime& time) noexcept {
@@ -143,12 +183,24 @@ void JointLoop::check_temperature(const CycleTime& time) noexcept {
 }
 
 void JointLoop::expire_setpoint(const CycleTime& time) noexcept {
-  if (mode_ == Mode::kTracking && setpoint_expires_ns_ != 0 && time.now_ns > setpoint_expires_ns_) {
+  if (mode_ == Mode::kTracking && setpoint_expires_ns_ != 0 && time.now_ns >= setpoint_expires_ns_) {
     controller_.stop();
     setpoint_expires_ns_ = 0;
     setpoint_expired_ = true;
+    stream_refused_ = true;
   }
   if (setpoint_expired_) notice(Notice::kSetpointExpired);
+}
+
+// Layer 1 of the friction model at its own slower period; joints take turns, so that no cycle pays for all of them.
+double JointLoop::scheduling_temperature_C(const CycleTime& time) noexcept {
+  const bool first = motion_.gains_in_use != GainsInUse::kPrimary;
+  if (first || time.cycle >= next_temperature_cycle_) {
+    scheduling_temperature_C_ = temperature_.used_C();
+    next_temperature_cycle_ =
+        time.cycle + temperature_update_periods_ - (time.cycle + index_) % temperature_update_periods_;
+  }
+  return scheduling_temperature_C_;
 }
 
 void JointLoop::control(const CycleTime& time) noexcept {
@@ -160,13 +212,17 @@ void JointLoop::control(const CycleTime& time) noexcept {
   measurement.joint_position_rad = reading_.joint_position_rad;
   measurement.joint_velocity_rad_s = reading_.joint_velocity_rad_s;
   measurement.torque_applied_Nm = reading_.torque_applied_Nm;
-  measurement.temperature_C = temperature_.used_C();
+  measurement.temperature_C = scheduling_temperature_C(time);
   measurement.has_velocity = reading_.has_velocity;
   measurement.temperature_valid = temperature_.usable();
   motion_ = controller_.step(measurement);
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
   if (motion_.gains_in_use == GainsInUse::kFallback) notice(Notice::kFallbackGains);
+  else if (measurement.temperature_C < table_min_C_ || measurement.temperature_C > table_max_C_)
+    notice(Notice::kTemperatureClamped);
+  const double speed_limit_rad_s = config_.controller.motion.velocity_rad_s;
+  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s) notice(Notice::kSpeedLimited);
 }
 
 void JointLoop::check_motion(const CycleTime& time) noexcept {
@@ -209,8 +265,9 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
 
 void JointLoop::command_drive(const CycleTime& /*time*/) noexcept {
   if (mode_ == Mode::kFaulted) {
-    actuator_->stop();
-    return;
+    // Until the drive is seen to have obeyed; what follows is the order of every drive that is off.
+    if (!drive_stopped_ || reading_.drive_state != DriveState::kDisabled) actuator_->stop();
+    drive_stopped_ = true;
   }
   actuator_->write({is_controlled(mode_) ? motion_.output.torque_Nm : 0.0, wants_drive_enabled(mode_)});
 }
@@ -218,6 +275,8 @@ void JointLoop::command_drive(const CycleTime& /*time*/) noexcept {
 void JointLoop::raise_fault(Fault fault, const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return;  // the first fault is the one that is shown
   ++faults_total_;
+  drive_stopped_ = false;
+  group_stop_due_ = config_.fault_stops_group && fault != Fault::kGroup;
   (void)change_mode(ModeEvent::kFaultRaised, time, fault);
 }
 
@@ -261,6 +320,35 @@ void JointLoop::fill_record(const CycleTime& time) noexcept {
   state.faults_total = faults_total_;
   record_.temperature_measured_C = temperature_.measured_C();
   record_.temperature_age_s = temperature_.age_s(time.now_ns);
+}
+
+void JointLoop::record_flight(const CycleTime& time) noexcept {
+  if (recorder_ == nullptr) return;
+  const state_v1& state = record_.state;
+  FlightSample sample;
+  sample.time_ns = time.now_ns;
+  sample.cycle = time.cycle;
+  sample.table_id = state.table_id;
+  sample.setpoint_position_rad = state.setpoint_position_rad;
+  sample.setpoint_velocity_rad_s = state.setpoint_velocity_rad_s;
+  sample.target_position_rad = state.target_position_rad;
+  sample.joint_position_rad = state.joint_position_rad;
+  sample.joint_velocity_rad_s = state.joint_velocity_rad_s;
+  sample.torque_commanded_Nm = state.torque_commanded_Nm;
+  sample.torque_applied_Nm = state.torque_applied_Nm;
+  sample.torque_feedback_Nm = state.torque_feedback_Nm;
+  sample.torque_feedforward_Nm = state.torque_feedforward_Nm;
+  sample.temperature_C = state.temperature_C;
+  sample.temperature_measured_C = record_.temperature_measured_C;
+  sample.zero_velocity_weight = state.zero_velocity_weight;
+  sample.notices = static_cast<std::uint16_t>(notices_);
+  sample.mode = static_cast<std::uint8_t>(state.mode);
+  sample.fault = static_cast<std::uint8_t>(state.fault);
+  sample.gains_in_use = static_cast<std::uint8_t>(state.gains_in_use);
+  sample.temperature_status = static_cast<std::uint8_t>(state.temperature_status);
+  sample.drive_state = static_cast<std::uint8_t>(reading_.drive_state);
+  sample.reading_fresh = reading_fresh_ ? 1 : 0;
+  recorder_->write(sample);
 }
 
 }  // namespace strainwave

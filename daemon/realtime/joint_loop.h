@@ -5,13 +5,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "control/joint_controller.h"
 #include "daemon/mode_machine.h"
+#include "daemon/realtime/flight_recorder.h"
 #include "daemon/realtime/orders.h"
+#include "daemon/realtime/position_check.h"
 #include "daemon/realtime/temperature_check.h"
 #include "daemon/shared_memory.h"
 #include "drivers/actuator.h"
+#include "drivers/faulty_actuator.h"
 
 namespace strainwave {
 
@@ -29,6 +33,9 @@ struct JointLoopConfig {
   JointControllerConfig controller;
   JointLimits limits;
   TemperatureCheckConfig temperature;
+  double temperature_update_period_s = 0.01;  ///< how often the gains are scheduled anew
+  int group = -1;                    ///< joints with the same number >= 0 belong together
+  bool fault_stops_group = false;    ///< a fault of this joint stops the others of its group
   double start_timeout_s = 2.0;      ///< from enable to the drive's readiness
   double stop_timeout_s = 3.0;       ///< from disable to standstill
   double standstill_rad_s = 0.01;
@@ -59,6 +66,9 @@ class JointLoop {
   /// The supervisor may write a slot only while no order names it and it is neither active nor previous.
   TableSlot& table_slot(std::size_t slot) noexcept { return tables_[slot]; }
 
+  /// Before the loop runs: where every cycle is recorded. It outlives this object.
+  void record_into(FlightRecorder& recorder) noexcept { recorder_ = &recorder; }
+
   // Real-time thread.
   void step(const CycleTime& time) noexcept;
   /// The fault of something outside this joint (overruns, group).
@@ -66,6 +76,9 @@ class JointLoop {
   /// Zero torque and disable, at once; the last act of the loop.
   void stop_drive() noexcept { actuator_->stop(); }
   void order_disable(const CycleTime& time) noexcept { (void)change_mode(ModeEvent::kDisableOrdered, time); }
+  /// Whether the joint has faulted since the last call in a way that stops its group.
+  bool take_group_stop() noexcept { return std::exchange(group_stop_due_, false); }
+  int group() const noexcept { return config_.group; }
   bool at_rest() const noexcept { return mode_ == Mode::kOff || mode_ == Mode::kFaulted; }
   Mode mode() const noexcept { return mode_; }
   const StateRecord& record() const noexcept { return record_; }
@@ -76,16 +89,20 @@ class JointLoop {
   Reason enable(const CycleTime& time) noexcept;
   Reason use_table(std::size_t slot) noexcept;
   Reason begin_setpoint(const Order& order, const CycleTime& time) noexcept;
+  Reason hold() noexcept;
   Reason clear_fault(const CycleTime& time) noexcept;
+  Reason inject(const Injection& injection) noexcept;
   void read_drive(const CycleTime& time) noexcept;
   void check_reading(const CycleTime& time) noexcept;
   void check_temperature(const CycleTime& time) noexcept;
   void expire_setpoint(const CycleTime& time) noexcept;
+  double scheduling_temperature_C(const CycleTime& time) noexcept;
   void control(const CycleTime& time) noexcept;
   void check_motion(const CycleTime& time) noexcept;
   void advance_mode(const CycleTime& time) noexcept;
   void command_drive(const CycleTime& time) noexcept;
   void fill_record(const CycleTime& time) noexcept;
+  void record_flight(const CycleTime& time) noexcept;
   bool change_mode(ModeEvent event, const CycleTime& time, Fault fault = Fault::kNone) noexcept;
   void notice(Notice notice) noexcept { notices_ |= static_cast<std::int32_t>(notice); }
   double seconds_in_mode(const CycleTime& time) const noexcept {
@@ -95,6 +112,7 @@ class JointLoop {
   std::int64_t index_;
   JointLoopConfig config_;
   std::unique_ptr<Actuator> actuator_;
+  FaultyActuator* injector_;  ///< the same object when it takes injected faults, else null
   ReplyQueue& replies_;
   EventQueue& events_;
   OrderQueue orders_;
@@ -102,6 +120,8 @@ class JointLoop {
 
   JointController controller_;
   TemperatureCheck temperature_;
+  PositionCheck position_check_;
+  FlightRecorder* recorder_ = nullptr;
   ActuatorReading reading_;
   JointStep motion_;
   StateRecord record_{};
@@ -111,12 +131,20 @@ class JointLoop {
   std::int64_t faults_total_ = 0;
   std::int64_t setpoint_expires_ns_ = 0;  ///< 0: a move, which does not expire
   std::int64_t table_id_ = 0;
+  std::int64_t temperature_update_periods_;
+  std::int64_t next_temperature_cycle_ = 0;
+  double scheduling_temperature_C_ = 0.0;
+  double table_min_C_ = 0.0;
+  double table_max_C_ = 0.0;
   std::int32_t temperature_rules_ = 0;
   std::int32_t notices_ = 0;
   int missed_readings_ = 0;
   bool reading_fresh_ = false;
   bool ever_read_ = false;
-  bool setpoint_expired_ = false;
+  bool setpoint_expired_ = false;  ///< shown until the next setpoint is accepted
+  bool stream_refused_ = false;    ///< a stream has expired and nobody has said that a new one begins
+  bool group_stop_due_ = false;
+  bool drive_stopped_ = false;     ///< stop() has been called since the fault
 };
 
 }  // namespace strainwave

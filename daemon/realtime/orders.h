@@ -4,11 +4,12 @@
 #include <cstdint>
 
 #include "daemon/realtime/spsc_queue.h"
+#include "drivers/injected_fault.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
 
-enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable };
+enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject };
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {
@@ -17,6 +18,7 @@ struct Order {
   std::int32_t table_slot = 0;  ///< kUseTable
   double position_rad = 0.0;    ///< kSetpoint
   double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
+  Injection injection;          ///< kInject
 };
 
 /// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.

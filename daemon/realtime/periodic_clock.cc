@@ -15,6 +15,12 @@ std::int64_t monotonic_now_ns() noexcept {
   return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
 }
 
+void busy_wait(std::int64_t duration_ns) noexcept {
+  const std::int64_t until_ns = monotonic_now_ns() + duration_ns;
+  while (monotonic_now_ns() < until_ns) {
+  }
+}
+
 PeriodicClock::Wake PeriodicClock::wait() noexcept {
   Wake wake;
   const std::int64_t late_ns = monotonic_now_ns() - next_ns_;

@@ -9,6 +9,9 @@ namespace strainwave {
 /// CLOCK_MONOTONIC now.
 std::int64_t monotonic_now_ns() noexcept;
 
+/// Keeps the processor busy for `duration_ns`; only injected faults want that.
+void busy_wait(std::int64_t duration_ns) noexcept;
+
 class PeriodicClock {
  public:
   struct Wake {

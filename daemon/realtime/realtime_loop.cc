@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "control/input_error.h"
+#include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
 
 namespace strainwave {
@@ -18,10 +19,19 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
       states_(states),
       replies_(std::make_unique<ReplyQueue>()),
       events_(std::make_unique<EventQueue>()),
-      statistics_(std::make_unique<LoopStatistics>()) {
+      statistics_(std::make_unique<LoopStatistics>()),
+      overrun_watch_(config.loop.overrun_limit) {
   for (const JointConfig& joint : config.joints) {
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
                                                   joint.make_actuator(), *replies_, *events_));
+    if (config.recorder.enabled()) {
+      const auto samples = [&](double duration_s) {
+        return static_cast<std::size_t>(std::llround(duration_s / config.loop.period_s));
+      };
+      recorders_.push_back(std::make_unique<FlightRecorder>(samples(config.recorder.seconds) + 2,
+                                                            samples(config.recorder.post_trigger_s)));
+      joints_.back()->record_into(*recorders_.back());
+    }
     // One more second than the slowest joint may take, which by then has faulted and is off.
     const double allowed_s = joint.loop.stop_timeout_s + 1.0;
     stop_deadline_periods_ =
@@ -37,6 +47,7 @@ RealtimeLoop::~RealtimeLoop() {
 
 void RealtimeLoop::start() {
   refusal_ = lock_memory();
+  sleep_state_refusal_ = dma_latency_.request();
   thread_ = std::thread([this] { thread_main(); });
   while (!set_up_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (!refusal_.empty() && config_.real_time == RealTimePolicy::kEnforce) {
@@ -71,6 +82,7 @@ void RealtimeLoop::run() noexcept {
     account_wake(wake, time);
     bring_to_rest_when_asked(time);
     for (const auto& joint : joints_) joint->step(time);
+    stop_faulted_groups(joints_, time);
     publish(time);
 
     const bool at_rest = std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });
@@ -89,11 +101,7 @@ void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime
   previous_wake_ns_ = wake.woke_ns;
   statistics_->overruns.store(statistics_->overruns.load(std::memory_order_relaxed) + wake.skipped,
                               std::memory_order_relaxed);
-  overruns_in_a_row_ = wake.skipped > 0 ? overruns_in_a_row_ + 1 : 0;
-  if (overruns_in_a_row_ < config_.overrun_limit) return;
-  overruns_in_a_row_ = 0;
-  for (const auto& joint : joints_)
-    if (joint->mode() != Mode::kOff) joint->raise_fault(Fault::kOverruns, time);
+  if (overrun_watch_.too_many(wake.skipped)) fault_driven_joints(joints_, Fault::kOverruns, time);
 }
 
 void RealtimeLoop::bring_to_rest_when_asked(const CycleTime& time) noexcept {

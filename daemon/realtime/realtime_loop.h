@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "daemon/config.h"
+#include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/overrun_watch.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/shared_memory.h"
 
@@ -42,12 +44,16 @@ class RealtimeLoop {
   /// configuration enforces it; otherwise real_time_refusal() says what was refused.
   void start();
   const std::string& real_time_refusal() const noexcept { return refusal_; }
+  /// What would have made wake-ups better but is not needed for real time; empty when granted.
+  const std::string& sleep_state_refusal() const noexcept { return sleep_state_refusal_; }
 
   /// Brings every joint to rest, then ends the loop; finished() tells when.
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_release); }
   bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
 
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
+  /// Null when the configuration wants none.
+  FlightRecorder* recorder(std::size_t index) noexcept { return recorders_.empty() ? nullptr : recorders_[index].get(); }
   std::size_t joint_count() const noexcept { return joints_.size(); }
   ReplyQueue& replies() noexcept { return *replies_; }
   EventQueue& events() noexcept { return *events_; }
@@ -68,9 +74,12 @@ class RealtimeLoop {
   std::unique_ptr<ReplyQueue> replies_;
   std::unique_ptr<EventQueue> events_;
   std::unique_ptr<LoopStatistics> statistics_;
+  std::vector<std::unique_ptr<FlightRecorder>> recorders_;
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::thread thread_;
   std::string refusal_;
+  std::string sleep_state_refusal_;
+  DmaLatency dma_latency_;
   std::atomic<bool> set_up_{false};
   std::atomic<bool> may_run_{false};
   std::atomic<bool> stop_requested_{false};
@@ -78,7 +87,7 @@ class RealtimeLoop {
   std::int64_t previous_wake_ns_ = 0;
   std::int64_t next_publish_cycle_ = 0;
   std::int64_t stop_since_cycle_ = -1;
-  int overruns_in_a_row_ = 0;
+  OverrunWatch overrun_watch_;
 };
 
 }  // namespace strainwave

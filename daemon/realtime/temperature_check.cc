@@ -17,11 +17,16 @@ double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
   return seen_ ? seconds_between(measured_ns_, now_ns) : -1.0;
 }
 
+bool TemperatureCheck::is_stuck(std::int64_t now_ns) const noexcept {
+  return config_.max_constant_s > 0.0 && seconds_between(changed_ns_, now_ns) > config_.max_constant_s;
+}
+
 TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t produced_ns,
                                           std::int64_t now_ns) const noexcept {
   if (!std::isfinite(temperature_C) || temperature_C < config_.min_C || temperature_C > config_.max_C)
     return TemperatureStatus::kOutOfRange;
   if (seconds_between(produced_ns, now_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
+  if (is_stuck(now_ns)) return TemperatureStatus::kNotChanging;
   if (accepted_) {
     // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
     // nothing was believed, the more may have changed, so that the signal can return.
@@ -35,6 +40,7 @@ TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t pro
 void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64_t produced_ns,
                               std::int64_t now_ns) noexcept {
   if (has_reading) {
+    if (!seen_ || temperature_C != measured_C_) changed_ns_ = now_ns;
     seen_ = true;
     measured_C_ = std::isfinite(temperature_C) ? temperature_C : std::numeric_limits<double>::quiet_NaN();
     measured_ns_ = produced_ns;

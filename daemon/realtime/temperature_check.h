@@ -13,6 +13,7 @@ struct TemperatureCheckConfig {
   double max_rate_C_s = 20.0;     ///< faster lasting changes are not heat but a broken wire
   double max_step_C = 6.0;        ///< a reading may differ by this much from the recent past whatever the rate
   double max_age_s = 5.0;         ///< older values are not used
+  double max_constant_s = 0.0;    ///< a sensor that shows the same number for longer is stuck; 0: not checked
   double recovery_s = 2.0;        ///< after a loss the signal must be good for this long before it is used again
 };
 
@@ -32,6 +33,7 @@ class TemperatureCheck {
   double age_s(std::int64_t now_ns) const noexcept;
 
  private:
+  bool is_stuck(std::int64_t now_ns) const noexcept;
   TemperatureStatus judge(double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) const noexcept;
 
   TemperatureCheckConfig config_;
@@ -44,6 +46,7 @@ class TemperatureCheck {
   double accepted_C_ = 0.0;
   double recent_C_ = 0.0;   ///< accepted readings, low-passed so that a ramp of max_rate lags by max_step
   std::int64_t measured_ns_ = 0;
+  std::int64_t changed_ns_ = 0;   ///< when the reading last became another number
   std::int64_t accepted_ns_ = 0;
   std::int64_t good_since_ns_ = 0;
 };

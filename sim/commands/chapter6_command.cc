@@ -5,8 +5,8 @@
 
 #include "control/text_file.h"
 #include "sim/chapter6_figures.h"
-#include "sim/chapter6_page.h"
 #include "sim/commands/commands.h"
+#include "sim/html_page.h"
 #include "sim/performance_tables.h"
 
 namespace strainwave {
@@ -47,7 +47,7 @@ void run(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path data =
       options.data.empty() ? shared_folder("data") : std::filesystem::path(options.data);
-  const auto tables = read_controller_tables(options.tables.empty() ? shared_folder("tables")
+  const auto tables = read_controller_tables(options.tables.empty() ? shared_folder("data") / "tables"
                                                                     : std::filesystem::path(options.tables));
   const auto source = read_source_indices(data / "performance_index.csv");
   const Chapter6 chapter = run_chapter6(chapter6_contenders(tables));
@@ -65,7 +65,7 @@ void run(const Options& options) {
     for (Figure& figure : response_figures(chapter)) figures.push_back(std::move(figure));
     draw_figures(figures, out / "figures");
     write_text_file(out / "chapter6.html",
-                    chapter6_page(introduction(chapter), performance, figures, out / "figures"));
+                    html_page(introduction(chapter), performance, figures, out / "figures"));
   }
   const double total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::cout << chapter.runs.size() << " runs of " << chapter.periods << " periods in "

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+
+#include "sim/closed_loop.h"
+#include "sim/contenders.h"
 
 namespace CLI {
 class App;
@@ -11,9 +15,30 @@ class App;
 namespace strainwave {
 
 void add_chapter6_command(CLI::App& program);
+void add_run_command(CLI::App& program);
+void add_bound_command(CLI::App& program);
+void add_robustness_command(CLI::App& program);
+void add_heat_command(CLI::App& program);
 
 /// The folder `name` ("data") of the installation, or of the source tree the program was built from. Throws
 /// InputError when there is neither.
 std::filesystem::path shared_folder(const std::filesystem::path& name);
+
+/// What a single closed loop is made of, as the user gives it.
+struct LoopOptions {
+  std::string plant = "realistic";
+  std::string reference = "constant:0.1";
+  std::string temperature = "constant:20";
+  std::string load = "constant:0";
+  double duration_s = 2.0;
+};
+
+/// Adds --plant, --reference, --temperature, --load and --duration.
+void add_loop_options(CLI::App& command, LoopOptions& options);
+/// Throws InputError.
+ClosedLoopConfig loop_config(const LoopOptions& options);
+
+/// "extended", "plain" or "fallback" with `table`, or "pid". Throws InputError for another kind.
+Contender contender_of_kind(const std::string& kind, const GainTable& table);
 
 }  // namespace strainwave

@@ -27,6 +27,10 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", STRAINWAVE_VERSION);
   program.require_subcommand(1);
   strainwave::add_chapter6_command(program);
+  strainwave::add_run_command(program);
+  strainwave::add_bound_command(program);
+  strainwave::add_robustness_command(program);
+  strainwave::add_heat_command(program);
   try {
     program.parse(argc, argv);
     return 0;

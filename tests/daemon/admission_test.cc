@@ -15,7 +15,8 @@ constexpr std::int64_t kSession = 4711;
 
 class AdmissionTest : public ::testing::Test {
  protected:
-  AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}, {"wrist", {}, -2.0, 2.0, 34.0}}) {}
+  AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}, {"wrist", {}, -2.0, 2.0, 34.0}},
+                              {{}, /*unsigned_allowed=*/true}) {}
 
   template <typename T>
   static WireMessage wire(const std::string& channel, const T& message) {
@@ -43,6 +44,7 @@ class AdmissionTest : public ::testing::Test {
     message.action = static_cast<std::int32_t>(action);
     return message;
   }
+  Verdict consider(const WireMessage& message) { return admission_.consider(message, 0); }
   std::int64_t rejects(Reason reason) const { return admission_.rejects()[static_cast<std::size_t>(reason)]; }
 
   Admission admission_;
@@ -50,7 +52,7 @@ class AdmissionTest : public ::testing::Test {
 };
 
 TEST_F(AdmissionTest, PassesASoundSetpointToItsJoint) {
-  const Verdict verdict = admission_.consider(wire("SW.wrist.SETPOINT", setpoint(1.5)));
+  const Verdict verdict = consider(wire("SW.wrist.SETPOINT", setpoint(1.5)));
   ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
   EXPECT_EQ(verdict.requester.joint, 1U);
   EXPECT_EQ(verdict.order.kind, OrderKind::kSetpoint);
@@ -58,7 +60,7 @@ TEST_F(AdmissionTest, PassesASoundSetpointToItsJoint) {
 }
 
 TEST_F(AdmissionTest, JudgesTheRangeByTheJointThatIsMeant) {
-  const Verdict verdict = admission_.consider(wire("SW.elbow.SETPOINT", setpoint(1.5)));
+  const Verdict verdict = consider(wire("SW.elbow.SETPOINT", setpoint(1.5)));
   EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
   EXPECT_EQ(verdict.reason, Reason::kOutOfRange);
   EXPECT_NE(verdict.text.find("1.5"), std::string::npos);
@@ -72,7 +74,7 @@ TEST_F(AdmissionTest, DiscardsEveryTruncationAndEveryLongerMessage) {
     if (size == sound.size) continue;
     WireMessage bent = sound;
     bent.size = size;
-    EXPECT_EQ(admission_.consider(bent).kind, Verdict::Kind::kDiscard);
+    EXPECT_EQ(consider(bent).kind, Verdict::Kind::kDiscard);
     EXPECT_EQ(rejects(Reason::kMalformed), ++expected);
   }
 }
@@ -80,33 +82,33 @@ TEST_F(AdmissionTest, DiscardsEveryTruncationAndEveryLongerMessage) {
 TEST_F(AdmissionTest, NeverReadsBeyondTheSlotWhateverSizeItIsTold) {
   WireMessage message = wire("SW.elbow.SETPOINT", setpoint(0.5));
   message.size = ~std::uint64_t{0};
-  EXPECT_EQ(admission_.consider(message).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(message).kind, Verdict::Kind::kDiscard);
 }
 
 TEST_F(AdmissionTest, DiscardsAMessageOfAnotherType) {
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.SETPOINT", command(Action::kHold))).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", command(Action::kHold))).kind, Verdict::Kind::kDiscard);
 }
 
 TEST_F(AdmissionTest, DiscardsOtherPrefixesUnknownJointsAndKinds) {
-  EXPECT_EQ(admission_.consider(wire("XX.elbow.SETPOINT", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
-  EXPECT_EQ(admission_.consider(wire("SW.knee.SETPOINT", setpoint(0.5))).reason, Reason::kUnknownJoint);
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.STATE", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
-  EXPECT_EQ(admission_.consider(wire("nonsense", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(wire("XX.elbow.SETPOINT", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(wire("SW.knee.SETPOINT", setpoint(0.5))).reason, Reason::kUnknownJoint);
+  EXPECT_EQ(consider(wire("SW.elbow.STATE", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(wire("nonsense", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
 }
 
 TEST_F(AdmissionTest, RefusesAnotherSession) {
   setpoint_v1 message = setpoint(0.5);
   message.session_id = kSession + 1;
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kWrongSession);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kWrongSession);
 }
 
 TEST_F(AdmissionTest, RepeatsAResentOrderAndRefusesAnOlderOne) {
   const setpoint_v1 first = setpoint(0.1);
   const setpoint_v1 second = setpoint(0.2);
-  admission_.consider(wire("SW.elbow.SETPOINT", first));
-  admission_.consider(wire("SW.elbow.SETPOINT", second));
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.SETPOINT", second)).kind, Verdict::Kind::kRepeat);
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.SETPOINT", first)).reason, Reason::kOldSequence);
+  consider(wire("SW.elbow.SETPOINT", first));
+  consider(wire("SW.elbow.SETPOINT", second));
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", second)).kind, Verdict::Kind::kRepeat);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", first)).reason, Reason::kOldSequence);
 }
 
 TEST_F(AdmissionTest, PassesADisableWhateverItsSessionAndSequence) {
@@ -114,7 +116,7 @@ TEST_F(AdmissionTest, PassesADisableWhateverItsSessionAndSequence) {
   message.session_id = 0;
   message.sequence = -5;
   for (int i = 0; i < 3; ++i) {
-    const Verdict verdict = admission_.consider(wire("SW.elbow.COMMAND", message));
+    const Verdict verdict = consider(wire("SW.elbow.COMMAND", message));
     ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
     EXPECT_EQ(verdict.order.kind, OrderKind::kDisable);
   }
@@ -123,8 +125,8 @@ TEST_F(AdmissionTest, PassesADisableWhateverItsSessionAndSequence) {
 TEST_F(AdmissionTest, RefusesUnknownActionsAndNumbersThatAreNone) {
   command_v1 message = command(Action::kHold);
   message.action = 77;
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.COMMAND", message)).reason, Reason::kUnknownAction);
-  EXPECT_EQ(admission_.consider(wire("SW.elbow.SETPOINT", setpoint(std::nan("")))).reason, Reason::kNotFinite);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", message)).reason, Reason::kUnknownAction);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", setpoint(std::nan("")))).reason, Reason::kNotFinite);
 }
 
 }  // namespace

@@ -16,6 +16,9 @@ constexpr const char* kSound = R"([daemon]
 period_s = 0.001
 prefix = "LAB"
 
+[security]
+unsigned_orders = "allow"
+
 [[joint]]
 name = "elbow"
 joint_model = "rhs17-6006"
@@ -123,6 +126,27 @@ TEST_F(ConfigTest, NamesAFileThatCannotBeRead) {
   } catch (const InputError& error) {
     expect_mentions(error.what(), {"absent.toml", "cannot be read"});
   }
+}
+
+TEST_F(ConfigTest, ObeysNobodyWithoutKeysUnlessToldTo) {
+  expect_mentions(error_after("unsigned_orders = \"allow\"", ""),
+                  {"security.authorized_keys is missing", "keygen", "unsigned_orders"});
+  expect_mentions(error_after("\"allow\"", "\"maybe\""), {"security.unsigned_orders", "maybe", "refuse"});
+}
+
+TEST_F(ConfigTest, ReadsTheKeysBesideTheConfiguration) {
+  const PublicKey key = SecretKey::generate().public_key();
+  std::ofstream(folder_ / "keys") << to_line(AuthorizedKey{key, Role::kEngineer, "Emma"}) << '\n';
+  std::string text = kSound;
+  text.replace(text.find("unsigned_orders = \"allow\""), 25, "authorized_keys = \"keys\"");
+  const DaemonConfig config = read(text);
+  EXPECT_FALSE(config.security.unsigned_allowed);
+  EXPECT_EQ(config.security.keys[0].key, key);
+}
+
+TEST_F(ConfigTest, RefusesAGatewayUserWhoIsNoneOrRoot) {
+  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"nobody-such\""), {"daemon.gateway_user", "no such user"});
+  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"root\""), {"daemon.gateway_user", "without privileges"});
 }
 
 TEST_F(ConfigTest, EveryShippedExampleIsSound) {

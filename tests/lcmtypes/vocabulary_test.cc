@@ -69,7 +69,9 @@ constexpr Word<Reason> kReasons[] = {{0, Reason::kAccepted, "accepted"},
                                      {20, Reason::kUnknownAction, "unknown action"},
                                      {21, Reason::kTimedOut, "timed out"},
                                      {22, Reason::kDriveNotReady, "drive not ready"},
-                                     {23, Reason::kSuperseded, "superseded by a newer command"}};
+                                     {23, Reason::kSuperseded, "superseded by a newer command"},
+                                     {24, Reason::kNotSimulated, "only a simulated drive takes injected faults"},
+                                     {25, Reason::kStreamExpired, "setpoint stream has expired"}};
 
 constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {2, Action::kDisable, "disable"},
@@ -82,7 +84,8 @@ constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
     {1, TemperatureStatus::kNeverSeen, "never seen"},
     {2, TemperatureStatus::kTooOld, "too old"},
     {3, TemperatureStatus::kOutOfRange, "out of range"},
-    {4, TemperatureStatus::kTooFast, "changing too fast"}};
+    {4, TemperatureStatus::kTooFast, "changing too fast"},
+    {5, TemperatureStatus::kNotChanging, "not changing"}};
 
 constexpr Word<GainsInUse> kGains[] = {{0, GainsInUse::kNone, "none"},
                                        {1, GainsInUse::kPrimary, "scheduled"},

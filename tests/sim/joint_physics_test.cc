@@ -53,11 +53,11 @@ TEST(JointPhysics, NeverGainsEnergyWithoutInput) {
   for (const double temperature_C : {-10.0, 15.0, 45.0}) {
     for (const double velocity_rad_s : {1e-6, 0.01, -0.3, 8.0}) {
       JointState state = moving(velocity_rad_s);
-      double energy_J = kinetic_energy_J(joint, state);
+      double energy_J = kinetic_energy(joint, state);
       for (int k = 0; k < 3000 && !state.stuck; ++k) {
         advance(state, joint, reference_input(0.0, temperature_C), 1e-3, 10);
-        EXPECT_LT(kinetic_energy_J(joint, state), energy_J);
-        energy_J = kinetic_energy_J(joint, state);
+        EXPECT_LT(kinetic_energy(joint, state), energy_J);
+        energy_J = kinetic_energy(joint, state);
       }
       EXPECT_TRUE(state.stuck) << "friction alone stops every motion";
       EXPECT_EQ(state.velocity_rad_s, 0.0);
@@ -147,6 +147,22 @@ TEST(JointPhysics, FollowsTheViscousExponential) {
   advance(state, joint, input, 0.1, 1000);
   EXPECT_NEAR(state.velocity_rad_s, 3.0 * std::exp(-rate * 0.1), 1e-9);
   EXPECT_NEAR(state.position_rad, 3.0 / rate * -std::expm1(-rate * 0.1), 1e-9);
+}
+
+TEST(JointPhysics, StopsUnderCoulombAndViscousFrictionWhereTheLogarithmSays) {
+  const JointParameters joint = reference_joint();
+  JointInput input = constant_friction(0.0);
+  input.friction.viscous_Nms_rad = 2.5;
+  const double w0 = 0.9;
+  const double relaxation_s = joint.inertia_kgm2 / 2.5;
+  const double logarithm = std::log1p(2.5 * w0 / kCoulomb_Nm);
+  JointState state = moving(w0);
+  advance(state, joint, input, 0.1, 1000);
+  EXPECT_TRUE(state.stuck);
+  EXPECT_NEAR(state.position_rad, relaxation_s * (w0 - kCoulomb_Nm / 2.5 * logarithm), 1e-13);
+  JointState before = moving(w0);
+  advance(before, joint, input, relaxation_s * logarithm - 1e-10, 300);
+  EXPECT_FALSE(before.stuck);
 }
 
 // The velocity after 20 ms of motion inside the Stribeck range, and the position after a stop in it.

@@ -222,6 +222,9 @@ real_time = "ignore"
 overrun_limit = 100000
 )" + daemon_extra +
          R"(
+[security]
+unsigned_orders = "allow"
+
 [[joint]]
 name = "elbow"
 joint_model = "rhs17-6006"

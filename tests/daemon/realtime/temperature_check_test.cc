@@ -107,7 +107,7 @@ TEST_F(TemperatureCheckTest, ReturnsOnlyAfterTheSignalWasGoodForTheRecoveryTime)
   silence(3.0);
   read(21.0, 0.1);
   EXPECT_FALSE(check_.usable());
-  for (int i = 0; i < 9; ++i) read(21.0, 0.1);
+  for (int i = 0; i < 8; ++i) read(21.0, 0.1);
   EXPECT_FALSE(check_.usable());
   for (int i = 0; i < 3; ++i) read(21.0, 0.1);
   EXPECT_TRUE(check_.usable());

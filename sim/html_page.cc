@@ -1,4 +1,4 @@
-#include "sim/chapter6_page.h"
+#include "sim/html_page.h"
 
 #include "control/text_file.h"
 
@@ -7,7 +7,7 @@ namespace strainwave {
 namespace {
 
 constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>Strainwave: chapter 6</title>
+<html lang="en"><head><meta charset="utf-8"><title>Strainwave</title>
 <style>
 body { font: 15px/1.5 sans-serif; max-width: 1440px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff; }
 table { border-collapse: collapse; margin: 1.5em 0; font-variant-numeric: tabular-nums; }
@@ -28,8 +28,8 @@ std::string inline_svg(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string chapter6_page(const std::string& introduction_html, const std::vector<TextTable>& tables,
-                          const std::vector<Figure>& figures, const std::filesystem::path& figure_directory) {
+std::string html_page(const std::string& introduction_html, const std::vector<TextTable>& tables,
+                      const std::vector<Figure>& figures, const std::filesystem::path& figure_directory) {
   std::string page = kHead + introduction_html + "<h2>Tables</h2>\n";
   for (const TextTable& table : tables) page += table.html();
   page += "<h2>Figures</h2>\n";

@@ -1,0 +1,18 @@
+// The operator's secret key on disk: a file of mode 0600 with one line. Not real-time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "lcmtypes/key_text.h"
+
+namespace strainwave {
+
+/// Reads the key in `path`. Throws InputError: unreadable, readable by others, not a secret key.
+SecretKeyText read_secret_key(const std::filesystem::path& path);
+
+/// Makes `path` (mode 0600) and `path`.pub with a new key. Throws InputError when either exists: a key that
+/// is in use is never overwritten.
+AuthorizedKey write_new_key(const std::filesystem::path& path, Role role, const std::string& comment);
+
+}  // namespace strainwave

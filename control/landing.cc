@@ -1,0 +1,112 @@
+#include "control/landing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+
+// Least friction that is believed, as a share of the model's: an estimate gone wrong must not turn friction
+// round.
+constexpr double kLeastFriction = 0.2;
+// Share of static friction that may act against a joint which will stop within the period: it must stay
+// stopped.
+constexpr double kSafeReverse = 0.5;
+// Where exact sensing takes a joint to be on its target.
+constexpr double kExactTolerance_rad = 1e-8;
+// A slide ends this far beyond the edge, in counts; its length may be in doubt by so much; periods that it
+// takes.
+constexpr double kSlideBeyond = 0.7;
+constexpr double kSlideDoubt = 0.5;
+constexpr double kShortestSlide = 3.0;
+constexpr double kLongestSlide = 8.0;
+
+}  // namespace
+
+double landing_torque_Nm(const JointModel& model, const JointDisturbance& disturbance, double velocity_rad_s,
+                         double distance_rad, double period_s, int samples) noexcept {
+  const double direction = velocity_rad_s != 0.0 ? sign(velocity_rad_s) : sign(distance_rad);
+  if (direction == 0.0) return disturbance.load_Nm;
+  const auto friction = [&](double speed) {
+    const double model_Nm = model.friction_Nm(speed);
+    return std::max(kLeastFriction * model_Nm, model_Nm + disturbance.friction_offset_Nm);
+  };
+  const double speed = std::abs(velocity_rad_s);
+  const double distance = direction * distance_rad;
+  const double static_Nm = friction(0.0);
+  const double inertia = model.inertia_kgm2;
+
+  if (speed > 0.0 && 2.0 * distance <= speed * period_s) {
+    // Ends within this period: exactly there if it can, but never so hard that it starts back.
+    const double needed = distance > 0.0 ? 0.5 * speed * speed / distance : HUGE_VAL;
+    const double friction_Nm = friction(0.5 * speed);
+    const double safe = (friction_Nm + kSafeReverse * static_Nm) / inertia;
+    const double deceleration = std::min(needed, std::max(safe, speed / period_s));
+    return disturbance.load_Nm + direction * (friction_Nm - inertia * deceleration);
+  }
+  // End speed from which the joint stops at the target: by static friction alone, or in half a period if that
+  // is harder.
+  const double push_s = samples * period_s;
+  const double beyond = distance - 0.5 * speed * push_s;
+  const double coasting = static_Nm / inertia;
+  double end_speed =
+      coasting * (-0.5 * push_s + std::sqrt(std::max(0.0, 0.25 * push_s * push_s + 2.0 * beyond / coasting)));
+  if (samples == 1 && end_speed > 0.5 * coasting * period_s) end_speed = beyond / (0.75 * period_s);
+  const double acceleration = (std::max(0.0, end_speed) - speed) / push_s;
+  return disturbance.load_Nm + direction * (friction(0.5 * (speed + end_speed)) + inertia * acceleration);
+}
+
+void Landing::begin(double target_rad) noexcept {
+  target_rad_ = target_rad;
+  aim_rad_ = target_rad;
+  still_samples_ = 0;
+  push_samples_ = 0;
+  slides_ = 0;
+  probes_ = 0;
+  resting_ = false;
+}
+
+// Where the next push goes and how long it takes.
+void Landing::choose_push(const JointEstimate& then, double reading_rad, const JointModel& model) noexcept {
+  aim_rad_ = target_rad_;
+  push_samples_ = 1;
+  const double count_rad = config_.encoder_resolution_rad;
+  if (count_rad == 0.0) return;
+  const double edge_rad =
+      reading_rad + (std::floor((target_rad_ - reading_rad) / count_rad) + 0.5) * count_rad;
+  if (then.friction_deviation_Nm > config_.friction_certainty_Nm && slides_ < config_.slide_limit) {
+    ++slides_;
+    aim_rad_ = edge_rad + std::copysign(kSlideBeyond * count_rad, edge_rad - then.position_rad);
+    // The doubt about friction makes a doubt about the slide's length, deviation t^2 / 2J.
+    const double slide_s =
+        std::sqrt(2.0 * kSlideDoubt * count_rad * model.inertia_kgm2 / then.friction_deviation_Nm);
+    push_samples_ = static_cast<int>(std::clamp(slide_s / config_.period_s, kShortestSlide, kLongestSlide));
+  } else if (then.position_deviation_rad > config_.certainty_counts * count_rad &&
+             probes_ < config_.probe_limit) {
+    ++probes_;
+    aim_rad_ = edge_rad;
+  }
+}
+
+double Landing::step(const JointEstimate& now, const JointEstimate& then, double reading_rad,
+                     const JointModel& model) noexcept {
+  if (resting_) return then.disturbance.load_Nm;
+  const bool still = then.velocity_rad_s == 0.0 && then.position_rad == now.position_rad;
+  still_samples_ = still ? still_samples_ + 1 : 0;
+  if (then.velocity_rad_s == 0.0) {
+    // Until the encoder has shown where the last push ended, nothing is decided.
+    if (still_samples_ <= config_.delay_samples) return then.disturbance.load_Nm;
+    choose_push(then, reading_rad, model);
+    const double tolerance_rad = std::max(kExactTolerance_rad, 0.5 * then.position_deviation_rad);
+    resting_ = aim_rad_ == target_rad_ && std::abs(aim_rad_ - then.position_rad) <= tolerance_rad;
+    if (resting_) return then.disturbance.load_Nm;
+  }
+  const int samples = std::max(1, push_samples_--);
+  return landing_torque_Nm(model, then.disturbance, then.velocity_rad_s, aim_rad_ - then.position_rad,
+                           config_.period_s, samples);
+}
+
+}  // namespace strainwave

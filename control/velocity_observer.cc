@@ -1,0 +1,197 @@
+#include "control/velocity_observer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace strainwave {
+
+namespace {
+
+enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
+
+constexpr double kLeastInertia = 0.4;
+constexpr double kLargestInertia = 2.5;
+
+constexpr double kCertain = 6.0;   // this many deviations inside, an edge says nothing
+constexpr double kSurprise = 4.0;  // this many outside, the model did not foresee the reading
+// Share of a change of the model's friction (another temperature, another table) that its error may change
+// by.
+constexpr double kModelChange = 0.2;
+constexpr double kRestDrift_Nm = 0.001;  // per period in motion, however slow
+constexpr double kLoadDrift = 0.1;       // a load's share of the drift
+// Deviations of the velocity that a stop is doubted by; share of a period's friction that a doubtful
+// direction may cost.
+constexpr double kDoubtfulStop = 1.5;
+constexpr double kDirectionShare = 0.25;
+// What is left of an exact position and velocity after rounding.
+constexpr double kExactVelocity_rad_s = 1e-6;
+
+// phi(z) / Phi(z). The standard normal variable below z has mean -ratio.
+double normal_ratio(double z) noexcept {
+  if (z < -30.0) return -z - 1.0 / z;  // asymptote; Phi underflows
+  const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+  return density / (0.5 * std::erfc(-z / std::numbers::sqrt2));
+}
+
+double square(double x) noexcept {
+  return x * x;
+}
+
+}  // namespace
+
+void VelocityObserver::reset(double position_rad) noexcept {
+  state_ << position_rad, 0.0, 0.0, 0.0, 0.0;
+  covariance_.setZero();
+  covariance_(kPosition, kPosition) = square(config_.encoder_resolution_rad) / 12.0;
+  covariance_(kFriction, kFriction) = square(config_.friction_uncertainty_Nm);
+  covariance_(kLoad, kLoad) = square(config_.load_uncertainty_Nm);
+  covariance_(kInertia, kInertia) = square(config_.inertia_uncertainty);
+  reading_rad_ = position_rad;
+  moved_rad_ = 0.0;
+  static_friction_Nm_ = 0.0;
+}
+
+void VelocityObserver::predict(double torque_Nm, const JointModel& model) noexcept {
+  if (static_friction_Nm_ > 0.0)
+    covariance_(kFriction, kFriction) +=
+        square(kModelChange * (model.friction.static_Nm - static_friction_Nm_));
+  static_friction_Nm_ = model.friction.static_Nm;
+  JointModel adapted = model;
+  adapted.inertia_kgm2 *= inertia_ratio();
+  inertia_kgm2_ = adapted.inertia_kgm2;
+
+  const ModelMotion motion =
+      adapted.advance(torque_Nm, {state_(kFriction), state_(kLoad)}, state_(kVelocity), config_.period_s);
+  moved_rad_ += motion.displacement_rad;
+  if (!motion.moved) return;
+  Covariance transition = Covariance::Identity();
+  transition.row(kPosition) << 1.0, motion.displacement_by_velocity, motion.displacement_by_friction,
+      motion.displacement_by_load, motion.displacement_by_inertia / inertia_ratio();
+  transition.row(kVelocity) << 0.0, motion.velocity_by_velocity, motion.velocity_by_friction,
+      motion.velocity_by_load, motion.velocity_by_inertia / inertia_ratio();
+  const double start_deviation = std::sqrt(covariance_(kVelocity, kVelocity));
+  covariance_ = transition * covariance_ * transition.transpose();
+  doubt_direction(motion, start_deviation, adapted);
+  drift(motion.velocity_rad_s, model);
+  state_(kPosition) += motion.displacement_rad;
+  state_(kVelocity) = motion.velocity_rad_s;
+}
+
+// Friction turns round with the velocity, which no derivative sees: a velocity of doubtful sign may have met
+// either friction, and a joint that is taken to have stopped may not yet have.
+void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_deviation,
+                                       const JointModel& model) noexcept {
+  const double start_speed = std::abs(state_(kVelocity));
+  if (start_speed == 0.0) return;
+  double& variance = covariance_(kVelocity, kVelocity);
+  if (motion.velocity_rad_s == 0.0) {
+    const double deceleration = start_speed / motion.displacement_by_velocity;
+    const double still_moving =
+        kDoubtfulStop * start_deviation - (deceleration * config_.period_s - start_speed);
+    if (still_moving > 0.0) variance += square(0.5 * still_moving);
+  } else if (square(motion.velocity_rad_s) < square(kSurprise) * variance) {
+    const double doubt = std::exp(-0.5 * square(motion.velocity_rad_s) / variance);
+    variance +=
+        square(kDirectionShare * doubt * model.friction.static_Nm * config_.period_s / model.inertia_kgm2);
+  }
+}
+
+// What the model gets wrong differs from speed to speed (friction), and grows with the acceleration
+// (inertia).
+void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model) noexcept {
+  const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
+  const double share = square(square(std::min(1.0, speed / model.stribeck.velocity_rad_s)));
+  const double drift = square(config_.friction_drift_Nm * share) + square(kRestDrift_Nm);
+  covariance_(kFriction, kFriction) += drift;
+  covariance_(kLoad, kLoad) += kLoadDrift * drift;
+  covariance_(kInertia, kInertia) += square(config_.inertia_drift * (end_velocity_rad_s - state_(kVelocity)));
+  covariance_(kVelocity, kVelocity) +=
+      end_velocity_rad_s != 0.0
+          ? square(config_.torque_uncertainty * (end_velocity_rad_s - state_(kVelocity)))
+          : 0.0;
+}
+
+// The mean of one component shifts and its variance shrinks to a share; the others follow by their
+// correlation.
+void VelocityObserver::condition(int component, double shift, double variance_ratio) noexcept {
+  const double variance = covariance_(component, component);
+  if (variance <= 0.0) return;
+  const State gain = covariance_.col(component) / variance;
+  state_ += gain * shift;
+  covariance_ -= (1.0 - variance_ratio) * variance * gain * gain.transpose();
+}
+
+// Something moved the joint that the model does not know: velocity and load may be anything that explains the
+// distance.
+void VelocityObserver::admit_surprise(double distance_rad) noexcept {
+  const double velocity = distance_rad / config_.period_s;
+  const double load_Nm = 2.0 * inertia_kgm2_ * velocity / config_.period_s;
+  covariance_(kPosition, kPosition) += square(distance_rad);
+  covariance_(kVelocity, kVelocity) += square(velocity);
+  covariance_(kLoad, kLoad) += square(load_Nm);
+  covariance_(kPosition, kVelocity) += 0.5 * distance_rad * velocity;
+  covariance_(kVelocity, kPosition) += 0.5 * distance_rad * velocity;
+  covariance_(kPosition, kLoad) -= 0.5 * distance_rad * load_Nm;
+  covariance_(kLoad, kPosition) -= 0.5 * distance_rad * load_Nm;
+  covariance_(kVelocity, kLoad) -= 0.5 * velocity * load_Nm;
+  covariance_(kLoad, kVelocity) -= 0.5 * velocity * load_Nm;
+}
+
+// Keeps the part of the distribution on one side (+1: above, -1: below) of an edge.
+void VelocityObserver::truncate(double edge_rad, double side) noexcept {
+  const double inside_rad = side * (state_(kPosition) - edge_rad);
+  const double edge_variance = square(config_.edge_deviation_counts * config_.encoder_resolution_rad);
+  double deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
+  if (inside_rad > kCertain * deviation) return;
+  if (inside_rad < -kSurprise * deviation) {
+    admit_surprise(-inside_rad);
+    deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
+  }
+  const double z = inside_rad / deviation;
+  const double ratio = normal_ratio(z);
+  const double share = covariance_(kPosition, kPosition) / square(deviation);
+  condition(kPosition, side * share * deviation * ratio, 1.0 - share * ratio * (ratio + z));
+}
+
+void VelocityObserver::correct(double position_rad) noexcept {
+  const double half_rad = 0.5 * config_.encoder_resolution_rad;
+  if (half_rad == 0.0) {
+    condition(kPosition, position_rad - state_(kPosition), 0.0);
+    state_(kPosition) = position_rad;
+    return;
+  }
+  // An edge is news when it bounds tighter than the last reading's edge, carried along with the motion.
+  const double tighter_rad = position_rad - reading_rad_ - moved_rad_;
+  if (tighter_rad > 0.0) truncate(position_rad - half_rad, 1.0);
+  if (tighter_rad < 0.0) truncate(position_rad + half_rad, -1.0);
+  reading_rad_ = position_rad;
+  moved_rad_ = 0.0;
+}
+
+void VelocityObserver::correct(double position_rad, double velocity_rad_s) noexcept {
+  const double variance = covariance_(kVelocity, kVelocity);
+  const double weight = variance / (variance + square(kExactVelocity_rad_s));
+  condition(kVelocity, weight * (velocity_rad_s - state_(kVelocity)), 1.0 - weight);
+  state_(kPosition) = position_rad;
+  state_(kVelocity) = velocity_rad_s;
+  covariance_.topRows<2>().setZero();
+  covariance_.leftCols<2>().setZero();
+  reading_rad_ = position_rad;
+  moved_rad_ = 0.0;
+}
+
+JointEstimate VelocityObserver::estimate() const noexcept {
+  return {state_(kPosition),
+          state_(kVelocity),
+          {state_(kFriction), state_(kLoad)},
+          inertia_ratio(),
+          std::sqrt(covariance_(kPosition, kPosition)),
+          std::sqrt(covariance_(kFriction, kFriction) + covariance_(kLoad, kLoad))};
+}
+
+double VelocityObserver::inertia_ratio() const noexcept {
+  return std::clamp(1.0 + state_(kInertia), kLeastInertia, kLargestInertia);
+}
+
+}  // namespace strainwave

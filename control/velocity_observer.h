@@ -1,0 +1,76 @@
+// Position, velocity and disturbance from a coarse encoder: a Kalman filter that knows the torque and the
+// friction, stiction included. Real-time safe.
+//
+// An encoder reads intervals, not positions. What a reading adds is which of its two edges has been passed,
+// or not yet been reached, since the last one; the estimate is conditioned on exactly that (a Gaussian
+// truncated at the edge). So a count change tells the position to within what the joint moves in a period,
+// and a joint at rest learns nothing from the same reading again. The estimate is quiet: at rest, with less
+// torque than friction holds, velocity is exactly zero. Source: assumed-density filtering, Maybeck,
+// "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "control/joint_model.h"
+
+namespace strainwave {
+
+struct VelocityObserverConfig {
+  double period_s = 0.001;              ///< > 0
+  double encoder_resolution_rad = 0.0;  ///< position of one count; 0: exact
+  double edge_deviation_counts = 0.02;  ///< how evenly the encoder's edges lie
+  double friction_uncertainty_Nm =
+      0.3;  ///< of the model's friction before the joint has moved, standard deviation
+  double load_uncertainty_Nm = 0.1;   ///< of an external torque that has not shown yet
+  double friction_drift_Nm = 0.1;     ///< change of friction's error from one speed to another
+  double inertia_uncertainty = 0.1;   ///< of the model's inertia before the joint has moved, relative
+  double inertia_drift = 0.003;       ///< per rad/s of change of speed, relative
+  double torque_uncertainty = 0.005;  ///< of the accelerating torque from period to period, relative
+};
+
+/// The estimate at a sample.
+struct JointEstimate {
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;  ///< exactly 0 at rest
+  JointDisturbance disturbance;
+  double inertia_ratio = 1.0;           ///< the joint's inertia in units of the model's
+  double position_deviation_rad = 0.0;  ///< standard deviation of the position
+  double friction_deviation_Nm = 0.0;   ///< the same of friction and load together
+};
+
+class VelocityObserver {
+ public:
+  explicit VelocityObserver(const VelocityObserverConfig& config) noexcept : config_(config) { reset(0.0); }
+
+  /// At rest where the encoder reads `position_rad`; friction and load unknown again.
+  void reset(double position_rad) noexcept;
+  /// The period that ends now: the torque that acted over it, by a joint like `model`.
+  void predict(double torque_Nm, const JointModel& model) noexcept;
+  /// The encoder's reading now.
+  void correct(double position_rad) noexcept;
+  /// Exact position and velocity, for joints that have them.
+  void correct(double position_rad, double velocity_rad_s) noexcept;
+
+  JointEstimate estimate() const noexcept;
+
+ private:
+  double inertia_ratio() const noexcept;
+  using State = Eigen::Matrix<double, 5, 1>;  // position, velocity, friction offset, load, inertia ratio - 1
+  using Covariance = Eigen::Matrix<double, 5, 5>;
+
+  void drift(double end_velocity_rad_s, const JointModel& model) noexcept;
+  void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
+  void truncate(double edge_rad, double side) noexcept;
+  void admit_surprise(double distance_rad) noexcept;
+  void condition(int component, double shift, double variance_ratio) noexcept;
+
+  VelocityObserverConfig config_;
+  State state_ = State::Zero();
+  Covariance covariance_ = Covariance::Zero();
+  double reading_rad_ = 0.0;
+  double moved_rad_ = 0.0;  ///< predicted since that reading
+  double inertia_kgm2_ = 1.0;
+  double static_friction_Nm_ = 0.0;  ///< of the last model
+};
+
+}  // namespace strainwave

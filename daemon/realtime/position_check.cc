@@ -1,0 +1,72 @@
+#include "daemon/realtime/position_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+/// A sound sensor's worst reading: quantisation at both ends, and sampling that is not exactly periodic.
+constexpr double kJumpFactor = 2.0;
+constexpr double kJumpCounts = 4.0;
+constexpr double kJumpFloor_rad = 1e-6;
+/// A joint may have more friction than its table says.
+constexpr double kFrictionFactor = 1.5;
+/// Motion owed before the sensor is called stuck.
+constexpr double kStuckCounts = 10.0;
+constexpr double kStuckFloor_rad = 1e-4;
+/// After its last change the joint may still be coming to rest under another torque.
+constexpr int kSettlingPeriods = 5;
+
+}  // namespace
+
+bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven,
+                              std::int64_t now_ns) noexcept {
+  const bool jump = driven && has_last_ && jumped(position_rad, now_ns);
+  if (!driven || !has_last_) begin_stretch();
+  const bool motionless = driven && has_last_ && stuck(position_rad, torque_Nm);
+  last_position_rad_ = position_rad;
+  last_ns_ = now_ns;
+  has_last_ = true;
+  return !jump && !motionless;
+}
+
+bool PositionCheck::jumped(double position_rad, std::int64_t now_ns) const noexcept {
+  const double elapsed_s = std::max(config_.period_s, static_cast<double>(now_ns - last_ns_) * 1e-9);
+  const double allowed_rad = kJumpFactor * config_.overspeed_rad_s * elapsed_s +
+                             kJumpCounts * config_.resolution_rad + kJumpFloor_rad;
+  return std::abs(position_rad - last_position_rad_) > allowed_rad;
+}
+
+void PositionCheck::begin_stretch() noexcept {
+  unchanged_periods_ = 0;
+  owed_velocity_rad_s_ = 0.0;
+  owed_motion_rad_ = 0.0;
+}
+
+bool PositionCheck::stuck(double position_rad, double torque_Nm) noexcept {
+  if (position_rad != last_position_rad_) {
+    begin_stretch();
+    return false;
+  }
+  ++unchanged_periods_;
+  if (unchanged_periods_ <= kSettlingPeriods) {
+    torque_min_Nm_ = torque_Nm;
+    torque_max_Nm_ = torque_Nm;
+    return false;
+  }
+  torque_min_Nm_ = std::min(torque_min_Nm_, torque_Nm);
+  torque_max_Nm_ = std::max(torque_max_Nm_, torque_Nm);
+  const double change_Nm = std::max(torque_Nm - torque_min_Nm_, torque_max_Nm_ - torque_Nm);
+  const double excess_Nm = change_Nm - 2.0 * kFrictionFactor * static_friction_Nm_;
+  if (excess_Nm <= 0.0) {
+    owed_velocity_rad_s_ = 0.0;  // it may have come to rest again
+    return false;
+  }
+  owed_velocity_rad_s_ += excess_Nm / inertia_kgm2_ * config_.period_s;
+  owed_motion_rad_ += owed_velocity_rad_s_ * config_.period_s;
+  return owed_motion_rad_ > std::max(kStuckCounts * config_.resolution_rad, kStuckFloor_rad);
+}
+
+}  // namespace strainwave

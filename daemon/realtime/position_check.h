@@ -1,0 +1,57 @@
+// Whether a position reading can be true: two tests that need no more than mechanics. Real-time safe.
+//
+// Jump: between two readings the joint cannot have moved faster than twice its overspeed limit.
+//
+// Stuck: a joint at rest under a constant load L and torque T0 tells that |T0 - L| <= Fs. When the torque
+// then becomes T, at least |T - T0| - 2 Fs of it accelerates the joint, whatever L is:
+//     displacement >= integral integral max(0, |T - T0| - 2 Fs) / J  dt dt
+// A sensor that shows no change although that displacement is many counts is stuck. T0 is the lowest
+// (highest) torque since the reading last changed. A joint that stands with the load balanced is never taken
+// for stuck, and neither is one whose sensor stops while nothing is asked of it: that shows with the next
+// motion.
+#pragma once
+
+#include <cstdint>
+
+namespace strainwave {
+
+struct PositionCheckConfig {
+  double period_s = 0.001;
+  double overspeed_rad_s = 1.0;  ///< of the joint's limits
+  double resolution_rad = 0.0;   ///< one count; 0: exact
+};
+
+class PositionCheck {
+ public:
+  explicit PositionCheck(const PositionCheckConfig& config) noexcept : config_(config) {}
+
+  /// Inertia and the largest static friction of the joint, of its gain table.
+  void set_joint(double inertia_kgm2, double static_friction_Nm) noexcept {
+    inertia_kgm2_ = inertia_kgm2;
+    static_friction_Nm_ = static_friction_Nm;
+  }
+
+  /// One fresh reading at `now_ns` with the torque applied since the one before. Returns whether it can be
+  /// true. With `driven` false the joint may be moved by hand and nothing is concluded from it.
+  bool plausible(double position_rad, double torque_Nm, bool driven, std::int64_t now_ns) noexcept;
+
+ private:
+  bool jumped(double position_rad, std::int64_t now_ns) const noexcept;
+  bool stuck(double position_rad, double torque_Nm) noexcept;
+  void begin_stretch() noexcept;
+
+  PositionCheckConfig config_;
+  double inertia_kgm2_ = 1.0;
+  double static_friction_Nm_ = 0.0;
+  double last_position_rad_ = 0.0;
+  std::int64_t last_ns_ = 0;
+  bool has_last_ = false;
+  // Of the stretch without a change:
+  int unchanged_periods_ = 0;
+  double torque_min_Nm_ = 0.0;
+  double torque_max_Nm_ = 0.0;
+  double owed_velocity_rad_s_ = 0.0;  ///< that a joint must have by now
+  double owed_motion_rad_ = 0.0;
+};
+
+}  // namespace strainwave

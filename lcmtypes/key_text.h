@@ -1,0 +1,45 @@
+// Keys as text: one line each, "ed25519 <base64> <role> <comment>" for a public key (the lines of
+// authorized_keys) and "ed25519-secret <base64> <role> <comment>" for a secret one. Not real-time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "lcmtypes/signing.h"
+
+namespace strainwave {
+
+/// What a key may order. An engineer may all an operator may.
+enum class Role {
+  kOperator,  ///< setpoints and commands
+  kEngineer,  ///< also gain tables
+};
+std::string_view to_text(Role role) noexcept;
+std::optional<Role> parse_role(std::string_view text) noexcept;
+
+struct AuthorizedKey {
+  PublicKey key;
+  Role role = Role::kOperator;
+  std::string comment;  ///< whose it is; printable, may be empty
+};
+
+struct SecretKeyText {
+  SecretKey key;
+  Role role = Role::kOperator;  ///< what its .pub line asks for; the daemon's file decides
+  std::string comment;
+};
+
+/// Without a line end.
+std::string to_line(const AuthorizedKey& key);
+std::string to_line(const SecretKeyText& key);
+
+/// Both throw InputError that says what is wrong with the line (never quoting it, it may be secret) and what
+/// to do.
+AuthorizedKey parse_public_line(std::string_view line);
+SecretKeyText parse_secret_line(std::string_view line);
+
+/// Whether `comment` may stand in a line: at most 100 bytes, no control characters, no space at either end.
+bool is_valid_comment(std::string_view comment) noexcept;
+
+}  // namespace strainwave

@@ -1,0 +1,64 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "control/gain_table_json.h"
+#include "sim/commands/commands.h"
+#include "sim/commands/study_output.h"
+#include "sim/heat.h"
+#include "sim/plant_file.h"
+#include "sim/reference_plant.h"
+
+namespace strainwave {
+
+namespace {
+
+struct Options {
+  HeatConfig study;
+  std::string table;
+  std::string plant = "realistic";
+  std::string out = "heat";
+};
+
+TextTable details(const std::vector<HeatRun>& runs) {
+  TextTable table;
+  table.header = {"temperature",        "time_s",       "joint_temperature_C",
+                  "told_temperature_C", "pi2_per_move", "settled_error_rad"};
+  for (const HeatRun& run : runs)
+    for (std::size_t i = 0; i < run.pi2_over_time.size(); ++i)
+      table.rows.push_back(
+          {run.name, number(run.pi2_over_time[i].first, 9), number(run.joint_temperature_C[i].second, 9),
+           number(run.told_temperature_C[i].second, 9), number(run.pi2_over_time[i].second, 9),
+           number(run.settled_error_over_time[i].second, 9)});
+  return table;
+}
+
+void run(Options& options) {
+  options.study.plant = plant_named(options.plant);
+  if (options.study.plant.thermal.resistance_C_W == 0.0) options.study.plant.thermal = reference_thermal();
+  const auto runs = run_heat(options.study, read_gain_table(options.table));
+  write_study("heat", heat_summary(runs), details(runs), heat_figure(runs), options.out);
+}
+
+}  // namespace
+
+void add_heat_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "heat", "Losses warm the joint; what a late, biased or missing temperature costs");
+  HeatConfig& study = options->study;
+  command->add_option("--table", options->table, "gain table (JSON)")->required();
+  command->add_option("--plant", options->plant, "ideal, limited, realistic or a plant file")
+      ->capture_default_str();
+  command->add_option("--ambient", study.ambient_C, "degC")->capture_default_str();
+  command->add_option("--stroke", study.stroke_rad, "rad, there and back")->capture_default_str();
+  command->add_option("--interval", study.interval_s, "from one setpoint to the next, s")
+      ->capture_default_str();
+  command->add_option("--duration", study.duration_s, "s")->capture_default_str();
+  command->add_option("--sensor-lag", study.sensor_lag_s, "time constant of the late sensor, s")
+      ->capture_default_str();
+  command->add_option("--bias", study.bias_C, "of the biased sensors, degC")->capture_default_str();
+  command->add_option("--out", options->out, "folder to write to")->capture_default_str();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace strainwave

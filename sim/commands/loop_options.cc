@@ -1,0 +1,52 @@
+#include <CLI/CLI.hpp>
+
+#include "control/input_error.h"
+#include "sim/commands/commands.h"
+#include "sim/plant_file.h"
+
+namespace strainwave {
+
+void add_loop_options(CLI::App& command, LoopOptions& options) {
+  command.add_option("--plant", options.plant, "ideal, limited, realistic, or a plant file (TOML)")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--reference", options.reference,
+          "setpoint over time in rad: constant:R, steps:START,RISE,INTERVAL_S,COUNT, "
+          "square:FIRST,SECOND,INTERVAL_S, csv:FILE or hold:FILE (columns time_s,setpoint_position_rad)")
+      ->capture_default_str();
+  command
+      .add_option("--temperature", options.temperature,
+                  "surroundings over time in degC: constant:C, steps:START,RISE,INTERVAL_S,COUNT, "
+                  "sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or hold:FILE (columns time_s,temperature_C)")
+      ->capture_default_str();
+  command
+      .add_option("--load", options.load, "load torque over time in N.m, likewise (column load_torque_Nm)")
+      ->capture_default_str();
+  command.add_option("--duration", options.duration_s, "length of the run in s")->capture_default_str();
+}
+
+ClosedLoopConfig loop_config(const LoopOptions& options) {
+  ClosedLoopConfig config;
+  config.plant = plant_named(options.plant);
+  config.setpoint_rad = TimeProfile::parse(options.reference, {"setpoint_position_rad", -1e5, 1e5});
+  config.ambient = TemperatureProfile::parse(options.temperature);
+  config.load_torque_Nm = TimeProfile::parse(options.load, {"load_torque_Nm", -1e4, 1e4});
+  config.duration_s = options.duration_s;
+  return config;
+}
+
+Contender contender_of_kind(const std::string& kind, const GainTable& table) {
+  const std::string name(table.primary.controller.view());
+  if (kind == "pid") return pid_contender();
+  if (kind == "plain") return plain_contender(name, table);
+  if (kind == "extended") return extended_contender(name + "+", table);
+  if (kind == "fallback") {
+    GainTable fallback = table;
+    fallback.primary = table.fallback;
+    return plain_contender(std::string(table.fallback.controller.view()), fallback);
+  }
+  throw InputError("--controller", "controller", kind, "must be extended, plain, fallback or pid");
+}
+
+}  // namespace strainwave

@@ -1,0 +1,62 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "control/gain_table_json.h"
+#include "sim/commands/commands.h"
+#include "sim/commands/study_output.h"
+#include "sim/plant_file.h"
+#include "sim/robustness.h"
+
+namespace strainwave {
+
+namespace {
+
+struct Options {
+  RobustnessConfig study;
+  std::string table;
+  std::string plant = "realistic";
+  std::string out = "robustness";
+};
+
+void run(Options& options) {
+  options.study.plant = plant_named(options.plant);
+  const GainTable table = read_gain_table(options.table);
+  std::vector<Contender> contenders = {pid_contender()};
+  for (const char* kind : {"fallback", "plain", "extended"})
+    contenders.push_back(contender_of_kind(kind, table));
+  const auto draws = run_robustness(options.study, contenders);
+  TextTable summary = robustness_summary(draws, contenders);
+  summary.title += ", seed " + std::to_string(options.study.seed) + ", setpoint " +
+                   number(options.study.setpoint_rad) + " rad, plant " + options.plant;
+  write_study("robustness", summary, robustness_table(draws, contenders),
+              robustness_figure(draws, contenders), options.out);
+}
+
+}  // namespace
+
+void add_robustness_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+      "robustness", "Monte-Carlo: other inertia, friction, payload than the table was made for");
+  RobustnessConfig& study = options->study;
+  command->add_option("--table", options->table, "gain table (JSON)")->required();
+  command->add_option("--plant", options->plant, "nominal plant: ideal, limited, realistic or a plant file")
+      ->capture_default_str();
+  command->add_option("--draws", study.draws, "number of joints")->capture_default_str();
+  command->add_option("--seed", study.seed, "seed of the draws")->capture_default_str();
+  command->add_option("--inertia-spread", study.inertia_spread, "relative, either way")
+      ->capture_default_str();
+  command->add_option("--friction-spread", study.friction_spread, "relative, either way")
+      ->capture_default_str();
+  command->add_option("--payload-inertia", study.payload_inertia_kgm2, "up to this much more, kg.m^2")
+      ->capture_default_str();
+  command->add_option("--payload-torque", study.payload_torque_Nm, "load torque up to this, either way, N.m")
+      ->capture_default_str();
+  command->add_option("--setpoint", study.setpoint_rad, "rad")->capture_default_str();
+  command->add_option("--duration", study.duration_s, "s")->capture_default_str();
+  command->add_option("--out", options->out, "folder to write to")->capture_default_str();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace strainwave

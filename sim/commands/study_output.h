@@ -1,0 +1,16 @@
+// How a study ends: its summary on the screen, and a folder with a CSV of everything, the figure, and one
+// page.
+#pragma once
+
+#include <filesystem>
+
+#include "sim/figure.h"
+#include "sim/text_table.h"
+
+namespace strainwave {
+
+/// Prints `summary`, writes <name>.csv, <name>.svg and <name>.html into `directory`. Throws InputError.
+void write_study(const std::string& name, const TextTable& summary, const TextTable& details,
+                 const Figure& figure, const std::filesystem::path& directory);
+
+}  // namespace strainwave

@@ -1,0 +1,104 @@
+// The gateway's restarts, with programs that end at once or never.
+#include "daemon/gateway_process.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace strainwave {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+/// A program that never ends by itself.
+class EndlessProgram {
+ public:
+  EndlessProgram() {
+    std::string name = std::filesystem::temp_directory_path() / "strainwave-gateway-XXXXXX";
+    folder_ = ::mkdtemp(name.data());
+    std::ofstream(path()) << "#!/bin/sh\nexec sleep 1000\n";
+    ::chmod(path().c_str(), 0700);
+  }
+  ~EndlessProgram() { std::filesystem::remove_all(folder_); }
+  EndlessProgram(const EndlessProgram&) = delete;
+  EndlessProgram& operator=(const EndlessProgram&) = delete;
+  std::string path() const { return folder_ / "endless"; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Waits for the end of the child, which takes real time; the clock of the back-off is `now_ns`.
+std::string wait_for_end(GatewayProcess& gateway, std::int64_t now_ns) {
+  for (int i = 0; i < 1000; ++i) {
+    if (const auto end = gateway.take_end(now_ns)) return *end;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return "none";
+}
+
+std::int64_t wait_until_due_ms(const GatewayProcess& gateway, std::int64_t now_ns) {
+  std::int64_t waited_ms = 0;
+  while (!gateway.start_due(now_ns + waited_ms * kMillisecond_ns)) ++waited_ms;
+  return waited_ms;
+}
+
+TEST(GatewayProcess, ComesBackEverMoreSlowlyButAlwaysWithinASecond) {
+  GatewayProcess gateway("/bin/false", {0, 1, 2});
+  std::int64_t now_ns = 0;
+  std::vector<std::int64_t> waits_ms;
+  for (int i = 0; i < 8; ++i) {
+    gateway.start(now_ns);
+    EXPECT_EQ(wait_for_end(gateway, now_ns), "exit status 1");
+    waits_ms.push_back(wait_until_due_ms(gateway, now_ns));
+    now_ns += waits_ms.back() * kMillisecond_ns;
+  }
+  EXPECT_EQ(waits_ms, (std::vector<std::int64_t>{100, 200, 400, 800, 800, 800, 800, 800}));
+}
+
+TEST(GatewayProcess, IsQuickAgainAfterALifeLongEnough) {
+  const EndlessProgram program;
+  GatewayProcess gateway(program.path(), {0, 1, 2});
+  std::int64_t now_ns = 0;
+  for (int i = 0; i < 3; ++i) {
+    gateway.start(now_ns);
+    gateway.kill();
+    EXPECT_EQ(wait_for_end(gateway, now_ns), "signal 9");
+    now_ns += wait_until_due_ms(gateway, now_ns) * kMillisecond_ns;
+  }
+  gateway.start(now_ns);
+  gateway.kill();
+  now_ns += 6000 * kMillisecond_ns;
+  EXPECT_EQ(wait_for_end(gateway, now_ns), "signal 9");
+  EXPECT_EQ(wait_until_due_ms(gateway, now_ns), 100);
+}
+
+TEST(GatewayProcess, WaitsAlsoWhenTheProgramCannotBeStarted) {
+  GatewayProcess gateway("/nonexistent/strainwave-gateway", {0, 1, 2});
+  EXPECT_THROW(gateway.start(0), std::system_error);
+  EXPECT_EQ(wait_until_due_ms(gateway, 0), 100);
+}
+
+TEST(GatewayProcess, TakesItsChildAlong) {
+  pid_t pid = -1;
+  {
+    const EndlessProgram program;
+    GatewayProcess gateway(program.path(), {0, 1, 2});
+    gateway.start(0);
+    pid = gateway.pid();
+    EXPECT_EQ(::kill(pid, 0), 0);
+  }
+  EXPECT_EQ(::kill(pid, 0), -1);
+}
+
+}  // namespace
+}  // namespace strainwave

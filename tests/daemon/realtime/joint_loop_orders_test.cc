@@ -1,0 +1,160 @@
+// What the loop makes of orders: streams that end, commands before their time, tables, restarts. Virtual
+// time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+class JointLoopOrders : public ::testing::Test {
+ protected:
+  JointLoopOrders() : bench_({demo_joint()}) {}
+  const state_v1& state() const { return bench_.state(0); }
+  /// A stream that moves at 1 rad/s, a setpoint each 10 ms, for `duration_s`.
+  void stream(double duration_s, double valid_for_s) {
+    for (double sent_s = 0.0; sent_s < duration_s; sent_s += 0.01) {
+      streamed_rad_ += 0.01;
+      ASSERT_EQ(bench_.move(0, streamed_rad_, valid_for_s), Reason::kAccepted);
+      bench_.run(0.009);
+    }
+  }
+  JointBench bench_;
+  double streamed_rad_ = 0.0;
+};
+
+TEST_F(JointLoopOrders, FollowAStreamAsLongAsItGoesOn) {
+  bench_.bring_to_hold(0);
+  stream(1.0, 0.05);
+  EXPECT_EQ(bench_.mode(0), Mode::kTracking);
+  EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
+}
+
+TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
+  const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
+  bench_.bring_to_hold(0);
+  // Far targets, so that the joint is at speed when the last one expires.
+  ASSERT_EQ(bench_.move(0, 3.0, 0.1), Reason::kAccepted);
+  ASSERT_EQ(bench_.step_until([&] { return bench_.has_notice(0, Notice::kSetpointExpired); }, 200), 100);
+  double previous_rad_s = state().setpoint_velocity_rad_s;
+  EXPECT_GT(previous_rad_s, 5.0);
+  std::int64_t cycles = 0;
+  for (; state().setpoint_velocity_rad_s != 0.0 && cycles < 1000; ++cycles) {
+    bench_.step();
+    EXPECT_LE(previous_rad_s - state().setpoint_velocity_rad_s, deceleration_rad_s2 * 0.001 * (1.0 + 1e-9));
+    EXPECT_LE(state().setpoint_velocity_rad_s, previous_rad_s);
+    previous_rad_s = state().setpoint_velocity_rad_s;
+  }
+  EXPECT_LE(cycles, 6.0 / deceleration_rad_s2 / 0.001 + 3.0) << "no longer than the deceleration takes";
+  bench_.run(1.0);
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+  EXPECT_EQ(bench_.fault(0), Fault::kNone);
+  EXPECT_LT(state().joint_position_rad, 1.5) << "it did not go on to the target";
+}
+
+TEST_F(JointLoopOrders, KeepTheExpiryLatchedUntilANewStreamIsBegunExplicitly) {
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 0.5, 0.02), Reason::kAccepted);
+  bench_.run(1.0);
+  const double held_rad = state().setpoint_position_rad;
+  EXPECT_EQ(bench_.move(0, 0.6, 0.02), Reason::kStreamExpired) << "a late packet must not move the joint";
+  bench_.run(0.5);
+  EXPECT_EQ(state().setpoint_position_rad, held_rad);
+  EXPECT_TRUE(bench_.has_notice(0, Notice::kSetpointExpired));
+
+  ASSERT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
+  EXPECT_TRUE(bench_.has_notice(0, Notice::kSetpointExpired)) << "stays until a setpoint is accepted";
+  EXPECT_EQ(bench_.move(0, 0.2, 0.5), Reason::kAccepted);
+  bench_.run(0.1);
+  EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
+}
+
+TEST_F(JointLoopOrders, TakeAMoveAfterAnExpiry) {
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 0.5, 0.02), Reason::kAccepted);
+  bench_.run(1.0);
+  EXPECT_EQ(bench_.move(0, -0.2), Reason::kAccepted);
+  EXPECT_EQ(bench_.move(0, -0.2, 0.5), Reason::kAccepted) << "the move began something new";
+}
+
+TEST_F(JointLoopOrders, DoNotExpireAMove) {
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 0.5), Reason::kAccepted);
+  bench_.run(10.0);
+  EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+}
+
+TEST_F(JointLoopOrders, AreRefusedBeforeTheirTime) {
+  EXPECT_EQ(bench_.order(0, OrderKind::kEnable), Reason::kNoTable);
+  EXPECT_EQ(bench_.move(0, 0.5), Reason::kWrongMode);
+  EXPECT_EQ(bench_.order(0, OrderKind::kHold), Reason::kWrongMode);
+  EXPECT_EQ(bench_.order(0, OrderKind::kClearFault), Reason::kWrongMode);
+  bench_.joint(0).table_slot(0) = {demo_table(), 1};
+  ASSERT_EQ(bench_.order(0, OrderKind::kUseTable), Reason::kAccepted);
+  EXPECT_EQ(bench_.move(0, 0.5), Reason::kWrongMode);
+  ASSERT_EQ(bench_.order(0, OrderKind::kEnable), Reason::kAccepted);
+  EXPECT_EQ(bench_.mode(0), Mode::kStarting);
+  EXPECT_EQ(bench_.move(0, 0.5), Reason::kWrongMode) << "the drive is not ready yet";
+  bench_.run(0.5);
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+  EXPECT_EQ(state().target_position_rad, state().setpoint_position_rad) << "what was refused is forgotten";
+}
+
+TEST_F(JointLoopOrders, NeverSurviveADisable) {
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
+  bench_.run(0.1);
+  ASSERT_EQ(bench_.order(0, OrderKind::kDisable), Reason::kAccepted);
+  ASSERT_GE(bench_.step_until([&] { return bench_.mode(0) == Mode::kOff; }, 3000), 0);
+  bench_.run(1.0);
+  const double rest_rad = state().joint_position_rad;
+  ASSERT_EQ(bench_.order(0, OrderKind::kEnable), Reason::kAccepted);
+  bench_.run(2.0);
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+  EXPECT_NEAR(state().joint_position_rad, rest_rad, 1e-3);
+}
+
+TEST_F(JointLoopOrders, ShowNoticesWithTheLimitsInForce) {
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
+  EXPECT_GE(bench_.step_until([&] { return bench_.has_notice(0, Notice::kSpeedLimited); }, 1000), 0);
+  bench_.run(2.0);
+  EXPECT_FALSE(bench_.has_notice(0, Notice::kSpeedLimited));
+}
+
+TEST_F(JointLoopOrders, OfAStandingJointThatIsPushedAreNotMistakenForAStuckSensor) {
+  bench_.bring_to_hold(0);
+  for (const double load_Nm : {10.0, 20.0, 10.0, -15.0, 0.0}) {
+    bench_.drive(0).simulated().set_load_torque_Nm(load_Nm);
+    bench_.run(2.0);
+    ASSERT_EQ(bench_.fault(0), Fault::kNone) << load_Nm;
+  }
+}
+
+TEST(JointLoopNotices, TellOfATemperatureOutsideTheTable) {
+  BenchJoint joint = demo_joint();
+  joint.drive.ambient = TemperatureProfile::constant(60.0);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  bench.run(0.1);
+  EXPECT_TRUE(bench.has_notice(0, Notice::kTemperatureClamped));
+  EXPECT_EQ(bench.state(0).gains_in_use, static_cast<int>(GainsInUse::kPrimary));
+}
+
+TEST(JointLoopNotices, TellOfATorqueLimit) {
+  BenchJoint joint = demo_joint();
+  joint.loop.controller.torque_limit_Nm = 3.0;
+  joint.drive.load_torque_Nm = 0.0;
+  joint.loop.limits.following_error_rad = 10.0;
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  bench.drive(0).simulated().set_load_torque_Nm(6.0);
+  EXPECT_GE(bench.step_until([&] { return bench.has_notice(0, Notice::kTorqueLimited); }, 3000), 0);
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,60 @@
+// config/reference.toml names every key that the configuration code asks for, and nothing else.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "daemon/config.h"
+
+namespace strainwave {
+namespace {
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Keys that the code reads: the literal in section.number_or("key", ...) and its kin.
+std::set<std::string> keys_in_code() {
+  const std::regex asks(
+      R"re(\b(?:number|number_or|integer_or|boolean_or|text|text_or|choice|choice_or|numbers|section|section_or_empty|sections|read_name)\((?:\w+, )?"([A-Za-z0-9_]+)")re");
+  std::set<std::string> keys;
+  for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/daemon")) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("config", 0) != 0 || entry.path().extension() != ".cc") continue;
+    const std::string text = read(entry.path());
+    for (std::sregex_iterator it(text.begin(), text.end(), asks), end; it != end; ++it) keys.insert((*it)[1]);
+  }
+  return keys;
+}
+
+// Keys and table names of the file, commented-out examples included.
+std::set<std::string> keys_in_reference() {
+  std::set<std::string> keys;
+  std::istringstream lines(read(STRAINWAVE_SOURCE_DIR "/config/reference.toml"));
+  const std::regex assignment(R"(^(?:# )?([A-Za-z0-9_]+) = )");
+  const std::regex header(R"(^\[+(?:[a-z]+\.)*([a-z]+)\]+)");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, assignment) || std::regex_search(line, match, header)) keys.insert(match[1]);
+  }
+  return keys;
+}
+
+TEST(ReferenceConfiguration, NamesEveryKeyThatIsReadAndNoOther) {
+  std::set<std::string> in_code = keys_in_code();
+  in_code.insert("simulated");  // the driver's section is named after the driver
+  EXPECT_GT(in_code.size(), 40U);
+  EXPECT_EQ(in_code, keys_in_reference());
+}
+
+TEST(ReferenceConfiguration, IsSound) { EXPECT_NO_THROW(read_config(STRAINWAVE_SOURCE_DIR "/config/reference.toml")); }
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,132 @@
+// The arrows between the folders hold: see the table in docs/architecture.md.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/include_rules.h"
+
+namespace strainwave::testing {
+namespace {
+
+bool allowed(const char* file, const char* line) {
+  return find_include_defect(file, line).empty();
+}
+
+TEST(Layering, HoldsInTheWholeTree) {
+  const std::vector<std::string> defects = find_include_defects(STRAINWAVE_SOURCE_DIR);
+  std::ostringstream list;
+  for (const std::string& defect : defects) list << defect << '\n';
+  EXPECT_TRUE(defects.empty()) << list.str();
+}
+
+TEST(Layering, FollowsTheArrows) {
+  EXPECT_TRUE(allowed("control/friction.cc", "#include \"control/friction.h\""));
+  EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/gain_table.h\""));
+  EXPECT_TRUE(allowed("sim/joint_plant.h", "#include \"drivers/actuator.h\""));
+  EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint_plant.h\""));
+  EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
+  EXPECT_TRUE(allowed("client/client.h", "#include \"lcmtypes/channels.h\""));
+  EXPECT_TRUE(allowed("tests/design/lmi_test.cc", "#include \"design/lmi.h\""));
+  EXPECT_TRUE(allowed("bench/loop.cc", "#include \"daemon/realtime/joint_loop.h\""));
+}
+
+TEST(Layering, RefusesEveryArrowThatIsNotThere) {
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"design/lmi.h\""));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"sim/joint_plant.h\""));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/client.h\""));
+  EXPECT_FALSE(allowed("control/friction.cc", "#include \"drivers/actuator.h\""));
+  EXPECT_FALSE(allowed("control/friction.cc", "#include \"design/lmi.h\""));
+  EXPECT_FALSE(allowed("sim/joint_plant.cc", "#include \"drivers/simulated_actuator.h\""));
+  EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint_plant.h\""));
+  EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config.h\""));
+  EXPECT_FALSE(allowed("client/client.cc", "#include \"daemon/config.h\""));
+  EXPECT_FALSE(allowed("client/client.cc", "#include \"sim/joint_plant.h\""));
+  EXPECT_FALSE(allowed("design/lmi.cc", "#include \"sim/joint_plant.h\""));
+}
+
+TEST(Layering, LetsNothingIncludeTests) {
+  for (const char* file : {"control/a.cc", "design/a.cc", "sim/a.cc", "drivers/a.cc", "lcmtypes/a.cc",
+                           "daemon/a.cc", "client/a.cc", "bench/a.cc"}) {
+    EXPECT_FALSE(allowed(file, "#include \"tests/support/include_rules.h\"")) << file;
+  }
+}
+
+TEST(Layering, SeesAnIncludeHoweverItIsSpaced) {
+  for (const char* line :
+       {"#include \"design/lmi.h\"", "  #  include   \"design/lmi.h\"", "#include\"design/lmi.h\"",
+        "#include \"design/lmi.h\"  // why", "#include <design/lmi.h>"}) {
+    EXPECT_FALSE(allowed("daemon/a.cc", line)) << line;
+  }
+  EXPECT_TRUE(allowed("daemon/a.cc", "// #include \"design/lmi.h\" would be wrong here"));
+}
+
+TEST(Layering, WantsIncludesFromTheRoot) {
+  EXPECT_FALSE(allowed("daemon/a.cc", "#include \"config.h\""));
+  EXPECT_FALSE(allowed("daemon/realtime/a.cc", "#include \"../config.h\""));
+  EXPECT_FALSE(allowed("daemon/realtime/a.cc", "#include \"daemon/../design/lmi.h\""));
+}
+
+TEST(Layering, KeepsLibrariesWhereTheyBelong) {
+  EXPECT_TRUE(allowed("design/sdpa_call.cc", "#include <sdpa_call.h>"));
+  EXPECT_FALSE(allowed("daemon/a.cc", "#include <sdpa_call.h>"));
+  EXPECT_TRUE(allowed("daemon/gateway/gateway.h", "#include <lcm/lcm-cpp.hpp>"));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include <lcm/lcm-cpp.hpp>"));
+  EXPECT_FALSE(allowed("control/a.h", "#include <strainwave/state_v1.hpp>"));
+  EXPECT_FALSE(allowed("client/a.h", "#include <nlohmann/json.hpp>"));
+  EXPECT_FALSE(allowed("client/a.h", "#include <CLI/CLI.hpp>"));
+  EXPECT_TRUE(allowed("client/a.cc", "#include <CLI/CLI.hpp>"));
+}
+
+TEST(Layering, KeepsControlFreeOfThreadsSocketsAndClocks) {
+  for (const char* line : {"#include <thread>", "#include <mutex>", "#include <chrono>",
+                           "#include <sys/socket.h>", "#include <spdlog/spdlog.h>", "#include <atomic>"}) {
+    EXPECT_FALSE(allowed("control/a.cc", line)) << line;
+  }
+  for (const char* line : {"#include <Eigen/Core>", "#include <array>", "#include <cmath>"}) {
+    EXPECT_TRUE(allowed("control/a.cc", line)) << line;
+  }
+  EXPECT_TRUE(allowed("control/gain_table_json.cc", "#include <nlohmann/json.hpp>"));
+  EXPECT_FALSE(allowed("control/friction.cc", "#include <nlohmann/json.hpp>"));
+}
+
+/// A small tree of sources that is gone at the end.
+class SourceTree : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "layering-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    root_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(root_); }
+  void write(const std::string& file, const std::string& text) const {
+    std::filesystem::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text;
+  }
+
+  std::filesystem::path root_;
+};
+
+TEST_F(SourceTree, WithAWrongLineIsReportedWithFileAndLine) {
+  write("daemon/realtime/loop.cc", "#include <array>\n#include \"design/lmi.h\"\n");
+  write("daemon/config.cc", "#include \"control/units.h\"\n");
+  const std::vector<std::string> defects = find_include_defects(root_);
+  ASSERT_EQ(defects.size(), 1U);
+  EXPECT_EQ(defects[0], "daemon/realtime/loop.cc:2: daemon must not include design/lmi.h");
+}
+
+TEST_F(SourceTree, WithAFolderThatTheTableDoesNotKnowIsReported) {
+  write("helpers/util.h", "int helper();\n");
+  write("stray.cc", "int main() {}\n");
+  write("build/dev/generated.cc", "#include \"x.h\"\n");
+  write(".git/x.cc", "#include \"x.h\"\n");
+  write("docs/readme.md", "#include \"x.h\"\n");
+  const std::vector<std::string> defects = find_include_defects(root_);
+  ASSERT_EQ(defects.size(), 2U);
+  EXPECT_NE(defects[0].find("helpers"), std::string::npos) << defects[0];
+  EXPECT_NE(defects[1].find("stray.cc"), std::string::npos) << defects[1];
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,106 @@
+// Joints in virtual time: real JointLoops over simulated drives that may be faulty, a period per step,
+// nothing depends on the host's clock. For tests of the loop and for benchmarks of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "daemon/realtime/joint_group.h"
+#include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/overrun_watch.h"
+#include "drivers/faulty_actuator.h"
+#include "drivers/simulated_actuator.h"
+
+namespace strainwave::testing {
+
+/// The joint of config/demo.toml.
+struct BenchJoint {
+  JointLoopConfig loop;
+  SimulatedActuatorConfig drive;
+  std::vector<Injection> faults;
+};
+BenchJoint demo_joint();
+
+/// The table shipped for it.
+const GainTable& demo_table();
+
+/// Passes everything on and remembers the last order.
+class WatchedActuator final : public Actuator {
+ public:
+  explicit WatchedActuator(std::unique_ptr<SimulatedActuator> actuator) : actuator_(std::move(actuator)) {}
+  ActuatorReading read(std::int64_t now_ns) noexcept override { return actuator_->read(now_ns); }
+  void write(const ActuatorCommand& command) noexcept override {
+    command_ = command;
+    actuator_->write(command);
+  }
+  void stop() noexcept override {
+    command_ = {};
+    ++stops_;
+    actuator_->stop();
+  }
+  void clear_fault() noexcept override { actuator_->clear_fault(); }
+
+  const ActuatorCommand& command() const noexcept { return command_; }
+  int stops() const noexcept { return stops_; }
+  SimulatedActuator& simulated() noexcept { return *actuator_; }
+
+ private:
+  std::unique_ptr<SimulatedActuator> actuator_;
+  ActuatorCommand command_;
+  int stops_ = 0;
+};
+
+class JointBench {
+ public:
+  explicit JointBench(const std::vector<BenchJoint>& joints, int overrun_limit = 10);
+
+  /// One period of every joint. A drive that burns more than a period makes the next ones be skipped, as in
+  /// the daemon.
+  void step();
+  void run(double duration_s);
+  /// Steps until `condition` holds; how many steps that took, or -1 after `limit` of them.
+  std::int64_t step_until(const std::function<bool()>& condition, std::int64_t limit);
+
+  /// Gives the order and makes one step; the loop's answer.
+  Reason order(std::size_t joint, Order order);
+  Reason order(std::size_t joint, OrderKind kind) {
+    return this->order(joint, Order{0, kind, 0, 0.0, 0.0, {}});
+  }
+  Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0) {
+    return order(joint, Order{0, OrderKind::kSetpoint, 0, position_rad, valid_for_s, {}});
+  }
+  Reason inject(std::size_t joint, const Injection& injection) {
+    return order(joint, Order{0, OrderKind::kInject, 0, 0.0, 0.0, injection});
+  }
+  /// Loads the table, enables, and runs until the joint holds.
+  void bring_to_hold(std::size_t joint);
+
+  JointLoop& joint(std::size_t index) { return *joints_[index]; }
+  const state_v1& state(std::size_t joint) const { return joints_[joint]->record().state; }
+  Fault fault(std::size_t joint) const { return static_cast<Fault>(state(joint).fault); }
+  Mode mode(std::size_t joint) const { return static_cast<Mode>(state(joint).mode); }
+  bool has_notice(std::size_t joint, Notice notice) const {
+    return (state(joint).notices & static_cast<std::int32_t>(notice)) != 0;
+  }
+  WatchedActuator& drive(std::size_t joint) { return *drives_[joint]; }
+  std::int64_t cycle() const { return time_.cycle; }
+  const CycleTime& time() const { return time_; }
+  EventQueue& events() { return *events_; }
+  std::int64_t skipped_periods() const { return skipped_periods_; }
+
+ private:
+  std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
+  std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
+  std::vector<std::unique_ptr<JointLoop>> joints_;
+  std::vector<WatchedActuator*> drives_;
+  std::int64_t period_ns_;
+  CycleTime time_;
+  OverrunWatch overruns_;
+  std::int64_t skipped_periods_ = 0;
+  std::int64_t next_order_id_ = 1;
+};
+
+}  // namespace strainwave::testing
