@@ -24,7 +24,9 @@ TEST(Lmi, ExpressionsAreAffineAndAgreeWithPlainMatrices) {
   const Eigen::MatrixXd q = Q.at(x), g = G.at(x), m = M.at(x);
   EXPECT_TRUE(q.isApprox(q.transpose(), 0.0));
   EXPECT_TRUE((2.0 * (A * G + B * M) - Q).at(x).isApprox(2.0 * (A * g + B * m) - q, 1e-14));
-  const Eigen::MatrixXd whole = symmetric_blocks({{G + G.transpose() - Q}, {A * G + B * M, Q}, {M, {}, Eigen::MatrixXd(draw(1, 1))}}).at(x);
+  const Eigen::MatrixXd whole =
+      symmetric_blocks({{G + G.transpose() - Q}, {A * G + B * M, Q}, {M, {}, Eigen::MatrixXd(draw(1, 1))}})
+          .at(x);
   ASSERT_EQ(whole.rows(), 7);
   EXPECT_TRUE(whole.isApprox(whole.transpose(), 0.0));
   EXPECT_TRUE(whole.block(3, 0, 3, 3).isApprox(A * g + B * m, 1e-14));

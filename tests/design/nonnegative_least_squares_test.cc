@@ -35,7 +35,8 @@ TEST(NonnegativeLeastSquares, GivesTheUnconstrainedMinimumWhereThatIsPositive) {
 }
 
 TEST(NonnegativeLeastSquares, EverythingAtZeroIsASolutionToo) {
-  const NonnegativeSolution solution = solve_nonnegative(SmallMatrix::Identity(2, 2), SmallVector(Eigen::Vector2d(-1.0, -2.0)));
+  const NonnegativeSolution solution =
+      solve_nonnegative(SmallMatrix::Identity(2, 2), SmallVector(Eigen::Vector2d(-1.0, -2.0)));
   EXPECT_TRUE(Eigen::Vector2d(solution.x).isZero(0.0));
   EXPECT_EQ(solution.free.count, 0);
 }

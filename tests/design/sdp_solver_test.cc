@@ -8,7 +8,9 @@
 namespace strainwave {
 namespace {
 
-Eigen::MatrixXd constant(double value) { return Eigen::MatrixXd::Constant(1, 1, value); }
+Eigen::MatrixXd constant(double value) {
+  return Eigen::MatrixXd::Constant(1, 1, value);
+}
 
 TEST(SdpSolver, FindsAKnownOptimum) {
   // minimise x + y with [x 1; 1 y] >= 0: x = y = 1.
@@ -27,8 +29,8 @@ TEST(SdpSolver, FindsAKnownOptimum) {
 TEST(SdpSolver, SaysThatAProblemIsInfeasible) {
   LmiProblem lmi;
   const AffineMatrix x = lmi.scalar();
-  lmi.require_positive(x + constant(-2.0));         // x >= 2
-  lmi.require_positive(-1.0 * x + constant(1.0));   // x <= 1
+  lmi.require_positive(x + constant(-2.0));        // x >= 2
+  lmi.require_positive(-1.0 * x + constant(1.0));  // x <= 1
   lmi.minimise(x);
   EXPECT_EQ(solve_sdp(lmi).status, SdpStatus::kInfeasible);
 }
@@ -43,7 +45,8 @@ TEST(SdpSolver, SaysThatAProblemIsUnbounded) {
 }
 
 TEST(SdpSolver, ASolverThatDiesIsAResultAndLeavesNoProcess) {
-  // An unknown that occurs nowhere makes SDPA's normal equations singular; no unknowns at all make it give up.
+  // An unknown that occurs nowhere makes SDPA's normal equations singular; no unknowns at all make it give
+  // up.
   LmiProblem lmi;
   lmi.require_positive(Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 2)));
   const SdpResult result = solve_sdp(lmi);
@@ -57,9 +60,12 @@ TEST(SdpSolver, ATimeLimitEndsTheSolver) {
   LmiProblem lmi;
   const AffineMatrix X = lmi.symmetric(40);  // 820 unknowns: seconds of work
   lmi.require_positive(X + Eigen::MatrixXd(-Eigen::MatrixXd::Identity(40, 40)));
-  for (int i = 0; i < 20; ++i) lmi.require_positive(X + Eigen::MatrixXd(Eigen::MatrixXd::Random(40, 40).selfadjointView<Eigen::Upper>()));
+  for (int i = 0; i < 20; ++i)
+    lmi.require_positive(X +
+                         Eigen::MatrixXd(Eigen::MatrixXd::Random(40, 40).selfadjointView<Eigen::Upper>()));
   AffineMatrix trace(1, 1);
-  for (const auto& [unknown, coefficient] : X.coefficients()) trace.add_term(unknown, constant(coefficient.trace()));
+  for (const auto& [unknown, coefficient] : X.coefficients())
+    trace.add_term(unknown, constant(coefficient.trace()));
   lmi.minimise(trace);
   SdpOptions options;
   options.time_limit_s = 0.02;
