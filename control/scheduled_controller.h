@@ -36,7 +36,7 @@ struct ControllerInput {
   double planned_torque_Nm = 0.0;        ///< what the plan needs: inertia, friction, load; only when planned
   /// Nearer than this to the setpoint a joint at rest is left alone.
   double rest_zone_rad = 1e-6;
-  double torque_limit_Nm = 0.0;          ///< >= 0
+  double torque_limit_Nm = 0.0;  ///< >= 0
   /// What the supply leaves of it at this speed.
   double torque_min_Nm = -std::numeric_limits<double>::infinity();
   double torque_max_Nm = std::numeric_limits<double>::infinity();
