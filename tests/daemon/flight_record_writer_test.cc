@@ -76,6 +76,7 @@ class FlightRecordWriterTest : public ::testing::Test {
     return total;
   }
 
+  TemporaryFolder temporary_;
   RecorderConfig config_;
   FlightRecorder elbow_{100, 10};
   FlightRecorder wrist_{100, 10};
