@@ -13,13 +13,16 @@ namespace {
 // The Stribeck velocity as a share of the width of the table's "zero velocity" membership, and its exponent.
 constexpr double kStribeckShare = 0.5;
 constexpr double kStribeckExponent = 2.0;
-// Acceleration that a reference may always have, as a share of what the torque limit could give without
-// friction.
-constexpr double kLeastAcceleration = 0.02;
-// A landing push uses this share of what one period can reach.
-constexpr double kLandingReach = 0.5;
-// A tracking error that one period at this share of the torque limit makes up for needs no new plan.
-constexpr double kReplanReach = 2.0;
+// Landing begins where one push with this share of the torque, and one period's braking, can end on the
+// target.
+constexpr double kLandingShare = 0.5;
+// A landing that finds itself this many times farther away is given up: something pushed the joint.
+constexpr double kLandingLost = 4.0;
+// A saturated joint that is farther behind than this many such pushes needs a new plan.
+constexpr double kReplanPushes = 4.0;
+// New plans per target. A joint that is blocked uses them up, keeps its reference, and its following error
+// grows until someone notices.
+constexpr int kPlanLimit = 50;
 
 VelocityObserverConfig observer_config(const JointControllerConfig& config) noexcept {
   VelocityObserverConfig observer;
@@ -36,14 +39,15 @@ LandingConfig landing_config(const JointControllerConfig& config) noexcept {
   return landing;
 }
 
-}  // namespace
-
-double MotorLimits::available_Nm(double velocity_rad_s) const noexcept {
-  return std::max(0.0, std::min(peak_torque_Nm, stall_torque_Nm - torque_per_speed_Nms_rad * velocity_rad_s));
+JointControllerConfig consistent(JointControllerConfig config) noexcept {
+  config.use_landing = config.use_landing && config.use_observer && config.use_rest;
+  return config;
 }
 
+}  // namespace
+
 JointController::JointController(const JointControllerConfig& config) noexcept
-    : config_(config),
+    : config_(consistent(config)),
       shaper_(config.period_s),
       observer_(observer_config(config)),
       landing_(landing_config(config)),
@@ -53,41 +57,39 @@ JointController::JointController(const JointControllerConfig& config) noexcept
 }
 
 void JointController::load(const GainTable& table) noexcept {
+  if (gains_in_use_ != GainsInUse::kNone && !carry_over_) outgoing_ = active();
+  carry_over_ = gains_in_use_ != GainsInUse::kNone;
   primary_ = ScheduledController(table.primary, table.friction, table.plant);
   fallback_ = ScheduledController(table.fallback, table.friction, table.plant);
-  if (has_temperature_) primary_.set_temperature(scheduled_temperature_C_);
+  if (has_temperature_) primary_.set_temperature(temperature_C_);
   model_.inertia_kgm2 = table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
   model_.friction = primary_.friction();
-  table_torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
-  carry_over_ = gains_in_use_ != GainsInUse::kNone;
+  torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
+  zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
   has_table_ = true;
 }
 
 void JointController::start(double position_rad) noexcept {
   shaper_.reset(position_rad, 0.0);
   observer_.reset(position_rad);
+  rest_detector_.reset();
   primary_.reset();
   fallback_.reset();
-  rest_detector_.reset();
   torques_Nm_.fill(0.0);
-  gains_in_use_ = GainsInUse::kNone;
-  phase_ = MotionPhase::kTracking;
   reference_ = {position_rad, 0.0, 0.0};
   previous_position_rad_ = position_rad;
+  gains_in_use_ = GainsInUse::kNone;
+  enter(MotionPhase::kTracking);
   started_ = false;
   carry_over_ = false;
-  replan_ = false;
 }
 
 void JointController::set_target(double position_rad) noexcept {
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
-  phase_ = MotionPhase::kTracking;
-}
-
-void JointController::stop() noexcept {
-  shaper_.stop();
+  plans_ = 0;
+  enter(MotionPhase::kTracking);
 }
 
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
@@ -97,30 +99,31 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   look_ahead();
   advance_reference();
   choose_phase(measurement);
-  const ControllerOutput output = phase_ == MotionPhase::kTracking  ? track()
-                                  : phase_ == MotionPhase::kLanding ? land(measurement)
-                                                                    : rest();
+  const ControllerOutput output = compute_torque(measurement);
   remember(output.torque_Nm);
   return {output, reference_, then_.velocity_rad_s, gains_in_use_, shaper_.at_target(), phase_, now_};
 }
 
-// Scheduled gains while the temperature is known, temperature-free ones otherwise.
+// Scheduled gains while the temperature is known, temperature-free ones otherwise. Friction stays that of the
+// last temperature known.
 void JointController::choose_gains(const JointMeasurement& measurement) noexcept {
   const GainsInUse wanted = measurement.temperature_valid ? GainsInUse::kPrimary : GainsInUse::kFallback;
   if (wanted != gains_in_use_) {
+    if (gains_in_use_ != GainsInUse::kNone && !carry_over_) outgoing_ = active();
     carry_over_ = gains_in_use_ != GainsInUse::kNone;
     gains_in_use_ = wanted;
   }
   if (!measurement.temperature_valid) return;
-  if (has_temperature_ && measurement.temperature_C == scheduled_temperature_C_) return;
+  if (has_temperature_ && measurement.temperature_C == temperature_C_) return;
   primary_.set_temperature(measurement.temperature_C);
   model_.friction = primary_.friction();
-  scheduled_temperature_C_ = measurement.temperature_C;
+  temperature_C_ = measurement.temperature_C;
   has_temperature_ = true;
 }
 
 void JointController::estimate_state(const JointMeasurement& measurement) noexcept {
   const double position_rad = measurement.joint_position_rad;
+  adapted_ = model_;
   if (config_.use_observer) {
     if (started_) observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_samples)], model_);
     if (measurement.has_velocity && config_.encoder_resolution_rad == 0.0)
@@ -128,22 +131,19 @@ void JointController::estimate_state(const JointMeasurement& measurement) noexce
     else
       observer_.correct(position_rad);
     now_ = observer_.estimate();
-    adapted_ = model_;
     adapted_.inertia_kgm2 *= now_.inertia_ratio;
   } else {
-    const double difference_rad_s = (position_rad - previous_position_rad_) / config_.period_s;
-    now_ = {position_rad,
-            measurement.has_velocity ? measurement.joint_velocity_rad_s : difference_rad_s,
-            {},
-            1.0,
-            0.0};
-    adapted_ = model_;
+    now_ = {};
+    now_.position_rad = position_rad;
+    now_.velocity_rad_s = measurement.has_velocity
+                              ? measurement.joint_velocity_rad_s
+                              : (position_rad - previous_position_rad_) / config_.period_s;
   }
   previous_position_rad_ = position_rad;
   started_ = true;
 }
 
-// The torques that are under way already decide the joint's motion until this period's torque acts.
+// The torques that are under way already decide the motion until this period's torque acts.
 void JointController::look_ahead() noexcept {
   then_ = now_;
   if (!config_.use_observer) return;
@@ -155,30 +155,6 @@ void JointController::look_ahead() noexcept {
   }
 }
 
-// What torque, supply, friction and load leave for acceleration at the reference's speed.
-MotionLimits JointController::reachable_limits() const noexcept {
-  const double speed =
-      std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
-  const double usable = 1.0 - config_.torque_reserve;
-  const double limit_Nm = usable * std::min(table_torque_limit_Nm_, config_.motor.peak_torque_Nm);
-  const double supply_Nm =
-      usable * config_.motor.stall_torque_Nm - config_.motor.torque_per_speed_Nms_rad * speed;
-  const double coulomb_Nm = std::max(0.0, adapted_.friction.coulomb_Nm + now_.disturbance.friction_offset_Nm);
-  const double load_Nm = std::abs(now_.disturbance.load_Nm);
-  // Speed and with it the losses grow over the period: linear in the acceleration, so solved for it.
-  const bool supply_limits = supply_Nm < limit_Nm;
-  const double damping =
-      adapted_.friction.viscous_Nms_rad + (supply_limits ? config_.motor.torque_per_speed_Nms_rad : 0.0);
-  const double driving_Nm =
-      std::min(limit_Nm, supply_Nm) - coulomb_Nm - load_Nm - adapted_.friction.viscous_Nms_rad * speed;
-  const double least = kLeastAcceleration * limit_Nm / adapted_.inertia_kgm2;
-  const double acceleration = driving_Nm / (adapted_.inertia_kgm2 + config_.period_s * damping);
-  const double deceleration = (limit_Nm + coulomb_Nm - load_Nm) / adapted_.inertia_kgm2;
-  return {config_.motion.velocity_rad_s,
-          std::min(config_.motion.acceleration_rad_s2, std::max(least, acceleration)),
-          std::min(config_.motion.deceleration_rad_s2, std::max(least, deceleration))};
-}
-
 void JointController::advance_reference() noexcept {
   if (!config_.use_shaping) {
     shaper_.jump();
@@ -187,51 +163,83 @@ void JointController::advance_reference() noexcept {
   }
   if (replan_) shaper_.restart(then_.position_rad, then_.velocity_rad_s);
   replan_ = false;
-  shaper_.set_limits(reachable_limits());
+  const double speed =
+      std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
+  shaper_.set_limits(reachable_limits(config_.motion, config_.motor, adapted_, now_.disturbance,
+                                      torque_limit_Nm_, config_.torque_reserve, speed, config_.period_s));
   reference_ = shaper_.step();
 }
 
-// One push and one period's braking, with a share of the torque, can end on the target.
-bool JointController::within_landing_reach() const noexcept {
-  const double torque_Nm = kLandingReach * (table_torque_limit_Nm_ - adapted_.friction.static_Nm);
-  const double reach_rad_s = torque_Nm * config_.period_s / adapted_.inertia_kgm2;
-  return std::abs(then_.position_rad - shaper_.target_rad()) <= reach_rad_s * config_.period_s &&
-         std::abs(then_.velocity_rad_s) <= reach_rad_s;
+bool JointController::reference_moves() const noexcept {
+  return !shaper_.at_target() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+}
+
+double JointController::distance_to_target_rad() const noexcept {
+  return std::abs(then_.position_rad - shaper_.target_rad());
+}
+
+// How far one period's push, and one period's braking, can take the joint.
+double JointController::landing_reach_rad() const noexcept {
+  const double torque_Nm = kLandingShare * std::max(0.0, torque_limit_Nm_ - model_.friction.static_Nm);
+  return torque_Nm * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
+}
+
+bool JointController::landing_possible() const noexcept {
+  const double reach_rad = landing_reach_rad();
+  if (phase_ != MotionPhase::kTracking) return distance_to_target_rad() <= kLandingLost * reach_rad;
+  return distance_to_target_rad() <= reach_rad &&
+         std::abs(then_.velocity_rad_s) * config_.period_s <= reach_rad;
 }
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
-  const bool ended =
-      shaper_.at_target() && reference_.velocity_rad_s == 0.0 && reference_.acceleration_rad_s2 == 0.0;
-  if (!config_.use_rest || !ended) {
-    phase_ = MotionPhase::kTracking;
-    rest_detector_.reset();
-    return;
+  if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
+  if (!config_.use_landing) {
+    const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
+    const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
+    return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
-  if (!config_.use_landing || !config_.use_observer) {
-    const bool resting =
-        rest_detector_.update(measurement.joint_position_rad - shaper_.target_rad(), now_.velocity_rad_s);
-    phase_ = resting ? MotionPhase::kResting : MotionPhase::kTracking;
-    return;
+  if (!landing_possible()) {
+    ask_for_new_plan();
+    return enter(MotionPhase::kTracking);
   }
-  if (!within_landing_reach()) {
-    replan_ = phase_ != MotionPhase::kTracking || config_.use_shaping;
-    phase_ = MotionPhase::kTracking;
-  } else if (phase_ == MotionPhase::kTracking) {
-    landing_.begin(shaper_.target_rad());
-    phase_ = MotionPhase::kLanding;
-  } else if (phase_ == MotionPhase::kResting && std::abs(now_.position_rad - shaper_.target_rad()) >
-                                                    std::max(1e-6, config_.encoder_resolution_rad)) {
-    landing_.begin(shaper_.target_rad());
-    phase_ = MotionPhase::kLanding;
-  }
+  const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  const bool left = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
+  if (phase_ == MotionPhase::kTracking || left) enter(MotionPhase::kLanding);
+}
+
+void JointController::enter(MotionPhase phase) noexcept {
+  if (phase == MotionPhase::kTracking && reference_moves()) rest_detector_.reset();
+  if (phase == phase_) return;
+  // What the integral knew of load and friction, the observer knows.
+  if (phase_ != MotionPhase::kTracking && config_.use_landing) active().reset();
+  if (phase == MotionPhase::kLanding) landing_.begin(shaper_.target_rad());
+  plans_ = 0;
+  hold_torque_Nm_ = now_.disturbance.load_Nm + (config_.use_landing ? 0.0 : active().integral_torque_Nm());
+  phase_ = phase;
+}
+
+void JointController::ask_for_new_plan() noexcept {
+  if (!config_.use_shaping || plans_ >= kPlanLimit) return;
+  ++plans_;
+  replan_ = true;
+}
+
+ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
+  if (phase_ == MotionPhase::kTracking) return track();
+  carry_over_ = false;
+  if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
+  const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
+  if (landing_.resting()) enter(MotionPhase::kResting);
+  return apply(torque_Nm);
 }
 
 // Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
 double JointController::planned_torque_Nm() const noexcept {
   const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
-  const double friction_Nm = adapted_.friction_Nm(velocity) + now_.disturbance.friction_offset_Nm;
-  return adapted_.inertia_kgm2 * reference_.acceleration_rad_s2 +
-         sign(velocity) * std::max(0.0, friction_Nm) + now_.disturbance.load_Nm;
+  const double friction_Nm =
+      std::max(0.0, adapted_.friction_Nm(velocity) + now_.disturbance.friction_offset_Nm);
+  return adapted_.inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
+         now_.disturbance.load_Nm;
 }
 
 ControllerOutput JointController::track() noexcept {
@@ -240,42 +248,31 @@ ControllerOutput JointController::track() noexcept {
   input.joint_velocity_rad_s = then_.velocity_rad_s;
   input.setpoint_position_rad = reference_.position_rad;
   input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
-  input.planned =
-      config_.use_shaping && (reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0);
+  input.planned = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
   input.planned_torque_Nm = input.planned ? planned_torque_Nm() : now_.disturbance.load_Nm;
-  input.torque_limit_Nm = table_torque_limit_Nm_;
+  if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
+  input.torque_limit_Nm = torque_limit_Nm_;
   input.torque_max_Nm = config_.motor.available_Nm(then_.velocity_rad_s);
   input.torque_min_Nm = -config_.motor.available_Nm(-then_.velocity_rad_s);
-  if (carry_over_) active().carry_over(input, torques_Nm_[0]);
+  if (carry_over_) active().carry_over(input, outgoing_.step(input).torque_Nm);
   carry_over_ = false;
   const ControllerOutput output = active().step(input);
-  const double reach_rad =
-      kReplanReach * table_torque_limit_Nm_ * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
-  replan_ = replan_ || (output.saturated && config_.use_observer &&
-                        std::abs(then_.position_rad - reference_.position_rad) > reach_rad);
+
+  const double behind_rad = std::abs(then_.position_rad - reference_.position_rad);
+  if (config_.use_observer && output.saturated && behind_rad > kReplanPushes * landing_reach_rad())
+    ask_for_new_plan();
   return output;
 }
 
-ControllerOutput JointController::land(const JointMeasurement& measurement) noexcept {
-  const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
-  if (landing_.resting()) phase_ = MotionPhase::kResting;
-  return only_feedforward(torque_Nm);
-}
-
-ControllerOutput JointController::rest() noexcept {
-  return only_feedforward(config_.use_landing && config_.use_observer ? now_.disturbance.load_Nm
-                                                                      : hold_torque_Nm_);
-}
-
-ControllerOutput JointController::only_feedforward(double torque_Nm) const noexcept {
-  const double limited_Nm = std::clamp(torque_Nm, -table_torque_limit_Nm_, table_torque_limit_Nm_);
-  return {limited_Nm, 0.0, torque_Nm, 1.0, limited_Nm != torque_Nm};
+// A torque that no gain has part in.
+ControllerOutput JointController::apply(double torque_Nm) const noexcept {
+  const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  return {limited_Nm, 0.0, torque_Nm, zero_velocity_weight_, limited_Nm != torque_Nm};
 }
 
 void JointController::remember(double torque_Nm) noexcept {
-  for (std::size_t i = torques_Nm_.size() - 1; i > 0; --i) torques_Nm_[i] = torques_Nm_[i - 1];
-  const double along = torque_Nm < 0.0 ? -then_.velocity_rad_s : then_.velocity_rad_s;
-  torques_Nm_[0] = std::copysign(std::min(std::abs(torque_Nm), config_.motor.available_Nm(along)), torque_Nm);
+  std::copy_backward(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
+  torques_Nm_[0] = config_.motor.limit_Nm(torque_Nm, then_.velocity_rad_s);
 }
 
 }  // namespace strainwave

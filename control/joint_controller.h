@@ -1,7 +1,7 @@
 // Everything that one joint needs each period, in one object that the daemon and the simulator both run.
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Joint side, SI.
 //
-//   measurement -> gains in use -> estimate, as it will be when the torque acts -> reference -> torque
+//   measurement -> gains in use -> estimate, carried to when the torque will act -> reference -> torque
 //   tracking:  scheduled feedback on the reference + what its motion needs (inertia, friction, load),
 //   saturated landing:   the last counts, by pushes (control/landing.h) resting:   the torque that holds the
 //   load, nothing else
@@ -12,6 +12,7 @@
 #include "control/gain_table.h"
 #include "control/joint_model.h"
 #include "control/landing.h"
+#include "control/motor_limits.h"
 #include "control/reference_shaper.h"
 #include "control/rest_detector.h"
 #include "control/scheduled_controller.h"
@@ -21,40 +22,31 @@ namespace strainwave {
 
 inline constexpr int kMaxControlDelay = 8;
 
-/// The motor's limits as a line over speed: |Tm| <= min(peak, stall - slope * velocity along the torque), see
-/// data/rhs17_datasheet.csv. Infinite where unknown.
-struct MotorLimits {
-  double peak_torque_Nm = 0.0;            ///< > 0
-  double stall_torque_Nm = 0.0;           ///< Kt V / R > 0
-  double torque_per_speed_Nms_rad = 0.0;  ///< Kt Ke / R >= 0, Ke in V.s/rad
-
-  /// Largest torque, >= 0, in the direction in which the joint moves with `velocity_rad_s` (< 0: against it).
-  double available_Nm(double velocity_rad_s) const noexcept;
-};
-
-/// One joint's configuration. Each feature can be switched off, which leaves the plain control law of the
-/// table.
+/// One joint's configuration. Each feature can be switched off; without any, the plain control law of the
+/// table is left.
 struct JointControllerConfig {
   double period_s = 0.001;              ///< > 0, the table's
   double encoder_resolution_rad = 0.0;  ///< position of one count at the joint; 0: exact
-  int delay_samples = 0;  ///< periods between a torque's computation and its effect, 0..kMaxControlDelay
+  /// Periods between a torque's computation and its effect, 0..kMaxControlDelay.
+  int delay_samples = 0;
   double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
   MotorLimits motor;
-  MotionLimits motion;  ///< never exceeded by the reference; what the joint can do limits it further
-  double torque_reserve =
-      0.03;  ///< share of the torque that the reference leaves to the feedback, 0 <= reserve < 1
-  bool use_observer =
-      true;                 ///< estimate from encoder and torque, over the delay; else velocity by difference
+  MotionLimits motion;  ///< of the reference; what the joint can do limits it further
+  /// Share of the torque that the reference leaves to the feedback, in [0, 1).
+  double torque_reserve = 0.02;
+
+  /// Position, velocity, friction, load and inertia estimated from encoder and torque, over the delay as
+  /// well; else the velocity is the measured one or the difference of two readings.
+  bool use_observer = true;
   bool use_shaping = true;  ///< else targets are steps
   bool use_rest = true;     ///< at the target the torque and the integral stand still
-  bool use_landing = true;  ///< with the observer and rest: the last counts by pushes
+  bool use_landing = true;  ///< only with use_observer and use_rest
 };
 
 /// One period's measurements.
 struct JointMeasurement {
   double joint_position_rad = 0.0;
   double joint_velocity_rad_s = 0.0;  ///< used only when has_velocity
-  double torque_applied_Nm = 0.0;     ///< over the period that ends now, as the drive says
   double temperature_C = 0.0;         ///< used only when temperature_valid
   bool has_velocity = false;
   bool temperature_valid = false;
@@ -81,7 +73,7 @@ class JointController {
   explicit JointController(const JointControllerConfig& config) noexcept;
 
   /// Takes `table`, which must be certified for this joint and period. While running the change makes no
-  /// torque step: the integral is chosen so that the torque stays what it was.
+  /// torque step: the integral is chosen so that the torque is what the old gains would have given.
   void load(const GainTable& table) noexcept;
   bool has_table() const noexcept { return has_table_; }
 
@@ -90,7 +82,7 @@ class JointController {
   /// Moves there, from now on.
   void set_target(double position_rad) noexcept;
   /// Decelerates to rest and holds.
-  void stop() noexcept;
+  void stop() noexcept { shaper_.stop(); }
   /// Where the motion ends.
   double target_rad() const noexcept { return shaper_.target_rad(); }
 
@@ -101,19 +93,24 @@ class JointController {
   const TemperatureWeights& temperature_weights() const noexcept { return primary_.temperature_weights(); }
 
  private:
+  // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
   void estimate_state(const JointMeasurement& measurement) noexcept;
   void look_ahead() noexcept;
   void advance_reference() noexcept;
-  MotionLimits reachable_limits() const noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;
-  bool within_landing_reach() const noexcept;
-  ControllerOutput track() noexcept;
-  ControllerOutput land(const JointMeasurement& measurement) noexcept;
-  ControllerOutput rest() noexcept;
-  double planned_torque_Nm() const noexcept;
+  ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
   void remember(double torque_Nm) noexcept;
-  ControllerOutput only_feedforward(double torque_Nm) const noexcept;
+
+  ControllerOutput track() noexcept;
+  ControllerOutput apply(double torque_Nm) const noexcept;
+  double planned_torque_Nm() const noexcept;
+  bool reference_moves() const noexcept;
+  double landing_reach_rad() const noexcept;
+  bool landing_possible() const noexcept;
+  double distance_to_target_rad() const noexcept;
+  void enter(MotionPhase phase) noexcept;
+  void ask_for_new_plan() noexcept;
   ScheduledController& active() noexcept {
     return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
   }
@@ -125,23 +122,27 @@ class JointController {
   RestDetector rest_detector_;
   ScheduledController primary_;
   ScheduledController fallback_;
-  JointModel model_;    ///< the table's, at this temperature
-  JointModel adapted_;  ///< with the inertia that shows
-  GainsInUse gains_in_use_ = GainsInUse::kNone;
-  MotionPhase phase_ = MotionPhase::kTracking;
-  JointEstimate now_;   ///< at this sample
-  JointEstimate then_;  ///< when this period's torque begins to act
+  ScheduledController outgoing_;  ///< what was active before the gains changed; valid with carry_over_
+  JointModel model_;              ///< the table's, at this temperature
+  JointModel adapted_;            ///< with the inertia that shows
+  JointEstimate now_;             ///< at this sample
+  JointEstimate then_;            ///< when this period's torque begins to act
   Reference reference_;
-  std::array<double, kMaxControlDelay + 1> torques_Nm_{};  ///< computed, newest first
-  double table_torque_limit_Nm_ = 0.0;
-  double scheduled_temperature_C_ = 0.0;
+  std::array<double, kMaxControlDelay + 1>
+      torques_Nm_{};  ///< newest first, as far as the motor can deliver them
+  double torque_limit_Nm_ = 0.0;
+  double temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;
   double hold_torque_Nm_ = 0.0;
+  double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
+  int plans_ = 0;                      ///< new ones since the target or the phase changed
+  GainsInUse gains_in_use_ = GainsInUse::kNone;
+  MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;
   bool has_temperature_ = false;
   bool started_ = false;     ///< a period has passed since start()
-  bool carry_over_ = false;  ///< the gains have changed: continue from the previous torque
-  bool replan_ = false;      ///< the joint cannot follow the reference: begin it anew from where the joint is
+  bool carry_over_ = false;  ///< the gains have changed since the last torque
+  bool replan_ = false;      ///< the reference begins anew from where the joint is
 };
 
 }  // namespace strainwave

@@ -5,6 +5,9 @@
 
 namespace strainwave {
 
+/// Where exact sensing, which has no counts, takes a joint to be at its target.
+inline constexpr double kExactRestWindow_rad = 1e-6;
+
 class RestDetector {
  public:
   /// `resolution_rad`: one count; 0: exact sensing.

@@ -12,8 +12,6 @@ namespace {
 // More than the table's static friction to break away: its fit is no better than some per cent, and a joint
 // that is pushed too weakly stays where it is until the integral has grown.
 constexpr double kBreakawayMargin = 0.1;
-// Nearer than this a joint at rest is where it should be and is not pushed.
-constexpr double kAtSetpoint_rad = 1e-6;
 
 double position_error_rad(const ControllerInput& input) noexcept {
   return input.joint_position_rad - input.setpoint_position_rad;
@@ -52,7 +50,7 @@ double ScheduledController::friction_torque_Nm(const ControllerInput& input,
                                                double zero_weight) const noexcept {
   const double error_rad = position_error_rad(input);
   if (input.joint_velocity_rad_s == 0.0) {
-    if (std::abs(error_rad) <= kAtSetpoint_rad) return 0.0;
+    if (std::abs(error_rad) <= input.rest_zone_rad) return 0.0;
     return -sign(error_rad) * (1.0 + kBreakawayMargin) * blended_friction_.static_Nm;
   }
   return -sign(error_rad) * zero_weight * blended_friction_.static_Nm +
@@ -104,6 +102,12 @@ void ScheduledController::reset() noexcept {
   slow_rad_s_ = 0.0;
   has_setpoint_ = false;
   saturated_ = false;
+}
+
+double ScheduledController::integral_torque_Nm() const noexcept {
+  if (!gains_.scheduled()) return high_velocity_gain_(0) * integral_rad_s_;
+  const double zero_weight = friction_.velocity.zero_weight(0.0);
+  return (zero_weight * gains_.gain(0)(0) + (1.0 - zero_weight) * high_velocity_gain_(0)) * integral_rad_s_;
 }
 
 void ScheduledController::carry_over(const ControllerInput& input, double torque_Nm) noexcept {

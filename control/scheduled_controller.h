@@ -34,7 +34,9 @@ struct ControllerInput {
   double setpoint_velocity_rad_s = 0.0;  ///< 0 for a step reference
   bool planned = false;                  ///< the setpoint's motion is planned and comes with its torque
   double planned_torque_Nm = 0.0;        ///< what the plan needs: inertia, friction, load; only when planned
-  double torque_limit_Nm = 0.0;          ///< >= 0
+  /// Nearer than this to the setpoint a joint at rest is left alone.
+  double rest_zone_rad = 1e-6;
+  double torque_limit_Nm = 0.0;  ///< >= 0
   /// What the supply leaves of it at this speed.
   double torque_min_Nm = -std::numeric_limits<double>::infinity();
   double torque_max_Nm = std::numeric_limits<double>::infinity();
@@ -74,6 +76,8 @@ class ScheduledController {
   /// Friction at the last temperature; the table's, also for controllers that do not use it.
   const FrictionParameters& friction() const noexcept { return blended_friction_; }
   double integral_rad_s() const noexcept { return integral_rad_s_; }
+  /// The integral's part of the torque of a joint at rest: what it has learnt of load and friction.
+  double integral_torque_Nm() const noexcept;
 
  private:
   struct Terms {

@@ -10,14 +10,20 @@ namespace {
 
 enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
 
-constexpr double kLeastInertia = 0.4;
-constexpr double kLargestInertia = 2.5;
+// Bounds of what may be estimated: friction offset and load in units of static friction, inertia relative to
+// the model's.
+constexpr double kLeastFriction = -0.8;
+constexpr double kMostFriction = 1.5;
+constexpr double kMostLoad = 20.0;
+constexpr double kLeastInertia = -0.5;
+constexpr double kMostInertia = 1.5;
 
 constexpr double kCertain = 6.0;   // this many deviations inside, an edge says nothing
 constexpr double kSurprise = 4.0;  // this many outside, the model did not foresee the reading
 // Share of a change of the model's friction (another temperature, another table) that its error may change
 // by.
 constexpr double kModelChange = 0.2;
+constexpr double kSurpriseLoad = 3.0;    // load that one surprise may bring, in units of static friction
 constexpr double kRestDrift_Nm = 0.001;  // per period in motion, however slow
 constexpr double kLoadDrift = 0.1;       // a load's share of the drift
 // Deviations of the velocity that a stop is doubted by; share of a period's friction that a doubtful
@@ -119,23 +125,38 @@ void VelocityObserver::condition(int component, double shift, double variance_ra
   if (variance <= 0.0) return;
   const State gain = covariance_.col(component) / variance;
   state_ += gain * shift;
+  bound_parameters();
   covariance_ -= (1.0 - variance_ratio) * variance * gain * gain.transpose();
 }
 
-// Something moved the joint that the model does not know: velocity and load may be anything that explains the
-// distance.
+void VelocityObserver::add_covariance(int a, int b, double value) noexcept {
+  covariance_(a, b) += value;
+  covariance_(b, a) += value;
+}
+
+// An estimate gone wrong must neither turn friction round nor ask for more than any joint needs.
+void VelocityObserver::bound_parameters() noexcept {
+  const double static_Nm = static_friction_Nm_;
+  if (static_Nm > 0.0) {
+    state_(kFriction) = std::clamp(state_(kFriction), kLeastFriction * static_Nm, kMostFriction * static_Nm);
+    state_(kLoad) = std::clamp(state_(kLoad), -kMostLoad * static_Nm, kMostLoad * static_Nm);
+  }
+  state_(kInertia) = std::clamp(state_(kInertia), kLeastInertia, kMostInertia);
+}
+
+// Something that the model does not know pushed the joint: its velocity may be anything that explains the
+// distance, and a load may have come, of a size that would have moved it so far.
 void VelocityObserver::admit_surprise(double distance_rad) noexcept {
   const double velocity = distance_rad / config_.period_s;
-  const double load_Nm = 2.0 * inertia_kgm2_ * velocity / config_.period_s;
+  const double load_Nm =
+      std::min(2.0 * inertia_kgm2_ * velocity / config_.period_s, kSurpriseLoad * static_friction_Nm_);
+  const double correlation = 0.5;
   covariance_(kPosition, kPosition) += square(distance_rad);
   covariance_(kVelocity, kVelocity) += square(velocity);
   covariance_(kLoad, kLoad) += square(load_Nm);
-  covariance_(kPosition, kVelocity) += 0.5 * distance_rad * velocity;
-  covariance_(kVelocity, kPosition) += 0.5 * distance_rad * velocity;
-  covariance_(kPosition, kLoad) -= 0.5 * distance_rad * load_Nm;
-  covariance_(kLoad, kPosition) -= 0.5 * distance_rad * load_Nm;
-  covariance_(kVelocity, kLoad) -= 0.5 * velocity * load_Nm;
-  covariance_(kLoad, kVelocity) -= 0.5 * velocity * load_Nm;
+  add_covariance(kPosition, kVelocity, correlation * distance_rad * velocity);
+  add_covariance(kPosition, kLoad, -correlation * distance_rad * load_Nm);
+  add_covariance(kVelocity, kLoad, -correlation * velocity * load_Nm);
 }
 
 // Keeps the part of the distribution on one side (+1: above, -1: below) of an edge.
@@ -191,7 +212,7 @@ JointEstimate VelocityObserver::estimate() const noexcept {
 }
 
 double VelocityObserver::inertia_ratio() const noexcept {
-  return std::clamp(1.0 + state_(kInertia), kLeastInertia, kLargestInertia);
+  return 1.0 + state_(kInertia);
 }
 
 }  // namespace strainwave

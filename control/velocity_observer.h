@@ -62,6 +62,8 @@ class VelocityObserver {
   void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
   void truncate(double edge_rad, double side) noexcept;
   void admit_surprise(double distance_rad) noexcept;
+  void bound_parameters() noexcept;
+  void add_covariance(int a, int b, double value) noexcept;
   void condition(int component, double shift, double variance_ratio) noexcept;
 
   VelocityObserverConfig config_;

@@ -158,20 +158,11 @@ class Search {
       for (int step = 0; step < options_.steps && !individual.point.converged; ++step) {
         individual.evaluations += descend(cost, individual.point, options_.step_tolerance);
       }
-      if (options_.canonical) canonicalise(individual.point);
     });
     for (Individual& individual : population_) {
       result_.evaluations += individual.evaluations;
       individual.evaluations = 0;
     }
-  }
-
-  // Rearranging the variables rearranges the derivatives; those of a point at rest are not needed.
-  void canonicalise(DescentPoint& point) const {
-    if (!point.converged) return;
-    Eigen::VectorXd x = lower_ + range_.cwiseProduct(point.x);
-    options_.canonical(x);
-    point.x = (x - lower_).cwiseQuotient(range_).cwiseMax(0.0).cwiseMin(1.0);
   }
 
   void remember_best() {
@@ -229,7 +220,6 @@ class Search {
     }
     result_.cost = best_.sample.value;
     result_.x = (lower_ + range_.cwiseProduct(best_.x)).cwiseMax(lower_).cwiseMin(lower_ + range_);
-    if (options_.canonical) options_.canonical(result_.x);
   }
 
   std::size_t share(double part) const {

@@ -19,9 +19,7 @@
 //   curved valleys, such as that of the fuzzy memberships, otherwise take thousands of generations. A point
 //   takes up to `steps` of them in a generation and rests once it has converged;
 // - variables are scaled to [0, 1] (the ranges differ by up to 1e4);
-// - points that have come together count once: a copy gives up its place to a fresh point. Costs with
-// interchangeable variables name one
-//   order of them (`canonical`), so that copies are seen as such;
+// - points that have come together count once: a copy gives up its place to a fresh point;
 // - each variable of a child mutates on its own.
 #pragma once
 
@@ -45,14 +43,13 @@ struct EpgsOptions {
       1e-6;  ///< a point has converged when a step promises less than this part of its cost
   double final_tolerance =
       1e-12;  ///< the best point of all takes steps until one promises less than this part
-  int generation_limit = 200;
+  int generation_limit = 250;
   int patience = 1000000;         ///< generations without improvement before stopping
   double improvement = 1e-6;      ///< relative, that counts as one
   double known_optimum = -1e300;  ///< stop within optimum_tolerance of it
   double optimum_tolerance = 0.0;
   std::uint64_t seed = 1;
   int threads = 1;  ///< evaluations run in parallel; the result does not depend on it
-  std::function<void(Eigen::VectorXd& x)> canonical;  ///< optional: rearranges interchangeable variables
 };
 
 enum class EpgsStop { kGenerationLimit, kNoImprovement, kKnownOptimum };

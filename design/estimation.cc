@@ -1,31 +1,11 @@
 #include "design/estimation.h"
 
-#include <algorithm>
-#include <numeric>
-
 namespace strainwave {
-
-namespace {
 
 using Index = Eigen::Index;
 
-// Rules can be exchanged without changing the cost: ascending centres name one order.
-void sort_rules(Eigen::VectorXd& x) {
-  const Index m = x.size() / 2;
-  std::vector<Index> order(static_cast<std::size_t>(m));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::ranges::stable_sort(order, {}, [&x](Index i) { return x(i); });
-  const Eigen::VectorXd centers = x.head(m)(order);
-  const Eigen::VectorXd widths = x.tail(m)(order);
-  x << centers, widths;
-}
-
-}  // namespace
-
 EpgsOptions fuzzy_search_options() {
-  EpgsOptions options;
-  options.canonical = sort_rules;
-  return options;
+  return {};
 }
 
 EpgsOptions exponential_search_options() {

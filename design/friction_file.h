@@ -22,9 +22,9 @@ struct FitRecord {
   double cost_source = 0.0;
   double cost_torque = 0.0;
   unsigned long long seed = 0;
-  int generations = 0;  ///< 0 for least squares
+  int generations = 0;           ///< 0 for least squares
   std::int64_t evaluations = 0;  ///< of the cost
-  std::string stopped;  ///< why
+  std::string stopped;           ///< why
   std::vector<double> best_by_generation;
   /// Per temperature: temperature_C, then the data minus the fit of static, Coulomb (N.cm) and viscous
   /// (N.cm/RPM).

@@ -211,7 +211,6 @@ void JointLoop::control(const CycleTime& time) noexcept {
   JointMeasurement measurement;
   measurement.joint_position_rad = reading_.joint_position_rad;
   measurement.joint_velocity_rad_s = reading_.joint_velocity_rad_s;
-  measurement.torque_applied_Nm = reading_.torque_applied_Nm;
   measurement.temperature_C = scheduling_temperature_C(time);
   measurement.has_velocity = reading_.has_velocity;
   measurement.temperature_valid = temperature_.usable();

@@ -297,7 +297,7 @@ TEST_F(HostileSystem, AKilledGatewayIsBackWithinASecondEachTimeAndIsObeyed) {
     const pid_t gateway = daemon_->gateway_pid();
     // Each new one once: it is let to work first.
     if (gateway > 0 && seconds_since(killed) > 1.5) {
-      std::printf("back after %.3f s\n", watch.last_absence_s());
+      if (watch.restarts() > 0) std::printf("back after %.3f s\n", watch.last_absence_s());
       ::kill(gateway, SIGKILL);
       killed = Clock::now();
     }
@@ -372,6 +372,8 @@ TEST_F(HostileSystem, TheGatewayRunsWithoutPrivilegesInEveryThread) {
 TEST_F(HostileSystem, StartedByRootTheGatewayIsAnotherUserWithNothingOpenButItsChannels) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can start it as another user";
   start_tracking();
+  if (daemon_->log().find("gateway: as the daemon's own user") != std::string::npos)
+    GTEST_SKIP() << "this user namespace has no other user";
   const std::string process = "/proc/" + std::to_string(daemon_->gateway_pid());
   EXPECT_NE(status_line(process + "/status", "Uid").substr(0, 2), "0\t");
   EXPECT_EQ(status_line(process + "/status", "Groups"), "");

@@ -1,0 +1,46 @@
+#include "control/motor_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+// Acceleration that a reference always has, as a share of what the torque limit gives without friction and
+// load.
+constexpr double kLeastShare = 0.02;
+}  // namespace
+
+double MotorLimits::available_Nm(double velocity_rad_s) const noexcept {
+  return std::max(0.0, std::min(peak_torque_Nm, stall_torque_Nm - torque_per_speed_Nms_rad * velocity_rad_s));
+}
+
+double MotorLimits::limit_Nm(double torque_Nm, double velocity_rad_s) const noexcept {
+  const double along = torque_Nm < 0.0 ? -velocity_rad_s : velocity_rad_s;
+  return std::copysign(std::min(std::abs(torque_Nm), available_Nm(along)), torque_Nm);
+}
+
+MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
+                              const JointDisturbance& disturbance, double torque_limit_Nm, double reserve,
+                              double speed_rad_s, double period_s) noexcept {
+  const double usable = 1.0 - reserve;
+  const double limit_Nm = usable * std::min(torque_limit_Nm, motor.peak_torque_Nm);
+  const double supply_Nm = usable * motor.stall_torque_Nm - motor.torque_per_speed_Nms_rad * speed_rad_s;
+  const double coulomb_Nm = std::max(0.0, model.friction.coulomb_Nm + disturbance.friction_offset_Nm);
+  const double load_Nm = std::abs(disturbance.load_Nm);
+  const double viscous_Nm = model.friction.viscous_Nms_rad * speed_rad_s;
+
+  // The losses grow with the speed over the period, so the acceleration is solved for.
+  const double damping =
+      model.friction.viscous_Nms_rad + (supply_Nm < limit_Nm ? motor.torque_per_speed_Nms_rad : 0.0);
+  const double driving_Nm = std::min(limit_Nm, supply_Nm) - coulomb_Nm - viscous_Nm - load_Nm;
+  const double acceleration = driving_Nm / (model.inertia_kgm2 + period_s * damping);
+  // Viscous friction helps as well, but not until the end.
+  const double deceleration = (limit_Nm + coulomb_Nm - load_Nm) / model.inertia_kgm2;
+
+  const double least = kLeastShare * limit_Nm / model.inertia_kgm2;
+  return {motion.velocity_rad_s, std::min(motion.acceleration_rad_s2, std::max(least, acceleration)),
+          std::min(motion.deceleration_rad_s2, std::max(least, deceleration))};
+}
+
+}  // namespace strainwave
