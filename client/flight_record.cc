@@ -35,6 +35,20 @@ void read_columns(const std::string& line, FlightRecordInfo& info) {
   for (std::string name; std::getline(names, name, ',');) info.columns[name] = ++number;
 }
 
+constexpr const char* kSettings = R"(set terminal pngcairo size 1100,1400 font 'sans,11' noenhanced
+set datafile separator ','
+set datafile commentschars '#'
+set datafile missing 'nan'
+set style line 1 linecolor rgb '#1f5f99' linewidth 1.4
+set style line 2 linecolor rgb '#f0a050' linewidth 3.5
+set grid
+set key autotitle columnhead above right horizontal samplen 2
+set lmargin 14
+set rmargin 3
+set autoscale xfix
+set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '#c00000' linewidth 1.4 dashtype 2 front
+)";
+
 /// In gnuplot's single quotes only the single quote itself is special.
 std::string gnuplot_text(const std::string& text) {
   std::string result = "'";
@@ -87,17 +101,9 @@ std::string plot_script(const FlightRecordInfo& info, const std::filesystem::pat
     return fmt::format("FILE using {}:{} with lines linestyle {} title '{}'", column("time_s"), column(name),
                        style, title);
   };
-  std::string script = fmt::format(
-      "set terminal pngcairo size 1100,1400 font 'sans,11' noenhanced\n"
-      "set output {}\nFILE = {}\n"
-      "set datafile separator ','\nset datafile commentschars '#'\nset datafile missing 'nan'\nset key "
-      "autotitle columnhead\n"
-      "set style line 1 linecolor rgb '#1f5f99' linewidth 1.6\nset style line 2 linecolor rgb '#d06a10' "
-      "linewidth 1.6\n"
-      "set grid linecolor rgb '#dddddd'\nset key top left opaque samplen 2\nset lmargin 11\nset rmargin 3\n"
-      "set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '#c00000' linewidth 1.4 dashtype 2 "
-      "front\n",
-      gnuplot_text(png.string()), gnuplot_text(file.string()));
+  std::string script =
+      fmt::format("set output {}\nFILE = {}\n", gnuplot_text(png.string()), gnuplot_text(file.string())) +
+      kSettings;
   if (around_s) script += fmt::format("set xrange [{}:{}]\n", -*around_s, *around_s);
   script += fmt::format("set multiplot layout 5,1 title {} font 'sans,14'\n",
                         printable(head("joint") + ": fault " + head("fault") + ", " + head("fault_utc") +

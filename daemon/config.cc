@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <set>
@@ -40,7 +41,14 @@ RecorderConfig read_recorder(TomlSection section, const std::filesystem::path& f
   recorder.seconds = section.number_or("seconds", recorder.seconds, {0.01, 600.0});
   recorder.post_trigger_s = section.number_or("post_trigger_s", std::min(recorder.post_trigger_s, 0.1 * recorder.seconds),
                                               {0.0, 0.9 * recorder.seconds});
-  if (section.has("directory")) recorder.directory = folder / section.text("directory");
+  // systemd's StateDirectory=, the first if there are several.
+  const char* state = std::getenv("STATE_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
+  if (section.has("directory")) {
+    recorder.directory = folder / section.text("directory");
+  } else if (state != nullptr && *state != '\0') {
+    recorder.directory = std::filesystem::path(std::string_view(state).substr(0, std::string_view(state).find(':'))) /
+                         "flight-records";
+  }
   recorder.max_files = static_cast<int>(section.integer_or("max_files", recorder.max_files, 1, 100000));
   recorder.max_total_MB = section.number_or("max_total_MB", recorder.max_total_MB, {0.001, 1e6});
   recorder.min_interval_s = section.number_or("min_interval_s", recorder.min_interval_s, {0.0, 1e6});
