@@ -24,6 +24,15 @@ constexpr double kReplanPushes = 4.0;
 // grows until someone notices.
 constexpr int kPlanLimit = 50;
 
+// A landing takes some 100 periods. One that takes this many, or has to begin this often, does not come off
+// (the delay or the encoder are not what the configuration says): feedback ends the motion, and after so many
+// in a row no more are tried until start().
+constexpr int kLandingPeriods = 400;
+constexpr int kLandingBegins = 6;
+constexpr int kLandingFailures = 3;
+// Periods that a resting joint must be off its target before it moves again: a count may flicker.
+constexpr int kLeavePeriods = 3;
+
 VelocityObserverConfig observer_config(const JointControllerConfig& config) noexcept {
   VelocityObserverConfig observer;
   observer.period_s = config.period_s;
@@ -81,6 +90,10 @@ void JointController::start(double position_rad) noexcept {
   previous_position_rad_ = position_rad;
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
+  plans_ = 0;
+  landing_periods_ = 0;
+  landing_begins_ = 0;
+  landing_failures_ = 0;
   started_ = false;
   carry_over_ = false;
 }
@@ -89,6 +102,8 @@ void JointController::set_target(double position_rad) noexcept {
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   plans_ = 0;
+  landing_periods_ = 0;
+  landing_begins_ = 0;
   enter(MotionPhase::kTracking);
 }
 
@@ -161,7 +176,10 @@ void JointController::advance_reference() noexcept {
     reference_ = {shaper_.target_rad(), 0.0, 0.0};
     return;
   }
-  if (replan_) shaper_.restart(then_.position_rad, then_.velocity_rad_s);
+  if (replan_) {
+    const double fastest = config_.motion.velocity_rad_s;
+    shaper_.restart(then_.position_rad, std::clamp(then_.velocity_rad_s, -fastest, fastest));
+  }
   replan_ = false;
   const double speed =
       std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
@@ -193,7 +211,7 @@ bool JointController::landing_possible() const noexcept {
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
   if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
-  if (!config_.use_landing) {
+  if (!landing_works()) {
     const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
     const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
@@ -203,18 +221,27 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     return enter(MotionPhase::kTracking);
   }
   const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  const bool left = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
-  if (phase_ == MotionPhase::kTracking || left) enter(MotionPhase::kLanding);
+  const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
+  away_periods_ = away ? away_periods_ + 1 : 0;
+  if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
+}
+
+bool JointController::landing_works() const noexcept {
+  return config_.use_landing && landing_periods_ < kLandingPeriods && landing_begins_ <= kLandingBegins &&
+         landing_failures_ < kLandingFailures;
 }
 
 void JointController::enter(MotionPhase phase) noexcept {
   if (phase == MotionPhase::kTracking && reference_moves()) rest_detector_.reset();
   if (phase == phase_) return;
   // What the integral knew of load and friction, the observer knows.
-  if (phase_ != MotionPhase::kTracking && config_.use_landing) active().reset();
-  if (phase == MotionPhase::kLanding) landing_.begin(shaper_.target_rad());
+  if (phase_ == MotionPhase::kLanding) active().reset();
+  if (phase == MotionPhase::kLanding) {
+    landing_.begin(shaper_.target_rad());
+    if (++landing_begins_ > kLandingBegins) ++landing_failures_;
+  }
   plans_ = 0;
-  hold_torque_Nm_ = now_.disturbance.load_Nm + (config_.use_landing ? 0.0 : active().integral_torque_Nm());
+  hold_torque_Nm_ = now_.disturbance.load_Nm + active().integral_torque_Nm();
   phase_ = phase;
 }
 
@@ -229,7 +256,13 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
   carry_over_ = false;
   if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
   const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
-  if (landing_.resting()) enter(MotionPhase::kResting);
+  if (++landing_periods_ == kLandingPeriods) ++landing_failures_;
+  if (landing_.resting()) {
+    landing_periods_ = 0;
+    landing_begins_ = 0;
+    landing_failures_ = 0;
+    enter(MotionPhase::kResting);
+  }
   return apply(torque_Nm);
 }
 

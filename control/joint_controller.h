@@ -108,6 +108,7 @@ class JointController {
   bool reference_moves() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
+  bool landing_works() const noexcept;
   double distance_to_target_rad() const noexcept;
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
@@ -136,6 +137,10 @@ class JointController {
   double hold_torque_Nm_ = 0.0;
   double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
   int plans_ = 0;                      ///< new ones since the target or the phase changed
+  int landing_periods_ = 0;            ///< spent on landing since the target changed or the joint last rested
+  int landing_begins_ = 0;             ///< landings begun since then
+  int landing_failures_ = 0;           ///< in a row
+  int away_periods_ = 0;               ///< that a resting joint has been off its target
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;
