@@ -30,6 +30,8 @@ constexpr int kPlanLimit = 50;
 constexpr int kLandingPeriods = 400;
 constexpr int kLandingBegins = 6;
 constexpr int kLandingFailures = 3;
+// Periods until the next try.
+constexpr int kLandingPause = 500;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
 
@@ -37,6 +39,7 @@ VelocityObserverConfig observer_config(const JointControllerConfig& config) noex
   VelocityObserverConfig observer;
   observer.period_s = config.period_s;
   observer.encoder_resolution_rad = config.encoder_resolution_rad;
+  observer.edge_deviation_counts = config.encoder_deviation_counts;
   return observer;
 }
 
@@ -91,8 +94,7 @@ void JointController::start(double position_rad) noexcept {
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
   plans_ = 0;
-  landing_periods_ = 0;
-  landing_begins_ = 0;
+  begin_landings();
   landing_failures_ = 0;
   started_ = false;
   carry_over_ = false;
@@ -102,8 +104,7 @@ void JointController::set_target(double position_rad) noexcept {
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   plans_ = 0;
-  landing_periods_ = 0;
-  landing_begins_ = 0;
+  begin_landings();
   enter(MotionPhase::kTracking);
 }
 
@@ -212,6 +213,7 @@ bool JointController::landing_possible() const noexcept {
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
   if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
   if (!landing_works()) {
+    if (++landing_pause_ >= kLandingPause) begin_landings();
     const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
     const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
@@ -224,6 +226,12 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
   away_periods_ = away ? away_periods_ + 1 : 0;
   if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
+}
+
+void JointController::begin_landings() noexcept {
+  landing_periods_ = 0;
+  landing_begins_ = 0;
+  landing_pause_ = 0;
 }
 
 bool JointController::landing_works() const noexcept {
@@ -258,8 +266,7 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
   const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
   if (++landing_periods_ == kLandingPeriods) ++landing_failures_;
   if (landing_.resting()) {
-    landing_periods_ = 0;
-    landing_begins_ = 0;
+    begin_landings();
     landing_failures_ = 0;
     enter(MotionPhase::kResting);
   }
