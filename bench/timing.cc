@@ -20,7 +20,6 @@
 #include "control/input_error.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/simulated_actuator.h"
-#include "sim/reference_plant.h"
 
 namespace strainwave {
 namespace {
@@ -38,9 +37,7 @@ DaemonConfig bench_config(int joints) {
     joint.loop.limits = {-10.0, 10.0, 1.0, 100.0, 10.0, 200.0};
     joint.loop.controller.torque_limit_Nm = 34.0;
     joint.make_actuator = [] {
-      SimulatedActuatorConfig simulated;
-      simulated.plant = realistic_plant();
-      return std::make_unique<SimulatedActuator>(simulated);
+      return std::make_unique<SimulatedActuator>(simulated_reference_joint(false));
     };
     config.joints.push_back(joint);
   }
@@ -57,19 +54,25 @@ void add(Slice& to, const Slice& from) {
   to.max_ns = std::max(to.max_ns, from.max_ns);
 }
 
+Order order(OrderKind kind) {
+  Order order;
+  order.kind = kind;
+  return order;
+}
+
 Slice run_ours(double seconds, int joints, const GainTable& table) {
   auto states = std::make_unique<decltype(OutboundMemory::states)>();
   RealtimeLoop loop(bench_config(joints), *states);
   for (std::size_t i = 0; i < loop.joint_count(); ++i) {
     loop.joint(i).table_slot(0) = {table, 1};
-    loop.joint(i).orders().push({0, OrderKind::kUseTable, 0, 0.0, 0.0});
+    loop.joint(i).orders().push(order(OrderKind::kUseTable));
   }
   loop.start();
   if (!loop.real_time_refusal().empty()) throw InputError(loop.real_time_refusal());
   // The first order is taken with the first reading; enabling must come a cycle later.
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   for (std::size_t i = 0; i < loop.joint_count(); ++i)
-    loop.joint(i).orders().push({0, OrderKind::kEnable, 0, 0.0, 0.0});
+    loop.joint(i).orders().push(order(OrderKind::kEnable));
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   const Slice slice{loop.statistics().wakeup_latency.counts(), loop.statistics().wakeup_latency.max_ns()};
   loop.request_stop();

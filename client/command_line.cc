@@ -177,6 +177,19 @@ void add_keygen(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_plot_record(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("plot-record", "draw a flight record into a PNG (needs gnuplot, no daemon)");
+  auto arguments = std::make_shared<PlotRecordArguments>();
+  auto around_s = std::make_shared<double>(0.0);
+  command->add_option("FILE", arguments->file, "the record")->required()->type_name("");
+  command->add_option("--out", arguments->out, "the picture; otherwise FILE.png")->type_name("PNG");
+  add_seconds(*command, "--around_s", *around_s, "draw only so much before and after the fault");
+  command->callback([&invocation, arguments, around_s] {
+    if (*around_s > 0.0) arguments->around_s = *around_s;
+    invocation.local_command = [arguments](const Output& output) { plot_record(output, *arguments); };
+  });
+}
+
 void configure(CLI::App& app, Invocation& invocation) {
   app.set_version_flag("--version", std::string("strainwavectl ") + STRAINWAVE_VERSION);
   app.require_subcommand(1);
@@ -205,6 +218,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
   add_load_table(app, invocation);
   add_record(app, invocation);
+  add_plot_record(app, invocation);
   add_keygen(app, invocation);
 }
 

@@ -48,6 +48,14 @@ struct RecordArguments {
 };
 void record(Client& client, const Output& output, const RecordArguments& arguments);
 
+/// Draws a flight record (docs/flight-recorder.md) with gnuplot.
+struct PlotRecordArguments {
+  std::filesystem::path file;
+  std::optional<std::filesystem::path> out;  ///< nothing: beside the file
+  std::optional<double> around_s;            ///< nothing: the whole record
+};
+void plot_record(const Output& output, const PlotRecordArguments& arguments);
+
 /// Orders to one joint. enable() and disable() return once the joint holds or is off.
 void enable(Client& client, const Output& output, const std::string& joint);
 void disable(Client& client, const Output& output, const std::string& joint);

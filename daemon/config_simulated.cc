@@ -4,7 +4,6 @@
 #include "daemon/realtime/periodic_clock.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
-#include "sim/reference_plant.h"
 
 namespace strainwave {
 
@@ -48,9 +47,8 @@ std::vector<Injection> read_faults(TomlSection& section) {
 }  // namespace
 
 void read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint) {
-  SimulatedActuatorConfig config;
-  const bool ideal = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
-  config.plant = ideal ? torque_limited_plant() : realistic_plant();
+  const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
+  SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
   config.plant.joint.inertia_kgm2 = section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});

@@ -84,7 +84,7 @@ std::string advice(const Reply& reply) {
       return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
     case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
-      return mode + (reply.mode == Mode::kOff ? ": enable it first" : ": this order does nothing in this mode");
+      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
     default: return mode;
   }
 }

@@ -32,7 +32,9 @@ class Uniform {
   double operator()(double low, double high) {
     return low + (high - low) * (static_cast<double>(generator_() >> 11) * 0x1p-53);
   }
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>(operator()(0.0, static_cast<double>(count))); }
+  std::size_t index(std::size_t count) {
+    return static_cast<std::size_t>(operator()(0.0, static_cast<double>(count)));
+  }
 
  private:
   std::mt19937_64 generator_;
@@ -40,7 +42,8 @@ class Uniform {
 
 class Search {
  public:
-  Search(const GradientCost& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const EpgsOptions& options)
+  Search(const GradientCost& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+         const EpgsOptions& options)
       : cost_(cost), lower_(lower), range_(upper - lower), options_(options), uniform_(options.seed) {}
 
   EpgsResult run() {
@@ -53,7 +56,8 @@ class Search {
       select();
       descend_selected();
       remember_best();
-      if (result_.cost < reference - options_.improvement * std::abs(reference) || !std::isfinite(reference)) {
+      if (result_.cost < reference - options_.improvement * std::abs(reference) ||
+          !std::isfinite(reference)) {
         reference = result_.cost;
         stale = 0;
       } else {
@@ -62,7 +66,7 @@ class Search {
       if (should_stop(stale)) break;
       breed();
     }
-    result_.x = lower_ + range_.cwiseProduct(best_.x);
+    finish();
     return result_;
   }
 
@@ -75,7 +79,8 @@ class Search {
     return [this](const Eigen::VectorXd& x, CostSample& sample) {
       cost_(lower_ + range_.cwiseProduct(x), sample);
       sample.gradient = sample.gradient.cwiseProduct(range_);
-      if (sample.curvature.size() > 0) sample.curvature = range_.asDiagonal() * sample.curvature * range_.asDiagonal();
+      if (sample.curvature.size() > 0)
+        sample.curvature = range_.asDiagonal() * sample.curvature * range_.asDiagonal();
       // A cost that is not a number is no cost: such a point is never selected.
       if (!std::isfinite(sample.value) || !sample.gradient.allFinite()) {
         sample.value = std::numeric_limits<double>::max();
@@ -86,7 +91,8 @@ class Search {
 
   template <typename Work>
   void in_parallel(std::size_t count, const Work& work) const {
-    const auto workers = static_cast<std::size_t>(std::clamp(options_.threads, 1, static_cast<int>(std::max<std::size_t>(count, 1))));
+    const auto workers = static_cast<std::size_t>(
+        std::clamp(options_.threads, 1, static_cast<int>(std::max<std::size_t>(count, 1))));
     std::atomic<std::size_t> next{0};
     const auto run = [&] {
       for (std::size_t i = next++; i < count; i = next++) work(i);
@@ -152,20 +158,11 @@ class Search {
       for (int step = 0; step < options_.steps && !individual.point.converged; ++step) {
         individual.evaluations += descend(cost, individual.point, options_.step_tolerance);
       }
-      if (options_.canonical) canonicalise(individual.point);
     });
     for (Individual& individual : population_) {
       result_.evaluations += individual.evaluations;
       individual.evaluations = 0;
     }
-  }
-
-  // Rearranging the variables rearranges the derivatives; those of a point at rest are not needed.
-  void canonicalise(DescentPoint& point) const {
-    if (!point.converged) return;
-    Eigen::VectorXd x = lower_ + range_.cwiseProduct(point.x);
-    options_.canonical(x);
-    point.x = (x - lower_).cwiseQuotient(range_).cwiseMax(0.0).cwiseMin(1.0);
   }
 
   void remember_best() {
@@ -194,7 +191,8 @@ class Search {
   void breed() {
     std::vector<Individual> selected;
     std::vector<Individual> rest;
-    for (Individual& individual : population_) (individual.selected ? selected : rest).push_back(std::move(individual));
+    for (Individual& individual : population_)
+      (individual.selected ? selected : rest).push_back(std::move(individual));
     for (std::size_t i = share(options_.crossover); i > 0; --i) {
       const Eigen::VectorXd& a = selected[uniform_.index(selected.size())].point.x;
       const Eigen::VectorXd& b = rest.empty() ? a : rest[uniform_.index(rest.size())].point.x;
@@ -207,7 +205,21 @@ class Search {
       fresh_.push_back(child.cwiseMax(0.0).cwiseMin(1.0));
     }
     population_ = std::move(selected);
-    while (population_.size() + fresh_.size() < static_cast<std::size_t>(options_.population)) fresh_.push_back(random_point());
+    while (population_.size() + fresh_.size() < static_cast<std::size_t>(options_.population))
+      fresh_.push_back(random_point());
+  }
+
+  // The best point to the end of its valley.
+  void finish() {
+    constexpr int kStepLimit = 500;
+    const GradientCost cost = scaled_cost();
+    best_ = start_descent(cost, best_.x);
+    ++result_.evaluations;
+    for (int step = 0; step < kStepLimit && !best_.converged; ++step) {
+      result_.evaluations += descend(cost, best_, options_.final_tolerance);
+    }
+    result_.cost = best_.sample.value;
+    result_.x = (lower_ + range_.cwiseProduct(best_.x)).cwiseMax(lower_).cwiseMin(lower_ + range_);
   }
 
   std::size_t share(double part) const {
@@ -245,7 +257,9 @@ EpgsResult minimise_epgs(const GradientCost& cost, const Eigen::VectorXd& lower,
   }
   const double shares = options.clone_by_cost + options.clone_by_promise + options.crossover;
   if (options.population < 4 || !(options.clone_by_cost * options.population >= 0.5) || !(shares <= 1.0)) {
-    throw InputError("EPGS: population must be at least 4, with one or more points by cost, and the shares at most 1 together");
+    throw InputError(
+        "EPGS: population must be at least 4, with one or more points by cost, and the shares at most 1 "
+        "together");
   }
   return Search(cost, lower, upper, options).run();
 }

@@ -1,13 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <thread>
 
 #include "control/input_error.h"
 #include "control/text_file.h"
 #include "design/catalogue.h"
 #include "design/commands.h"
+#include "design/estimation.h"
 #include "design/friction_file.h"
-#include "design/friction_fit.h"
 
 namespace strainwave {
 
@@ -16,67 +17,134 @@ namespace {
 struct Options {
   std::string catalogue;
   std::string out;
+  std::string model = "both";
+  std::string method = "epgs";
   std::string weighting = "torque";
   bool unconstrained = false;
+  unsigned long long seed = 1;
+  int threads = 0;
+  int rules = 5;
   double gear_ratio = 50.0;
   double starting_torque_Ncm = 1.6;
-  int rules = 5;
 };
 
-FitProblem make_problem(const FrictionData& data, const Options& options) {
+struct Job {
+  Options options;
+  FrictionData data;
+  FitProblem problem;
+  double min_C = 0.0;  // of the data
+  double max_C = 0.0;
+};
+
+void check(const Options& options) {
+  const auto require = [](bool good, const char* key, double value, const std::string& allowed) {
+    if (!good) throw InputError("fit", key, std::to_string(value), allowed);
+  };
+  require(options.gear_ratio > 0.0, "gear-ratio", options.gear_ratio, "must be above 0");
+  require(options.starting_torque_Ncm >= 0.0, "starting-torque_Ncm", options.starting_torque_Ncm,
+          "must not be negative");
+  require(options.rules >= 2 && options.rules <= kMaxTemperatureRules, "rules", options.rules,
+          "must be from 2 to " + std::to_string(kMaxTemperatureRules));
+}
+
+Job make_job(const Options& options) {
+  check(options);
+  Job job;
+  job.options = options;
+  job.data = read_catalogue(options.catalogue, options.starting_torque_Ncm);
   const FitWeighting weighting =
       options.weighting == "source" ? FitWeighting::kSource : FitWeighting::kTorque;
-  return {fit_targets(data), friction_metric(weighting, data.motor_speeds_rpm), !options.unconstrained};
+  job.problem = {fit_targets(job.data), friction_metric(weighting, job.data.motor_speeds_rpm),
+                 !options.unconstrained};
+  job.min_C = job.data.points.front().temperature_C;
+  job.max_C = job.data.points.back().temperature_C;
+  return job;
 }
 
 template <typename Fit>
-FitRecord make_record(const FrictionData& data, const FitProblem& problem, const Options& options,
-                      const Fit& fit) {
+FitRecord make_record(const Job& job, const Fit& fit, const EpgsResult* search) {
   FitRecord record;
-  record.method = "least-squares";
-  record.weighting = options.weighting;
-  record.physical = problem.physical;
+  record.method = job.options.method;
+  record.weighting = job.options.weighting;
+  record.physical = job.problem.physical;
   record.stopped = "optimum of a linear problem";
-  const FitTargets& targets = problem.targets;
+  if (search != nullptr) {
+    record.seed = job.options.seed;
+    record.generations = search->generations;
+    record.evaluations = search->evaluations;
+    record.stopped = name_of(search->stop);
+    record.best_by_generation = search->best_by_generation;
+  }
+  const FitTargets& targets = job.problem.targets;
   const Eigen::MatrixX3d errors = targets.parameters - predict(fit, targets.temperature_C);
-  record.cost_source = metric_cost(errors, friction_metric(FitWeighting::kSource, data.motor_speeds_rpm));
-  record.cost_torque = metric_cost(errors, friction_metric(FitWeighting::kTorque, data.motor_speeds_rpm));
+  record.cost_source = metric_cost(errors, friction_metric(FitWeighting::kSource, job.data.motor_speeds_rpm));
+  record.cost_torque = metric_cost(errors, friction_metric(FitWeighting::kTorque, job.data.motor_speeds_rpm));
   for (Eigen::Index k = 0; k < errors.rows(); ++k) {
     record.residuals.push_back({targets.temperature_C(k), errors(k, 0), errors(k, 1), errors(k, 2)});
   }
   return record;
 }
 
-int fit(const Options& options) {
-  if (!(options.gear_ratio > 0.0))
-    throw InputError("fit", "gear-ratio", std::to_string(options.gear_ratio), "must be above 0");
-  if (!(options.starting_torque_Ncm >= 0.0))
-    throw InputError("fit: starting-torque_Ncm: must not be negative");
-  if (options.rules < 2 || options.rules > kMaxTemperatureRules) {
-    throw InputError("fit", "rules", std::to_string(options.rules),
-                     "must be from 2 to " + std::to_string(kMaxTemperatureRules));
-  }
-  const FrictionData data = read_catalogue(options.catalogue, options.starting_torque_Ncm);
-  const FitProblem problem = make_problem(data, options);
-  const double min_C = data.points.front().temperature_C;
-  const double max_C = data.points.back().temperature_C;
+EpgsOptions search_options(const Job& job, EpgsOptions options) {
+  options.seed = job.options.seed;
+  options.threads =
+      job.options.threads > 0 ? job.options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  return options;
+}
 
+ExponentialFriction fit_exponential_model(const Job& job) {
+  // A decay over much less than the data's spacing, or much more than their range, cannot be told from a step
+  // or a line.
+  const double low_C = 1.0;
+  const double high_C = 10.0 * (job.max_C - job.min_C);
+  Estimate<ExponentialFit> estimate;
+  const bool search = job.options.method == "epgs";
+  if (search) {
+    estimate =
+        estimate_exponential(job.problem, low_C, high_C, search_options(job, exponential_search_options()));
+  } else {
+    estimate.fit = fit_exponential(job.problem, low_C, high_C);
+  }
+  return {to_joint_side(estimate.fit, job.options.gear_ratio), source_stribeck_shape(job.options.gear_ratio),
+          make_record(job, estimate.fit, search ? &estimate.search : nullptr)};
+}
+
+FuzzyFrictionRecord fit_fuzzy_model(const Job& job) {
+  Estimate<FuzzyFit> estimate;
+  const bool search = job.options.method == "epgs";
+  if (search) {
+    MembershipBox box;
+    box.center_min_C = job.min_C - 5.0;
+    box.center_max_C = job.max_C + 5.0;
+    estimate =
+        estimate_fuzzy(job.problem, job.options.rules, box, search_options(job, fuzzy_search_options()));
+  } else {
+    const Memberships memberships = graded_memberships(job.options.rules, job.min_C, job.max_C);
+    estimate.fit = fit_consequents(job.problem, memberships.center_C, memberships.width_C);
+  }
+  return {to_joint_side(estimate.fit, job.options.gear_ratio, job.min_C, job.max_C),
+          make_record(job, estimate.fit, search ? &estimate.search : nullptr)};
+}
+
+void report(const char* model, const FitRecord& fit) {
+  std::printf(
+      "  %-12s cost %.5f (source's, motor side, N.cm), %.5f (torque); %d generations, %lld evaluations\n",
+      model, fit.cost_source, fit.cost_torque, fit.generations, static_cast<long long>(fit.evaluations));
+}
+
+int fit(const Options& options) {
+  const Job job = make_job(options);
   FrictionFile file;
   file.gear_ratio = options.gear_ratio;
   file.data_file = std::filesystem::path(options.catalogue).filename().string();
-  file.data_sha256 = data.sha256;
-  const ExponentialFit exponential = fit_exponential(problem, 1.0, 10.0 * (max_C - min_C));
-  file.exponential = ExponentialFriction{to_joint_side(exponential, options.gear_ratio),
-                                         source_stribeck_shape(options.gear_ratio),
-                                         make_record(data, problem, options, exponential)};
-  const Memberships memberships = graded_memberships(options.rules, min_C, max_C);
-  const FuzzyFit fuzzy = fit_consequents(problem, memberships.center_C, memberships.width_C);
-  file.fuzzy = FuzzyFrictionRecord{to_joint_side(fuzzy, options.gear_ratio, min_C, max_C),
-                                   make_record(data, problem, options, fuzzy)};
+  file.data_sha256 = job.data.sha256;
+  if (options.model != "fuzzy") file.exponential = fit_exponential_model(job);
+  if (options.model != "exponential") file.fuzzy = fit_fuzzy_model(job);
   write_text_file(options.out, to_json(file));
-  std::printf("%s: exponential law, cost %.4f; %d fuzzy rules, cost %.4f (source's cost, motor side, N.cm)\n",
-              options.out.c_str(), file.exponential->fit.cost_source, options.rules,
-              file.fuzzy->fit.cost_source);
+  std::printf("%s: %s, minimising the %s cost%s\n", options.out.c_str(), options.method.c_str(),
+              options.weighting.c_str(), options.unconstrained ? ", unconstrained" : "");
+  if (file.exponential) report("exponential", file.exponential->fit);
+  if (file.fuzzy) report("fuzzy", file.fuzzy->fit);
   return 0;
 }
 
@@ -89,12 +157,22 @@ Action add_fit_command(CLI::App& app, CLI::App*& command) {
       ->add_option("CATALOGUE", options->catalogue,
                    "CSV: running torque over speed and temperature, or parameters")
       ->required();
+  command->add_option("--model", options->model, "what to fit")
+      ->check(CLI::IsMember({"exponential", "fuzzy", "both"}))
+      ->capture_default_str();
+  command->add_option("--method", options->method, "search, or least squares with given memberships")
+      ->check(CLI::IsMember({"epgs", "least-squares"}))
+      ->capture_default_str();
   command
       ->add_option("--weighting", options->weighting,
                    "what the fit minimises: error of the torque, or the source's cost")
       ->check(CLI::IsMember({"torque", "source"}))
       ->capture_default_str();
   command->add_flag("--unconstrained", options->unconstrained, "allow negative or rising friction");
+  command->add_option("--seed", options->seed, "of the search; the same seed gives the same result")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "0: every core; the result does not depend on it")
+      ->capture_default_str();
   command->add_option("--rules", options->rules, "number of temperature rules")->capture_default_str();
   command->add_option("--gear-ratio", options->gear_ratio, "reduction ratio")->capture_default_str();
   command

@@ -68,7 +68,7 @@ FitRecord record_from_json(StrictObject object) {
   fit.cost_torque = object.number("cost_torque");
   fit.seed = static_cast<unsigned long long>(object.integer("seed"));
   fit.generations = static_cast<int>(object.integer("generations"));
-  fit.evaluations = static_cast<int>(object.integer("evaluations"));
+  fit.evaluations = object.integer("evaluations");
   fit.stopped = object.text("stopped", kMaxTextBytes);
   fit.best_by_generation = object.numbers("best_by_generation");
   for (StrictObject& row : object.objects("residuals", 0, 100000)) {

@@ -1,6 +1,7 @@
 // The result of a friction fit as a file: what `fit` writes and `gains` reads. Joint side, SI. Offline.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,9 +22,9 @@ struct FitRecord {
   double cost_source = 0.0;
   double cost_torque = 0.0;
   unsigned long long seed = 0;
-  int generations = 0;  ///< 0 for least squares
-  int evaluations = 0;  ///< of the cost
-  std::string stopped;  ///< why
+  int generations = 0;           ///< 0 for least squares
+  std::int64_t evaluations = 0;  ///< of the cost
+  std::string stopped;           ///< why
   std::vector<double> best_by_generation;
   /// Per temperature: temperature_C, then the data minus the fit of static, Coulomb (N.cm) and viscous
   /// (N.cm/RPM).

@@ -19,10 +19,9 @@ Eigen::MatrixXd normalised_memberships(const Eigen::VectorXd& temperature_C, con
   for (Index i = 0; i < center_C.size(); ++i) {
     Phi.col(i) = -((temperature_C.array() - center_C(i)) / width_C(i)).square();
   }
-  for (Index k = 0; k < Phi.rows(); ++k) {
-    Phi.row(k) = (Phi.row(k).array() - Phi.row(k).maxCoeff()).exp();
-    Phi.row(k) /= Phi.row(k).sum();
-  }
+  Phi.colwise() -= Eigen::VectorXd(Phi.rowwise().maxCoeff());
+  Phi = Phi.array().exp();
+  Phi.array().colwise() /= Eigen::ArrayXd(Phi.rowwise().sum());
   return Phi;
 }
 
@@ -31,27 +30,23 @@ void differentiate(const FitProblem& problem, const LinearFit& linear, const Eig
                    const std::vector<Index>& order, FuzzyFit& fit) {
   const Index m = Phi.cols();
   const Index n = Phi.rows();
-  const Eigen::MatrixX3d predicted = problem.targets.parameters - linear.errors();
+  const Eigen::MatrixX3d predicted = (problem.targets.parameters - linear.errors()).lazyProduct(linear.L());
+  const Eigen::MatrixX3d consequents = linear.C().lazyProduct(linear.L());
   Eigen::MatrixXd change(3 * n, 2 * m);
+  Eigen::ArrayXd distance(n), by_center(n);
   for (Index j = 0; j < m; ++j) {
     const double width = fit.width_C(j);
-    const Eigen::ArrayXd distance = (problem.targets.temperature_C.array() - fit.center_C(j)) / width;
-    const Eigen::ArrayXd by_center = Phi.col(j).array() * distance * (2.0 / width);
-    const Eigen::MatrixX3d by_a = linear.C().row(j).replicate(n, 1) - predicted;
+    distance = (problem.targets.temperature_C.array() - fit.center_C(j)) / width;
+    by_center = Phi.col(j).array() * distance * (2.0 / width);
     const Index original = order[static_cast<std::size_t>(j)];
     for (Index p = 0; p < 3; ++p) {
-      change.col(original).segment(p * n, n) = by_center * by_a.col(p).array();
-      change.col(m + original).segment(p * n, n) = by_center * distance * by_a.col(p).array();
+      auto by_this_center = change.col(original).segment(p * n, n);
+      by_this_center = by_center * (consequents(j, p) - predicted.col(p).array());
+      change.col(m + original).segment(p * n, n) = by_this_center.array() * distance;
     }
   }
-  Eigen::MatrixXd weighted(3 * n, 2 * m);
-  for (Index p = 0; p < 3; ++p) {
-    weighted.middleRows(p * n, n) = problem.metric(p, 0) * change.topRows(n) +
-                                    problem.metric(p, 1) * change.middleRows(n, n) +
-                                    problem.metric(p, 2) * change.bottomRows(n);
-  }
-  fit.gradient = -(weighted.transpose() * linear.errors().reshaped());
-  fit.curvature = change.transpose() * weighted - linear.curvature_loss(weighted);
+  fit.gradient = linear.gradient(change);
+  fit.curvature = linear.curvature(change);
 }
 
 FrictionParameters joint_parameters(const Eigen::RowVector3d& motor, double gear_ratio) {
@@ -76,11 +71,10 @@ ExponentialFit fit_exponential_at(const FitProblem& problem, double decay_C) {
   fit.p1 = linear.C().row(1);
   fit.cost = linear.cost();
   const Eigen::ArrayXd by_decay = Phi.col(1).array() * distance / (decay_C * decay_C);
-  fit.gradient = (linear.cost_by_phi().col(1).array() * by_decay).sum();
-  const Eigen::MatrixX3d change = by_decay.matrix() * fit.p1;
-  const Eigen::MatrixX3d weighted = change * problem.metric;
-  fit.curvature =
-      (weighted.array() * change.array()).sum() - linear.curvature_loss(weighted.reshaped())(0, 0);
+  const Eigen::MatrixX3d change = by_decay.matrix() * (fit.p1 * linear.L());
+  const Eigen::MatrixXd stacked = change.reshaped();
+  fit.gradient = linear.gradient(stacked)(0);
+  fit.curvature = linear.curvature(stacked)(0, 0);
   return fit;
 }
 

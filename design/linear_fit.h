@@ -20,6 +20,9 @@ enum class LinearConstraint {
 
 /// minimise over C: metric_cost(parameters - Phi C). Phi: n x m, m <= 16. A relative ridge of 1e-12 keeps
 /// functions that coincide apart; it does not move a well-posed fit.
+///
+/// "Whitened": multiplied by L from the right, metric = L L', so that the cost is half a plain sum of
+/// squares.
 class LinearFit {
  public:
   LinearFit(const FitTargets& targets, const Eigen::Matrix3d& metric, const Eigen::MatrixXd& Phi,
@@ -28,21 +31,29 @@ class LinearFit {
   const Eigen::MatrixX3d& C() const { return C_; }            ///< m x 3
   const Eigen::MatrixX3d& errors() const { return errors_; }  ///< parameters - Phi C, n x 3
   double cost() const { return cost_; }
-  /// d cost / d Phi, n x m. C's own change with Phi does not count: C is optimal (envelope theorem), also
-  /// where constraints are active.
-  Eigen::MatrixXd cost_by_phi() const { return -(errors_ * metric_) * C_.transpose(); }
-  /// What to subtract from A'A, A = d(Phi C)/d p in the metric, because C follows p: Gauss-Newton's curvature
-  /// of the projected cost. Column k of `phi_by_p_times_C` is d(Phi)/d p_k C M, n x 3 stacked by columns.
-  Eigen::MatrixXd curvature_loss(const Eigen::MatrixXd& phi_by_p_times_C) const;
+  const Eigen::Matrix3d& L() const { return L_; }
+
+  /// Derivative of the cost over parameters p of Phi, and Gauss-Newton's approximation of the second one.
+  /// Column k of `change` is d(Phi)/d p_k C L, n x 3 stacked by columns. C's own change does not count in the
+  /// first: C is optimal (envelope theorem), also where constraints are active. It is projected out of the
+  /// second.
+  Eigen::VectorXd gradient(const Eigen::MatrixXd& change) const;
+  Eigen::MatrixXd curvature(const Eigen::MatrixXd& change) const;
 
  private:
-  void solve_constrained(const Eigen::MatrixXd& gram, const Eigen::MatrixX3d& right);
+  using RuleMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 16, 16>;
+
+  void solve_constrained(const Eigen::MatrixX3d& right);
 
   Eigen::Matrix3d metric_;
-  Eigen::MatrixXd U_;      // C = U D
+  Eigen::Matrix3d L_;
+  RuleMatrix U_;           // C = U D
   Eigen::MatrixXd basis_;  // Phi U
-  SmallMatrix normal_;     // of vec(D), 3m x 3m
-  FreeUnknowns free_;      // of vec(D)
+  RuleMatrix gram_;        // basis' basis
+  Eigen::LLT<RuleMatrix> gram_factor_;
+  bool constraints_active_ = false;
+  SmallMatrix normal_;  // of vec(D), 3m x 3m; only where constraints are active, likewise free_
+  FreeUnknowns free_;
   Eigen::MatrixX3d C_;
   Eigen::MatrixX3d errors_;
   double cost_ = 0.0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "control/input_error.h"
+#include "sim/reference_plant.h"
 
 namespace strainwave {
 
@@ -22,6 +23,12 @@ long whole_periods(double duration_s, double period_s) {
 }
 
 }  // namespace
+
+SimulatedActuatorConfig simulated_reference_joint(bool exact_sensing) {
+  SimulatedActuatorConfig config;
+  config.plant = exact_sensing ? torque_limited_plant() : realistic_plant();
+  return config;
+}
 
 SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
     : plant_(config.plant),

@@ -25,6 +25,10 @@ struct SimulatedActuatorConfig {
   std::uint64_t seed = 1;             ///< of the noise
 };
 
+/// The catalogue's joint: with the datasheet's encoder, delay and supply, or, with `exact_sensing`, limited by its peak
+/// torque only.
+SimulatedActuatorConfig simulated_reference_joint(bool exact_sensing);
+
 class SimulatedActuator final : public Actuator {
  public:
   /// Throws InputError naming the key, the value and what is allowed.

@@ -22,7 +22,7 @@ struct LoopSample {
   double setpoint_position_rad = 0.0;
   double joint_position_rad = 0.0;             ///< as measured
   std::optional<double> joint_velocity_rad_s;  ///< exact; only with an ideal encoder
-  double temperature_C = 0.0;                  ///< as the sensor shows it
+  double temperature_C = 0.0;                  ///< as the sensor shows it; NaN: not known
   double torque_applied_Nm = 0.0;              ///< over the period that ends now
 };
 

@@ -75,7 +75,7 @@ double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
   measurement.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(0.0);
   measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
   measurement.temperature_C = sample.temperature_C;
-  measurement.temperature_valid = true;
+  measurement.temperature_valid = std::isfinite(sample.temperature_C);
   return controller_.step(measurement).output.torque_Nm;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "control/input_error.h"
 #include "sim/parallel.h"
@@ -15,7 +16,6 @@ struct Sensing {
   std::string name;
   double lag_s;
   std::function<double(double sensor_C)> told_C;
-  bool use_fallback;
 };
 
 /// Tells the inner controller another temperature than the sensor's.
@@ -40,12 +40,12 @@ std::vector<Sensing> sensings(const HeatConfig& config) {
   const auto exact = [](double sensor_C) { return sensor_C; };
   const auto shifted = [](double bias_C) { return [bias_C](double sensor_C) { return sensor_C + bias_C; }; };
   const double ambient_C = config.ambient_C;
-  return {{"exact", 0.0, exact, false},
-          {"lag " + number(config.sensor_lag_s) + " s", config.sensor_lag_s, exact, false},
-          {"+" + number(config.bias_C) + " degC", 0.0, shifted(config.bias_C), false},
-          {"-" + number(config.bias_C) + " degC", 0.0, shifted(-config.bias_C), false},
-          {"ambient only", 0.0, [ambient_C](double) { return ambient_C; }, false},
-          {"none (fallback)", 0.0, exact, true}};
+  return {{"exact", 0.0, exact},
+          {"lag " + number(config.sensor_lag_s) + " s", config.sensor_lag_s, exact},
+          {"+" + number(config.bias_C) + " degC", 0.0, shifted(config.bias_C)},
+          {"-" + number(config.bias_C) + " degC", 0.0, shifted(-config.bias_C)},
+          {"ambient only", 0.0, [ambient_C](double) { return ambient_C; }},
+          {"none (fallback)", 0.0, [](double) { return std::numeric_limits<double>::quiet_NaN(); }}};
 }
 
 constexpr int kWindows = 100;
@@ -103,9 +103,7 @@ HeatRun run_one(const HeatConfig& config, const GainTable& table, const Sensing&
   loop.setpoint_rad =
       TimeProfile::square(config.stroke_rad, 0.0, config.interval_s, {"setpoint_position_rad"});
   loop.duration_s = config.duration_s;
-  GainTable used = table;
-  if (sensing.use_fallback) used.primary = table.fallback;
-  const auto controller = extended_contender(sensing.name, used).make(loop.plant);
+  const auto controller = extended_contender(sensing.name, table).make(loop.plant);
   ToldTemperature told(*controller, sensing);
   HeatRun run;
   run.name = sensing.name;

@@ -32,8 +32,8 @@ struct HeatRun {
   Points told_temperature_C;
 };
 
-/// Runs `table` as the daemon does (extended C4) in each way, and its fallback without temperature. Throws
-/// InputError.
+/// Runs `table` as the daemon does (extended C4) in each way; without a temperature that means its fallback gains.
+/// Throws InputError.
 std::vector<HeatRun> run_heat(const HeatConfig& config, const GainTable& table);
 
 TextTable heat_summary(const std::vector<HeatRun>& runs);

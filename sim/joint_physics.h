@@ -50,7 +50,7 @@ double moving_acceleration_rad_s2(const JointParameters& joint, const JointInput
                                   double velocity_rad_s) noexcept;
 
 /// Kinetic energy in J.
-constexpr double kinetic_energy_J(const JointParameters& joint, const JointState& state) noexcept {
+constexpr double kinetic_energy(const JointParameters& joint, const JointState& state) noexcept {
   return 0.5 * joint.inertia_kgm2 * state.velocity_rad_s * state.velocity_rad_s;
 }
 

@@ -83,7 +83,7 @@ void JointPlant::step(double torque_Nm, double load_torque_Nm) noexcept {
   // negative.
   const double work_J = (applied_Nm_ - load_torque_Nm) * (state_.position_rad - before.position_rad);
   const double friction_J =
-      work_J - (kinetic_energy_J(config_.joint, state_) - kinetic_energy_J(config_.joint, before));
+      work_J - (kinetic_energy(config_.joint, state_) - kinetic_energy(config_.joint, before));
   const double winding_W = config_.winding_loss_W_Nm2 * applied_Nm_ * applied_Nm_;
   thermal_.add_loss(winding_W + std::max(0.0, friction_J) / config_.period_s);
   ++periods_;

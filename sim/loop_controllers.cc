@@ -1,9 +1,11 @@
 #include "sim/loop_controllers.h"
 
+#include <cmath>
+
 namespace strainwave {
 
 double FeedbackLoopController::torque_Nm(const LoopSample& sample) noexcept {
-  if (sample.temperature_C != temperature_C_) {
+  if (std::isfinite(sample.temperature_C) && sample.temperature_C != temperature_C_) {
     controller_.set_temperature(sample.temperature_C);
     temperature_C_ = sample.temperature_C;
   }

@@ -12,6 +12,7 @@
 #include "client/exit_status.h"
 #include "control/input_error.h"
 #include "tests/client/fake_daemon.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -165,7 +166,8 @@ TEST_F(CommandsTest, RefusedMoveThatLooksLikeDegreesGetsAHint) {
 
 TEST_F(CommandsTest, LoadTableRefusesAFileThatIsNoTableBeforeAnythingIsSent) {
   daemon.publish_state();
-  const auto file = std::filesystem::path(testing::TempDir()) / "no_table.json";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "no_table.json";
   std::ofstream(file) << "{}";
   EXPECT_THROW(load_table(client, output, {"elbow", file}), InputError);
   EXPECT_THROW(load_table(client, output, {std::nullopt, "/nonexistent/table.json"}), InputError);
@@ -208,8 +210,8 @@ TEST_F(CommandsTest, WatchOnATerminalRewritesItsLinesInPlace) {
 }
 
 TEST_F(CommandsTest, RecordWritesEveryReceivedStateOfTheChosenJoints) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "record_test.csv";
-  std::filesystem::remove(file);
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "record_test.csv";
   FakeDaemon wrist(connection, "SW", "wrist");
   daemon.publish_state(Mode::kHolding);
   client.wait_for_joint("elbow");
@@ -227,7 +229,8 @@ TEST_F(CommandsTest, RecordWritesEveryReceivedStateOfTheChosenJoints) {
 }
 
 TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "record_kept.csv";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "record_kept.csv";
   std::ofstream(file) << "precious\n";
   daemon.publish_state();
   const auto attempt = [&](bool overwrite) {

@@ -10,20 +10,13 @@
 
 #include "client/sender.h"
 #include "control/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
 class KeyFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "strainwave-key-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = folder_ / "key";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   static mode_t mode_of(const std::filesystem::path& path) {
     struct stat status {};
     EXPECT_EQ(::stat(path.c_str(), &status), 0);
@@ -36,8 +29,9 @@ class KeyFile : public ::testing::Test {
     return text.str();
   }
 
-  std::filesystem::path folder_;
-  std::filesystem::path path_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+  std::filesystem::path path_ = folder_ / "key";
 };
 
 TEST_F(KeyFile, IsMadeForItsOwnerAloneWhateverTheUmask) {

@@ -8,6 +8,7 @@
 
 #include "control/input_error.h"
 #include "control/text_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -120,7 +121,8 @@ TEST(GainTableJson, MessagesNameTheFile) {
 TEST(GainTableJson, ADefectiveTableIsNotWritten) {
   GainTable table = read_gain_table(kTables / "c4.json");
   table.torque_limit_Nm = -1.0;
-  const auto path = std::filesystem::path(testing::TempDir()) / "defective_table.json";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "defective_table.json";
   EXPECT_THROW(write_gain_table(table, path), InputError);
   EXPECT_FALSE(std::filesystem::exists(path));
 }

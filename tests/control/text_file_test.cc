@@ -3,18 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "control/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
 class TextFile : public ::testing::Test {
  protected:
-  TextFile() {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~TextFile() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "strainwave_text_file_test";
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 TEST_F(TextFile, ReadsBackWhatWasWritten) {

@@ -8,20 +8,13 @@
 #include <fstream>
 
 #include "control/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
 class AuthorizedKeysFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "strainwave-keys-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = folder_ / "authorized_keys";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   static AuthorizedKey some_key(Role role) { return {SecretKey::generate().public_key(), role, "someone"}; }
   void write(const std::string& text) const { std::ofstream(path_) << text; }
   std::string error() const {
@@ -33,8 +26,9 @@ class AuthorizedKeysFile : public ::testing::Test {
     return "";
   }
 
-  std::filesystem::path folder_;
-  std::filesystem::path path_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+  std::filesystem::path path_ = folder_ / "authorized_keys";
 };
 
 TEST_F(AuthorizedKeysFile, ReadsKeysAndSkipsCommentsAndEmptyLines) {

@@ -1,13 +1,13 @@
 #include "daemon/config.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "control/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -38,13 +38,6 @@ ambient_temperature_C = "sine:15,25,1"
 
 class ConfigTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "strainwave-config-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   DaemonConfig read(const std::string& text) {
     std::ofstream(folder_ / "c.toml") << text;
     return read_config(folder_ / "c.toml");
@@ -66,7 +59,8 @@ class ConfigTest : public ::testing::Test {
   static void expect_mentions(const std::string& message, std::initializer_list<const char*> parts) {
     for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   }
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 TEST_F(ConfigTest, ReadsASoundFile) {

@@ -15,6 +15,7 @@
 
 #include "daemon/flight_record_file.h"
 #include "daemon/realtime/periodic_clock.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -39,14 +40,11 @@ std::vector<std::string> lines_of(const fs::path& path) {
 class FlightRecordWriterTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = fs::temp_directory_path() / "strainwave-flight-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    config_.directory = fs::path(name) / "records";
+    config_.directory = temporary_.path() / "records";
     config_.min_interval_s = 0.0;
   }
   void TearDown() override {
-    fs::permissions(config_.directory.parent_path(), fs::perms::owner_all);
-    fs::remove_all(config_.directory.parent_path());
+    fs::permissions(temporary_.path(), fs::perms::owner_all);
   }
 
   FlightRecordWriter writer() {

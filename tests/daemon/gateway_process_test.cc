@@ -14,6 +14,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace strainwave {
 namespace {
 
@@ -23,18 +25,15 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 class EndlessProgram {
  public:
   EndlessProgram() {
-    std::string name = std::filesystem::temp_directory_path() / "strainwave-gateway-XXXXXX";
-    folder_ = ::mkdtemp(name.data());
     std::ofstream(path()) << "#!/bin/sh\nexec sleep 1000\n";
     ::chmod(path().c_str(), 0700);
   }
-  ~EndlessProgram() { std::filesystem::remove_all(folder_); }
   EndlessProgram(const EndlessProgram&) = delete;
   EndlessProgram& operator=(const EndlessProgram&) = delete;
-  std::string path() const { return folder_ / "endless"; }
+  std::string path() const { return folder_.path() / "endless"; }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 /// Waits for the end of the child, which takes real time; the clock of the back-off is `now_ns`.

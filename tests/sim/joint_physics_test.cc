@@ -53,11 +53,11 @@ TEST(JointPhysics, NeverGainsEnergyWithoutInput) {
   for (const double temperature_C : {-10.0, 15.0, 45.0}) {
     for (const double velocity_rad_s : {1e-6, 0.01, -0.3, 8.0}) {
       JointState state = moving(velocity_rad_s);
-      double energy_J = kinetic_energy_J(joint, state);
+      double energy_J = kinetic_energy(joint, state);
       for (int k = 0; k < 3000 && !state.stuck; ++k) {
         advance(state, joint, reference_input(0.0, temperature_C), 1e-3, 10);
-        EXPECT_LT(kinetic_energy_J(joint, state), energy_J);
-        energy_J = kinetic_energy_J(joint, state);
+        EXPECT_LT(kinetic_energy(joint, state), energy_J);
+        energy_J = kinetic_energy(joint, state);
       }
       EXPECT_TRUE(state.stuck) << "friction alone stops every motion";
       EXPECT_EQ(state.velocity_rad_s, 0.0);

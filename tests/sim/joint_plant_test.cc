@@ -105,7 +105,7 @@ TEST(JointPlant, TurnsTheWorkOfFrictionIntoHeat) {
     plant.step(10.0);
     work_J += 10.0 * (plant.state().position_rad - before_rad);
   }
-  const double kept_J = kinetic_energy_J(config.joint, plant.state());
+  const double kept_J = kinetic_energy(config.joint, plant.state());
   plant.set_ambient_temperature(20.0);
   EXPECT_NEAR((plant.joint_temperature_C() - 20.0) * 1e9 / 1.2, work_J - kept_J, 1e-4 * work_J);
 }

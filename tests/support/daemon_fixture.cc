@@ -208,14 +208,6 @@ void TestClient::on_timing(const lcm::ReceiveBuffer*, const std::string&, const 
   timing_ = *message;
 }
 
-void DaemonTest::SetUp() {
-  std::string name = std::filesystem::temp_directory_path() / "strainwave-test-XXXXXX";
-  ASSERT_NE(::mkdtemp(name.data()), nullptr);
-  folder_ = name;
-}
-
-void DaemonTest::TearDown() { std::filesystem::remove_all(folder_); }
-
 std::string DaemonTest::configuration(const std::string& joint_extra, const std::string& daemon_extra) {
   return R"([daemon]
 real_time = "ignore"

@@ -23,6 +23,7 @@
 
 #include "control/gain_table.h"
 #include "lcmtypes/vocabulary.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave::testing {
 
@@ -114,16 +115,14 @@ class TestClient {
 /// A folder and, in a network of the test's own, room for daemons and clients.
 class DaemonTest : public ::testing::Test {
  protected:
-  void SetUp() override;
-  void TearDown() override;
-
   /// A configuration with one simulated joint "elbow" on prefix SW; `joint_extra` goes into its [[joint]] (sub-tables
   /// included), `daemon_extra` into [daemon].
   static std::string configuration(const std::string& joint_extra = "", const std::string& daemon_extra = "");
   /// The table shipped for that joint.
   static GainTable shipped_table();
 
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 }  // namespace strainwave::testing

@@ -38,10 +38,22 @@ constexpr double kCount_rad = 2.0 * 3.14159265358979323846 / 320000.0;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// The daemon's memory file of this name, mapped for reading.
+MemoryFile open_memory(pid_t daemon, const std::string& name, std::size_t size) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(daemon) + "/fd")) {
+    std::error_code error;
+    if (std::filesystem::read_symlink(entry.path(), error).string().find(name) == std::string::npos) continue;
+    return MemoryFile::open(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC), size, false);
+  }
+  throw std::runtime_error("the daemon has no memory file " + name);
+}
+
 /// Reads every cycle's record from the daemon's shared memory, as its gateway does.
 class LoopObserver {
  public:
-  explicit LoopObserver(pid_t daemon) : file_(open_outbound(daemon)) { cursor_ = memory().states.written(); }
+  explicit LoopObserver(pid_t daemon) : file_(open_memory(daemon, "strainwave-outbound", sizeof(OutboundMemory))) {
+    cursor_ = memory().states.written();
+  }
 
   /// What the loop did since the last call.
   struct Summary {
@@ -81,20 +93,52 @@ class LoopObserver {
 
  private:
   const OutboundMemory& memory() const { return *static_cast<const OutboundMemory*>(file_.address()); }
-  static MemoryFile open_outbound(pid_t daemon) {
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(daemon) + "/fd")) {
-      std::error_code error;
-      if (std::filesystem::read_symlink(entry.path(), error).string().find("strainwave-outbound") == std::string::npos)
-        continue;
-      return MemoryFile::open(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC), sizeof(OutboundMemory), false);
-    }
-    throw std::runtime_error("the daemon has no shared memory");
-  }
 
   MemoryFile file_;
   std::uint64_t cursor_ = 0;
   std::int64_t last_cycle_ = -1;
   double last_torque_Nm_ = 0.0;
+};
+
+/// How often the gateway was away and for how long at most: until the next one does its work, not until it exists. To be
+/// asked often.
+class GatewayWatch {
+ public:
+  explicit GatewayWatch(const DaemonProcess& daemon)
+      : daemon_(daemon),
+        file_(open_memory(daemon.pid(), "strainwave-inbound", sizeof(InboundMemory))),
+        pid_(daemon.gateway_pid()) {}
+
+  void look() {
+    const pid_t now = daemon_.gateway_pid();
+    if (now != pid_ && !away_) {
+      away_ = true;
+      gone_since_ = Clock::now();
+      turns_ = turns();
+    }
+    pid_ = now;
+    if (!away_ || turns() == turns_) return;
+    away_ = false;
+    ++restarts_;
+    last_s_ = seconds_since(gone_since_);
+    longest_s_ = std::max(longest_s_, last_s_);
+  }
+  int restarts() const { return restarts_; }
+  double last_absence_s() const { return last_s_; }
+  double longest_absence_s() const { return longest_s_; }
+
+ private:
+  std::uint64_t turns() const { return static_cast<const InboundMemory*>(file_.address())->turns.load(); }
+
+  const DaemonProcess& daemon_;
+  MemoryFile file_;
+  pid_t pid_;
+  bool away_ = false;
+  std::uint64_t turns_ = 0;
+  Clock::time_point gone_since_;
+  int restarts_ = 0;
+  double last_s_ = 0.0;
+  double longest_s_ = 0.0;
 };
 
 class HostileSystem : public DaemonTest {
@@ -134,12 +178,12 @@ class HostileSystem : public DaemonTest {
     return client.wait_for_answer(message.sequence, timeout);
   }
 
-  /// Observes the loop until `done`, at least every 20 ms.
+  /// Observes the loop until `done`, every 5 ms.
   LoopObserver::Summary observe_until(const std::function<bool()>& done) {
     LoopObserver::Summary summary;
     while (!done()) {
       observer_->observe(summary);
-      std::this_thread::sleep_for(milliseconds(20));
+      std::this_thread::sleep_for(milliseconds(5));
     }
     observer_->observe(summary);
     return summary;
@@ -156,7 +200,7 @@ class HostileSystem : public DaemonTest {
     EXPECT_FALSE(attacked.left_tracking);
     EXPECT_EQ(attacked.records_dropped, 0);
     EXPECT_LE(attacked.worst_error_rad, calm.worst_error_rad + 2.0 * kCount_rad);
-    EXPECT_LE(attacked.rms_error_rad(), 1.1 * calm.rms_error_rad() + 0.1 * kCount_rad);
+    EXPECT_LE(attacked.rms_error_rad(), 1.05 * calm.rms_error_rad() + 0.1 * kCount_rad);
     EXPECT_LE(attacked.worst_torque_step_Nm, 1.2 * calm.worst_torque_step_Nm);
     // Generous: the machine has other things to do, and without real-time priority the loop shares it.
     EXPECT_GT(static_cast<double>(attacked.cycles), 0.8 * duration_s / kPeriod_s);
@@ -175,17 +219,6 @@ class HostileSystem : public DaemonTest {
     EXPECT_TRUE(answer.accepted) << answer.text;
     EXPECT_TRUE(client.wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
   }
-  /// Seconds until the daemon has another gateway than `old`.
-  double time_until_new_gateway(pid_t old) const {
-    const auto start = Clock::now();
-    while (seconds_since(start) < 20.0) {
-      const pid_t gateway = daemon_->gateway_pid();
-      if (gateway > 0 && gateway != old) break;
-      std::this_thread::sleep_for(milliseconds(2));
-    }
-    return seconds_since(start);
-  }
-
   SecretKey key_ = SecretKey::generate();
   std::optional<DaemonProcess> daemon_;
   std::optional<LoopObserver> observer_;
@@ -216,36 +249,13 @@ class Attacker {
   int status_ = -1;
 };
 
-/// How often the gateway was away, and for how long at most; to be asked often.
-class GatewayWatch {
- public:
-  explicit GatewayWatch(const DaemonProcess& daemon) : daemon_(daemon), pid_(daemon.gateway_pid()) {}
-  void look() {
-    const pid_t now = daemon_.gateway_pid();
-    if (now == pid_) return;
-    if (now < 0 && pid_ > 0) gone_since_ = Clock::now();
-    if (now > 0) {
-      ++restarts_;
-      if (pid_ < 0) longest_s_ = std::max(longest_s_, seconds_since(gone_since_));
-    }
-    pid_ = now;
-  }
-  int restarts() const { return restarts_; }
-  double longest_absence_s() const { return longest_s_; }
-
- private:
-  const DaemonProcess& daemon_;
-  pid_t pid_;
-  Clock::time_point gone_since_;
-  int restarts_ = 0;
-  double longest_s_ = 0.0;
-};
-
 TEST_F(HostileSystem, AMillionHostileDatagramsDisturbNeitherTheLoopNorItsTorque) {
-  start_tracking();
+  // The same part of the same move, without and with the attack.
   constexpr double kDuration_s = static_cast<double>(kDatagrams) / kDatagramsPer_s;
+  start_tracking();
   const LoopObserver::Summary calm = observe_for(kDuration_s);
   report("calm", calm, kDuration_s);
+  start_tracking();
 
   GatewayWatch watch(*daemon_);
   const auto start = Clock::now();
@@ -277,17 +287,25 @@ TEST_F(HostileSystem, AMillionHostileDatagramsDisturbNeitherTheLoopNorItsTorque)
 TEST_F(HostileSystem, AKilledGatewayIsBackWithinASecondEachTimeAndIsObeyed) {
   start_tracking();
   const LoopObserver::Summary calm = observe_for(2.0);
-  LoopObserver::Summary attacked;
+  GatewayWatch watch(*daemon_);
+  constexpr int kKills = 6;
   const auto start = Clock::now();
-  for (int i = 0; i < 6; ++i) {
-    const pid_t old = daemon_->gateway_pid();
-    ASSERT_GT(old, 0);
-    ASSERT_EQ(::kill(old, SIGKILL), 0);
-    const double away_s = time_until_new_gateway(old);
-    std::printf("killed: back after %.3f s\n", away_s);
-    EXPECT_LT(away_s, 1.0);
-    observer_->observe(attacked);
-  }
+  auto killed = Clock::now();
+  const LoopObserver::Summary attacked = observe_until([&] {
+    watch.look();
+    if (watch.restarts() == kKills) return true;
+    const pid_t gateway = daemon_->gateway_pid();
+    // Each new one once: it is let to work first.
+    if (gateway > 0 && seconds_since(killed) > 1.5) {
+      if (watch.restarts() > 0) std::printf("back after %.3f s\n", watch.last_absence_s());
+      ::kill(gateway, SIGKILL);
+      killed = Clock::now();
+    }
+    return seconds_since(start) > 60.0;
+  });
+  std::printf("back after %.3f s\n", watch.last_absence_s());
+  EXPECT_EQ(watch.restarts(), kKills);
+  EXPECT_LT(watch.longest_absence_s(), 1.0);
   expect_undisturbed(attacked, calm, seconds_since(start));
   expect_orders_obeyed();
 }
@@ -328,7 +346,7 @@ TEST_F(HostileSystem, ASubscriberThatNeverReadsHoldsUpNobody) {
 std::string status_line(const std::string& path, const std::string& key) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
-    if (line.starts_with(key + ":")) return line.substr(line.find_first_not_of(" \t", key.size() + 1));
+    if (line.starts_with(key + ":")) return line.substr(std::min(line.find_first_not_of(" \t", key.size() + 1), line.size()));
   return "absent";
 }
 
@@ -354,9 +372,11 @@ TEST_F(HostileSystem, TheGatewayRunsWithoutPrivilegesInEveryThread) {
 TEST_F(HostileSystem, StartedByRootTheGatewayIsAnotherUserWithNothingOpenButItsChannels) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can start it as another user";
   start_tracking();
+  if (daemon_->log().find("gateway: as the daemon's own user") != std::string::npos)
+    GTEST_SKIP() << "this user namespace has no other user";
   const std::string process = "/proc/" + std::to_string(daemon_->gateway_pid());
   EXPECT_NE(status_line(process + "/status", "Uid").substr(0, 2), "0\t");
-  EXPECT_EQ(status_line(process + "/status", "Groups"), "absent");
+  EXPECT_EQ(status_line(process + "/status", "Groups"), "");
   for (const auto& entry : std::filesystem::directory_iterator(process + "/fd")) {
     const std::string target = std::filesystem::read_symlink(entry.path());
     const bool known = target == "/dev/null" || target.starts_with("/memfd:strainwave-") || target.starts_with("socket:") ||

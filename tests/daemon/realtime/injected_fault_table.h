@@ -75,7 +75,7 @@ inline const std::vector<InjectedFaultCase>& injected_fault_table() {
        100},
       {"SensorDelayedByOnePeriod",
        {K::kSensorDelayed, 0, 0, 0.001},
-       D::kHoldingThenMoving,
+       D::kHolding,
        R::kNone,
        {},
        2000},

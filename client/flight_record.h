@@ -1,0 +1,25 @@
+// A flight record as docs/flight-recorder.md describes it: what its head says, and gnuplot's instructions to
+// draw it. Not real-time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace strainwave {
+
+struct FlightRecordInfo {
+  std::map<std::string, std::string> head;  ///< "joint", "fault", "fault_utc", ...
+  std::map<std::string, int> columns;       ///< 1 is the first, as gnuplot counts
+};
+
+/// Reads the head. Throws InputError when the file cannot be read or is no flight record of format 1 with the
+/// columns that the drawing needs.
+FlightRecordInfo read_flight_record(const std::filesystem::path& file);
+
+/// Draws `file` into `png`; with `around_s` only so much before and after the fault.
+std::string plot_script(const FlightRecordInfo& info, const std::filesystem::path& file,
+                        const std::filesystem::path& png, std::optional<double> around_s);
+
+}  // namespace strainwave

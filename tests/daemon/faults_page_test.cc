@@ -1,0 +1,148 @@
+// docs/faults.md against the vocabulary and the table of injected faults.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "lcmtypes/vocabulary.h"
+#include "tests/daemon/realtime/injected_fault_table.h"
+#include "tests/support/message_files.h"
+
+namespace strainwave::testing {
+namespace {
+
+const std::filesystem::path kSource = STRAINWAVE_SOURCE_DIR;
+using Row = std::vector<std::string>;
+
+std::string trimmed(const std::string& cell) {
+  const std::size_t first = cell.find_first_not_of(" `");
+  return first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(" `") - first + 1);
+}
+
+/// Rows of all tables under "## title", their two header lines left out.
+std::vector<Row> rows_under(const std::string& title) {
+  std::istringstream page(read_text(kSource / "docs" / "faults.md"));
+  std::vector<Row> rows;
+  bool inside = false;
+  bool previous_was_row = false;
+  int header = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("#")) inside = line == "## " + title;
+    const bool is_row = inside && line.starts_with("|");
+    if (is_row && !previous_was_row) header = 2;
+    previous_was_row = is_row;
+    if (!is_row || header-- > 0) continue;
+    Row row;
+    std::istringstream cells(line.substr(1));
+    for (std::string cell; std::getline(cells, cell, '|');) row.push_back(trimmed(cell));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Enumerators of an enum class in vocabulary.h, as they are written there.
+std::map<int, std::string> declared(const std::string& name) {
+  const std::string text = read_text(kSource / "lcmtypes" / "vocabulary.h");
+  const std::size_t begin = text.find("enum class " + name + " ");
+  const std::string body = text.substr(begin, text.find("};", begin) - begin);
+  std::map<int, std::string> enumerators;
+  const std::regex enumerator(R"((k\w+) = (\d+)( << (\d+))?)");
+  for (std::sregex_iterator it(body.begin(), body.end(), enumerator); it != std::sregex_iterator(); ++it) {
+    const int value = std::stoi((*it)[2]);
+    enumerators[(*it)[4].matched ? value << std::stoi((*it)[4]) : value] = (*it)[1];
+  }
+  return enumerators;
+}
+
+template <typename Enum>
+void expect_page_lists(const std::string& title, const std::string& enumeration) {
+  const auto enumerators = declared(enumeration);
+  ASSERT_FALSE(enumerators.empty());
+  std::set<int> documented;
+  for (const Row& row : rows_under(title)) {
+    const int number = std::stoi(row.at(0));
+    documented.insert(number);
+    ASSERT_TRUE(enumerators.contains(number)) << number;
+    EXPECT_EQ(row.at(1), enumerators.at(number)) << number;
+    EXPECT_EQ(row.at(2), to_text(static_cast<Enum>(number))) << number;
+    EXPECT_EQ(row.size(), rows_under(title).front().size()) << number;
+    EXPECT_EQ(row.back(), configuration_key(static_cast<Enum>(number))) << number;
+    const bool explained = number == 0 || !row.at(3).empty();
+    EXPECT_TRUE(explained) << number;
+  }
+  EXPECT_EQ(documented.size(), enumerators.size()) << title;
+}
+
+TEST(FaultsPage, ListsEveryFaultWithItsNumberTextAndKey) {
+  expect_page_lists<Fault>("Faults", "Fault");
+}
+
+TEST(FaultsPage, ListsEveryNoticeWithItsNumberTextAndKey) {
+  expect_page_lists<Notice>("Notices", "Notice");
+}
+
+TEST(FaultsPage, SaysOfEveryFaultWhatToDoAndHowFastItWorks) {
+  for (const Row& row : rows_under("Faults")) {
+    if (row.at(0) == "0") continue;
+    EXPECT_FALSE(row.at(4).empty()) << row.at(2) << ": effect";
+    EXPECT_FALSE(row.at(5).empty()) << row.at(2) << ": within";
+    EXPECT_FALSE(row.at(6).empty()) << row.at(2) << ": remedy";
+  }
+}
+
+std::string doing_text(Doing doing) {
+  switch (doing) {
+    case Doing::kHolding:
+      return "holding";
+    case Doing::kMoving:
+      return "moving";
+    case Doing::kHoldingThenMoving:
+      return "holding, then a move";
+  }
+  return "";
+}
+
+std::string reaction_text(const InjectedFaultCase& entry) {
+  if (entry.reaction == Reaction::kNone) return "none: tolerated";
+  if (entry.reaction == Reaction::kFallbackGains) return "notice 4, temperature-free gains";
+  std::string text = "fault ";
+  for (const Fault fault : entry.faults)
+    text += (fault == entry.faults.front() ? "" : " or ") + std::to_string(static_cast<int>(fault));
+  return text;
+}
+
+std::string expected_row(const InjectedFaultCase& entry) {
+  std::ostringstream row;
+  row << "| `" << to_text(entry.injection.kind) << "` | ";
+  if (entry.injection.amount != 0.0) row << entry.injection.amount << " ";
+  row << "| " << doing_text(entry.doing) << " | " << reaction_text(entry) << " | ";
+  if (entry.reaction != Reaction::kNone) row << entry.within_cycles << " ";
+  row << "|";
+  return row.str();
+}
+
+TEST(FaultsPage, PromisesOfInjectedFaultsWhatTheLoopIsTestedFor) {
+  const std::string page = read_text(kSource / "docs" / "faults.md");
+  std::size_t promises = 0;
+  for (const InjectedFaultCase& entry : injected_fault_table()) {
+    EXPECT_NE(page.find("\n" + expected_row(entry) + "\n"), std::string::npos) << "missing:\n"
+                                                                               << expected_row(entry);
+    ++promises;
+  }
+  EXPECT_EQ(rows_under("Injected faults").size(), promises + kInjectedFaultCount)
+      << "a promise that nothing tests";
+}
+
+TEST(FaultsPage, ListsEveryKindOfInjectedFault) {
+  const auto rows = rows_under("Injected faults");
+  for (std::size_t kind = 0; kind < kInjectedFaultCount; ++kind) {
+    EXPECT_EQ(rows.at(kind).at(0), std::to_string(kind));
+    EXPECT_EQ(rows.at(kind).at(1), to_text(static_cast<InjectedFault>(kind)));
+  }
+}
+
+}  // namespace
+}  // namespace strainwave::testing

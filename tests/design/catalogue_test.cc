@@ -1,0 +1,82 @@
+#include "design/catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "control/input_error.h"
+#include "design/csv.h"
+
+namespace strainwave {
+namespace {
+
+const std::filesystem::path kData = STRAINWAVE_SOURCE_DIR "/data";
+
+// Half a unit of the last digit that the source prints: 5 significant digits for viscous, 4 decimals for the
+// others.
+double printed_viscous_error(double value) {
+  return 0.51 * std::pow(10.0, std::floor(std::log10(value)) - 4.0);
+}
+
+TEST(Catalogue, ReproducesTheSourcesParametersToThePrintedDigits) {
+  const FrictionData data = read_catalogue(kData / "no_load_torque.csv", 1.6);
+  const CsvTable printed = read_csv(kData / "friction_parameters.csv");
+  ASSERT_EQ(data.points.size(), printed.rows.size());
+  for (std::size_t k = 0; k < data.points.size(); ++k) {
+    const FrictionPoint& point = data.points[k];
+    const auto& row = printed.rows[k];
+    EXPECT_EQ(point.temperature_C, row[0]);
+    EXPECT_NEAR(point.motor_viscous_Ncm_per_rpm, row[1], printed_viscous_error(row[1]))
+        << point.temperature_C;
+    EXPECT_NEAR(point.motor_coulomb_Ncm, row[2], 0.51e-4) << point.temperature_C;
+    // The source takes 1.5 and 1.55 N.cm of starting torque at 15 and 17.5 degC, 1.6 elsewhere (one value
+    // printed with 3 decimals).
+    const double starting = row[0] == 15.0 ? 1.5 : row[0] == 17.5 ? 1.55 : 1.6;
+    EXPECT_NEAR(point.motor_static_Ncm, row[3] + 1.6 - starting, 4e-4) << point.temperature_C;
+  }
+}
+
+TEST(Catalogue, ReadsParametersAsTheyAre) {
+  const FrictionData data = read_catalogue(kData / "friction_parameters.csv", 99.0);
+  EXPECT_EQ(data.points.front().motor_static_Ncm, 8.7247);
+  EXPECT_EQ(data.motor_speeds_rpm, (std::vector<double>{500.0, 1000.0, 2000.0, 3500.0}));
+  EXPECT_EQ(data.sha256.size(), 64u);
+}
+
+class CatalogueFile : public ::testing::Test {
+ protected:
+  std::string message_of(const std::string& text) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "catalogue_test.csv";
+    std::ofstream(path) << text;
+    try {
+      read_catalogue(path, 1.6);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(CatalogueFile, RefusesWhatIsNotACatalogue) {
+  const std::string header = "temperature_C,torque_500rpm_Ncm,torque_1000rpm_Ncm\n";
+  EXPECT_EQ(message_of(header + "0,1,2\n5,1,2\n10,1,2\n"), "");
+  EXPECT_NE(message_of(header + "0,1,2\n5,1,2\n").find("three temperatures"), std::string::npos);
+  EXPECT_NE(message_of(header + "0,1,2\n5,1,2\n5,1,2\n").find("line 4"), std::string::npos);
+  EXPECT_NE(message_of(header + "0,1,2\n5,-1,2\n10,1,2\n").find("line 3"), std::string::npos);
+  EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm,speed\n0,1,2\n").find("speed"), std::string::npos);
+  EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm\n0,1\n5,1\n10,1\n").find("two or more speeds"),
+            std::string::npos);
+}
+
+TEST_F(CatalogueFile, AColumnOfStartingTorqueCountsBeforeTheOption) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "catalogue_test_starting.csv";
+  std::ofstream(path) << "temperature_C,torque_1rpm_Ncm,torque_2rpm_Ncm,starting_torque_Ncm\n0,1,1,0.5\n5,1,"
+                         "1,0.25\n10,1,1,0\n";
+  const FrictionData data = read_catalogue(path, 1.6);
+  EXPECT_NEAR(data.points[0].motor_static_Ncm, 1.5, 1e-12);
+  EXPECT_NEAR(data.points[1].motor_static_Ncm, 1.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,48 @@
+#include "design/csv.h"
+
+#include <gtest/gtest.h>
+
+#include "control/input_error.h"
+
+namespace strainwave {
+namespace {
+
+std::string message_of(const std::string& text) {
+  try {
+    parse_csv(text, "file.csv");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Csv, ReadsCommentsHeaderAndNumbers) {
+  const CsvTable table = parse_csv("# note\na, b\r\n1,2.5\n\n-3e-2, 4\n", "file.csv");
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.column("b"), 1u);
+  EXPECT_EQ(table.rows[1][0], -0.03);
+  EXPECT_EQ(table.line_numbers[1], 5);
+}
+
+TEST(Csv, NamesFileAndLineOfEveryDefect) {
+  EXPECT_NE(message_of("a,b\n1,x\n").find("file.csv, line 2, b"), std::string::npos);
+  EXPECT_NE(message_of("a,b\n1\n").find("line 2"), std::string::npos);
+  EXPECT_NE(message_of("a,b\n1,2,3\n").find("3 fields"), std::string::npos);
+  EXPECT_NE(message_of("a,a\n1,2\n").find("occurs twice"), std::string::npos);
+  for (const char* const bad : {"nan", "inf", "1e999", "1 2", "", "0x10", "1,"}) {
+    EXPECT_NE(message_of(std::string("a,b\n1,") + bad + "\n"), "") << bad;
+  }
+}
+
+TEST(Csv, RefusesFilesWithoutData) {
+  EXPECT_NE(message_of(""), "");
+  EXPECT_NE(message_of("# only a note\n"), "");
+  EXPECT_NE(message_of("a,b\n"), "");
+}
+
+TEST(Csv, AMissingColumnIsNamed) {
+  EXPECT_THROW(parse_csv("a\n1\n", "file.csv").column("b"), InputError);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,97 @@
+// strainwave-design as its user meets it: exit status, messages, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "control/gain_table_json.h"
+#include "control/text_file.h"
+
+namespace strainwave {
+namespace {
+
+const std::string kData = STRAINWAVE_SOURCE_DIR "/data/";
+
+class DesignProgram : public ::testing::Test {
+ protected:
+  DesignProgram() { std::filesystem::create_directories(folder_); }
+  ~DesignProgram() override { std::filesystem::remove_all(folder_); }
+
+  // Exit status; `output_` is what it printed to both streams.
+  int run(const std::string& arguments) {
+    const std::string log = (folder_ / "log").string();
+    const int status = std::system(
+        (STRAINWAVE_BINARY_DIR "/bin/strainwave-design " + arguments + " > '" + log + "' 2>&1").c_str());
+    output_ = read_text_file(log);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("design_program_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::string output_;
+};
+
+TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {
+  ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --out " + file("friction.json")), 0) << output_;
+  ASSERT_EQ(run("gains --friction " + file("friction.json") + " --out " + file("table.json")), 0) << output_;
+  EXPECT_EQ(run("verify " + file("table.json")), 0) << output_;
+  EXPECT_EQ(run("show " + file("table.json")), 0) << output_;
+  const GainTable made = read_gain_table(file("table.json"));
+  const GainTable shipped = read_gain_table(kData + "tables/rhs17-6006.json");
+  ASSERT_EQ(made.primary.rule_count, shipped.primary.rule_count);
+  for (int j = 0; j < made.primary.rule_count; ++j) {
+    EXPECT_TRUE(made.primary.gain(j).isApprox(shipped.primary.gain(j), 1e-6)) << j;
+  }
+  EXPECT_TRUE(made.fallback.gain(0).isApprox(shipped.fallback.gain(0), 1e-6));
+}
+
+TEST_F(DesignProgram, VerifyEndsWith1ForATamperedTable) {
+  std::string text = read_text_file(kData + "tables/c4.json");
+  GainTable table = gain_table_from_json(text, "test");
+  for (double& gain : table.primary.F[2]) gain = -gain;
+  write_text_file(file("table.json"), to_json(table));
+  EXPECT_EQ(run("verify " + file("table.json")), 1);
+  EXPECT_NE(output_.find("NOT CERTIFIED"), std::string::npos);
+}
+
+TEST_F(DesignProgram, AnInfeasibleRequestLeavesAMessageAndNoFile) {
+  EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --max-torque_Nm 0.001 --out " +
+                file("table.json")),
+            1);
+  EXPECT_NE(output_.find("--max-torque_Nm"), std::string::npos) << output_;
+  EXPECT_FALSE(std::filesystem::exists(file("table.json")));
+}
+
+TEST_F(DesignProgram, BadInputIsNamed) {
+  EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --period_s -1 --out " + file("t.json")),
+            1);
+  EXPECT_NE(output_.find("period_s"), std::string::npos) << output_;
+  EXPECT_EQ(run("gains --friction /nonexistent.json --out " + file("t.json")), 1);
+  EXPECT_NE(output_.find("/nonexistent.json"), std::string::npos) << output_;
+  EXPECT_EQ(run("fit " + kData + "rhs17_datasheet.csv --out " + file("f.json")), 1);
+  EXPECT_NE(output_.find("rhs17_datasheet.csv"), std::string::npos) << output_;
+  EXPECT_NE(run("gains --frobnicate"), 0);
+  EXPECT_NE(run(""), 0);
+}
+
+TEST_F(DesignProgram, TheSameSeedGivesTheSameFile) {
+  const std::string fit = "fit " + kData + "friction_parameters.csv --weighting source --seed 3 --out ";
+  ASSERT_EQ(run(fit + file("a.json") + " --threads 1"), 0) << output_;
+  ASSERT_EQ(run(fit + file("b.json") + " --threads 3"), 0) << output_;
+  EXPECT_EQ(read_text_file(file("a.json")), read_text_file(file("b.json")));
+}
+
+TEST_F(DesignProgram, AllControllersAtOnce) {
+  ASSERT_EQ(
+      run("gains --controller all --friction " + kData + "fuzzy_rules_table5.csv --out " + folder_.string()),
+      0)
+      << output_;
+  for (const char* const name : {"c1.json", "c2.json", "c3.json", "c4.json"})
+    EXPECT_EQ(run("verify " + file(name)), 0) << output_;
+}
+
+}  // namespace
+}  // namespace strainwave
