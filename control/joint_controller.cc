@@ -24,10 +24,22 @@ constexpr double kReplanPushes = 4.0;
 // grows until someone notices.
 constexpr int kPlanLimit = 50;
 
+// A landing takes some 100 periods. One that takes this many, or has to begin this often, does not come off
+// (the delay or the encoder are not what the configuration says): feedback ends the motion, and after so many
+// in a row no more are tried until start().
+constexpr int kLandingPeriods = 400;
+constexpr int kLandingBegins = 6;
+constexpr int kLandingFailures = 3;
+// Periods until the next try.
+constexpr int kLandingPause = 500;
+// Periods that a resting joint must be off its target before it moves again: a count may flicker.
+constexpr int kLeavePeriods = 3;
+
 VelocityObserverConfig observer_config(const JointControllerConfig& config) noexcept {
   VelocityObserverConfig observer;
   observer.period_s = config.period_s;
   observer.encoder_resolution_rad = config.encoder_resolution_rad;
+  observer.edge_deviation_counts = config.encoder_deviation_counts;
   return observer;
 }
 
@@ -81,6 +93,9 @@ void JointController::start(double position_rad) noexcept {
   previous_position_rad_ = position_rad;
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
+  plans_ = 0;
+  begin_landings();
+  landing_failures_ = 0;
   started_ = false;
   carry_over_ = false;
 }
@@ -89,6 +104,7 @@ void JointController::set_target(double position_rad) noexcept {
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   plans_ = 0;
+  begin_landings();
   enter(MotionPhase::kTracking);
 }
 
@@ -161,7 +177,10 @@ void JointController::advance_reference() noexcept {
     reference_ = {shaper_.target_rad(), 0.0, 0.0};
     return;
   }
-  if (replan_) shaper_.restart(then_.position_rad, then_.velocity_rad_s);
+  if (replan_) {
+    const double fastest = config_.motion.velocity_rad_s;
+    shaper_.restart(then_.position_rad, std::clamp(then_.velocity_rad_s, -fastest, fastest));
+  }
   replan_ = false;
   const double speed =
       std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
@@ -193,7 +212,8 @@ bool JointController::landing_possible() const noexcept {
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
   if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
-  if (!config_.use_landing) {
+  if (!landing_works()) {
+    if (++landing_pause_ >= kLandingPause) begin_landings();
     const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
     const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
@@ -203,18 +223,33 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     return enter(MotionPhase::kTracking);
   }
   const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  const bool left = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
-  if (phase_ == MotionPhase::kTracking || left) enter(MotionPhase::kLanding);
+  const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
+  away_periods_ = away ? away_periods_ + 1 : 0;
+  if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
+}
+
+void JointController::begin_landings() noexcept {
+  landing_periods_ = 0;
+  landing_begins_ = 0;
+  landing_pause_ = 0;
+}
+
+bool JointController::landing_works() const noexcept {
+  return config_.use_landing && landing_periods_ < kLandingPeriods && landing_begins_ <= kLandingBegins &&
+         landing_failures_ < kLandingFailures;
 }
 
 void JointController::enter(MotionPhase phase) noexcept {
   if (phase == MotionPhase::kTracking && reference_moves()) rest_detector_.reset();
   if (phase == phase_) return;
   // What the integral knew of load and friction, the observer knows.
-  if (phase_ != MotionPhase::kTracking && config_.use_landing) active().reset();
-  if (phase == MotionPhase::kLanding) landing_.begin(shaper_.target_rad());
+  if (phase_ == MotionPhase::kLanding) active().reset();
+  if (phase == MotionPhase::kLanding) {
+    landing_.begin(shaper_.target_rad());
+    if (++landing_begins_ > kLandingBegins) ++landing_failures_;
+  }
   plans_ = 0;
-  hold_torque_Nm_ = now_.disturbance.load_Nm + (config_.use_landing ? 0.0 : active().integral_torque_Nm());
+  hold_torque_Nm_ = now_.disturbance.load_Nm + active().integral_torque_Nm();
   phase_ = phase;
 }
 
@@ -229,7 +264,12 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
   carry_over_ = false;
   if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
   const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
-  if (landing_.resting()) enter(MotionPhase::kResting);
+  if (++landing_periods_ == kLandingPeriods) ++landing_failures_;
+  if (landing_.resting()) {
+    begin_landings();
+    landing_failures_ = 0;
+    enter(MotionPhase::kResting);
+  }
   return apply(torque_Nm);
 }
 

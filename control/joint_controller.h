@@ -25,8 +25,9 @@ inline constexpr int kMaxControlDelay = 8;
 /// One joint's configuration. Each feature can be switched off; without any, the plain control law of the
 /// table is left.
 struct JointControllerConfig {
-  double period_s = 0.001;              ///< > 0, the table's
-  double encoder_resolution_rad = 0.0;  ///< position of one count at the joint; 0: exact
+  double period_s = 0.001;                 ///< > 0, the table's
+  double encoder_resolution_rad = 0.0;     ///< position of one count at the joint; 0: exact
+  double encoder_deviation_counts = 0.02;  ///< how evenly its edges lie, noise included, standard deviation
   /// Periods between a torque's computation and its effect, 0..kMaxControlDelay.
   int delay_samples = 0;
   double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
@@ -108,6 +109,8 @@ class JointController {
   bool reference_moves() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
+  bool landing_works() const noexcept;
+  void begin_landings() noexcept;
   double distance_to_target_rad() const noexcept;
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
@@ -136,6 +139,11 @@ class JointController {
   double hold_torque_Nm_ = 0.0;
   double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
   int plans_ = 0;                      ///< new ones since the target or the phase changed
+  int landing_periods_ = 0;            ///< spent on landing since the target changed or the joint last rested
+  int landing_begins_ = 0;             ///< landings begun since then
+  int landing_pause_ = 0;              ///< periods since they were given up
+  int landing_failures_ = 0;           ///< in a row
+  int away_periods_ = 0;               ///< that a resting joint has been off its target
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;

@@ -72,10 +72,13 @@ void VelocityObserver::predict(double torque_Nm, const JointModel& model) noexce
   moved_rad_ += motion.displacement_rad;
   if (!motion.moved) return;
   Covariance transition = Covariance::Identity();
+  // Slow starts and stops say more about friction than about inertia: they are not let near it.
+  const bool strong = std::abs(motion.velocity_rad_s - state_(kVelocity)) > adapted.stribeck.velocity_rad_s;
+  const double by_inertia = strong ? 1.0 / inertia_ratio() : 0.0;
   transition.row(kPosition) << 1.0, motion.displacement_by_velocity, motion.displacement_by_friction,
-      motion.displacement_by_load, motion.displacement_by_inertia / inertia_ratio();
+      motion.displacement_by_load, motion.displacement_by_inertia * by_inertia;
   transition.row(kVelocity) << 0.0, motion.velocity_by_velocity, motion.velocity_by_friction,
-      motion.velocity_by_load, motion.velocity_by_inertia / inertia_ratio();
+      motion.velocity_by_load, motion.velocity_by_inertia * by_inertia;
   const double start_deviation = std::sqrt(covariance_(kVelocity, kVelocity));
   covariance_ = transition * covariance_ * transition.transpose();
   doubt_direction(motion, start_deviation, adapted);
