@@ -161,7 +161,13 @@ FuzzyFriction to_joint_side(const FuzzyFit& fit, double gear_ratio, double tempe
   FuzzyFriction friction;
   friction.rule_count = static_cast<std::int32_t>(fit.center_C.size());
   for (Index i = 0; i < fit.center_C.size(); ++i) {
-    friction.rules[static_cast<std::size_t>(i)] = {fit.center_C(i), fit.width_C(i),
+    // Rules may meet in one centre; a table wants them ascending, and one unit in the last place changes
+    // nothing.
+    double center_C = fit.center_C(i);
+    if (i > 0)
+      center_C =
+          std::max(center_C, std::nextafter(friction.rules[static_cast<std::size_t>(i - 1)].center_C, 1e9));
+    friction.rules[static_cast<std::size_t>(i)] = {center_C, fit.width_C(i),
                                                    joint_parameters(fit.consequents.row(i), gear_ratio)};
   }
   friction.velocity = source_velocity_memberships(gear_ratio);

@@ -6,7 +6,9 @@
 #pragma GCC diagnostic pop
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace strainwave {
 
@@ -27,18 +29,15 @@ void input_block(SDPA& sdpa, int block, const AffineMatrix& inequality) {
   for (const auto& [unknown, coefficient] : inequality.coefficients()) input(unknown + 1, coefficient, 1.0);
 }
 
-SdpaPhase classify(SDPA::PhaseType phase) {
-  switch (phase) {
-    case SDPA::pINF_dFEAS:
-    case SDPA::pdINF:
-    case SDPA::dUNBD:
-      return SdpaPhase::kInfeasible;
-    case SDPA::pFEAS_dINF:
-    case SDPA::pUNBD:
-      return SdpaPhase::kUnbounded;
-    default:
-      return SdpaPhase::kPoint;
-  }
+// By SDPA's words: its phase numbers name the problem that it calls dual inside.
+SdpaPhase classify(SDPA& sdpa) {
+  std::array<char, 64> text{};
+  sdpa.getPhaseString(text.data());
+  std::string phase = text.data();
+  while (!phase.empty() && phase.back() == ' ') phase.pop_back();
+  if (phase == "pINF_dFEAS" || phase == "pdINF" || phase == "dUNBD") return SdpaPhase::kInfeasible;
+  if (phase == "pFEAS_dINF" || phase == "pUNBD") return SdpaPhase::kUnbounded;
+  return SdpaPhase::kPoint;
 }
 
 }  // namespace
@@ -70,7 +69,7 @@ std::vector<double> call_sdpa(const LmiProblem& problem, double gap_tolerance) {
   const double primal = sdpa.getPrimalObj();
   const double dual = sdpa.getDualObj();
   const double gap = std::abs(primal - dual) / std::max(1.0, 0.5 * (std::abs(primal) + std::abs(dual)));
-  std::vector<double> answer{static_cast<double>(classify(sdpa.getPhaseValue())),
+  std::vector<double> answer{static_cast<double>(classify(sdpa)),
                              static_cast<double>(sdpa.getIteration()), gap};
   const double* unknowns = sdpa.getResultXVec();
   answer.insert(answer.end(), unknowns, unknowns + problem.unknown_count());
