@@ -10,6 +10,7 @@
 #include "client/commands.h"
 #include "client/exit_status.h"
 #include "control/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -27,12 +28,6 @@ constexpr const char* kRows =
 
 class FlightRecordPlot : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "strainwave-plot-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path file(const std::string& text, const std::string& name = "a.flight.csv") {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
@@ -45,7 +40,8 @@ class FlightRecordPlot : public ::testing::Test {
     }
     return "accepted";
   }
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(FlightRecordPlot, ReadsTheHeadAndNumbersTheColumns) {

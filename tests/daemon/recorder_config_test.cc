@@ -8,22 +8,15 @@
 
 #include "control/input_error.h"
 #include "daemon/config.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
 class RecorderConfigTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = std::filesystem::temp_directory_path() / "strainwave-config-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    ::unsetenv("STATE_DIRECTORY");
-  }
-  void TearDown() override {
-    ::unsetenv("STATE_DIRECTORY");
-    std::filesystem::remove_all(folder_);
-  }
+  void SetUp() override { ::unsetenv("STATE_DIRECTORY"); }
+  void TearDown() override { ::unsetenv("STATE_DIRECTORY"); }
   static std::string joint(const std::string& name, const std::string& keys = "",
                            const std::string& tables = "") {
     return "[[joint]]\nname = \"" + name +
@@ -46,7 +39,8 @@ class RecorderConfigTest : public ::testing::Test {
     ADD_FAILURE() << "accepted: " << text;
     return "";
   }
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(RecorderConfigTest, NumbersGroupsByTheirNames) {
