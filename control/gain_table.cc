@@ -101,16 +101,18 @@ void inspect_friction(Inspector& inspector, const FuzzyFriction& friction) {
 }
 
 void inspect_rule(Inspector& inspector, const FeedbackGains& gains, int rule, const std::string& key) {
-  const std::string where = key + ".rules[" + std::to_string(rule) + "].";
   const GainRow F = gains.gain(rule);
   const StateMatrix P = gains.lyapunov(rule);
-  for (Eigen::Index a = 0; a < kMaxStates; ++a) {
-    const std::string row = "[" + std::to_string(a) + "]";
+  const auto name = [&](const char* matrix, Eigen::Index row) {
+    return key + ".rules[" + std::to_string(rule) + "]." + matrix + "[" + std::to_string(row) + "]";
+  };
+  for (Eigen::Index a = 0; inspector.ok() && a < kMaxStates; ++a) {
     const bool unused = a == 0 && !gains.has_integrator;
-    inspector.in_range(where + "F" + row, F(a), -kMaxGain, kMaxGain);
-    inspector.require(!unused || F(a) == 0.0, where + "F" + row + ": must be 0 without an integrator");
+    inspector.in_range(name("F", a), F(a), -kMaxGain, kMaxGain);
+    inspector.require(!unused || F(a) == 0.0, name("F", a) + ": must be 0 without an integrator");
     for (Eigen::Index b = 0; b < kMaxStates; ++b) {
-      const std::string entry = where + "P" + row + "[" + std::to_string(b) + "]";
+      std::string entry = name("P", a);
+      entry += "[" + std::to_string(b) + "]";
       inspector.in_range(entry, P(a, b), -kMaxLyapunov, kMaxLyapunov);
       inspector.require(P(a, b) == P(b, a), entry + " = " + number(P(a, b)) + ": P must be symmetric");
       inspector.require(!unused || P(a, b) == 0.0, entry + ": must be 0 without an integrator");

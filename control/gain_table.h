@@ -59,7 +59,7 @@ struct FeedbackGains {
   double decay_rate = 1.0;  ///< in (0, 1]: V falls at least by its square each sample
   double cost_bound = 0.0;  ///< lambda: bound on the cost from the declared initial states
   std::array<std::array<double, kMaxStates>, kMaxRules> F{};  ///< F_j, 1x3 rows
-  std::array<std::array<double, kMaxStates * kMaxStates>, kMaxRules>
+  std::array<std::array<double, std::size_t{kMaxStates} * kMaxStates>, kMaxRules>
       P{};  ///< P_j, 3x3, symmetric, row by row
 
   GainRow gain(int rule) const noexcept { return GainRow::Map(F[static_cast<std::size_t>(rule)].data()); }

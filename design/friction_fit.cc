@@ -30,8 +30,9 @@ void differentiate(const FitProblem& problem, const LinearFit& linear, const Eig
                    const std::vector<Index>& order, FuzzyFit& fit) {
   const Index m = Phi.cols();
   const Index n = Phi.rows();
-  const Eigen::MatrixX3d predicted = (problem.targets.parameters - linear.errors()).lazyProduct(linear.L());
-  const Eigen::MatrixX3d consequents = linear.C().lazyProduct(linear.L());
+  const Eigen::MatrixX3d predicted =
+      (problem.targets.parameters - linear.errors()).lazyProduct(linear.whitening());
+  const Eigen::MatrixX3d consequents = linear.coefficients().lazyProduct(linear.whitening());
   Eigen::MatrixXd change(3 * n, 2 * m);
   Eigen::ArrayXd distance(n), by_center(n);
   for (Index j = 0; j < m; ++j) {
@@ -67,11 +68,11 @@ ExponentialFit fit_exponential_at(const FitProblem& problem, double decay_C) {
   Phi.col(1) = (-distance / decay_C).exp();
   const LinearFit linear(problem.targets, problem.metric, Phi,
                          problem.physical ? LinearConstraint::kNonNegative : LinearConstraint::kNone);
-  fit.p0 = linear.C().row(0);
-  fit.p1 = linear.C().row(1);
+  fit.p0 = linear.coefficients().row(0);
+  fit.p1 = linear.coefficients().row(1);
   fit.cost = linear.cost();
   const Eigen::ArrayXd by_decay = Phi.col(1).array() * distance / (decay_C * decay_C);
-  const Eigen::MatrixX3d change = by_decay.matrix() * (fit.p1 * linear.L());
+  const Eigen::MatrixX3d change = by_decay.matrix() * (fit.p1 * linear.whitening());
   const Eigen::MatrixXd stacked = change.reshaped();
   fit.gradient = linear.gradient(stacked)(0);
   fit.curvature = linear.curvature(stacked)(0, 0);
@@ -120,7 +121,7 @@ FuzzyFit fit_consequents(const FitProblem& problem, const Eigen::VectorXd& cente
   const LinearFit linear(
       problem.targets, problem.metric, Phi,
       problem.physical ? LinearConstraint::kNonNegativeDescending : LinearConstraint::kNone);
-  fit.consequents = linear.C();
+  fit.consequents = linear.coefficients();
   fit.cost = linear.cost();
   differentiate(problem, linear, Phi, order, fit);
   return fit;

@@ -28,10 +28,10 @@ class LinearFit {
   LinearFit(const FitTargets& targets, const Eigen::Matrix3d& metric, const Eigen::MatrixXd& Phi,
             LinearConstraint constraint);
 
-  const Eigen::MatrixX3d& C() const { return C_; }            ///< m x 3
-  const Eigen::MatrixX3d& errors() const { return errors_; }  ///< parameters - Phi C, n x 3
+  const Eigen::MatrixX3d& coefficients() const { return C_; }  ///< C, m x 3
+  const Eigen::MatrixX3d& errors() const { return errors_; }   ///< parameters - Phi C, n x 3
   double cost() const { return cost_; }
-  const Eigen::Matrix3d& L() const { return L_; }
+  const Eigen::Matrix3d& whitening() const { return L_; }  ///< L
 
   /// Derivative of the cost over parameters p of Phi, and Gauss-Newton's approximation of the second one.
   /// Column k of `change` is d(Phi)/d p_k C L, n x 3 stacked by columns. C's own change does not count in the

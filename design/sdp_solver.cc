@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <optional>
+#include <system_error>
 #include <vector>
 
 #include "design/sdpa_call.h"
@@ -109,12 +109,13 @@ SdpResult judge(const LmiProblem& problem, const SdpOptions& options, const std:
 SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    return failure(SdpStatus::kCrashed, std::string("no pipe: ") + std::strerror(errno));
+    return failure(SdpStatus::kCrashed, std::string("no pipe: ") + std::generic_category().message(errno));
   const pid_t child = ::fork();
   if (child < 0) {
     ::close(ends[0]);
     ::close(ends[1]);
-    return failure(SdpStatus::kCrashed, std::string("no process for the solver: ") + std::strerror(errno));
+    return failure(SdpStatus::kCrashed,
+                   std::string("no process for the solver: ") + std::generic_category().message(errno));
   }
   if (child == 0) run_child(problem, options, ends[1]);
   ::close(ends[1]);

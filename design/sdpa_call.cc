@@ -69,8 +69,8 @@ std::vector<double> call_sdpa(const LmiProblem& problem, double gap_tolerance) {
   const double primal = sdpa.getPrimalObj();
   const double dual = sdpa.getDualObj();
   const double gap = std::abs(primal - dual) / std::max(1.0, 0.5 * (std::abs(primal) + std::abs(dual)));
-  std::vector<double> answer{static_cast<double>(classify(sdpa)),
-                             static_cast<double>(sdpa.getIteration()), gap};
+  std::vector<double> answer{static_cast<double>(classify(sdpa)), static_cast<double>(sdpa.getIteration()),
+                             gap};
   const double* unknowns = sdpa.getResultXVec();
   answer.insert(answer.end(), unknowns, unknowns + problem.unknown_count());
   return answer;
