@@ -20,13 +20,21 @@ void require_period(const GainTable& table, const JointPlantConfig& plant) {
 // Faster than the joint can ever be: what the motor can do is then the only limit of the reference.
 constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
 
+// A plant without a torque limit (the source's ideal setting) may be given what it takes; a plan needs some number, and
+// 300 times the real actuator's peak is none in effect.
+constexpr double kNoTorqueLimit_Nm = 1e4;
+
+double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {
+  return std::isfinite(plant.motor.peak_Nm) ? std::min(plant.motor.peak_Nm, table.torque_limit_Nm) : kNoTorqueLimit_Nm;
+}
+
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
                                       const ExtendedFeatures& features) {
   JointControllerConfig config;
   config.period_s = plant.period_s;
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
   config.delay_samples = plant.delay_samples;
-  config.torque_limit_Nm = std::min(plant.motor.peak_Nm, table.torque_limit_Nm);
+  config.torque_limit_Nm = table.torque_limit_Nm;
   config.motor = {config.torque_limit_Nm, plant.motor.stall_Nm, plant.motor.slope_Nms_rad};
   config.motion = kNoMotionLimits;
   config.use_observer = features.observer;
@@ -49,7 +57,9 @@ Contender extended_contender(const std::string& name, const GainTable& table,
                              const ExtendedFeatures& features) {
   return {name, [table, features](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
             require_period(table, plant);
-            return std::make_unique<ExtendedLoopController>(extended_config(plant, table, features), table);
+            GainTable limited = table;
+            limited.torque_limit_Nm = torque_limit_Nm(plant, table);
+            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, features), limited);
           }};
 }
 

@@ -32,7 +32,7 @@ struct ExtendedFeatures {
   bool rest = true;
 };
 
-/// The daemon's controller with `table`. Where the plant has no torque limit it keeps the table's own.
+/// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,
                              const ExtendedFeatures& features = {});
 

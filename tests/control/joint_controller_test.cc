@@ -1,0 +1,193 @@
+// The daemon's controller on the simulated joint, whose friction law is not the controller's own.
+#include "control/joint_controller.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "control/gain_table_json.h"
+#include "control/units.h"
+#include "sim/reference_plant.h"
+#include "tests/support/allocation_trap.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kCount_rad = 2.0 * std::numbers::pi / kReferenceCountsPerRevolution;
+
+JointControllerConfig realistic_config() {
+  const JointPlantConfig plant = realistic_plant();
+  JointControllerConfig config;
+  config.encoder_resolution_rad = plant.encoder.resolution_rad();
+  config.delay_samples = plant.delay_samples;
+  config.torque_limit_Nm = kReferencePeakTorque_Nm;
+  config.motor = {plant.motor.peak_Nm, plant.motor.stall_Nm, plant.motor.slope_Nms_rad};
+  config.motion = {100.0, 1e4, 1e4};
+  return config;
+}
+
+/// One joint under control, a period at a time.
+class Loop {
+ public:
+  explicit Loop(const JointPlantConfig& plant = realistic_plant()) : plant_(plant), controller_(realistic_config()) {
+    controller_.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
+    plant_.set_ambient_temperature(temperature_C);
+    controller_.start(plant_.measured_position_rad());
+  }
+  JointStep step() {
+    plant_.set_ambient_temperature(temperature_C);
+    JointMeasurement measurement;
+    measurement.joint_position_rad = plant_.measured_position_rad();
+    measurement.temperature_C = temperature_C;
+    measurement.temperature_valid = temperature_valid;
+    const JointStep result = controller_.step(measurement);
+    plant_.step(result.output.torque_Nm, load_torque_Nm);
+    return result;
+  }
+  void run(double duration_s) {
+    for (int k = 0; k < static_cast<int>(duration_s * 1000.0); ++k) step();
+  }
+  JointController& controller() { return controller_; }
+  double position_rad() const { return plant_.state().position_rad; }
+  double velocity_rad_s() const { return plant_.state().velocity_rad_s; }
+
+  double temperature_C = 20.0;
+  double load_torque_Nm = 0.0;
+  bool temperature_valid = true;
+
+ private:
+  JointPlant plant_;
+  JointController controller_;
+};
+
+TEST(JointController, EndsWithinACountAndRestsQuietlyWhereverAndHoweverColdItIs) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> target(-1.5, 1.5);
+  std::uniform_real_distribution<double> temperature(-10.0, 40.0);
+  for (int trial = 0; trial < 60; ++trial) {
+    Loop loop;
+    loop.temperature_C = temperature(random);
+    const double target_rad = target(random);
+    loop.controller().set_target(target_rad);
+    loop.run(2.0);
+    EXPECT_LE(std::abs(loop.position_rad() - target_rad), kCount_rad) << target_rad << " at " << loop.temperature_C;
+    int sign_changes = 0;
+    double last_sign = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      const double now = sign(loop.step().output.torque_Nm);
+      if (now != 0.0 && last_sign != 0.0 && now != last_sign) ++sign_changes;
+      if (now != 0.0) last_sign = now;
+    }
+    EXPECT_EQ(sign_changes, 0) << target_rad << " at " << loop.temperature_C;
+  }
+}
+
+TEST(JointController, BringsALoadStepBackToWithinACount) {
+  for (const double load_Nm : {-8.0, 3.0, 8.0}) {
+    Loop loop;
+    loop.controller().set_target(0.3);
+    loop.run(2.0);
+    loop.load_torque_Nm = load_Nm;
+    loop.run(3.0);
+    EXPECT_LE(std::abs(loop.position_rad() - 0.3), kCount_rad) << load_Nm;
+  }
+}
+
+TEST(JointController, DoesNotOvershootALargeMoveByMoreThanAMillirad) {
+  for (const double temperature_C : {-10.0, 5.0, 20.0, 40.0}) {
+    Loop loop;
+    loop.temperature_C = temperature_C;
+    loop.controller().set_target(1.0);
+    double furthest_rad = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+      loop.step();
+      furthest_rad = std::max(furthest_rad, loop.position_rad());
+    }
+    EXPECT_LE(furthest_rad, 1.0 + 1e-3) << temperature_C;
+  }
+}
+
+TEST(JointController, KeepsItsTorqueWhenTheTemperatureIsLostAndWhenItReturns) {
+  Loop loop;
+  loop.load_torque_Nm = 4.0;
+  loop.controller().set_target(0.2);
+  loop.run(3.0);
+  double torque_Nm = loop.step().output.torque_Nm;
+  for (const bool valid : {false, true, false, true}) {
+    loop.temperature_valid = valid;
+    const JointStep after = loop.step();
+    EXPECT_EQ(after.gains_in_use, valid ? GainsInUse::kPrimary : GainsInUse::kFallback);
+    EXPECT_NEAR(after.output.torque_Nm, torque_Nm, 0.05);
+    loop.run(1.0);
+    torque_Nm = loop.step().output.torque_Nm;
+    EXPECT_LE(std::abs(loop.position_rad() - 0.2), 3.0 * kCount_rad);
+  }
+}
+
+TEST(JointController, KeepsItsTorqueWhenATableIsSwapped) {
+  Loop loop;
+  loop.load_torque_Nm = 4.0;
+  loop.controller().set_target(0.2);
+  loop.run(3.0);
+  const double torque_Nm = loop.step().output.torque_Nm;
+  loop.controller().load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json"));
+  EXPECT_NEAR(loop.step().output.torque_Nm, torque_Nm, 0.05);
+  loop.run(1.0);
+  EXPECT_LE(std::abs(loop.position_rad() - 0.2), 3.0 * kCount_rad);
+}
+
+TEST(JointController, EstimatesTheVelocityFarBetterThanTheEncodersDifference) {
+  Loop loop;
+  loop.controller().set_target(1.0);
+  double observer_sum = 0.0;
+  double difference_sum = 0.0;
+  double last_reading_rad = std::nearbyint(loop.position_rad() / kCount_rad) * kCount_rad;
+  for (int k = 0; k < 150; ++k) {
+    const double true_rad_s = loop.velocity_rad_s();
+    const double reading_rad = std::nearbyint(loop.position_rad() / kCount_rad) * kCount_rad;
+    const JointStep step = loop.step();
+    observer_sum += std::pow(step.estimate.velocity_rad_s - true_rad_s, 2);
+    difference_sum += std::pow((reading_rad - last_reading_rad) / 0.001 - true_rad_s, 2);
+    last_reading_rad = reading_rad;
+  }
+  EXPECT_LT(std::sqrt(observer_sum), 0.2 * std::sqrt(difference_sum));
+}
+
+TEST(JointController, ShowsExactlyNoVelocityAtRest) {
+  Loop loop;
+  loop.controller().set_target(0.05);
+  loop.run(2.0);
+  for (int k = 0; k < 500; ++k) EXPECT_EQ(loop.step().estimate.velocity_rad_s, 0.0);
+}
+
+TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
+  JointPlantConfig blocked = realistic_plant();
+  blocked.joint.friction.asymptote.static_Nm = 100.0;
+  blocked.joint.friction.asymptote.coulomb_Nm = 100.0;
+  Loop loop(blocked);
+  loop.controller().set_target(0.5);
+  for (int k = 0; k < 2000; ++k) {
+    const JointStep step = loop.step();
+    ASSERT_TRUE(std::isfinite(step.output.torque_Nm));
+    ASSERT_LE(std::abs(step.output.torque_Nm), kReferencePeakTorque_Nm);
+  }
+  EXPECT_EQ(loop.position_rad(), 0.0);
+}
+
+TEST(JointController, NeitherStepNorLoadTouchesTheHeap) {
+  if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";
+  Loop loop;
+  const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
+  const AllocationTrap trap;
+  for (const double target_rad : {0.001, 0.5, -0.2}) {
+    loop.controller().set_target(target_rad);
+    loop.run(0.5);
+    loop.temperature_valid = !loop.temperature_valid;
+    loop.controller().load(table);
+  }
+  EXPECT_EQ(trap.touches(), 0);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,66 @@
+#include "control/joint_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "control/landing.h"
+
+namespace strainwave {
+namespace {
+
+JointModel model() { return {0.089, {4.4, 3.6, 2.3}, {0.042, 2.0}}; }
+
+TEST(JointModel, StaysAtRestExactlyWhileTheTorqueIsBelowStaticFriction) {
+  const JointDisturbance none;
+  EXPECT_FALSE(model().advance(4.39, none, 0.0, 0.001).moved);
+  EXPECT_FALSE(model().advance(-4.39, none, 0.0, 0.001).moved);
+  EXPECT_TRUE(model().advance(4.41, none, 0.0, 0.001).moved);
+  EXPECT_GT(model().advance(4.41, none, 0.0, 0.001).displacement_rad, 0.0);
+  EXPECT_LT(model().advance(-4.41, none, 0.0, 0.001).displacement_rad, 0.0);
+}
+
+TEST(JointModel, ALoadShiftsTheTorqueThatItTakesToMove) {
+  const JointDisturbance load{0.0, 2.0};
+  EXPECT_FALSE(model().advance(6.3, load, 0.0, 0.001).moved);
+  EXPECT_TRUE(model().advance(6.5, load, 0.0, 0.001).moved);
+  EXPECT_FALSE(model().advance(-2.3, load, 0.0, 0.001).moved);
+  EXPECT_TRUE(model().advance(-2.5, load, 0.0, 0.001).moved);
+}
+
+TEST(JointModel, StopsWithinThePeriodAndDoesNotTurnRoundByFrictionAlone) {
+  const ModelMotion motion = model().advance(0.0, {}, 0.01, 0.001);
+  EXPECT_EQ(motion.velocity_rad_s, 0.0);
+  EXPECT_GT(motion.displacement_rad, 0.0);
+}
+
+TEST(JointModel, ItsDerivativesAreThoseOfItsMotion) {
+  const double step = 1e-6;
+  for (const double velocity_rad_s : {-3.0, -0.5, 0.2, 4.0}) {
+    const ModelMotion here = model().advance(10.0, {}, velocity_rad_s, 0.001);
+    const ModelMotion beside = model().advance(10.0, {}, velocity_rad_s + step, 0.001);
+    EXPECT_NEAR(here.velocity_by_velocity, (beside.velocity_rad_s - here.velocity_rad_s) / step, 3e-2);
+    EXPECT_NEAR(here.displacement_by_velocity, (beside.displacement_rad - here.displacement_rad) / step, 2e-5);
+    const ModelMotion loaded = model().advance(10.0, {0.0, step}, velocity_rad_s, 0.001);
+    EXPECT_NEAR(here.velocity_by_load, (loaded.velocity_rad_s - here.velocity_rad_s) / step, 5e-4);
+  }
+}
+
+TEST(Landing, ItsPushEndsWhereItIsMeantTo) {
+  for (const double distance_rad : {2e-6, 1e-5, 4e-5, -2e-5}) {
+    const JointModel joint = model();
+    double position_rad = 0.0;
+    double velocity_rad_s = 0.0;
+    for (int k = 0; k < 12; ++k) {
+      const double torque_Nm = landing_torque_Nm(joint, {}, velocity_rad_s, distance_rad - position_rad, 0.001);
+      const ModelMotion motion = joint.advance(torque_Nm, {}, velocity_rad_s, 0.001);
+      position_rad += motion.displacement_rad;
+      velocity_rad_s = motion.velocity_rad_s;
+    }
+    EXPECT_NEAR(position_rad, distance_rad, 0.02 * std::abs(distance_rad));
+    EXPECT_EQ(velocity_rad_s, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace strainwave
