@@ -109,6 +109,8 @@ void read_features(TomlSection section, JointControllerConfig& controller) {
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);
   controller.use_landing = section.boolean_or("landing", controller.use_landing);
+  controller.encoder_deviation_counts =
+      section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
   controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
   section.refuse_unknown_keys();
 }
