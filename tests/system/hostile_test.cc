@@ -343,6 +343,7 @@ TEST_F(HostileSystem, ASubscriberThatNeverReadsHoldsUpNobody) {
   ::close(reader);
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 std::string status_line(const std::string& path, const std::string& key) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
@@ -350,7 +351,6 @@ std::string status_line(const std::string& path, const std::string& key) {
   return "absent";
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_F(HostileSystem, TheGatewayRunsWithoutPrivilegesInEveryThread) {
   start_tracking();
   const std::string process = "/proc/" + std::to_string(daemon_->gateway_pid());
