@@ -1,12 +1,12 @@
 #include "daemon/answers.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
+#include "daemon/utime.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/wire.h"
 
@@ -15,11 +15,6 @@ namespace strainwave {
 namespace {
 
 constexpr std::size_t kMaxRemembered = 256;
-
-std::int64_t utime_now() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace
 

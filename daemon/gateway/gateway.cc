@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
+#include "daemon/utime.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/wire.h"
 
@@ -21,11 +21,6 @@ constexpr const char* kRemedy =
     ": LCM needs a multicast route. On one machine: ip link set lo multicast on; "
     "ip route replace 239.255.76.67/32 dev lo src 127.0.0.1 (the service does this at boot). "
     "Or set daemon.lcm_url to an interface that has one.";
-
-std::int64_t utime_now() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 
 #include "daemon/admission.h"
 #include "lcmtypes/wire.h"
+#include "tests/support/wire_message.h"
 
 namespace strainwave {
 namespace {
@@ -38,16 +39,6 @@ class HostileOrders : public ::testing::Test {
     message.sequence = sequence_ += 2;
     message.position_rad = std::uniform_real_distribution<>(-1.0, 1.0)(random_);
     return message;
-  }
-  template <typename Message>
-  static WireMessage wire(const char* channel, const Message& message, const SecretKey* key) {
-    WireMessage result;
-    result.channel = FixedString<64>(channel);
-    auto bytes = encode(message);
-    if (key != nullptr) sign(channel, *key, bytes);
-    result.size = bytes.size();
-    std::copy(bytes.begin(), bytes.end(), result.bytes.begin());
-    return result;
   }
   // One millisecond apart: the bound on wasted verifications has a test of its own.
   Verdict consider(const WireMessage& message) { return admission_.consider(message, now_ns_ += 1'000'000); }

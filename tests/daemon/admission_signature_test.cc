@@ -8,6 +8,7 @@
 
 #include "daemon/admission.h"
 #include "lcmtypes/wire.h"
+#include "tests/support/wire_message.h"
 
 namespace strainwave {
 namespace {
@@ -40,16 +41,6 @@ class SignedAdmission : public ::testing::Test {
     auto message = filled<command_v1>(sender_id, sequence);
     message.action = static_cast<std::int32_t>(action);
     return message;
-  }
-  template <typename Message>
-  static WireMessage wire(const char* channel, const Message& message, const SecretKey* key) {
-    WireMessage result;
-    result.channel = FixedString<64>(channel);
-    auto bytes = encode(message);
-    if (key != nullptr) sign(channel, *key, bytes);
-    result.size = bytes.size();
-    std::copy(bytes.begin(), bytes.end(), result.bytes.begin());
-    return result;
   }
   Verdict consider(const WireMessage& message) { return admission_.consider(message, now_ns_ += 1'000'000); }
   std::int64_t rejects(Reason reason) const { return admission_.rejects()[static_cast<std::size_t>(reason)]; }

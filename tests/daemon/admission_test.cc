@@ -7,6 +7,7 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "lcmtypes/wire.h"
+#include "tests/support/wire_message.h"
 
 namespace strainwave {
 namespace {
@@ -18,15 +19,6 @@ class AdmissionTest : public ::testing::Test {
   AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}, {"wrist", {}, -2.0, 2.0, 34.0}},
                               {{}, /*unsigned_allowed=*/true}) {}
 
-  template <typename T>
-  static WireMessage wire(const std::string& channel, const T& message) {
-    WireMessage result;
-    result.channel = FixedString<64>(channel);
-    const auto bytes = encode(message);
-    result.size = bytes.size();
-    std::copy(bytes.begin(), bytes.end(), result.bytes.begin());
-    return result;
-  }
   setpoint_v1 setpoint(double position_rad) {
     setpoint_v1 message{};
     message.session_id = kSession;
