@@ -216,6 +216,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_move(app, invocation);
   add_order(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
+  add_order(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);
   add_record(app, invocation);
   add_plot_record(app, invocation);

@@ -61,6 +61,8 @@ void enable(Client& client, const Output& output, const std::string& joint);
 void disable(Client& client, const Output& output, const std::string& joint);
 void hold(Client& client, const Output& output, const std::string& joint);
 void clear_fault(Client& client, const Output& output, const std::string& joint);
+/// Returns once the joint holds, homed.
+void home(Client& client, const Output& output, const std::string& joint);
 
 /// Moves to `position_rad`; with `wait`, returns once the joint holds there.
 struct MoveArguments {

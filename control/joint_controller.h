@@ -82,6 +82,8 @@ class JointController {
   void start(double position_rad) noexcept;
   /// Moves there, from now on.
   void set_target(double position_rad) noexcept;
+  /// The reference's highest speed from now on, > 0, instead of the configuration's.
+  void set_speed(double speed_rad_s) noexcept { config_.motion.velocity_rad_s = speed_rad_s; }
   /// Decelerates to rest and holds.
   void stop() noexcept { shaper_.stop(); }
   /// Where the motion ends.

@@ -10,7 +10,9 @@
 #include <toml++/toml.h>
 
 #include "control/input_error.h"
+#include "daemon/config_homing.h"
 #include "daemon/config_simulated.h"
+#include "daemon/config_thermometer.h"
 #include "daemon/toml_section.h"
 #include "lcmtypes/channels.h"
 
@@ -132,9 +134,13 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   read_features(section.section_or_empty("control"), joint.loop.controller);
   joint.driver = section.choice("driver", {"simulated"});
+  if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
+  if (joint.thermometer && joint.driver == "simulated")
+    section.fail("thermometer", "a sensor of a real drive is allowed: the simulated one has its own temperature");
   TomlSection driver = section.section_or_empty(joint.driver);
-  read_simulated_driver(driver, period_s, joint);
+  const HomingInputs inputs = read_simulated_driver(driver, period_s, joint);
   driver.refuse_unknown_keys();
+  read_homing(section.section_or_empty("homing"), inputs, joint);
   section.refuse_unknown_keys();
   return joint;
 }

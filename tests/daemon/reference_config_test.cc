@@ -39,7 +39,7 @@ std::set<std::string> keys_in_reference() {
   std::set<std::string> keys;
   std::istringstream lines(read(STRAINWAVE_SOURCE_DIR "/config/reference.toml"));
   const std::regex assignment(R"(^(?:# )?([A-Za-z0-9_]+) = )");
-  const std::regex header(R"(^\[+(?:[a-z]+\.)*([a-z]+)\]+)");
+  const std::regex header(R"(^(?:# )?\[+(?:[a-z_]+\.)*([a-z_]+)\]+)");
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
     if (std::regex_search(line, match, assignment) || std::regex_search(line, match, header)) keys.insert(match[1]);
