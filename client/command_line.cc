@@ -177,6 +177,15 @@ void add_keygen(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_gpio_check(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("gpio-check", "digital lines of a configuration: level and who holds them");
+  auto config = std::make_shared<std::filesystem::path>();
+  command->add_option("CONFIG", *config, "the daemon's configuration file")->required()->type_name("");
+  command->callback([&invocation, config] {
+    invocation.local_command = [config](const Output& output) { gpio_check(output, *config); };
+  });
+}
+
 void add_plot_record(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("plot-record", "draw a flight record into a PNG (needs gnuplot, no daemon)");
   auto arguments = std::make_shared<PlotRecordArguments>();
@@ -221,6 +230,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_record(app, invocation);
   add_plot_record(app, invocation);
   add_keygen(app, invocation);
+  add_gpio_check(app, invocation);
 }
 
 /// The arguments as CLI11 takes them: last first, and "-.5" as "-0.5", which it would take for an option.

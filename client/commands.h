@@ -80,6 +80,10 @@ struct LoadTableArguments {
 };
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
 
+/// Prints every digital line of a daemon's configuration, its level and who holds it, without touching outputs. Throws when one
+/// cannot be used. strainwaved does the work; it need not run.
+void gpio_check(const Output& output, const std::filesystem::path& config);
+
 /// Makes a key pair: the secret key in `out`, its public line in `out`.pub. Neither may exist.
 struct KeygenArguments {
   std::filesystem::path out;

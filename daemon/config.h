@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ struct JointConfig {
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
   std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
   ActuatorFactory make_actuator;
+  /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
+  std::function<bool(std::ostream&)> describe_lines;
   std::filesystem::path table;  ///< initial gain table; empty: none
 };
 

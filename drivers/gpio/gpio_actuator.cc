@@ -75,7 +75,9 @@ ActuatorFault GpioActuator::fault_of_inputs() const noexcept {
 
 void GpioActuator::write(const ActuatorCommand& command) noexcept {
   alive_ = !alive_;
-  const DriveSequence::Outputs outputs = sequence_.step(command.enable && !write_failed_, now_ns_);
+  // Outputs in doubt are no outputs.
+  if (lines_failed_ || write_failed_) return put_out(torque_.idle(), sequence_.stop(now_ns_));
+  const DriveSequence::Outputs outputs = sequence_.step(command.enable, now_ns_);
   if (sequence_.on()) put_out(torque_.step(command.torque_Nm, velocity_rad_s_), outputs);
   else put_out(sequence_.holds_torque() ? last_output_ : torque_.idle(), outputs);
 }
@@ -87,7 +89,7 @@ void GpioActuator::clear_fault() noexcept {
   parts_.counts->clear_fault();
 }
 
-// Less torque first, more torque last; whatever fails, the rest is done.
+// No torque first, torque last and only with its lines right; whatever fails, what makes safe is done.
 void GpioActuator::put_out(const TorqueOutput::Output& torque, const DriveSequence::Outputs& sequence) noexcept {
   const std::uint32_t lines = (sequence.enable ? bit(LineRole::kEnable) : 0) |
                               (sequence.brake_open ? bit(LineRole::kBrakeRelease) : 0) |
@@ -96,9 +98,10 @@ void GpioActuator::put_out(const TorqueOutput::Output& torque, const DriveSequen
   bool good = true;
   if (idle) good = parts_.pwm->set_duty(torque.duty) && good;
   good = parts_.lines->write(lines) && good;
-  if (!idle) good = parts_.pwm->set_duty(torque.duty) && good;
+  if (!idle) good = good && parts_.pwm->set_duty(torque.duty);
+  if (!good && !idle) (void)parts_.pwm->set_idle();
   write_failed_ = write_failed_ || !good;
-  last_output_ = torque;
+  last_output_ = good ? torque : torque_.idle();
 }
 
 }  // namespace strainwave

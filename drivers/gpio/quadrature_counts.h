@@ -11,10 +11,13 @@
 namespace strainwave {
 
 struct QuadratureConfig {
+  /// The highest rate that tests/vm/gpio runs through; docs/gpio.md says what it was measured on.
+  static constexpr double kHighestRate_Hz = 2000.0;
+
   LineOptions a;
   LineOptions b;
   double max_rate_Hz = 1000.0;  ///< edges of both lines together; faster is a fault
-  int priority = 0;             ///< SCHED_FIFO of the thread, where the system grants it; 0: an ordinary one
+  int priority = 70;            ///< SCHED_FIFO of the thread, where the system grants it; 0: an ordinary one
   std::int64_t (*clock_ns)() noexcept = nullptr;  ///< CLOCK_MONOTONIC; required
 };
 

@@ -33,6 +33,9 @@ double TorqueOutput::limit_slew(double torque_Nm) noexcept {
   return torque_Nm_;
 }
 
+// Rounding must not pass a limit either.
+double TorqueOutput::limited(double duty) const noexcept { return std::clamp(duty, config_.duty_min, config_.duty_max); }
+
 double TorqueOutput::idle_duty() const noexcept {
   return config_.bridge == BridgeKind::kSignMagnitude ? config_.duty_min : 0.5 * (config_.duty_min + config_.duty_max);
 }
@@ -49,7 +52,7 @@ TorqueOutput::Output TorqueOutput::step(double torque_Nm, double joint_velocity_
   const double applied_Nm = torque_of(share, joint_velocity_rad_s);
   const double outward = config_.reversed ? -share : share;
   const double span = config_.duty_max - config_.duty_min;
-  if (config_.bridge == BridgeKind::kLockedAntiphase) return {idle_duty() + 0.5 * outward * span, false, applied_Nm};
+  if (config_.bridge == BridgeKind::kLockedAntiphase) return {limited(idle_duty() + 0.5 * outward * span), false, applied_Nm};
 
   const bool wants_change = outward != 0.0 && (outward < 0.0) != negative_;
   if (wants_change && waited_periods_ < dead_periods_) {
@@ -58,7 +61,7 @@ TorqueOutput::Output TorqueOutput::step(double torque_Nm, double joint_velocity_
   }
   waited_periods_ = 0;
   if (wants_change) negative_ = !negative_;
-  return {config_.duty_min + std::abs(outward) * span, negative_, applied_Nm};
+  return {limited(config_.duty_min + std::abs(outward) * span), negative_, applied_Nm};
 }
 
 }  // namespace strainwave

@@ -51,6 +51,7 @@ class TorqueOutput {
   double share_of(double torque_Nm, double joint_velocity_rad_s) const noexcept;
   double torque_of(double share, double joint_velocity_rad_s) const noexcept;
   double limit_slew(double torque_Nm) noexcept;
+  double limited(double duty) const noexcept;
 
   TorqueOutputConfig config_;
   std::int64_t dead_periods_;
