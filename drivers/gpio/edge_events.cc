@@ -17,8 +17,10 @@ namespace strainwave {
 
 namespace {
 
-std::uint64_t flags_of(const LineOptions& line) {
-  std::uint64_t flags = GPIO_V2_LINE_FLAG_INPUT | GPIO_V2_LINE_FLAG_EDGE_RISING | GPIO_V2_LINE_FLAG_EDGE_FALLING;
+std::uint64_t flags_of(const LineOptions& line, EdgeKind kind) {
+  // Rising is what becomes active, whatever the polarity.
+  std::uint64_t flags = GPIO_V2_LINE_FLAG_INPUT | GPIO_V2_LINE_FLAG_EDGE_RISING;
+  if (kind == EdgeKind::kBoth) flags |= GPIO_V2_LINE_FLAG_EDGE_FALLING;
   if (line.active_low) flags |= GPIO_V2_LINE_FLAG_ACTIVE_LOW;
   switch (line.bias) {
     case LineBias::kAsIs: break;
@@ -45,7 +47,8 @@ int request(const std::string& chip_path, gpio_v2_line_request& request, const s
 
 }  // namespace
 
-EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, const std::string& consumer, const std::string& where) {
+EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const std::string& consumer,
+                       const std::string& where) {
   gpio_v2_line_request wanted{};
   const LineOptions& first = lines.front();
   std::string chip_path;
@@ -58,7 +61,7 @@ EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, const std::string& co
     wanted.offsets[wanted.num_lines++] = place.offset;
     offsets_.push_back(place.offset);
   }
-  wanted.config.flags = flags_of(first);
+  wanted.config.flags = flags_of(first, kind);
   wanted.event_buffer_size = kKernelBuffer;
   std::strncpy(wanted.consumer, consumer.c_str(), sizeof wanted.consumer - 1);
   fd_ = request(chip_path, wanted, where);

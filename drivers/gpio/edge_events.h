@@ -20,13 +20,17 @@ struct Edge {
   bool active = false;         ///< what it became
 };
 
+/// Of a line that both edges are wanted of, the kernel reads the level a little after the interrupt: a pulse shorter than that
+/// shows as two edges to the same level. A pulse whose beginning alone counts needs kActive.
+enum class EdgeKind { kBoth, kActive };
+
 class EdgeEvents {
  public:
   static constexpr std::size_t kReadAtOnce = 64;
   static constexpr std::uint32_t kKernelBuffer = 1024;  ///< events that the kernel keeps; older ones are dropped and counted
 
   /// Requests the lines, which must be on one chip with the same settings. Throws InputError.
-  EdgeEvents(std::span<const LineOptions> lines, const std::string& consumer, const std::string& where);
+  EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const std::string& consumer, const std::string& where);
   ~EdgeEvents();
   EdgeEvents(const EdgeEvents&) = delete;
   EdgeEvents& operator=(const EdgeEvents&) = delete;

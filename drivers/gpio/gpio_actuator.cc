@@ -51,8 +51,7 @@ void GpioActuator::read_inputs(ActuatorReading& reading) noexcept {
   std::array<Edge, EdgeEvents::kReadAtOnce> edges;
   const int count = parts_.index->read(edges);
   lines_failed_ = lines_failed_ || count < 0;
-  for (int i = 0; i < count; ++i)
-    if (edges[static_cast<std::size_t>(i)].active) index_.pulse(edges[static_cast<std::size_t>(i)].time_ns);
+  for (int i = 0; i < count; ++i) index_.pulse(edges[static_cast<std::size_t>(i)].time_ns);
   if (reading.has_position) index_.sample(reading.joint_position_rad, now_ns_);
   index_.fill(reading.inputs);
 }

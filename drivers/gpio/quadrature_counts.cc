@@ -16,7 +16,7 @@ constexpr int kIdle_ms = 10;
 
 QuadratureCounts::QuadratureCounts(const QuadratureConfig& config, const std::string& consumer, const std::string& where)
     : config_(config),
-      edges_(std::array{config.a, config.b}, consumer, where),
+      edges_(std::array{config.a, config.b}, EdgeKind::kBoth, consumer, where),
       decoder_(config.max_rate_Hz),
       looked_ns_(config.clock_ns()) {
   begin_anew();

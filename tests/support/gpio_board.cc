@@ -6,7 +6,7 @@
 //   gpio_board encoder LINES RATE_HZ SECONDS   quadrature edges on lines a and b: three quarters forward, one back; prints the count
 //   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the duty 0
 //
-// LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/ and count0/.
+// LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/, count0/ and truth, the joint's position in rad.
 #include <fcntl.h>
 #include <signal.h>
 #include <time.h>
@@ -108,6 +108,7 @@ int run_plant(const std::string& lines, const std::string& tree, double position
   File duty(tree + "/pwm/pwm0/duty_cycle", O_RDONLY);
   File period(tree + "/pwm/pwm0/period", O_RDONLY);
   File count(tree + "/count0/count", O_WRONLY);
+  File truth(tree + "/truth", O_WRONLY);
   Input negative(lines, "negative_limit");
   Input positive(lines, "positive_limit");
   Input home(lines, "home");
@@ -136,11 +137,8 @@ int run_plant(const std::string& lines, const std::string& tree, double position
       index.set(false);
     }
     turn = new_turn;
-    FILE* truth = std::fopen((tree + "/truth.new").c_str(), "w");
-    if (truth == nullptr) fail("truth");
-    std::fprintf(truth, "%.9f\n", now_rad);
-    std::fclose(truth);
-    std::rename((tree + "/truth.new").c_str(), (tree + "/truth").c_str());
+    std::snprintf(text, sizeof text, "%+.9f\n", now_rad);
+    truth.put(text);
     advance(next, kPeriod_ns);
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
   }

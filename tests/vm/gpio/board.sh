@@ -5,6 +5,11 @@ chmod +x ./* 2>/dev/null || true
 LINES_FOLDER=$PWD/lines
 TREE=$PWD/tree
 failed=0
+tell_why() { # what helps when a script fails, wherever it does
+  local status=$?
+  if [ $status -ne 0 ]; then tail -n 40 daemon.log ctl.log 2>/dev/null || true; fi
+}
+trap tell_why EXIT
 
 check() { # check "what" command...
   local what=$1
@@ -51,11 +56,15 @@ make_tree() {
     count0/function; do echo 0 >"$TREE/$file"; done
   echo 0000000000 >"$TREE/count0/count"
   echo 25000 >"$TREE/temperature"
+  : >"$TREE/truth"
 }
 duty() { head -n1 "$TREE/pwm/pwm0/duty_cycle"; }
 duty_is() { test "$(duty)" = "$1"; }
 truth() { cat "$TREE/truth"; }
-near() { awk -v a="$1" -v b="$2" -v tolerance="$3" 'BEGIN { d = a - b; exit !(d < tolerance && d > -tolerance) }'; }
+near() { # near A B TOLERANCE
+  python3 -c 'import sys; a, b, tolerance = map(float, sys.argv[1:]); sys.exit(not abs(a - b) <= tolerance)' "$@" ||
+    { echo "      $1 is not $2"; return 1; }
+}
 
 line_table() { # line_table ROLE ACTIVE
   printf '[joint.gpio.%s]\nchip = "joint-board"\nline = "%s"\nactive = "%s"\n' "$1" "$1" "$2"
@@ -82,7 +91,7 @@ table = "rhs17-6006.json"
 [joint.limits]
 position_min_rad = -0.6
 position_max_rad = 0.6
-speed_rad_s = 2.0
+speed_rad_s = 1.0
 acceleration_rad_s2 = 40
 following_error_rad = 0.1
 torque_Nm = 34
@@ -127,6 +136,13 @@ $(line_table positive_limit high)
 $(line_table home low)
 $(line_table index high)
 TOML
+}
+
+# Above the daemon's priority: mechanics wait for nobody.
+start_plant() { # start_plant POSITION_RAD
+  chrt -f 85 ./gpio_board plant "$LINES_FOLDER" "$TREE" "$1" &
+  plant=$!
+  sleep 0.1
 }
 
 start_daemon() {

@@ -6,7 +6,7 @@ make_tree
 make_configuration
 
 # Before anything runs: what gpio-check shows, and that it touches nothing.
-ctl gpio-check gpio.toml
+check "gpio-check finds every line usable" ctl gpio-check gpio.toml
 check "gpio-check shows every line" test "$(./strainwavectl gpio-check gpio.toml | grep -c joint-board\\\|/dev/gpiochip)" -ge 10
 check "gpio-check tells an active input" bash -c './strainwavectl gpio-check gpio.toml | grep -q "^  home .*inactive"'
 pull home pull-down
@@ -27,9 +27,7 @@ check "a wrong name keeps the daemon from starting" bash -c '! timeout 10 ./stra
 check "and is named" grep -q 'joint\[0\].gpio.estop: line = e-stop: no line' wrong.log
 check "no output has moved meanwhile" level_is enable 0
 
-./gpio_board plant "$LINES_FOLDER" "$TREE" 0.3 &
-plant=$!
-sleep 0.1
+start_plant 0.3
 check "the daemon starts" start_daemon
 check "its outputs are safe" level_is enable 0
 check "the brake is shut" level_is brake_release 0
@@ -68,7 +66,7 @@ check "enable after it" ctl enable elbow
 
 # Released and pressed while it moves: within a period all outputs are safe.
 ctl move elbow -0.4
-sleep 0.05
+sleep 0.15
 check "it moves" bash -c 'test "$(head -n1 tree/pwm/pwm0/duty_cycle)" != 0'
 reaction_ns=$(./gpio_board react "$LINES_FOLDER" "$TREE" estop)
 echo "e-stop to enable off and no torque: $reaction_ns ns of virtual time"
@@ -94,5 +92,4 @@ kill $daemon
 wait $daemon || failed=1
 check "the daemon's end leaves everything safe" bash -c 'test "$(cat lines/enable/value)$(cat lines/brake_release/value)$(head -n1 tree/pwm/pwm0/duty_cycle)" = 000'
 kill $plant
-if [ $failed -ne 0 ]; then tail -n 30 daemon.log ctl.log; fi
 exit $failed
