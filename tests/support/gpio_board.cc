@@ -4,6 +4,7 @@
 //
 //   gpio_board plant LINES TREE POSITION_RAD   the joint, until SIGTERM
 //   gpio_board encoder LINES RATE_HZ SECONDS   quadrature edges on lines a and b: three quarters forward, one back; prints the count
+//                                              and the rate that came about
 //   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the duty 0
 //
 // LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/, count0/ and truth, the joint's position in rad.
@@ -155,6 +156,7 @@ int run_encoder(const std::string& lines, double rate_Hz, double duration_s) {
   long count = 0;
   timespec next{};
   ::clock_gettime(CLOCK_MONOTONIC, &next);
+  const timespec begin = next;
   for (long i = 0; i < edges && ended == 0; ++i) {
     count += i < edges / 4 * 3 ? 1 : -1;
     const long phase = ((count % 4) + 4) % 4;
@@ -163,7 +165,7 @@ int run_encoder(const std::string& lines, double rate_Hz, double duration_s) {
     advance(next, step_ns);
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
   }
-  std::printf("%ld\n", count);
+  std::printf("%ld %.0f\n", count, 1e9 * static_cast<double>(edges) / static_cast<double>(since_ns(begin)));
   return 0;
 }
 
