@@ -9,12 +9,15 @@ Homing::Observation JointLoop::observe(const CycleTime& time) const noexcept {
 
 void JointLoop::obey_homing(const Homing::Order& order) noexcept {
   switch (order.kind) {
-    case Homing::Order::Kind::kGoOn: return;
+    case Homing::Order::Kind::kGoOn:
+      return;
     case Homing::Order::Kind::kMove:
       controller_.set_speed(order.speed_rad_s);
       controller_.set_target(order.target_rad);
       return;
-    case Homing::Order::Kind::kStop: controller_.stop(); return;
+    case Homing::Order::Kind::kStop:
+      controller_.stop();
+      return;
   }
 }
 
