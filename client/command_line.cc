@@ -160,6 +160,22 @@ void add_load_table(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_inject(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("inject", "give a simulated drive a fault, for tests (none: end them)");
+  auto joint = std::make_shared<std::string>();
+  auto kind = std::make_shared<std::string>();
+  auto amount = std::make_shared<double>(0.0);
+  auto for_s = std::make_shared<double>(0.0);
+  command->add_option("JOINT", *joint, "joint")->required()->check(name_validator())->type_name("");
+  command->add_option("FAULT", *kind, "sensor_nan, power_lost, ...: see docs/faults.md")->required()->type_name("");
+  command->add_option("--amount", *amount, "how much, for the faults that have an amount")->type_name("NUMBER");
+  add_seconds(*command, "--for_s", *for_s, "how long; otherwise until ended");
+  command->callback([&invocation, joint, kind, amount, for_s] {
+    const InjectArguments arguments = parse_injection(*joint, *kind, *amount, *for_s);
+    invocation.command = [arguments](Client& client, const Output& output) { inject(client, output, arguments); };
+  });
+}
+
 void add_keygen(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("keygen", "a new key to sign orders with");
   auto arguments = std::make_shared<KeygenArguments>();
@@ -217,6 +233,8 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_order(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
   add_load_table(app, invocation);
+  add_order(app, invocation, "revert-table", "use the previous gain table again", revert_table);
+  add_inject(app, invocation);
   add_record(app, invocation);
   add_plot_record(app, invocation);
   add_keygen(app, invocation);

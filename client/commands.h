@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/client.h"
+#include "drivers/injected_fault.h"
 #include "lcmtypes/key_text.h"
 
 namespace strainwave {
@@ -77,6 +78,22 @@ struct LoadTableArguments {
   std::filesystem::path file;
 };
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
+
+/// Uses the previous gain table again; an engineer's order, as loading one is.
+void revert_table(Client& client, const Output& output, const std::string& joint);
+
+/// Injects a fault into a simulated drive, or ends all of them (kNone).
+struct InjectArguments {
+  std::string joint;
+  InjectedFault kind = InjectedFault::kNone;
+  double amount = 0.0;
+  double for_s = 0.0;  ///< 0: until ended
+};
+void inject(Client& client, const Output& output, const InjectArguments& arguments);
+/// Throws ClientError (usage) that names what is allowed: no such kind, amount missing, needless or out of
+/// range.
+InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
+                                double for_s);
 
 /// Makes a key pair: the secret key in `out`, its public line in `out`.pub. Neither may exist.
 struct KeygenArguments {

@@ -1,4 +1,4 @@
-// enable, disable, hold, clear-fault, move: one message each, its answer, and where asked the mode that
+// enable, disable, hold, clear-fault, revert-table, move: one message each, its answer, and where asked the mode that
 // follows.
 #include <fmt/format.h>
 
@@ -126,6 +126,11 @@ void hold(Client& client, const Output& output, const std::string& joint) {
 void clear_fault(Client& client, const Output& output, const std::string& joint) {
   order(client, joint, Action::kClearFault);
   output.stream << joint << ": fault cleared; enable it to go on\n";
+}
+
+void revert_table(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kRevertTable);
+  output.stream << joint << ": the previous table is in use again\n";
 }
 
 void move(Client& client, const Output& output, const MoveArguments& arguments) {

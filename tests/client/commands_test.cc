@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
+#include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
@@ -50,11 +51,34 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   enable(client, output, "elbow");
   hold(client, output, "elbow");
   clear_fault(client, output, "elbow");
+  revert_table(client, output, "elbow");
   daemon.modes_after_answer = {Mode::kOff};
   disable(client, output, "elbow");
   std::vector<std::int32_t> actions;
   for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
-  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 2}));
+  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 2}));
+}
+
+TEST_F(CommandsTest, AnInjectionCarriesKindAmountAndDuration) {
+  daemon.publish_state();
+  inject(client, output, parse_injection("elbow", "sensor_jump", 0.25, 1.5));
+  ASSERT_EQ(daemon.heard().size(), 1U);
+  EXPECT_TRUE(daemon.heard().front().channel.ends_with(".INJECT"));
+  const auto injection = decode_exactly<inject_v1>(daemon.heard().front().bytes);
+  ASSERT_TRUE(injection);
+  EXPECT_EQ(injection->kind, static_cast<std::int32_t>(InjectedFault::kSensorJump));
+  EXPECT_EQ(injection->amount, 0.25);
+  EXPECT_EQ(injection->for_s, 1.5);
+}
+
+TEST_F(CommandsTest, AnUnknownInjectionNamesThoseThatThereAre) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "gremlins", 0.0, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("gremlins") && message_has("sensor_nan") && message_has("power_lost")) << message;
+}
+
+TEST_F(CommandsTest, AnAmountOutOfRangeIsRefusedWithRangeAndUnit) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "slow_read", 1.5, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("1.5") && message_has("0 to 1 s")) << message;
 }
 
 TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
