@@ -41,6 +41,8 @@ void ServiceNotifier::show(const std::string& status) {
   ::sd_notify(0, ("STATUS=" + status).c_str());
 }
 
-void ServiceNotifier::stopping() { ::sd_notify(0, "STOPPING=1"); }
+void ServiceNotifier::stopping() {
+  ::sd_notify(0, "STOPPING=1");
+}
 
 }  // namespace strainwave

@@ -1,5 +1,6 @@
-// What the service manager (systemd) is told: ready once the loop meets its timing, alive while the loop goes round, the
-// modes of the joints as a line of status. Without a service manager nothing is sent. Not real-time. Source: sd_notify(3).
+// What the service manager (systemd) is told: ready once the loop meets its timing, alive while the loop goes
+// round, the modes of the joints as a line of status. Without a service manager nothing is sent. Not
+// real-time. Source: sd_notify(3).
 #pragma once
 
 #include <cstdint>
@@ -34,8 +35,8 @@ class ServiceNotifier {
   /// Reads the watchdog's time from the environment ($WATCHDOG_USEC).
   ServiceNotifier();
 
-  /// Once a turn of the supervisor. Says "ready" when it is proven, and "alive" several times within the watchdog's time,
-  /// but only if `cycles` has risen since it last said so.
+  /// Once a turn of the supervisor. Says "ready" when it is proven, and "alive" several times within the
+  /// watchdog's time, but only if `cycles` has risen since it last said so.
   void update(std::int64_t cycles, std::int64_t overruns, std::int64_t now_ns);
   bool ready() const noexcept { return ready_; }
   /// The line that `systemctl status` shows; sent when it has changed.
