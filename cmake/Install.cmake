@@ -38,7 +38,7 @@ install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT
 
 # Package strainwave-spy.
 if(STRAINWAVE_BUILD_SPY)
-  install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/java COMPONENT spy)
+  install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave-spy COMPONENT spy)
   install(PROGRAMS spy/strainwave-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT spy)
 endif()
 
@@ -53,12 +53,17 @@ configure_file(packaging/strainwave-lcmtypes.pc.in "${CMAKE_BINARY_DIR}/packagin
 install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
         COMPONENT lcmtypes)
 
-# Debian wants a copyright and a changelog in every package's folder.
+# Debian wants a copyright, our changelog and that of the packaging in every package's folder.
 find_program(GZIP gzip REQUIRED)
-set(changelog "${CMAKE_BINARY_DIR}/packaging/changelog.gz")
-add_custom_command(OUTPUT "${changelog}" DEPENDS CHANGELOG.md COMMENT "changelog.gz"
-  COMMAND sh -c "\"$1\" -9nc \"$2\" >\"$3\"" sh ${GZIP} "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${changelog}" VERBATIM)
-add_custom_target(strainwave_changelog ALL DEPENDS "${changelog}")
+function(strainwave_compressed source result)
+  add_custom_command(OUTPUT "${CMAKE_BINARY_DIR}/packaging/${result}" DEPENDS ${source} COMMENT "${result}" VERBATIM
+    COMMAND sh -c "\"$1\" -9nc \"$2\" >\"$3\"" sh ${GZIP} "${PROJECT_SOURCE_DIR}/${source}"
+            "${CMAKE_BINARY_DIR}/packaging/${result}")
+endfunction()
+strainwave_compressed(CHANGELOG.md changelog.gz)
+strainwave_compressed(packaging/changelog changelog.Debian.gz)
+set(changelogs "${CMAKE_BINARY_DIR}/packaging/changelog.gz" "${CMAKE_BINARY_DIR}/packaging/changelog.Debian.gz")
+add_custom_target(strainwave_changelogs ALL DEPENDS ${changelogs})
 foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmtypes:libstrainwave-lcmtypes-dev)
   string(REPLACE ":" ";" pair "${pair}")
   list(GET pair 0 component)
@@ -68,5 +73,5 @@ foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmty
     set(copyright packaging/${package}/copyright)
   endif()
   install(FILES ${copyright} DESTINATION ${doc_dir}/${package} RENAME copyright COMPONENT ${component})
-  install(FILES "${changelog}" DESTINATION ${doc_dir}/${package} COMPONENT ${component})
+  install(FILES ${changelogs} DESTINATION ${doc_dir}/${package} COMPONENT ${component})
 endforeach()

@@ -2,7 +2,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME strainwave)
 set(CPACK_PACKAGE_VENDOR "Strainwave developers")
-set(CPACK_PACKAGE_CONTACT "Strainwave developers <strainwave@localhost>")
+set(CPACK_PACKAGE_CONTACT "Strainwave developers <strainwave@example.org>")
 set(CPACK_PACKAGE_DIRECTORY "${CMAKE_BINARY_DIR}/packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -12,6 +12,8 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_COMPONENTS_ALL daemon lcmtypes)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+# Of the packaging, while the version stays.
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_DAEMON_PACKAGE_NAME strainwave)

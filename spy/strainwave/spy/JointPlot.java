@@ -26,6 +26,7 @@ public final class JointPlot extends JPanel {
   /** More than the feed keeps in a window. */
   private static final int POINTS = 2000;
   private static final double RAD_TO_MRAD = 1e3;
+  private static final Color BLUE = new Color(0x1f, 0x5f, 0xa8);
   /** The numbers of state_v1.mode; see docs/messages.md. */
   private static final String[] MODES = {"off", "starting", "holding", "tracking", "stopping", "faulted"};
 
@@ -33,10 +34,11 @@ public final class JointPlot extends JPanel {
   private final JLabel line = new JLabel("no state received yet");
   private final JPanel charts = new JPanel(new GridLayout(0, 1));
   private final Timer timer = new Timer(REDRAW_EVERY_MS, event -> draw());
-  private final ITrace2D setpoint = trace("setpoint", new Color(0xc0, 0x39, 0x2b));
-  private final ITrace2D position = trace("position", new Color(0x1f, 0x5f, 0xa8));
-  private final ITrace2D error = trace("setpoint - position", new Color(0x1f, 0x5f, 0xa8));
-  private final ITrace2D temperature = trace("temperature in use", new Color(0xb3, 0x6b, 0x00));
+  /** Wide and pale: where the joint follows, its position lies upon it. */
+  private final ITrace2D setpoint = trace("setpoint", new Color(0xf0, 0xa0, 0x90), 5.0f);
+  private final ITrace2D position = trace("position", BLUE, 1.5f);
+  private final ITrace2D error = trace("setpoint - position", BLUE, 1.5f);
+  private final ITrace2D temperature = trace("temperature in use", new Color(0xb3, 0x6b, 0x00), 1.5f);
   private final Chart2D[] all;
   private double begin_s = Double.NaN;
   private long session;
@@ -63,10 +65,10 @@ public final class JointPlot extends JPanel {
     return new int[] {setpoint.getSize(), position.getSize(), error.getSize(), temperature.getSize()};
   }
 
-  private static ITrace2D trace(String name, Color color) {
+  private static ITrace2D trace(String name, Color color, float width) {
     final ITrace2D trace = new Trace2DLtd(POINTS, name);
     trace.setColor(color);
-    trace.setStroke(new BasicStroke(1.5f));
+    trace.setStroke(new BasicStroke(width));
     return trace;
   }
 
