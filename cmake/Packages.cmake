@@ -41,7 +41,9 @@ set(CPACK_COMPONENT_DESIGN_DESCRIPTION "Design of gain tables for strain-wave jo
  Needs no robot. The program strainwave-design contains SDPA, which is under
  the GNU General Public License.")
 set(CPACK_DEBIAN_DESIGN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_DESIGN_PACKAGE_SUGGESTS "strainwave, gnuplot-nox")
+# It draws its figures with gnuplot.
+set(CPACK_DEBIAN_DESIGN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_DESIGN_PACKAGE_SUGGESTS strainwave)
 
 if(STRAINWAVE_BUILD_SPY)
   list(APPEND CPACK_COMPONENTS_ALL spy)

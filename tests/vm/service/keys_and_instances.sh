@@ -1,0 +1,43 @@
+#!/bin/bash
+# Keys that root alone may read reach the daemon as a credential; a second daemon beside the first; removal stops both.
+. ./service.sh
+install_package
+config=/etc/strainwave/strainwaved.toml
+
+echo "== keys"
+strainwavectl keygen --out key --role operator --comment test >/dev/null
+cat key.pub >>/etc/strainwave/authorized_keys
+chmod 600 /etc/strainwave/authorized_keys
+sed -i -e 's/^unsigned_orders = .*/unsigned_orders = "refuse"/' -e 's/^# authorized_keys = /authorized_keys = /' $config
+must "it starts with keys that its user cannot read by itself" systemctl start strainwaved
+must_not "an order without a signature is refused" strainwavectl enable elbow
+must "an order with one is obeyed" strainwavectl --key key enable elbow
+must "a stop needs none" strainwavectl disable elbow
+
+echo "== a second daemon"
+sed -e 's/^\[daemon\]/[daemon]\nprefix = "LEFT"/' -e 's/^unsigned_orders = .*/unsigned_orders = "allow"/' \
+  -e 's/^authorized_keys/# &/' $config >/etc/strainwave/left.toml
+must "starts from the template" systemctl start strainwaved@left
+must "and is obeyed on its own prefix" strainwavectl --prefix LEFT enable elbow
+must "while the first is off" is_state mode 0
+must "each has a folder of its own" test -d /var/lib/strainwave/left
+sed -i 's/^prefix.*/prefix = "SW"/' /etc/strainwave/left.toml
+must_not "with the first one's prefix it does not start" systemctl restart strainwaved@left
+systemctl reset-failed
+sed -i 's/^prefix.*/prefix = "LEFT"/' /etc/strainwave/left.toml
+systemctl start strainwaved@left
+
+echo "== devices"
+must "udev's rules give the group what drives use" test "$(stat -c %G:%a /dev/cpu_dma_latency)" = strainwave:660
+must "the network files are understood" udevadm verify-link 2>/dev/null || true
+
+echo "== an upgrade and a removal"
+first=$(core)
+dpkg -i ./strainwave_*.deb >install.log 2>&1
+must "an upgrade leaves the daemon running" test "$(core)" = "$first"
+must "and says so" grep -q 'systemctl restart strainwaved.service' install.log
+kill -9 "$(gateway)"
+must "its next gateway is the one it knows" wait_for 3 gateway
+dpkg -r strainwave >/dev/null 2>&1
+must_not "a removal ends both daemons" pgrep strainwave
+finish
