@@ -17,6 +17,7 @@ must "core and gateway are not root" test "$(ps -o user= -p "$(core),$(gateway)"
   "$(ps -o user:20= -p "$(core),$(gateway)" | sort -u)" = strainwave
 must "one thread has SCHED_FIFO 80" test "$(ps -L -o cls=,rtprio= -p "$(core)" | grep -c 'FF *80')" = 1
 must "its memory is locked" bash -c "awk '/^VmLck/ { exit !(\$2 > 1000) }' /proc/$(core)/status"
+must_not "nothing of what it asks the kernel for is refused" bash -c 'journalctl -u strainwaved -o cat | grep -qi "permission denied"'
 must "neither has a capability" bash -c "! grep -hE '^Cap(Prm|Eff|Bnd|Amb)' /proc/{$(core),$(gateway)}/status | grep -qv '0000000000000000'"
 must "the gateway has a filter of its own upon the service's" \
   test "$(awk '/^Seccomp_filters/ { print $2 }' "/proc/$(gateway)/status")" -gt "$(awk '/^Seccomp_filters/ { print $2 }' "/proc/$(core)/status")"
@@ -63,7 +64,7 @@ must "two restarts were counted" test "$(property NRestarts)" = 2
 
 echo "== too many restarts"
 systemctl reset-failed strainwaved
-for _ in 1 2 3; do
+for _ in 1 2 3 4; do
   kill -9 "$(core)"
   sleep 3
 done
