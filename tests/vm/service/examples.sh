@@ -9,11 +9,13 @@ ip route delete 239.255.76.67/32 dev lo
 mkdir -p build/package/packages
 mv strainwave_*.deb build/package/packages/
 
+# The guest's console is no terminal to be asked at.
+follow() { bash ./"$1".sh </dev/null; }
 # page NAME: as its reader, with the service as the page before left it.
 page() {
   local start
   start=$(date +%s)
-  must "$1" bash ./"$1".sh
+  must "$1" follow "$1"
   cat /tmp/output
   echo "      $(($(date +%s) - start)) s of the machine's time"
 }

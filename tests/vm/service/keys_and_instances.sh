@@ -28,7 +28,27 @@ sed -i 's/^prefix.*/prefix = "LEFT"/' /etc/strainwave/left.toml
 systemctl start strainwaved@left
 
 echo "== devices"
-must "udev's rules give the group what drives use" test "$(stat -c %G:%a /dev/cpu_dma_latency)" = strainwave:660
+must "the group may hold off sleep states" test "$(stat -c %G:%a /dev/cpu_dma_latency)" = strainwave:660
+bank=/sys/kernel/config/gpio-sim/service/bank
+mkdir -p $bank/line0
+echo 2 >$bank/num_lines
+echo 1 >${bank%/bank}/live
+udevadm settle
+chip=$(cat $bank/chip_name)
+must "the group may use GPIO chips" test "$(stat -c %G:%a "/dev/$chip")" = strainwave:660
+# As the unit has it: its user, its device list, its file systems.
+mapfile -t sandbox < <(grep -E '^(DevicePolicy|DeviceAllow|Protect|Private|ReadWritePaths|ProcSubset|Capability)' \
+  /lib/systemd/system/strainwaved.service | sed 's/^/-p\n/')
+within() { systemd-run --quiet --wait --pipe -p User=strainwave "${sandbox[@]}" "$@"; }
+must "the service reaches them" within gpioinfo "$chip"
+must_not "but no disk" within head -c 1 /dev/vda
+pull=/sys/devices/platform/$(cat ${bank%/bank}/dev_name)/$chip/sim_gpio0/pull
+must_not "what root keeps in sysfs it cannot write" within sh -c "echo pull-up >$pull"
+chgrp strainwave "$pull"
+chmod g+w "$pull"
+must "what its group was given there it can" within sh -c "echo pull-up >$pull"
+must_not "nor does it see other processes" within sh -c 'ls /proc/1/status'
+must_not "a folder outside sysfs is given to nobody" /usr/libexec/strainwave/grant-sysfs /etc
 mkdir -p /etc/systemd/network
 cp /usr/share/strainwave/network/* /etc/systemd/network/
 udevadm control --reload
