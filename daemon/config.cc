@@ -169,7 +169,7 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
   if (security.unsigned_allowed && !simulated)
     section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
   if (section.has("authorized_keys"))
-    security.keys = read_authorized_keys(folder / section.text("authorized_keys"));
+    security.keys = read_authorized_keys(credential_or_file(folder / section.text("authorized_keys")));
   else if (!security.unsigned_allowed)
     section.fail("authorized_keys", "give the file with the public keys that may give orders (strainwavectl keygen makes "
                                     "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
