@@ -31,6 +31,7 @@ struct JointAdmission {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
   double torque_limit_Nm = 0.0;
+  double speed_limit_rad_s = 0.0;
   bool takes_injected_faults = false;  ///< the simulated driver's
 };
 

@@ -11,6 +11,7 @@ namespace strainwave {
 namespace channel_kind {
 inline constexpr std::string_view kState = "STATE";
 inline constexpr std::string_view kTemperature = "TEMPERATURE";
+inline constexpr std::string_view kLimits = "LIMITS";
 inline constexpr std::string_view kTiming = "TIMING";
 inline constexpr std::string_view kSetpoint = "SETPOINT";
 inline constexpr std::string_view kCommand = "COMMAND";
