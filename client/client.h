@@ -69,8 +69,8 @@ class Client {
     return exchange(joint, sender_.seal_unsigned(channel(options_.prefix, joint, kind), message, session_id));
   }
 
-  /// Sends `message` to a joint that is heard, once and without waiting: one of a stream. Only a refusal of it is
-  /// answered, see take_refusal().
+  /// Sends `message` to a joint that is heard, once and without waiting: one of a stream. Only a refusal of
+  /// it is answered, see take_refusal().
   template <typename Message>
   void send(const std::string& joint, std::string_view kind, const Message& message) {
     const std::int64_t session_id = wait_for_joint(joint).state.session_id;

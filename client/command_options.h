@@ -1,5 +1,6 @@
-// The commands of strainwavectl as options of CLI11, one function per family, and what they share. Each adds its
-// commands to the command line; a command that was chosen leaves in the Invocation what is to be done. Not real-time.
+// The commands of strainwavectl as options of CLI11, one function per family, and what they share. Each adds
+// its commands to the command line; a command that was chosen leaves in the Invocation what is to be done.
+// Not real-time.
 #pragma once
 
 #include <functional>

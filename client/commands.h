@@ -49,8 +49,8 @@ struct RecordArguments {
 };
 void record(Client& client, const Output& output, const RecordArguments& arguments);
 
-/// Decodes an LCM event log: a folder with one CSV file per channel, or one .csv with the states of all joints, see
-/// state_csv.h.
+/// Decodes an LCM event log: a folder with one CSV file per channel, or one .csv with the states of all
+/// joints, see state_csv.h.
 struct ExportArguments {
   std::filesystem::path log;
   std::filesystem::path out;
@@ -58,25 +58,27 @@ struct ExportArguments {
 };
 void export_log(const Output& output, const ExportArguments& arguments);
 
-/// Sends the setpoints that a log holds for `joint` once more, in their own time, as new orders: signed with the key that
-/// must be given, for the session of now. A pause after a stream becomes a hold. An interrupt or a refusal holds the joint.
+/// Sends the setpoints that a log holds for `joint` once more, in their own time, as new orders: signed with
+/// the key that must be given, for the session of now. A pause after a stream becomes a hold. An interrupt or
+/// a refusal holds the joint.
 struct PlayArguments {
   std::filesystem::path log;
   std::string joint;
 };
 void play(Client& client, const Output& output, const PlayArguments& arguments);
 
-/// Moves `joint` at steady speeds, each in both directions, and records everything for strainwave-design fit --log.
-/// Limits are checked before anything moves; an interrupt, a fault, another order or too much torque ends it in a hold, and
-/// so does the end of this program, because the setpoints are a stream.
+/// Moves `joint` at steady speeds, each in both directions, and records everything for strainwave-design fit
+/// --log. Limits are checked before anything moves; an interrupt, a fault, another order or too much torque
+/// ends it in a hold, and so does the end of this program, because the setpoints are a stream.
 struct IdentifyArguments {
   std::string joint;
   std::filesystem::path file;
-  std::optional<std::pair<double, double>> range_rad;  ///< nothing: 1 rad to either side, within the joint's limits
-  double slowest_rad_s = 0.01;
-  double fastest_rad_s = 0.0;  ///< 0: 80 % of the joint's limit
-  int speeds = 10;             ///< evenly spaced by ratio
-  double steady_s = 4.0;       ///< longest time at one speed in one direction
+  std::optional<std::pair<double, double>>
+      range_rad;  ///< nothing: 1 rad to either side, within the joint's limits
+  double slowest_rad_s = 0.025;
+  double fastest_rad_s = 0.0;           ///< 0: 80 % of the joint's limit
+  int speeds = 12;                      ///< evenly spaced by ratio
+  double steady_s = 4.0;                ///< longest time at one speed in one direction
   std::optional<double> max_torque_Nm;  ///< nothing: the joint's limit
   bool overwrite = false;
   bool dry_run = false;  ///< check and print the plan, move nothing

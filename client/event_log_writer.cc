@@ -50,7 +50,8 @@ void EventLogWriter::on_message(const lcm::ReceiveBuffer* buffer, const std::str
 
 void EventLogWriter::finish() {
   good_ = good_ && std::fflush(log_->f) == 0;
-  if (!good_) throw ClientError(ExitStatus::kFile, name_ + " is incomplete: writing failed; is the disk full?");
+  if (!good_)
+    throw ClientError(ExitStatus::kFile, name_ + " is incomplete: writing failed; is the disk full?");
 }
 
 }  // namespace strainwave

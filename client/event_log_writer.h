@@ -15,8 +15,8 @@ namespace strainwave {
 
 class EventLogWriter {
  public:
-  /// Creates `file` and writes every message of `prefix` from now on, or only those of `joints` and the daemon as a
-  /// whole. Throws ClientError (file): it exists and `overwrite` is false, or cannot be created.
+  /// Creates `file` and writes every message of `prefix` from now on, or only those of `joints` and the
+  /// daemon as a whole. Throws ClientError (file): it exists and `overwrite` is false, or cannot be created.
   EventLogWriter(Connection& connection, const std::string& prefix, const std::vector<std::string>& joints,
                  const std::filesystem::path& file, bool overwrite);
 

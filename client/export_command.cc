@@ -21,7 +21,8 @@ std::ofstream create(const std::filesystem::path& path, bool overwrite) {
     throw ClientError(ExitStatus::kFile, path.string() + " exists: choose another name, or say --overwrite");
   std::ofstream file(path);
   if (!file)
-    throw ClientError(ExitStatus::kFile, path.string() + " cannot be written: does its folder exist, is it yours?");
+    throw ClientError(ExitStatus::kFile,
+                      path.string() + " cannot be written: does its folder exist, is it yours?");
   return file;
 }
 
@@ -33,11 +34,13 @@ void require_complete(std::ofstream& file, const std::filesystem::path& path) {
 /// The states of all joints in one file, as the joint's name and the message's fields.
 class StateExport {
  public:
-  StateExport(const std::filesystem::path& path, bool overwrite) : path_(path), file_(create(path, overwrite)) {
+  StateExport(const std::filesystem::path& path, bool overwrite)
+      : path_(path), file_(create(path, overwrite)) {
     file_ << csv_header() << '\n';
   }
   bool take(const ChannelName& name, const LogEvent& event) {
-    const auto state = name.kind == channel_kind::kState ? decode_exactly<state_v1>(event.data) : std::nullopt;
+    const auto state =
+        name.kind == channel_kind::kState ? decode_exactly<state_v1>(event.data) : std::nullopt;
     if (state) file_ << csv_row(name.joint, *state) << '\n';
     if (state) ++counts_[name.joint];
     return state.has_value();
@@ -57,7 +60,8 @@ class StateExport {
 /// One file per channel: when the message was received, then its fields.
 class ChannelExport {
  public:
-  ChannelExport(const std::filesystem::path& folder, bool overwrite) : folder_(folder), overwrite_(overwrite) {
+  ChannelExport(const std::filesystem::path& folder, bool overwrite)
+      : folder_(folder), overwrite_(overwrite) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw ClientError(ExitStatus::kFile, folder.string() + " cannot be made: " + error.message());

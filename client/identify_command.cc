@@ -58,8 +58,8 @@ class Identification {
         check(old_states.passed() ? std::optional(target_rad) : std::nullopt);
       }
       if (late.passed())
-        throw ClientError(ExitStatus::kRefused, fmt::format("{}: not at {:.4f} rad after {:.1f} s", joint_, target_rad,
-                                                            expected_s + kPatience_s));
+        throw ClientError(ExitStatus::kRefused, fmt::format("{}: not at {:.4f} rad after {:.1f} s", joint_,
+                                                            target_rad, expected_s + kPatience_s));
     }
   }
 
@@ -73,8 +73,9 @@ class Identification {
       throw ClientError(ExitStatus::kRefused, joint_ + ": another order replaced this one's");
     const double torque_Nm = std::abs(state().torque_applied_Nm);
     if (torque_Nm > plan_.max_torque_Nm)
-      throw ClientError(ExitStatus::kRefused, fmt::format("{}: {:.1f} N.m exceed the {:.1f} N.m that were allowed",
-                                                          joint_, torque_Nm, plan_.max_torque_Nm));
+      throw ClientError(ExitStatus::kRefused,
+                        fmt::format("{}: {:.1f} N.m exceed the {:.1f} N.m that were allowed", joint_,
+                                    torque_Nm, plan_.max_torque_Nm));
   }
 
   Client& client_;
@@ -86,13 +87,14 @@ class Identification {
 void require_ready(const JointView& view, const std::string& joint) {
   const auto mode = static_cast<Mode>(view.state.mode);
   if (mode != Mode::kHolding)
-    throw ClientError(ExitStatus::kRefused, fmt::format("{}: is {}, not holding: strainwavectl enable {}, or hold {}", joint,
-                                                        to_text(mode), joint, joint));
+    throw ClientError(ExitStatus::kRefused,
+                      fmt::format("{}: is {}, not holding: strainwavectl enable {}, or hold {}", joint,
+                                  to_text(mode), joint, joint));
   const auto status = static_cast<TemperatureStatus>(view.state.temperature_status);
   if (status != TemperatureStatus::kValid)
     throw ClientError(ExitStatus::kRefused,
-                      fmt::format("{}: its temperature is not known ({}), and friction means nothing without", joint,
-                                  to_text(status)));
+                      fmt::format("{}: its temperature is not known ({}), and friction means nothing without",
+                                  joint, to_text(status)));
 }
 
 /// The log should begin with the limits, which the fit needs: they come once a second.
@@ -112,17 +114,20 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   output.stream.flush();
   if (arguments.dry_run) return;
   require_ready(view, joint);
-  EventLogWriter log(client.connection(), client.options().prefix, {joint}, arguments.file, arguments.overwrite);
+  EventLogWriter log(client.connection(), client.options().prefix, {joint}, arguments.file,
+                     arguments.overwrite);
   wait_for_limits_in(client, log, joint);
   run_guarded(client, joint, [&] {
     Identification(client, joint, plan).run([&](const Sweep& sweep) {
-      output.stream << fmt::format("{}: {:.4f} rad/s done, {:.1f} degC\n", joint, sweep.speed_rad_s, view.state.temperature_C);
+      output.stream << fmt::format("{}: {:.4f} rad/s done, {:.1f} degC\n", joint, sweep.speed_rad_s,
+                                   view.state.temperature_C);
       output.stream.flush();
     });
   });
   hold(client, output, joint);
   log.finish();
-  output.stream << fmt::format("{}: now strainwave-design fit --log {}\n", arguments.file.string(), arguments.file.string());
+  output.stream << fmt::format("{}: now strainwave-design fit --log {}\n", arguments.file.string(),
+                               arguments.file.string());
 }
 
 }  // namespace strainwave

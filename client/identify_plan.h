@@ -20,12 +20,12 @@ struct Sweep {
 };
 
 struct IdentifyPlan {
-  std::vector<Sweep> sweeps;              ///< slow ones first: the fast ones warm the joint
-  std::vector<double> left_out_rad_s;     ///< speeds that the range is too short for
+  std::vector<Sweep> sweeps;           ///< slow ones first: the fast ones warm the joint
+  std::vector<double> left_out_rad_s;  ///< speeds that the range is too short for
   std::pair<double, double> range_rad;
-  double approach_speed_rad_s = 0.0;      ///< on the way to a sweep
+  double approach_speed_rad_s = 0.0;  ///< on the way to a sweep
   double max_torque_Nm = 0.0;
-  double duration_s = 0.0;                ///< expected
+  double duration_s = 0.0;  ///< expected
 };
 
 /// Less time than this at a speed says little.
@@ -33,9 +33,10 @@ inline constexpr double kLeastSteady_s = 0.2;
 /// Fewer speeds do not show the shape of the friction.
 inline constexpr std::size_t kLeastSweeps = 3;
 
-/// The plan from where the joint is now. Throws ClientError (usage) that names the option and the limit when something
-/// would be beyond the joint's limits, or fewer than kLeastSweeps speeds fit.
-IdentifyPlan plan_identification(const IdentifyArguments& arguments, const limits_v1& limits, double position_rad);
+/// The plan from where the joint is now. Throws ClientError (usage) that names the option and the limit when
+/// something would be beyond the joint's limits, or fewer than kLeastSweeps speeds fit.
+IdentifyPlan plan_identification(const IdentifyArguments& arguments, const limits_v1& limits,
+                                 double position_rad);
 
 /// One line for each sweep, one for the whole.
 std::string to_text(const IdentifyPlan& plan);

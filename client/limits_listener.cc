@@ -8,7 +8,8 @@
 namespace strainwave {
 
 LimitsListener::LimitsListener(Connection& connection)
-    : subscription_(connection.subscribe(channel_pattern("[^.]+", channel_kind::kLimits), &LimitsListener::on_limits, this)) {}
+    : subscription_(connection.subscribe(channel_pattern("[^.]+", channel_kind::kLimits),
+                                         &LimitsListener::on_limits, this)) {}
 
 const limits_v1* LimitsListener::find(const std::string& prefix, const std::string& joint) const {
   const auto found = limits_.find({prefix, joint});
@@ -23,9 +24,10 @@ const limits_v1& LimitsListener::wait_for(Client& client, const std::string& joi
     return limits != nullptr && limits->session_id == session_id;
   };
   if (!client.wait_until(heard, Deadline(client.options().timeout_s)))
-    throw ClientError(ExitStatus::kNoAnswer,
-                      fmt::format("no limits on {} in {} s: they come once a second from a daemon of this version",
-                                  channel(prefix, joint, channel_kind::kLimits), client.options().timeout_s));
+    throw ClientError(
+        ExitStatus::kNoAnswer,
+        fmt::format("no limits on {} in {} s: they come once a second from a daemon of this version",
+                    channel(prefix, joint, channel_kind::kLimits), client.options().timeout_s));
   return *find(prefix, joint);
 }
 

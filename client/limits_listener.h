@@ -16,8 +16,8 @@ class LimitsListener {
 
   /// Null when nothing was heard yet.
   const limits_v1* find(const std::string& prefix, const std::string& joint) const;
-  /// Waits for those of a joint of the client's prefix, from the daemon whose states are heard. Throws ClientError (no
-  /// answer).
+  /// Waits for those of a joint of the client's prefix, from the daemon whose states are heard. Throws
+  /// ClientError (no answer).
   const limits_v1& wait_for(Client& client, const std::string& joint) const;
 
  private:

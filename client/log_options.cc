@@ -13,7 +13,9 @@ void add_record(CLI::App& app, Invocation& invocation) {
       app.add_subcommand("record", "every message of the prefix to an LCM event log, until Ctrl-C");
   auto arguments = std::make_shared<RecordArguments>();
   add_joints(*command, arguments->joints, "only these joints; none: all of the prefix");
-  command->add_option("--out", arguments->file, "the log, readable by lcm-logplayer")->required()->type_name("FILE");
+  command->add_option("--out", arguments->file, "the log, readable by lcm-logplayer")
+      ->required()
+      ->type_name("FILE");
   auto duration_s = std::make_shared<double>(0.0);
   add_seconds(*command, "--duration_s", *duration_s, "end after this time");
   command->add_flag("--overwrite", arguments->overwrite, "replace the file if it exists");
@@ -30,8 +32,9 @@ void add_export(CLI::App& app, Invocation& invocation) {
   auto arguments = std::make_shared<ExportArguments>();
   command->add_option("LOG", arguments->log, "from record, or from lcm-logger")->required()->type_name("");
   command
-      ->add_option("--out", arguments->out,
-                   "a folder for one file per channel; or a name that ends in .csv for the states of all joints")
+      ->add_option(
+          "--out", arguments->out,
+          "a folder for one file per channel; or a name that ends in .csv for the states of all joints")
       ->required()
       ->type_name("DIR|FILE.csv");
   command->add_flag("--overwrite", arguments->overwrite, "replace files that exist");
@@ -41,13 +44,17 @@ void add_export(CLI::App& app, Invocation& invocation) {
 }
 
 void add_play(CLI::App& app, Invocation& invocation) {
-  CLI::App* command =
-      app.add_subcommand("play", "the setpoints of a log once more, signed afresh with --key, in their own time");
+  CLI::App* command = app.add_subcommand(
+      "play", "the setpoints of a log once more, signed afresh with --key, in their own time");
   auto arguments = std::make_shared<PlayArguments>();
   command->add_option("LOG", arguments->log, "from record, or from lcm-logger")->required()->type_name("");
-  command->add_option("--joint", arguments->joint, "whose setpoints, and who moves")->required()->type_name("JOINT");
+  command->add_option("--joint", arguments->joint, "whose setpoints, and who moves")
+      ->required()
+      ->type_name("JOINT");
   command->callback([&invocation, arguments] {
-    invocation.command = [arguments](Client& client, const Output& output) { play(client, output, *arguments); };
+    invocation.command = [arguments](Client& client, const Output& output) {
+      play(client, output, *arguments);
+    };
   });
 }
 

@@ -1,5 +1,5 @@
-// Messages as lines of CSV: a field's own name for its column (an array as name_0, name_1, ...). Numbers read back to the
-// same bits; text is quoted. Not real-time.
+// Messages as lines of CSV: a field's own name for its column (an array as name_0, name_1, ...). Numbers read
+// back to the same bits; text is quoted. Not real-time.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,8 @@ namespace strainwave {
 /// `text` in quotes, safe to show on a terminal and in a spreadsheet.
 inline std::string csv_quoted(std::string_view text) {
   std::string quoted = "\"";
-  for (const char character : printable(text)) quoted += character == '"' ? "\"\"" : std::string(1, character);
+  for (const char character : printable(text))
+    quoted += character == '"' ? "\"\"" : std::string(1, character);
   return quoted + "\"";
 }
 

@@ -35,7 +35,8 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
     setpoints.push_back({at_s, *setpoint});
   }
   if (setpoints.empty())
-    throw ClientError(ExitStatus::kFile, fmt::format("{} holds no setpoints of {}", arguments.log.string(), arguments.joint));
+    throw ClientError(ExitStatus::kFile,
+                      fmt::format("{} holds no setpoints of {}", arguments.log.string(), arguments.joint));
   return setpoints;
 }
 
@@ -71,8 +72,8 @@ void send_all(Client& client, const std::string& joint, const std::vector<TimedS
       client.wait_until([] { return false; }, Deadline(std::min(0.02, due.remaining_ms() * 1e-3)));
       require_undisturbed(client, joint, session_id);
     } while (!due.passed());
-    const bool stream_ended =
-        last != nullptr && last->setpoint.valid_for_s > 0.0 && next.at_s - last->at_s > last->setpoint.valid_for_s;
+    const bool stream_ended = last != nullptr && last->setpoint.valid_for_s > 0.0 &&
+                              next.at_s - last->at_s > last->setpoint.valid_for_s;
     if (stream_ended) end_expired_stream(client, joint);
     if (last == nullptr)
       require_order(client, joint, order_of(next.setpoint));
@@ -89,8 +90,9 @@ void send_all(Client& client, const std::string& joint, const std::vector<TimedS
 
 void play(Client& client, const Output& output, const PlayArguments& arguments) {
   if (client.options().key_file.empty())
-    throw ClientError(ExitStatus::kUsage,
-                      "play: recorded setpoints are sent only as new orders of somebody: say who with --key FILE");
+    throw ClientError(
+        ExitStatus::kUsage,
+        "play: recorded setpoints are sent only as new orders of somebody: say who with --key FILE");
   const std::vector<TimedSetpoint> setpoints = read_setpoints(arguments);
   output.stream << fmt::format("{}: {} setpoints over {:.1f} s\n", arguments.joint, setpoints.size(),
                                setpoints.back().at_s);

@@ -188,8 +188,8 @@ void JointController::advance_reference() noexcept {
   replan_ = false;
   const double speed =
       std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
-  shaper_.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance,
-                                      torque_limit_Nm_, config_.torque_reserve, speed, config_.period_s));
+  shaper_.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
+                                      config_.torque_reserve, speed, config_.period_s));
   reference_ = shaper_.step();
 }
 

@@ -132,7 +132,7 @@ class JointController {
   JointEstimate then_;            ///< when this period's torque begins to act
   Reference reference_;
   std::array<double, kMaxControlDelay + 1>
-      torques_Nm_{};  ///< newest first, as far as the motor can deliver them
+      torques_Nm_{};     ///< newest first, as far as the motor can deliver them
   MotionLimits motion_;  ///< the configuration's, and this order's speed
   double torque_limit_Nm_ = 0.0;
   double temperature_C_ = 0.0;

@@ -93,7 +93,8 @@ class Admission {
   /// A refusal or a repeat, or nothing when the envelope is in order; then the requester is authentic.
   std::optional<Verdict> check_envelope(const WireMessage& message, const Envelope& envelope,
                                         Requester& requester);
-  std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed, Requester& requester);
+  std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed,
+                                      Requester& requester);
   static std::optional<Verdict> check_sequence(SequenceMemory& memory, Requester& requester);
 
   std::string prefix_;

@@ -154,7 +154,9 @@ void add_log_options(CLI::App& command, Options& options) {
   FitLogOptions& log = options.log;
   CLI::Option* const catalogue = command.get_option("CATALOGUE");
   CLI::Option* const logs =
-      command.add_option("--log", log.logs, "instead of a catalogue: logs of strainwavectl identify, best at several temperatures")
+      command
+          .add_option("--log", log.logs,
+                      "instead of a catalogue: logs of strainwavectl identify, best at several temperatures")
           ->excludes(catalogue)
           ->type_name("FILE");
   const auto add = [&](const std::string& name, auto& value, const std::string& help) {
@@ -162,7 +164,8 @@ void add_log_options(CLI::App& command, Options& options) {
   };
   logs->needs(add("--prior", log.prior, "friction file of the catalogue, which the logs correct"));
   add("--joint", log.joint, "which joint, when a log holds several");
-  add("--prior-common", log.weights.common, "relative deviation from the catalogue that all temperatures share");
+  add("--prior-common", log.weights.common,
+      "relative deviation from the catalogue that all temperatures share");
   add("--prior-own", log.weights.own, "relative deviation of each temperature rule by itself");
   add("--torque-uncertainty", log.weights.torque_uncertainty, "relative deviation of the torque measurement");
   add("--confidence", log.confidence, "of the intervals");
@@ -174,9 +177,8 @@ void add_log_options(CLI::App& command, Options& options) {
 Action add_fit_command(CLI::App& app, CLI::App*& command) {
   command = app.add_subcommand("fit", "Fit friction over temperature to a catalogue, or to logs of a joint");
   const auto options = std::make_shared<Options>();
-  command
-      ->add_option("CATALOGUE", options->catalogue,
-                   "CSV: running torque over speed and temperature, or parameters");
+  command->add_option("CATALOGUE", options->catalogue,
+                      "CSV: running torque over speed and temperature, or parameters");
   command->add_option("--model", options->model, "what to fit")
       ->check(CLI::IsMember({"exponential", "fuzzy", "both"}))
       ->capture_default_str();

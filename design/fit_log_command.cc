@@ -32,8 +32,8 @@ void report(const std::string& file, const FrictionLog& log, const SteadyPoints&
     const auto [low, high] = std::ranges::minmax(found.points, {}, &SteadyPoint::temperature_C);
     std::printf(" at %.1f to %.1f degC", low.temperature_C, high.temperature_C);
   }
-  std::printf("; runs left out: %d too short, %d not steady, %d without temperature, %d without return\n", found.too_short,
-              found.not_steady, found.no_temperature, found.without_return);
+  std::printf("; runs left out: %d too short, %d not steady, %d without temperature, %d without return\n",
+              found.too_short, found.not_steady, found.no_temperature, found.without_return);
 }
 
 Measurements read_logs(const FitLogOptions& options, const FrictionFile& prior) {
@@ -46,14 +46,16 @@ Measurements read_logs(const FitLogOptions& options, const FrictionFile& prior) 
       throw InputError(file, "gear_ratio", std::to_string(log.gear_ratio),
                        "the prior is for ratio " + std::to_string(prior.gear_ratio));
     if (!model.empty() && log.joint_model != model)
-      throw InputError(file, "joint_model", log.joint_model, "the other logs are of " + model + ": fit each joint by itself");
+      throw InputError(file, "joint_model", log.joint_model,
+                       "the other logs are of " + model + ": fit each joint by itself");
     model = log.joint_model;
     const SteadyPoints found = find_steady_points(log.samples, log.inertia_kgm2);
     report(file, log, found);
     all.points.insert(all.points.end(), found.points.begin(), found.points.end());
     texts += sha256_hex(read_text_file(file));
   }
-  if (all.points.empty()) throw InputError("fit: the logs hold no steady speeds: record them with strainwavectl identify");
+  if (all.points.empty())
+    throw InputError("fit: the logs hold no steady speeds: record them with strainwavectl identify");
   all.sha256 = sha256_hex(texts);
   return all;
 }
@@ -69,16 +71,17 @@ double pooled_noise_Nm(const std::vector<FrictionRegression>& measured) {
   return std::sqrt(squares / freedom);
 }
 
-std::vector<FrictionRegression> regress(const Measurements& all, const StribeckShape& shape, double confidence) {
+std::vector<FrictionRegression> regress(const Measurements& all, const StribeckShape& shape,
+                                        double confidence) {
   std::vector<FrictionRegression> measured;
-  std::printf("measured, with %.0f %% confidence:\n  %8s %6s %19s %19s %19s\n", 100.0 * confidence, "degC", "points",
-              "static_Nm", "coulomb_Nm", "viscous_Nms_rad");
+  std::printf("measured, with %.0f %% confidence:\n  %8s %6s %19s %19s %19s\n", 100.0 * confidence, "degC",
+              "points", "static_Nm", "coulomb_Nm", "viscous_Nms_rad");
   for (const auto& group : group_by_temperature(all.points, kGap_C)) {
     measured.push_back(regress_friction(group, shape, confidence));
     const FrictionRegression& fit = measured.back();
     std::printf("  %8.1f %6d %9.4f +- %6.4f %9.4f +- %6.4f %9.4f +- %6.4f\n", fit.temperature_C, fit.points,
-                fit.static_Nm.value, fit.static_Nm.half_width, fit.coulomb_Nm.value, fit.coulomb_Nm.half_width,
-                fit.viscous_Nms_rad.value, fit.viscous_Nms_rad.half_width);
+                fit.static_Nm.value, fit.static_Nm.half_width, fit.coulomb_Nm.value,
+                fit.coulomb_Nm.half_width, fit.viscous_Nms_rad.value, fit.viscous_Nms_rad.half_width);
   }
   return measured;
 }
@@ -89,9 +92,10 @@ std::vector<double> judged_speeds(const std::vector<SteadyPoint>& points) {
   return {slow.speed_rad_s, std::sqrt(slow.speed_rad_s * fast.speed_rad_s), fast.speed_rad_s};
 }
 
-/// Prints the merged friction over the range of temperatures and returns those where it is not known well enough.
-std::vector<double> judge(const FrictionUpdate& update, const FuzzyFriction& prior, const std::vector<double>& speeds,
-                          double quantile, double wanted) {
+/// Prints the merged friction over the range of temperatures and returns those where it is not known well
+/// enough.
+std::vector<double> judge(const FrictionUpdate& update, const FuzzyFriction& prior,
+                          const std::vector<double>& speeds, double quantile, double wanted) {
   std::vector<double> missing_C;
   std::printf("merged with the prior, friction torque in N.m at three speeds:\n  %8s", "degC");
   for (const double speed : speeds) std::printf(" %15.4f rad/s", speed);
@@ -128,8 +132,10 @@ void check(const FitLogOptions& options) {
   const UpdateWeights& weights = options.weights;
   require(weights.common > 0.0, "prior-common", weights.common, "must be above 0");
   require(weights.own > 0.0, "prior-own", weights.own, "must be above 0");
-  require(weights.torque_uncertainty > 0.0, "torque-uncertainty", weights.torque_uncertainty, "must be above 0");
-  require(options.confidence > 0.0 && options.confidence < 1.0, "confidence", options.confidence, "must be between 0 and 1");
+  require(weights.torque_uncertainty > 0.0, "torque-uncertainty", weights.torque_uncertainty,
+          "must be above 0");
+  require(options.confidence > 0.0 && options.confidence < 1.0, "confidence", options.confidence,
+          "must be between 0 and 1");
   require(options.wanted > 0.0, "wanted", options.wanted, "must be above 0");
 }
 
@@ -139,17 +145,21 @@ int fit_logs(const FitLogOptions& options) {
   check(options);
   const std::string prior_text = read_text_file(options.prior);
   const FrictionFile prior = friction_file_from_json(prior_text, options.prior);
-  if (!prior.fuzzy) throw InputError(options.prior + ": has no fuzzy rules: fit the catalogue with --model fuzzy or both");
+  if (!prior.fuzzy)
+    throw InputError(options.prior + ": has no fuzzy rules: fit the catalogue with --model fuzzy or both");
   const FuzzyFriction& rules = prior.fuzzy->friction;
-  const StribeckShape shape = prior.exponential ? prior.exponential->stribeck : source_stribeck_shape(prior.gear_ratio);
+  const StribeckShape shape =
+      prior.exponential ? prior.exponential->stribeck : source_stribeck_shape(prior.gear_ratio);
 
   const Measurements all = read_logs(options, prior);
   const std::vector<FrictionRegression> measured = regress(all, shape, options.confidence);
   const double noise_Nm = pooled_noise_Nm(measured);
   const FrictionUpdate update(rules, shape, all.points, noise_Nm, options.weights);
-  std::printf("weights: catalogue %.0f %% common and %.0f %% own deviation; points %.4f N.m and %.1f %% of the torque\n",
-              100.0 * options.weights.common, 100.0 * options.weights.own, noise_Nm,
-              100.0 * options.weights.torque_uncertainty);
+  std::printf(
+      "weights: catalogue %.0f %% common and %.0f %% own deviation; points %.4f N.m and %.1f %% of the "
+      "torque\n",
+      100.0 * options.weights.common, 100.0 * options.weights.own, noise_Nm,
+      100.0 * options.weights.torque_uncertainty);
   // The noise's own uncertainty is small beside the prior's: the normal distribution's quantile.
   constexpr int kManyDegreesOfFreedom = 100000;
   const double quantile = student_t(options.confidence, kManyDegreesOfFreedom);
@@ -165,10 +175,14 @@ int fit_logs(const FitLogOptions& options) {
   file.fuzzy->fit.weighting = "bayes";
   file.fuzzy->fit.stopped = "optimum of a linear problem";
   file.identification = IdentificationRecord{std::filesystem::path(options.prior).filename().string(),
-                                             sha256_hex(prior_text), options.weights, noise_Nm, options.confidence, measured};
+                                             sha256_hex(prior_text),
+                                             options.weights,
+                                             noise_Nm,
+                                             options.confidence,
+                                             measured};
   write_text_file(options.out, to_json(file));
-  std::printf("%s: written; next: strainwave-design gains --friction %s --out TABLE.json\n", options.out.c_str(),
-              options.out.c_str());
+  std::printf("%s: written; next: strainwave-design gains --friction %s --out TABLE.json\n",
+              options.out.c_str(), options.out.c_str());
   return 0;
 }
 

@@ -10,12 +10,13 @@ namespace strainwave {
 
 struct FitLogOptions {
   std::vector<std::string> logs;
-  std::string prior;   ///< friction file of a catalogue fit
-  std::string joint;   ///< empty: the only one of each log
+  std::string prior;  ///< friction file of a catalogue fit
+  std::string joint;  ///< empty: the only one of each log
   std::string out;
   UpdateWeights weights;
   double confidence = 0.95;
-  double wanted = 0.05; ///< half width of the interval, relative, above which a temperature counts as missing
+  double wanted =
+      0.05;  ///< half width of the interval, relative, above which a temperature counts as missing
 };
 
 /// The exit status; throws InputError.

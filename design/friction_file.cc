@@ -180,7 +180,8 @@ FrictionFile friction_file_from_json(const std::string& text, const std::string&
                                      record_from_json(fuzzy.object("fit"))};
     fuzzy.finish();
   }
-  if (object.has("identification")) file.identification = identification_from_json(object.object("identification"));
+  if (object.has("identification"))
+    file.identification = identification_from_json(object.object("identification"));
   object.finish();
   return file;
 }

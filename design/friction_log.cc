@@ -46,12 +46,15 @@ void require_enough(const Contents& contents, const std::string& name) {
   if (contents.states.empty())
     throw InputError(name + ": holds no states of the joint: record it with strainwavectl identify");
   if (!contents.limits)
-    throw InputError(name + ": holds no LIMITS of the joint: record for more than a second, or with strainwavectl identify");
+    throw InputError(
+        name +
+        ": holds no LIMITS of the joint: record for more than a second, or with strainwavectl identify");
   for (const state_v1& state : contents.states) {
     if (state.session_id != contents.limits->session_id)
       throw InputError(name + ": the daemon was restarted while it was recorded: record again");
   }
-  if (!(contents.limits->period_s > 0.0) || !(contents.limits->inertia_kgm2 > 0.0) || !(contents.limits->gear_ratio > 0.0))
+  if (!(contents.limits->period_s > 0.0) || !(contents.limits->inertia_kgm2 > 0.0) ||
+      !(contents.limits->gear_ratio > 0.0))
     throw InputError(name + ": its LIMITS are not those of a joint");
 }
 
@@ -71,7 +74,7 @@ FrictionLog read_friction_log(const std::filesystem::path& file, const std::stri
     const bool known = static_cast<TemperatureStatus>(state.temperature_status) == TemperatureStatus::kValid;
     log.samples.push_back({static_cast<double>(state.cycle) * limits.period_s,
                            static_cast<Mode>(state.mode) == Mode::kTracking, state.setpoint_velocity_rad_s,
-                           state.joint_position_rad, state.torque_applied_Nm,
+                           state.joint_position_rad, state.joint_velocity_rad_s, state.torque_applied_Nm,
                            known ? state.temperature_C : std::numeric_limits<double>::quiet_NaN()});
   }
   return log;

@@ -30,7 +30,8 @@ Eigen::RowVector3d friction_row(const StribeckShape& shape, double speed_rad_s) 
   return {std::exp(-std::pow(speed_rad_s / shape.velocity_rad_s, shape.exponent)), 1.0, speed_rad_s};
 }
 
-FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape, double confidence) {
+FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape,
+                                    double confidence) {
   const auto n = static_cast<Eigen::Index>(points.size());
   if (n < kLeastRegressionPoints) refuse(points, shape);
   Eigen::MatrixX3d X(n, 3);
@@ -55,7 +56,8 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
   const double variance = result.residual_squares / result.degrees_of_freedom;
   const double t = student_t(confidence, result.degrees_of_freedom);
   const auto interval = [&](const Eigen::Vector3d& combination) {
-    return Interval{combination.dot(parameters), t * std::sqrt(variance * combination.dot(inverse * combination))};
+    return Interval{combination.dot(parameters),
+                    t * std::sqrt(variance * combination.dot(inverse * combination))};
   };
   result.static_Nm = interval({1.0, 1.0, 0.0});
   result.coulomb_Nm = interval({0.0, 1.0, 0.0});
@@ -67,7 +69,8 @@ std::vector<std::vector<SteadyPoint>> group_by_temperature(std::vector<SteadyPoi
   std::ranges::stable_sort(points, {}, &SteadyPoint::temperature_C);
   std::vector<std::vector<SteadyPoint>> groups;
   for (const SteadyPoint& point : points) {
-    if (groups.empty() || point.temperature_C - groups.back().back().temperature_C > gap_C) groups.emplace_back();
+    if (groups.empty() || point.temperature_C - groups.back().back().temperature_C > gap_C)
+      groups.emplace_back();
     groups.back().push_back(point);
   }
   return groups;

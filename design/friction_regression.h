@@ -1,8 +1,9 @@
-// Static, Coulomb and viscous friction at one temperature from the torques at several speeds, with confidence intervals.
-// Joint side, SI. Offline.
+// Static, Coulomb and viscous friction at one temperature from the torques at several speeds, with confidence
+// intervals. Joint side, SI. Offline.
 //
 //   F(w) = (Fs - Fc) s(w) + Fc + Fv w,   s(w) = exp(-(w/ws)^delta) known:   linear in (Fs - Fc, Fc, Fv)
-//   least squares; s^2 = residuals' squares / (n - 3); covariance s^2 (X'X)^-1; interval by Student's t with n - 3
+//   least squares; s^2 = residuals' squares / (n - 3); covariance s^2 (X'X)^-1; interval by Student's t with
+//   n - 3
 #pragma once
 
 #include <Eigen/Core>
@@ -30,10 +31,11 @@ struct FrictionRegression {
   int degrees_of_freedom = 0;
 };
 
-/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. Throws InputError when they do not
-/// determine the three parameters, saying which speeds are missing.
+/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. Throws InputError
+/// when they do not determine the three parameters, saying which speeds are missing.
 inline constexpr int kLeastRegressionPoints = 4;
-FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape, double confidence);
+FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape,
+                                    double confidence);
 
 /// The points in groups of one temperature each: sorted, a gap of more than `gap_C` begins a new group.
 std::vector<std::vector<SteadyPoint>> group_by_temperature(std::vector<SteadyPoint> points, double gap_C);

@@ -12,8 +12,11 @@ namespace {
 
 using Index = Eigen::Index;
 
-// A rule whose prior is 0 may still turn out to have some friction: this share of the largest rule's.
+// Friction whose prior is 0 may still turn out to be some: this share of the largest over temperature.
 constexpr double kLeastShare = 0.02;
+// Rules that can hardly be told apart are held together by their own prior value, this loosely.
+constexpr double kRuleDeviation = 10.0;  // in units of `own`
+constexpr Index kGrid = 51;              // temperatures over the range
 
 Eigen::VectorXd parameters_of(const FuzzyFriction& friction) {
   const Index m = friction.rule_count;
@@ -33,19 +36,47 @@ void set_parameters(FuzzyFriction& friction, const Eigen::VectorXd& c) {
     friction.rules[static_cast<std::size_t>(i)].friction = {c(i) + c(m + i), c(m + i), c(2 * m + i)};
 }
 
-Eigen::MatrixXd prior_covariance(const Eigen::VectorXd& c0, Index m, const UpdateWeights& weights) {
+/// Memberships at temperatures over the whole range, a row each.
+Eigen::MatrixXd memberships_over_range(const FuzzyFriction& friction) {
+  const Index m = friction.rule_count;
+  Eigen::MatrixXd Phi(kGrid, m);
+  for (Index k = 0; k < kGrid; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(kGrid - 1);
+    const TemperatureWeights weights =
+        friction.weights(std::lerp(friction.temperature_min_C, friction.temperature_max_C, share));
+    Phi.row(k) = Eigen::RowVectorXd::Map(weights.weight.data(), m);
+  }
+  return Phi;
+}
+
+/// Q of one kind of parameter: as if the blended parameter had been seen with a relative deviation of 1 all
+/// over the range, as many times as there are rules.
+Eigen::MatrixXd own_covariance(const Eigen::VectorXd& c0, const Eigen::MatrixXd& Phi) {
+  const Index m = c0.size();
+  const Eigen::VectorXd blended = Phi * c0;
+  const double least = kLeastShare * std::max(blended.cwiseAbs().maxCoeff(), 1e-9);
+  const Eigen::VectorXd size = blended.cwiseAbs().cwiseMax(least);
+  const Eigen::MatrixXd seen = size.cwiseInverse().asDiagonal() * Phi;
+  Eigen::MatrixXd precision = static_cast<double>(m) / static_cast<double>(kGrid) * seen.transpose() * seen;
+  precision.diagonal() += (kRuleDeviation * c0.cwiseAbs().cwiseMax(least)).cwiseAbs2().cwiseInverse();
+  return precision.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
+}
+
+Eigen::MatrixXd prior_covariance(const FuzzyFriction& prior, const Eigen::VectorXd& c0,
+                                 const UpdateWeights& weights) {
+  const Index m = prior.rule_count;
+  const Eigen::MatrixXd Phi = memberships_over_range(prior);
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3 * m, 3 * m);
   for (Index kind = 0; kind < 3; ++kind) {
-    const auto block = c0.segment(kind * m, m);
-    const double least = kLeastShare * std::max(block.cwiseAbs().maxCoeff(), 1e-9);
-    const Eigen::VectorXd size = block.cwiseAbs().cwiseMax(least);
-    P.block(kind * m, kind * m, m, m) = weights.common * weights.common * size * size.transpose();
-    P.block(kind * m, kind * m, m, m).diagonal() += weights.own * weights.own * size.cwiseAbs2();
+    const Eigen::VectorXd block = c0.segment(kind * m, m);
+    P.block(kind * m, kind * m, m, m) = weights.common * weights.common * block * block.transpose() +
+                                        weights.own * weights.own * own_covariance(block, Phi);
   }
   return P;
 }
 
-/// c = U d with d >= 0 is the set of physical parameters: sums from the warm end for those that fall with temperature.
+/// c = U d with d >= 0 is the set of physical parameters: sums from the warm end for those that fall with
+/// temperature.
 Eigen::MatrixXd physical_basis(Index m) {
   Eigen::MatrixXd U = Eigen::MatrixXd::Identity(3 * m, 3 * m);
   for (Index kind = 1; kind < 3; ++kind)
@@ -68,11 +99,12 @@ Eigen::VectorXd solve_physical(const Eigen::MatrixXd& H, const Eigen::VectorXd& 
 }  // namespace
 
 FrictionUpdate::FrictionUpdate(const FuzzyFriction& prior, const StribeckShape& shape,
-                               const std::vector<SteadyPoint>& points, double noise_Nm, const UpdateWeights& weights)
+                               const std::vector<SteadyPoint>& points, double noise_Nm,
+                               const UpdateWeights& weights)
     : shape_(shape), friction_(prior) {
   const Index m = prior.rule_count;
   const Eigen::VectorXd c0 = parameters_of(prior);
-  const Eigen::LDLT<Eigen::MatrixXd> P0(prior_covariance(c0, m, weights));
+  const Eigen::LDLT<Eigen::MatrixXd> P0(prior_covariance(prior, c0, weights));
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(3 * m, 3 * m);
   Eigen::MatrixXd H = P0.solve(identity);
   Eigen::VectorXd g = P0.solve(c0);

@@ -60,7 +60,8 @@ IdentificationRecord identification_from_json(StrictObject object) {
                     object.number("torque_uncertainty")};
   record.noise_Nm = object.number("noise_Nm");
   record.confidence = object.number("confidence");
-  for (StrictObject& fit : object.objects("measured", 0, kMaxTemperatures)) record.measured.push_back(regression_from_json(fit));
+  for (StrictObject& fit : object.objects("measured", 0, kMaxTemperatures))
+    record.measured.push_back(regression_from_json(fit));
   object.finish();
   return record;
 }

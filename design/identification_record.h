@@ -1,4 +1,5 @@
-// Where the friction of a file came from when it was measured on a joint: part of the friction file. Joint side. Offline.
+// Where the friction of a file came from when it was measured on a joint: part of the friction file. Joint
+// side. Offline.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,8 +16,8 @@ struct IdentificationRecord {
   std::string prior_file;
   std::string prior_sha256;
   UpdateWeights weights;
-  double noise_Nm = 0.0;    ///< standard deviation of a point
-  double confidence = 0.0;  ///< of the intervals
+  double noise_Nm = 0.0;                     ///< standard deviation of a point
+  double confidence = 0.0;                   ///< of the intervals
   std::vector<FrictionRegression> measured;  ///< one per temperature
 };
 

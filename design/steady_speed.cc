@@ -36,7 +36,8 @@ std::vector<Run> constant_runs(const std::vector<MotionSample>& samples) {
 Run settled(Run run, const SteadyCriteria& criteria) {
   const double length_s = run.back().time_s - run.front().time_s;
   const double from_s = run.front().time_s + std::max(criteria.settle_s, criteria.settle_share * length_s);
-  const auto first = std::find_if(run.begin(), run.end(), [&](const MotionSample& s) { return s.time_s >= from_s; });
+  const auto first =
+      std::find_if(run.begin(), run.end(), [&](const MotionSample& s) { return s.time_s >= from_s; });
   return run.subspan(static_cast<std::size_t>(first - run.begin()));
 }
 
@@ -67,16 +68,27 @@ double mean_torque_Nm(Run run) {
   return sum / static_cast<double>(run.size());
 }
 
+double velocity_deviation_rad_s(Run run) {
+  const double n = static_cast<double>(run.size());
+  double mean = 0.0, squares = 0.0;
+  for (const MotionSample& s : run) mean += s.joint_velocity_rad_s / n;
+  for (const MotionSample& s : run)
+    squares += (s.joint_velocity_rad_s - mean) * (s.joint_velocity_rad_s - mean);
+  return std::sqrt(squares / n);
+}
+
 bool is_steady(Run run, double inertia_kgm2, const SteadyCriteria& criteria) {
   const double wanted = run.front().setpoint_velocity_rad_s;
   const Line line = fit_line(run);
   if (std::abs(line.slope_rad_s - wanted) > criteria.speed_tolerance * std::abs(wanted)) return false;
   const double travelled = std::abs(run.back().joint_position_rad - run.front().joint_position_rad);
   if (line.deviation_rad > criteria.ripple_tolerance * travelled) return false;
+  if (velocity_deviation_rad_s(run) > criteria.velocity_tolerance * std::abs(wanted)) return false;
   const std::size_t half = run.size() / 2;
   const double change = fit_line(run.subspan(half)).slope_rad_s - fit_line(run.first(half)).slope_rad_s;
   const double half_s = 0.5 * (run.back().time_s - run.front().time_s);
-  return std::abs(inertia_kgm2 * change / half_s) <= criteria.inertia_tolerance * std::abs(mean_torque_Nm(run));
+  return std::abs(inertia_kgm2 * change / half_s) <=
+         criteria.inertia_tolerance * std::abs(mean_torque_Nm(run));
 }
 
 /// What lies between two positions.
@@ -108,10 +120,12 @@ Means means_within(Run run, const Stretch& stretch) {
 
 std::optional<SteadyPoint> pair_of(Run there, Run back, const SteadyCriteria& criteria) {
   const double speed = there.front().setpoint_velocity_rad_s;
-  if (std::abs(speed + back.front().setpoint_velocity_rad_s) > kSameSpeed * std::abs(speed)) return std::nullopt;
+  if (std::abs(speed + back.front().setpoint_velocity_rad_s) > kSameSpeed * std::abs(speed))
+    return std::nullopt;
   const Stretch a = stretch_of(there), b = stretch_of(back);
   const Stretch common{std::max(a.low_rad, b.low_rad), std::min(a.high_rad, b.high_rad)};
-  if (common.length_rad() < criteria.least_overlap * std::max(a.length_rad(), b.length_rad())) return std::nullopt;
+  if (common.length_rad() < criteria.least_overlap * std::max(a.length_rad(), b.length_rad()))
+    return std::nullopt;
   const Means first = means_within(there, common), second = means_within(back, common);
   const double forward_Nm = speed > 0.0 ? first.torque_Nm : second.torque_Nm;
   const double backward_Nm = speed > 0.0 ? second.torque_Nm : first.torque_Nm;

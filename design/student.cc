@@ -8,10 +8,10 @@ namespace strainwave {
 
 namespace {
 
-// With t = sqrt(n) tan(u) the density becomes c cos(u)^(n-1) on (-pi/2, pi/2): smooth and bounded, so that Simpson's rule
-// converges fast.
+// With t = sqrt(n) tan(u) the density becomes c cos(u)^(n-1) on (-pi/2, pi/2): smooth and bounded, so that
+// Simpson's rule converges fast.
 double probability_within(double angle, int n) {
-  constexpr int kIntervals = 400;
+  constexpr int kIntervals = 200;
   const double c = std::exp(std::lgamma(0.5 * (n + 1)) - std::lgamma(0.5 * n)) / std::sqrt(std::numbers::pi);
   const double h = angle / kIntervals;
   double sum = 0.0;

@@ -40,7 +40,8 @@ bool EventLogReader::next(LogEvent& event) {
   std::uint32_t sync_word = 0, channel_bytes = 0, data_bytes = 0;
   if (!read(sync_word)) return false;
   if (sync_word != kSyncWord) refuse("no event begins here");
-  if (!read(event.number) || !read(event.received_us) || !read(channel_bytes) || !read(data_bytes)) return false;
+  if (!read(event.number) || !read(event.received_us) || !read(channel_bytes) || !read(data_bytes))
+    return false;
   if (channel_bytes == 0 || channel_bytes > kMaxChannelLength)
     refuse("a channel's name of " + std::to_string(channel_bytes) + " bytes");
   if (data_bytes > kMaxData) refuse("a message of " + std::to_string(data_bytes) + " bytes");
@@ -48,7 +49,8 @@ bool EventLogReader::next(LogEvent& event) {
   event.data.resize(data_bytes);
   if (!file_.read(event.channel.data(), static_cast<std::streamsize>(channel_bytes))) return false;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes into bytes
-  if (!file_.read(reinterpret_cast<char*>(event.data.data()), static_cast<std::streamsize>(data_bytes))) return false;
+  if (!file_.read(reinterpret_cast<char*>(event.data.data()), static_cast<std::streamsize>(data_bytes)))
+    return false;
   truncated_ = false;
   offset_ += kHeaderBytes + channel_bytes + data_bytes;
   return true;

@@ -1,8 +1,9 @@
-// LCM's event log (lcm-logger, strainwavectl record), read event by event. The file is untrusted: liblcm's own reader
-// ends the program on a wrong length, this one throws. Not real-time; needs no LCM library.
+// LCM's event log (lcm-logger, strainwavectl record), read event by event. The file is untrusted: liblcm's
+// own reader ends the program on a wrong length, this one throws. Not real-time; needs no LCM library.
 //
-// An event: sync word 0xEDA1DA01, int64 number, int64 time of receipt in us since the epoch, int32 length of the channel's
-// name, int32 length of the data, name, data; all big-endian. Source: liblcm's lcm/eventlog.h and eventlog.c.
+// An event: sync word 0xEDA1DA01, int64 number, int64 time of receipt in us since the epoch, int32 length of
+// the channel's name, int32 length of the data, name, data; all big-endian. Source: liblcm's lcm/eventlog.h
+// and eventlog.c.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,8 @@ class EventLogReader {
   /// Throws InputError when the file cannot be opened.
   explicit EventLogReader(const std::filesystem::path& file);
 
-  /// The next event. False at the end, also when the last event is cut off (the recorder was killed): see truncated().
-  /// Throws InputError naming file and byte when it is no event log.
+  /// The next event. False at the end, also when the last event is cut off (the recorder was killed): see
+  /// truncated(). Throws InputError naming file and byte when it is no event log.
   bool next(LogEvent& event);
   bool truncated() const noexcept { return truncated_; }
 
