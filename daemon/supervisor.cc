@@ -32,8 +32,7 @@ constexpr std::int64_t kTimingEvery_ns = 1000 * kMillisecond_ns;
 constexpr std::int64_t kWatchdogEvery_ns = 200 * kMillisecond_ns;
 /// A gateway that does nothing for this long hangs.
 constexpr std::int64_t kGatewaySilence_ns = 2000 * kMillisecond_ns;
-/// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the
-/// others.
+/// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others.
 constexpr double kStrangerAnswersPer_s = 200.0;
 constexpr double kStrangerAnswersAtOnce = 50.0;
 constexpr std::int64_t kGatewayStart_ns = 5000 * kMillisecond_ns;
@@ -78,30 +77,22 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
 std::string advice(const Reply& reply) {
   const std::string mode = "the joint is " + std::string(to_text(reply.mode));
   switch (reply.reason) {
-    case Reason::kNoTable:
-      return mode + ": load a gain table first";
-    case Reason::kFaulted:
-      return mode + ": see its fault, remove the cause, clear the fault";
-    case Reason::kMoving:
-      return mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kNoTable: return mode + ": load a gain table first";
+    case Reason::kFaulted: return mode + ": see its fault, remove the cause, clear the fault";
+    case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
     case Reason::kStreamExpired:
-      return mode +
-             ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
-    case Reason::kDriveNotReady:
-      return mode + ", and its drive gives no position: check supply and connection";
+      return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
+    case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
-      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled"
-                                              : ": this order does nothing in this mode");
-    default:
-      return mode;
+      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
+    default: return mode;
   }
 }
 
 std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
   std::vector<FlightRecordWriter::Source> sources;
   for (std::size_t i = 0; i < config.joints.size() && config.recorder.enabled(); ++i)
-    sources.push_back(
-        {config.joints[i].name, std::string(config.joints[i].plant.joint_model.view()), loop.recorder(i)});
+    sources.push_back({config.joints[i].name, std::string(config.joints[i].plant.joint_model.view()), loop.recorder(i)});
   return sources;
 }
 
@@ -161,12 +152,10 @@ void Supervisor::load_initial_tables() {
     if (joint.table.empty()) continue;
     Verdict verdict;
     verdict.table = std::make_unique<GainTable>(read_gain_table(joint.table));
-    const TableVerdict judged =
-        judge_table(*verdict.table, joint.plant, joint.loop.controller.torque_limit_Nm);
+    const TableVerdict judged = judge_table(*verdict.table, joint.plant, joint.loop.controller.torque_limit_Nm);
     if (judged.reason != Reason::kAccepted)
       throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
-    spdlog::info("{}: table {} from {}, {}", joint.name, verdict.table->name.view(), joint.table.string(),
-                 judged.text);
+    spdlog::info("{}: table {} from {}, {}", joint.name, verdict.table->name.view(), joint.table.string(), judged.text);
     verdict.requester.joint = i;
     verdict.order.kind = OrderKind::kUseTable;
     if (!prepare_table(verdict) || !loop_.joint(i).orders().push(verdict.order))
@@ -181,9 +170,8 @@ void Supervisor::start_gateway() {
   while (inbound_.ready.load(std::memory_order_acquire) == 0) {
     const std::int64_t now_ns = monotonic_now_ns();
     if (const auto end = gateway_.take_end(now_ns))
-      throw InputError(
-          "the gateway ended with " + *end +
-          (gateway_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
+      throw InputError("the gateway ended with " + *end +
+                       (gateway_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
     if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -194,7 +182,7 @@ void Supervisor::run() {
   start_gateway();
   flight_records_.start();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
-                                                                : "as user " + config_.gateway_user.name);
+                                                               : "as user " + config_.gateway_user.name);
   loop_.start();
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
@@ -251,16 +239,14 @@ void Supervisor::take_messages(std::int64_t now_ns) {
 
 void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
   switch (verdict.kind) {
-    case Verdict::Kind::kDiscard:
-      return log_refusal(verdict, now_ns);
+    case Verdict::Kind::kDiscard: return log_refusal(verdict, now_ns);
     case Verdict::Kind::kRepeat:
       if (stranger_answers_.try_take(now_ns)) answers_.repeat(verdict.requester);
       return;
     case Verdict::Kind::kRefuse:
       log_refusal(verdict, now_ns);
       return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
-    case Verdict::Kind::kOrder:
-      break;
+    case Verdict::Kind::kOrder: break;
   }
   const bool is_table = verdict.order.kind == OrderKind::kUseTable;
   if (is_table && !prepare_table(verdict)) {
@@ -272,8 +258,7 @@ void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
   if (!loop_.joint(verdict.requester.joint).orders().push(verdict.order)) {
     if (is_table) books_[verdict.requester.joint].end(false);
     admission_.count_reject(Reason::kBusy);
-    return answer(verdict.requester, Reason::kBusy,
-                  "too many orders at once: send fewer, or wait for answers", now_ns);
+    return answer(verdict.requester, Reason::kBusy, "too many orders at once: send fewer, or wait for answers", now_ns);
   }
   pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, is_table};
 }
@@ -315,8 +300,7 @@ void Supervisor::take_replies(std::int64_t now_ns) {
       ++it;
       continue;
     }
-    answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state",
-           now_ns);
+    answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
     if (it->second.is_table) {
       // The loop may still take it: its slot stays reserved until it says so, silently.
       it->second.deadline_ns = INT64_MAX;
@@ -334,8 +318,8 @@ void Supervisor::take_events() {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
     if (event.to == Mode::kFaulted) {
       const std::string_view key = configuration_key(event.fault);
-      spdlog::error("{}: fault {}: {}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
-                    to_text(event.fault), key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
+      spdlog::error("{}: fault {}: {}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
+                    key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
     } else
       spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
   }
@@ -352,8 +336,7 @@ void Supervisor::take_states(std::int64_t now_ns) {
 }
 
 void Supervisor::watch_gateway(std::int64_t now_ns) {
-  if (const auto end = gateway_.take_end(now_ns))
-    spdlog::error("the gateway ended with {}: starting it again", *end);
+  if (const auto end = gateway_.take_end(now_ns)) spdlog::error("the gateway ended with {}: starting it again", *end);
   if (!stopping_ && gateway_.start_due(now_ns)) {
     try {
       gateway_.start(now_ns);
@@ -364,8 +347,7 @@ void Supervisor::watch_gateway(std::int64_t now_ns) {
   end_hung_gateway(now_ns);
   const std::uint64_t foreign = inbound_.foreign_states.load(std::memory_order_relaxed);
   if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
-    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix",
-                  config_.prefix);
+    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix", config_.prefix);
   foreign_states_seen_ = foreign;
 }
 
@@ -412,8 +394,7 @@ void Supervisor::log_refusal(const Verdict& verdict, std::int64_t now_ns) {
   if (verdict.kind == Verdict::Kind::kDiscard)
     spdlog::warn("message on {} discarded: {}", incoming_->channel.view(), to_text(verdict.reason));
   else
-    spdlog::warn("{}: refused: {}: {}", config_.joints[verdict.requester.joint].name, to_text(verdict.reason),
-                 verdict.text);
+    spdlog::warn("{}: refused: {}: {}", config_.joints[verdict.requester.joint].name, to_text(verdict.reason), verdict.text);
 }
 
 }  // namespace strainwave

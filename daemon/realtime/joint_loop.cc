@@ -13,22 +13,14 @@ constexpr double kAtLimit = 1.0 - 1e-9;
 
 Fault fault_of(ActuatorFault fault) noexcept {
   switch (fault) {
-    case ActuatorFault::kNone:
-      return Fault::kNone;
-    case ActuatorFault::kReadFailed:
-      return Fault::kReadFailed;
-    case ActuatorFault::kWriteRefused:
-      return Fault::kWriteRefused;
-    case ActuatorFault::kDriveFault:
-      return Fault::kDriveFault;
-    case ActuatorFault::kPowerLost:
-      return Fault::kPowerLost;
-    case ActuatorFault::kImplausible:
-      return Fault::kImplausibleReading;
-    case ActuatorFault::kLinkLost:
-      return Fault::kLinkLost;
-    case ActuatorFault::kEmergencyStop:
-      return Fault::kEmergencyStop;
+    case ActuatorFault::kNone: return Fault::kNone;
+    case ActuatorFault::kReadFailed: return Fault::kReadFailed;
+    case ActuatorFault::kWriteRefused: return Fault::kWriteRefused;
+    case ActuatorFault::kDriveFault: return Fault::kDriveFault;
+    case ActuatorFault::kPowerLost: return Fault::kPowerLost;
+    case ActuatorFault::kImplausible: return Fault::kImplausibleReading;
+    case ActuatorFault::kLinkLost: return Fault::kLinkLost;
+    case ActuatorFault::kEmergencyStop: return Fault::kEmergencyStop;
   }
   return Fault::kDriveFault;
 }
@@ -52,8 +44,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       events_(events),
       controller_(config.controller),
       temperature_(config.temperature),
-      position_check_({config.controller.period_s, config.limits.overspeed_rad_s,
-                       config.controller.encoder_resolution_rad}),
+      position_check_({config.controller.period_s, config.limits.overspeed_rad_s, config.controller.encoder_resolution_rad}),
       temperature_update_periods_(std::max<std::int64_t>(
           1, std::llround(config.temperature_update_period_s / config.controller.period_s))) {
   record_.joint_index = index;
@@ -85,20 +76,13 @@ void JointLoop::take_orders(const CycleTime& time) noexcept {
 
 Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
   switch (order.kind) {
-    case OrderKind::kEnable:
-      return enable(time);
-    case OrderKind::kDisable:
-      return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
-    case OrderKind::kHold:
-      return hold();
-    case OrderKind::kClearFault:
-      return clear_fault(time);
-    case OrderKind::kSetpoint:
-      return begin_setpoint(order, time);
-    case OrderKind::kUseTable:
-      return use_table(static_cast<std::size_t>(order.table_slot));
-    case OrderKind::kInject:
-      return inject(order.injection);
+    case OrderKind::kEnable: return enable(time);
+    case OrderKind::kDisable: return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
+    case OrderKind::kHold: return hold();
+    case OrderKind::kClearFault: return clear_fault(time);
+    case OrderKind::kSetpoint: return begin_setpoint(order, time);
+    case OrderKind::kUseTable: return use_table(static_cast<std::size_t>(order.table_slot));
+    case OrderKind::kInject: return inject(order.injection);
   }
   return Reason::kUnknownAction;
 }
@@ -177,11 +161,9 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
   }
   ever_read_ = ever_read_ || reading_fresh_;
   const bool driven = reading.drive_state == DriveState::kEnabled && is_controlled(mode_);
-  const bool impossible =
-      reading_fresh_ &&
-      !position_check_.plausible(reading.joint_position_rad, reading.torque_applied_Nm, driven, time.now_ns);
-  if ((malformed || impossible) && reading_.fault == ActuatorFault::kNone)
-    reading_.fault = ActuatorFault::kImplausible;
+  const bool impossible = reading_fresh_ && !position_check_.plausible(reading.joint_position_rad,
+                                                                       reading.torque_applied_Nm, driven, time.now_ns);
+  if ((malformed || impossible) && reading_.fault == ActuatorFault::kNone) reading_.fault = ActuatorFault::kImplausible;
 }
 
 void JointLoop::check_reading(const CycleTime& time) noexcept {
@@ -194,10 +176,9 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
 }
 
 void JointLoop::check_temperature(const CycleTime& time) noexcept {
-  temperature_.update(reading_.has_temperature, reading_.temperature_C,
-                      time.now_ns - reading_.temperature_age_ns, time.now_ns);
-  const bool hot =
-      temperature_.status() == TemperatureStatus::kValid && temperature_.used_C() > config_.limits.hot_C;
+  temperature_.update(reading_.has_temperature, reading_.temperature_C, time.now_ns - reading_.temperature_age_ns,
+                      time.now_ns);
+  const bool hot = temperature_.status() == TemperatureStatus::kValid && temperature_.used_C() > config_.limits.hot_C;
   if (hot && mode_ != Mode::kOff) raise_fault(Fault::kTemperatureLimit, time);
 }
 
@@ -211,8 +192,7 @@ void JointLoop::expire_setpoint(const CycleTime& time) noexcept {
   if (setpoint_expired_) notice(Notice::kSetpointExpired);
 }
 
-// Layer 1 of the friction model at its own slower period; joints take turns, so that no cycle pays for all of
-// them.
+// Layer 1 of the friction model at its own slower period; joints take turns, so that no cycle pays for all of them.
 double JointLoop::scheduling_temperature_C(const CycleTime& time) noexcept {
   const bool first = motion_.gains_in_use != GainsInUse::kPrimary;
   if (first || time.cycle >= next_temperature_cycle_) {
@@ -237,13 +217,11 @@ void JointLoop::control(const CycleTime& time) noexcept {
   motion_ = controller_.step(measurement);
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
-  if (motion_.gains_in_use == GainsInUse::kFallback)
-    notice(Notice::kFallbackGains);
+  if (motion_.gains_in_use == GainsInUse::kFallback) notice(Notice::kFallbackGains);
   else if (measurement.temperature_C < table_min_C_ || measurement.temperature_C > table_max_C_)
     notice(Notice::kTemperatureClamped);
   const double speed_limit_rad_s = config_.controller.motion.velocity_rad_s;
-  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s)
-    notice(Notice::kSpeedLimited);
+  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s) notice(Notice::kSpeedLimited);
 }
 
 void JointLoop::check_motion(const CycleTime& time) noexcept {
@@ -253,8 +231,7 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
   if (position_rad < limits.position_min_rad - limits.position_margin_rad ||
       position_rad > limits.position_max_rad + limits.position_margin_rad)
     return raise_fault(Fault::kPositionLimit, time);
-  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
-    return raise_fault(Fault::kSpeedLimit, time);
+  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s) return raise_fault(Fault::kSpeedLimit, time);
   if (std::abs(motion_.reference.position_rad - position_rad) > limits.following_error_rad)
     raise_fault(Fault::kFollowingError, time);
 }
@@ -281,8 +258,7 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       return;
     case Mode::kOff:
     case Mode::kHolding:
-    case Mode::kFaulted:
-      return;
+    case Mode::kFaulted: return;
   }
 }
 

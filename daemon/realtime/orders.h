@@ -11,20 +11,18 @@ namespace strainwave {
 
 enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject };
 
-/// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint
-/// wins.
+/// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {
-  std::int64_t id = 0;  ///< quoted in the reply; 0: nobody waits for one
+  std::int64_t id = 0;          ///< quoted in the reply; 0: nobody waits for one
   OrderKind kind = OrderKind::kDisable;
-  std::int32_t table_slot = 0;     ///< kUseTable
-  double position_rad = 0.0;       ///< kSetpoint
-  double valid_for_s = 0.0;        ///< kSetpoint; 0: a move
-  Injection injection;             ///< kInject
+  std::int32_t table_slot = 0;  ///< kUseTable
+  double position_rad = 0.0;    ///< kSetpoint
+  double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
+  Injection injection;          ///< kInject
   double speed_limit_rad_s = 0.0;  ///< kSetpoint; 0: the joint's own
 };
 
-/// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the
-/// last word.
+/// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.
 struct Reply {
   std::int64_t id = 0;
   Reason reason = Reason::kAccepted;
