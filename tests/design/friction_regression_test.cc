@@ -18,7 +18,8 @@ std::vector<SteadyPoint> points(double noise_Nm, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<SteadyPoint> result;
   for (const double speed : kSpeeds)
-    result.push_back({20.0, speed, stribeck_friction_Nm(kTrue, kShape, speed) + noise_Nm * normal(random), 0.0});
+    result.push_back(
+        {20.0, speed, stribeck_friction_Nm(kTrue, kShape, speed) + noise_Nm * normal(random), 0.0});
   return result;
 }
 
@@ -36,7 +37,9 @@ TEST(FrictionRegression, RecoversWhatMadeThePoints) {
 struct Coverage {
   int static_hits = 0, coulomb_hits = 0, viscous_hits = 0;
 };
-bool holds(const Interval& interval, double truth) { return std::abs(interval.value - truth) <= interval.half_width; }
+bool holds(const Interval& interval, double truth) {
+  return std::abs(interval.value - truth) <= interval.half_width;
+}
 
 TEST(FrictionRegression, ItsIntervalsHoldTheTruthAsOftenAsTheySay) {
   constexpr int kTrials = 4000;
@@ -69,7 +72,8 @@ TEST(FrictionRegression, RefusesSpeedsThatDoNotTellTheParametersApart) {
 }
 
 TEST(FrictionRegression, GroupsPointsByTemperature) {
-  const auto groups = group_by_temperature({{25.1, 1, 1, 0}, {-9.0, 1, 1, 0}, {24.0, 1, 1, 0}, {-10.0, 1, 1, 0}}, 3.0);
+  const auto groups =
+      group_by_temperature({{25.1, 1, 1, 0}, {-9.0, 1, 1, 0}, {24.0, 1, 1, 0}, {-10.0, 1, 1, 0}}, 3.0);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].size(), 2U);
   EXPECT_EQ(groups[0][0].temperature_C, -10.0);

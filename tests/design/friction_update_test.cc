@@ -34,8 +34,8 @@ double friction_Nm(const FuzzyFriction& friction, double temperature_C, double s
   return stribeck_friction_Nm(friction.blend(friction.weights(temperature_C)), kShape, speed_rad_s);
 }
 
-std::vector<SteadyPoint> measure(const FuzzyFriction& truth, const std::vector<double>& temperatures_C, double noise_Nm,
-                                 std::mt19937_64& random) {
+std::vector<SteadyPoint> measure(const FuzzyFriction& truth, const std::vector<double>& temperatures_C,
+                                 double noise_Nm, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<SteadyPoint> points;
   for (const double T : temperatures_C) {
@@ -94,7 +94,8 @@ TEST(FrictionUpdate, ItsDeviationsAreThoseOfItsErrorsWhenThePriorIsTrue) {
   constexpr int kTrials = 1500;
   int hits = 0, all = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    // A joint whose three kinds of parameter deviate from the catalogue by the common deviation each, which the prior knows.
+    // A joint whose three kinds of parameter deviate from the catalogue by the common deviation each, which
+    // the prior knows.
     FuzzyFriction truth = catalogue();
     const double breakaway = normal(random), coulomb = normal(random), viscous = normal(random);
     for (TemperatureRule& rule : truth.rules) {
@@ -121,7 +122,8 @@ TEST(FrictionUpdate, StaysPhysicalWhateverIsMeasured) {
   std::uniform_real_distribution<double> any(-5.0, 5.0);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<SteadyPoint> points;
-    for (int i = 0; i < 20; ++i) points.push_back({8.0 * any(random) + 10.0, 0.01 + std::abs(any(random)), any(random), 0.0});
+    for (int i = 0; i < 20; ++i)
+      points.push_back({8.0 * any(random) + 10.0, 0.01 + std::abs(any(random)), any(random), 0.0});
     const FuzzyFriction friction = FrictionUpdate(catalogue(), kShape, points, 0.05, {}).friction();
     for (int i = 0; i < friction.rule_count; ++i) {
       const FrictionParameters& rule = friction.rules[static_cast<std::size_t>(i)].friction;

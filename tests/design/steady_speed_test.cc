@@ -17,8 +17,11 @@ class Recording {
   using Torque = std::function<double(double position_rad, double velocity_rad_s)>;
   explicit Recording(Torque torque) : torque_(std::move(torque)) {}
 
-  /// To `target_rad` at a constant speed; the joint's own speed may differ by a factor that depends on the time.
-  void leg(double target_rad, double speed_rad_s, const std::function<double(double)>& factor = [](double) { return 1.0; }) {
+  /// To `target_rad` at a constant speed; the joint's own speed may differ by a factor that depends on the
+  /// time.
+  void leg(
+      double target_rad, double speed_rad_s,
+      const std::function<double(double)>& factor = [](double) { return 1.0; }) {
     const double direction = target_rad > position_rad_ ? 1.0 : -1.0;
     const double velocity = direction * speed_rad_s;
     for (double t = 0.0; direction * (target_rad - position_rad_) > 0.0; t += kStep_s) {
@@ -29,7 +32,8 @@ class Recording {
     add(0.0, 0.0, 0.0);
   }
   void add(double setpoint_velocity_rad_s, double torque_Nm, double velocity_rad_s) {
-    samples.push_back({time_s_, true, setpoint_velocity_rad_s, position_rad_, velocity_rad_s, torque_Nm, temperature_C});
+    samples.push_back(
+        {time_s_, true, setpoint_velocity_rad_s, position_rad_, velocity_rad_s, torque_Nm, temperature_C});
     time_s_ += kStep_s;
   }
   SteadyPoints points() const { return find_steady_points(samples, kInertia_kgm2); }

@@ -1,6 +1,6 @@
-// Identification on site, from the plan to the better table, in virtual time: the daemon's loop on a simulated joint whose
-// friction is 30 % off the catalogue runs the client's plan, the log is fitted, a table is designed, and the joint tracks
-// with it as well as with a table that was designed for its true friction.
+// Identification on site, from the plan to the better table, in virtual time: the daemon's loop on a
+// simulated joint whose friction is 30 % off the catalogue runs the client's plan, the log is fitted, a table
+// is designed, and the joint tracks with it as well as with a table that was designed for its true friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,8 @@ constexpr std::int64_t kStateEvery = 5;  // cycles: 200 Hz
 BenchJoint joint_at(double temperature_C) {
   BenchJoint joint = demo_joint();
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
-  for (FrictionParameters* part : {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
+  for (FrictionParameters* part :
+       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
     part->static_Nm *= kFrictionScale;
     part->coulomb_Nm *= kFrictionScale;
     part->viscous_Nms_rad *= kFrictionScale;
@@ -68,7 +69,8 @@ SteadyPoints identify_at(double temperature_C) {
   bench.bring_to_hold(0);
   IdentifyArguments arguments;
   arguments.joint = "elbow";
-  const IdentifyPlan plan = plan_identification(arguments, limits_of(joint), bench.state(0).joint_position_rad);
+  const IdentifyPlan plan =
+      plan_identification(arguments, limits_of(joint), bench.state(0).joint_position_rad);
   std::vector<MotionSample> samples;
   for (const Sweep& sweep : plan.sweeps) {
     leg(bench, sweep.from_rad, plan.approach_speed_rad_s, samples);
@@ -103,8 +105,9 @@ GainTable table_for(const FuzzyFriction& friction) {
   return design_table(Controller::kC4, request);
 }
 
-/// Root of the mean squared distance between the joint and the reference of the period before, which is when this period's
-/// torque was computed (the drive has one period of delay), over moves there and back of several lengths.
+/// Root of the mean squared distance between the joint and the reference of the period before, which is when
+/// this period's torque was computed (the drive has one period of delay), over moves there and back of
+/// several lengths.
 double tracking_error_rad(const GainTable& table, double temperature_C) {
   JointBench bench({joint_at(temperature_C)});
   bench.joint(0).table_slot(0) = {table, 1};
@@ -136,7 +139,8 @@ TEST(Identification, FindsTheFrictionOfAJointThatIs30PerCentOffTheCatalogue) {
   const ExponentialTemperatureLaw law = demo_joint().drive.plant.joint.friction;
   for (const double temperature_C : {-5.0, 10.0, 30.0}) {
     for (const double speed_rad_s : {0.02, 0.2, 3.0}) {
-      const double truth_Nm = kFrictionScale * stribeck_friction_Nm(law.at(temperature_C), shape, speed_rad_s);
+      const double truth_Nm =
+          kFrictionScale * stribeck_friction_Nm(law.at(temperature_C), shape, speed_rad_s);
       EXPECT_NEAR(update.friction_Nm(temperature_C, speed_rad_s).value, truth_Nm, 0.03 * truth_Nm)
           << temperature_C << " degC, " << speed_rad_s << " rad/s";
     }
@@ -149,10 +153,13 @@ TEST(Identification, FindsTheFrictionOfAJointThatIs30PerCentOffTheCatalogue) {
     const double with_catalogue = tracking_error_rad(from_catalogue, temperature_C);
     const double with_identified = tracking_error_rad(identified, temperature_C);
     const double with_truth = tracking_error_rad(from_truth, temperature_C);
-    std::printf("%5.1f degC: tracking error %.3e rad with the catalogue's table, %.3e identified, %.3e true friction\n",
-                temperature_C, with_catalogue, with_identified, with_truth);
+    std::printf(
+        "%5.1f degC: tracking error %.3e rad with the catalogue's table, %.3e identified, %.3e true "
+        "friction\n",
+        temperature_C, with_catalogue, with_identified, with_truth);
     EXPECT_LE(with_identified, 1.05 * with_truth) << temperature_C;
-    EXPECT_GT(with_catalogue, 1.05 * with_truth) << "the test would show nothing at " << temperature_C << " degC";
+    EXPECT_GT(with_catalogue, 1.05 * with_truth)
+        << "the test would show nothing at " << temperature_C << " degC";
   }
 }
 
