@@ -134,9 +134,10 @@ void revert_table(Client& client, const Output& output, const std::string& joint
 }
 
 void move(Client& client, const Output& output, const MoveArguments& arguments) {
-  const auto& [joint, position_rad, wait] = arguments;
+  const auto& [joint, position_rad, wait, speed_limit_rad_s] = arguments;
   setpoint_v1 message{};
   message.position_rad = position_rad;
+  message.speed_limit_rad_s = speed_limit_rad_s;
   message.acknowledge = 1;
   const Answer answer = client.request(joint, channel_kind::kSetpoint, message);
   std::string hint;

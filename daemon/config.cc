@@ -227,7 +227,8 @@ std::vector<JointAdmission> admission_of(const DaemonConfig& config) {
   std::vector<JointAdmission> joints;
   for (const JointConfig& joint : config.joints)
     joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad, joint.loop.limits.position_max_rad,
-                      joint.loop.controller.torque_limit_Nm, joint.takes_injected_faults});
+                      joint.loop.controller.torque_limit_Nm, joint.loop.controller.motion.velocity_rad_s,
+                      joint.takes_injected_faults});
   return joints;
 }
 

@@ -365,6 +365,8 @@ void Supervisor::end_hung_gateway(std::int64_t now_ns) {
 void Supervisor::publish_timing(std::int64_t now_ns) {
   if (now_ns < timing_due_ns_) return;
   timing_due_ns_ = now_ns + kTimingEvery_ns;
+  for (std::size_t i = 0; i < config_.joints.size(); ++i)
+    answers_.limits(i, config_.joints[i].plant, config_.joints[i].loop);
   answers_.timing(loop_.statistics(), admission_.rejects(), config_.loop, loop_.real_time_refusal().empty(),
                   static_cast<std::int64_t>(inbound_.state_records_dropped.load(std::memory_order_relaxed)));
 }

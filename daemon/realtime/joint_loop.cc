@@ -117,7 +117,7 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   // A late packet of a stream that has ended must not set the joint moving again.
   if (streamed && stream_refused_) return Reason::kStreamExpired;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
-  controller_.set_target(order.position_rad);
+  controller_.set_target(order.position_rad, order.speed_limit_rad_s);
   setpoint_expires_ns_ =
       streamed ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
   setpoint_expired_ = false;

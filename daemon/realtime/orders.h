@@ -19,6 +19,7 @@ struct Order {
   double position_rad = 0.0;    ///< kSetpoint
   double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
   Injection injection;          ///< kInject
+  double speed_limit_rad_s = 0.0;  ///< kSetpoint; 0: the joint's own
 };
 
 /// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.

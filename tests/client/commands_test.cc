@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/inject_v1.hpp>
@@ -12,6 +13,7 @@
 
 #include "client/exit_status.h"
 #include "control/input_error.h"
+#include "lcmtypes/event_log.h"
 #include "tests/client/fake_daemon.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,7 +36,7 @@ class CommandsTest : public testing::Test {
   bool message_has(const std::string& part) const { return message.find(part) != std::string::npos; }
   bool output_has(const std::string& part) const { return stream.str().find(part) != std::string::npos; }
   ExitStatus move_and_wait(double position_rad) {
-    return status_of([&] { move(client, output, {"elbow", position_rad, true}); });
+    return status_of([&] { move(client, output, {"elbow", position_rad, true, 0.0}); });
   }
 
   Connection connection{"memq://"};
@@ -233,9 +235,9 @@ TEST_F(CommandsTest, WatchOnATerminalRewritesItsLinesInPlace) {
   EXPECT_TRUE(output_has("\x1b[2A"));
 }
 
-TEST_F(CommandsTest, RecordWritesEveryReceivedStateOfTheChosenJoints) {
+TEST_F(CommandsTest, RecordWritesEveryMessageOfTheChosenJoints) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "record_test.csv";
+  const auto file = folder.path() / "record.lcm";
   FakeDaemon wrist(connection, "SW", "wrist");
   daemon.publish_state(Mode::kHolding);
   client.wait_for_joint("elbow");
@@ -243,18 +245,17 @@ TEST_F(CommandsTest, RecordWritesEveryReceivedStateOfTheChosenJoints) {
     daemon.publish_state();
     wrist.publish_state();
   }
+  connection.publish("OTHER.elbow.STATE", encode(state_v1{}));
   record(client, output, {{"elbow"}, file, 0.2, false});
-  std::ifstream stream_in(file);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream_in, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 21U);
-  EXPECT_TRUE(lines[0].starts_with("joint,utime,"));
-  for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_TRUE(lines[i].starts_with("elbow,")) << lines[i];
+  std::map<std::string, int> counts;
+  EventLogReader reader(file);
+  for (LogEvent event; reader.next(event);) ++counts[event.channel];
+  EXPECT_EQ(counts, (std::map<std::string, int>{{"SW.elbow.STATE", 20}}));
 }
 
 TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "record_kept.csv";
+  const auto file = folder.path() / "record_kept.lcm";
   std::ofstream(file) << "precious\n";
   daemon.publish_state();
   const auto attempt = [&](bool overwrite) {
@@ -270,7 +271,7 @@ TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
 TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
   daemon.publish_state();
   EXPECT_EQ(status_of([&] {
-              record(client, output, {{"elbow"}, "/nonexistent/a.csv", 0.01, false});
+              record(client, output, {{"elbow"}, "/nonexistent/a.lcm", 0.01, false});
             }),
             ExitStatus::kFile);
 }

@@ -18,7 +18,7 @@ struct Folder {
 /// shipped may include tests.
 const std::vector<Folder> kFolders{
     {"control", {}},
-    {"design", {"control"}},
+    {"design", {"control", "lcmtypes"}},
     {"sim", {"control", "drivers/actuator.h"}},
     {"drivers", {"control"}},
     {"lcmtypes", {"control"}},
@@ -42,7 +42,7 @@ struct Library {
 const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"lcm/", {"daemon/gateway/", "client/", "tests/"}},
-    {"strainwave/", {"lcmtypes/", "daemon/", "client/", "tests/", "bench/"}},
+    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"daemon/", "sim/", "tests/"}},
     {"seccomp", {"daemon/gateway/"}},
     {"gtest/", {"tests/"}},

@@ -163,7 +163,7 @@ class HostileSystem : public DaemonTest {
       text.replace(text.find(from), from.size(), to);
     };
     replace("unsigned_orders = \"allow\"", "authorized_keys = \"keys\"");
-    replace("speed_rad_s = 6", "speed_rad_s = 0.05");
+    replace("speed_rad_s = 6", "speed_rad_s = 0.02");
     daemon_.emplace(folder_, text, start);
     TestClient client;
     ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
