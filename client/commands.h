@@ -99,6 +99,8 @@ void enable(Client& client, const Output& output, const std::string& joint);
 void disable(Client& client, const Output& output, const std::string& joint);
 void hold(Client& client, const Output& output, const std::string& joint);
 void clear_fault(Client& client, const Output& output, const std::string& joint);
+/// Returns once the joint holds, homed.
+void home(Client& client, const Output& output, const std::string& joint);
 
 /// Moves to `position_rad`; with `wait`, returns once the joint holds there.
 struct MoveArguments {
@@ -132,6 +134,10 @@ void inject(Client& client, const Output& output, const InjectArguments& argumen
 /// range.
 InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
                                 double for_s);
+
+/// Prints every digital line of a daemon's configuration, its level and who holds it, without touching outputs. Throws when one
+/// cannot be used. strainwaved does the work; it need not run.
+void gpio_check(const Output& output, const std::filesystem::path& config);
 
 /// Makes a key pair: the secret key in `out`, its public line in `out`.pub. Neither may exist.
 struct KeygenArguments {

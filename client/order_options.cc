@@ -91,6 +91,7 @@ void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_move(app, invocation);
   add_order(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
+  add_order(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);
   add_order(app, invocation, "revert-table", "use the previous gain table again", revert_table);
   add_inject(app, invocation);

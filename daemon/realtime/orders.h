@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject };
+enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject, kHome };
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {

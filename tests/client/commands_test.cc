@@ -54,11 +54,13 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   hold(client, output, "elbow");
   clear_fault(client, output, "elbow");
   revert_table(client, output, "elbow");
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kHolding};
+  home(client, output, "elbow");
   daemon.modes_after_answer = {Mode::kOff};
   disable(client, output, "elbow");
   std::vector<std::int32_t> actions;
   for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
-  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 2}));
+  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 6, 2}));
 }
 
 TEST_F(CommandsTest, AnInjectionCarriesKindAmountAndDuration) {
@@ -89,6 +91,19 @@ TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kDone);
   EXPECT_EQ(client.find("elbow")->state.mode, static_cast<std::int32_t>(Mode::kHolding));
   EXPECT_TRUE(output_has("elbow: enabled"));
+}
+
+TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kHolding, Mode::kHoming, Mode::kHoming, Mode::kHolding};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_TRUE(output_has("elbow: homed"));
+  daemon.state.notices = static_cast<std::int32_t>(Notice::kNotHomed);
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("before it found home")) << message;
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kStopping};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("did not find home: the joint was disabled")) << message;
 }
 
 TEST_F(CommandsTest, EnablePrintsTheReasonOfARefusal) {

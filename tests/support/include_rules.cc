@@ -45,6 +45,8 @@ const std::vector<Library> kLibraries{
     {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"daemon/", "sim/", "tests/"}},
     {"seccomp", {"daemon/gateway/"}},
+    {"gpiod", {"drivers/gpio/line_request_v"}},
+    {"linux/gpio", {"drivers/gpio/edge_events.cc"}},
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
