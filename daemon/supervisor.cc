@@ -181,6 +181,8 @@ void Supervisor::run() {
   // The gateway first: a process started by a real-time one would inherit too much.
   start_gateway();
   flight_records_.start();
+  for (const auto& bus : loop_.buses())
+    for (const std::string& line : bus->start_report()) spdlog::info("{}", line);
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
                                                                : "as user " + config_.gateway_user.name);
   loop_.start();
