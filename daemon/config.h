@@ -31,6 +31,9 @@ struct LoopConfig {
   double state_rate_Hz = 200.0;
 };
 
+/// What ActuatorReading::drive_error says with `fault`, in words.
+using DriveErrorText = std::string (*)(Fault fault, std::uint32_t drive_error);
+
 /// Makes the joint's driver; called once, before the loop runs. Throws InputError.
 using ActuatorFactory = std::function<std::unique_ptr<Actuator>()>;
 
@@ -43,6 +46,7 @@ struct JointConfig {
   bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
   ActuatorFactory make_actuator;  ///< of a drive of its own; unused when `bus` says which bus makes it
+  DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
   int bus = -1;                   ///< index in DaemonConfig::buses; -1: on none
   std::size_t bus_slot = 0;       ///< the drive's place on that bus
   std::filesystem::path table;  ///< initial gain table; empty: none

@@ -25,8 +25,9 @@ class Fieldbus {
 
   /// The drive in place `slot`, in the order of the configuration. It refers to this bus, which must outlive it.
   virtual std::unique_ptr<Actuator> make_actuator(std::size_t slot) = 0;
-  /// What was found and computed at start, a line each, for the log.
-  virtual std::vector<std::string> start_report() const { return {}; }
+  /// Lines for the log since the last call: what was found and computed at start, and what happened since. May be called
+  /// from another thread than the loop's.
+  virtual std::vector<std::string> take_messages() { return {}; }
 
   /// Takes what has arrived. `now_ns` is CLOCK_MONOTONIC at the start of this period, the same as the joints get.
   virtual void begin_cycle(std::int64_t now_ns) noexcept = 0;
