@@ -11,34 +11,12 @@
 //   load TORQUE_NM                an external torque on the joint
 //   note-torque on|off            record where torque begins and ends
 //   clear | report                the counts
-#include <cmath>
-#include <cstdlib>
-#include <sstream>
-#include <vector>
-
 #include "tests/support/can_nodes/cia402_node.h"
+#include "tests/support/can_nodes/text.h"
 
 namespace strainwave::can_nodes {
 
 namespace {
-
-std::vector<std::string> words_of(std::string_view line) {
-  std::istringstream stream{std::string(line)};
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
-bool numbers_of(const std::vector<std::string>& words, std::size_t count,
-                std::vector<std::int64_t>& numbers) {
-  if (words.size() != count + 1) return false;
-  for (std::size_t i = 1; i <= count; ++i) {
-    char* end = nullptr;
-    numbers.push_back(std::strtoll(words[i].c_str(), &end, 0));
-    if (end == words[i].c_str() || *end != '\0') return false;
-  }
-  return true;
-}
 
 Key key_of(const std::vector<std::int64_t>& numbers) {
   return {static_cast<std::uint16_t>(numbers[0]), static_cast<std::uint8_t>(numbers[1])};
@@ -53,8 +31,8 @@ std::string Cia402Node::command(std::string_view line, std::int64_t now_us) {
   output_.note("command " + std::string(line));
   const std::string& verb = words[0];
   std::vector<std::int64_t> n;
-  const bool on = words.size() == 2 && words[1] == "on";
-  const bool on_or_off = on || (words.size() == 2 && words[1] == "off");
+  bool on = false;
+  double number = 0.0;
 
   if ((verb == "cut" || verb == "reconnect") && words.size() == 1) {
     cable_cut_ = verb == "cut";
@@ -73,13 +51,13 @@ std::string Cia402Node::command(std::string_view line, std::int64_t now_us) {
   } else if (verb == "late-tpdo" && numbers_of(words, 2, n)) {
     late_us_ = n[0];
     late_syncs_ = n[1];
-  } else if (verb == "heartbeat" && on_or_off) {
+  } else if (verb == "heartbeat" && switch_of(words, on)) {
     heartbeat_off_ = !on;
   } else if (verb == "refuse" && numbers_of(words, 3, n)) {
     sdo_.refuse(key_of(n), static_cast<Abort>(n[2]));
-  } else if (verb == "load" && words.size() == 2 && std::isfinite(std::atof(words[1].c_str()))) {
-    drive_.set_load_torque_Nm(std::atof(words[1].c_str()));
-  } else if (verb == "note-torque" && on_or_off) {
+  } else if (verb == "load" && number_of(words, number)) {
+    drive_.set_load_torque_Nm(number);
+  } else if (verb == "note-torque" && switch_of(words, on)) {
     notes_torque_ = on;
   } else if (verb == "clear" && words.size() == 1) {
     pdos_.clear_counts();

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+
+#include "tests/support/can_nodes/text.h"
 
 namespace strainwave::can_nodes {
 
@@ -43,16 +43,6 @@ const char* to_text(NmtState state) {
       return "pre-operational";
   }
   return "?";
-}
-
-// The compiler checks the arguments against the pattern.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[256];
-  std::va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text, sizeof text, pattern, values);
-  va_end(values);
-  return text;
 }
 
 }  // namespace

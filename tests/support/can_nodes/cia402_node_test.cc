@@ -111,9 +111,9 @@ TEST_F(Cia402NodeTest, GoesThroughTheProfilesStatesAndDelaysEnabling) {
 TEST_F(Cia402NodeTest, TurnsTheJointByPermilleOfItsRatedTorque) {
   configure(1);
   enable();
-  // 0.2 N m at the motor, ratio 50: 1000 per mille are 10 N m at the joint.
+  // 0.192 N m at the motor, ratio 50: 1000 per mille are 9.6 N m at the joint.
   for (int i = 0; i < 20; ++i) cycle(0x0F, 900);
-  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 9.0, 1e-9);
+  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 8.64, 1e-9);
   EXPECT_NEAR(static_cast<double>(read(0x6077)), 900.0, 1.0);
   const JointState& joint = bench_.node.drive().plant().state();
   EXPECT_GT(joint.position_rad, 0.0);
@@ -126,7 +126,7 @@ TEST_F(Cia402NodeTest, LimitsTheTorqueAndSaysSo) {
   write(0x6072, 0, 300, 2);
   enable();
   cycle(0x0F, 900);
-  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 3.0, 1e-9);
+  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 2.88, 1e-9);
   EXPECT_NE(read(0x6041) & (1 << 11), 0);
 }
 
@@ -135,9 +135,9 @@ TEST_F(Cia402NodeTest, RampsInProfileTorqueMode) {
   write(0x6087, 0, 10000, 4);  // per mille per second: 10 per period
   enable();
   cycle(0x0F, 500);
-  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 0.1, 1e-9);
+  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 0.096, 1e-9);
   for (int i = 0; i < 60; ++i) cycle(0x0F, 500);
-  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 5.0, 1e-9);
+  EXPECT_NEAR(bench_.node.drive().torque_demand_Nm(), 4.8, 1e-9);
 }
 
 struct LossCase {
@@ -269,11 +269,11 @@ TEST_F(Cia402NodeTest, ProducesItsHeartbeatOnlyWhenToldTo) {
 
 TEST_F(Cia402NodeTest, ShowsItsRatedTorqueInTheUnitThatItHas) {
   boot();
-  EXPECT_EQ(read(0x6076), 200);
+  EXPECT_EQ(read(0x6076), 192);
   Cia402NodeConfig micro = node_config();
   micro.drive.rated_torque_units_per_Nm = 1e6;
   Bench other(micro);
-  EXPECT_EQ(other.node.dictionary().number({0x6076, 0}), 200000);
+  EXPECT_EQ(other.node.dictionary().number({0x6076, 0}), 192000);
 }
 
 TEST_F(Cia402NodeTest, RefusesModesThatItHasNot) {

@@ -27,7 +27,7 @@ struct ServoDriveConfig {
   JointPlantConfig plant;  ///< its encoder is set from counts_per_joint_revolution
   TemperatureProfile ambient;
   double counts_per_joint_revolution = 320000;  ///< of 6064h
-  double rated_torque_Nm = 0.2;                 ///< on the side that joint_torque_per_drive_torque says
+  double rated_torque_Nm = 0.192;               ///< on the side that joint_torque_per_drive_torque says
   double joint_torque_per_drive_torque =
       50.0;  ///< gear ratio, or 1 when the drive speaks of the joint; < 0: reversed
   double rated_current_A = 1.0;
