@@ -48,7 +48,7 @@ const std::vector<Library> kLibraries{
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
-    {"CLI/", {"design/", "sim/", "daemon/", "client/"}, false},
+    {"CLI/", {"design/", "sim/", "daemon/", "client/", "tests/support/"}, false},
 };
 
 /// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON
