@@ -13,6 +13,7 @@ constexpr std::size_t kBatch = 16;
 /// How long a full queue is given to empty itself.
 constexpr std::int64_t kQueueWait_ns = 1'000'000;
 constexpr int kSendAttempts = 50;
+constexpr int kForgottenBatches = 1000;
 
 std::string hexadecimal(std::uint64_t value, int digits) {
   std::array<char, 24> text{};
@@ -64,14 +65,20 @@ std::optional<CanFrame> SdoClient::next_frame(std::uint32_t id, std::int64_t dea
   }
 }
 
-void SdoClient::forget(std::uint32_t id) {
-  const std::int64_t now_ns = port_.now_ns();
-  while (next_frame(id, now_ns)) continue;
+// Bounded, so that a flooded bus cannot keep us here. That the interface was down once is past as well.
+void SdoClient::forget_arrived() {
+  for (int batch = 0; batch < kForgottenBatches; ++batch) {
+    arrived_.resize(kBatch);
+    const ReceiveResult result = port_.receive(arrived_);
+    if (result.count == 0 && result.link == CanLink::kUp) break;
+  }
+  arrived_.clear();
+  next_ = 0;
 }
 
 void SdoClient::run(SdoTransfer& transfer) {
   // Answers of transfers that were given up must not be taken for this one's.
-  forget(cob_id(CobId::kSdoAnswer, node_));
+  forget_arrived();
   send(transfer.request());
   std::int64_t deadline_ns = port_.now_ns() + timeout_ns_;
   while (transfer.state() == SdoTransfer::State::kBusy) {
@@ -152,7 +159,7 @@ void SdoClient::send_nmt(NmtCommand command) { send(nmt_frame(command, node_)); 
 
 bool SdoClient::reset_communication(std::int64_t timeout_ns) {
   // The boot-up message of an earlier restart is none of this one.
-  forget(cob_id(CobId::kHeartbeat, node_));
+  forget_arrived();
   send_nmt(NmtCommand::kResetCommunication);
   const std::int64_t deadline_ns = port_.now_ns() + timeout_ns;
   while (const auto frame = next_frame(cob_id(CobId::kHeartbeat, node_), deadline_ns))

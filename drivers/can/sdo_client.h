@@ -59,8 +59,7 @@ class SdoClient {
   void run(SdoTransfer& transfer);
   /// The next frame with this identifier, or nothing at `deadline_ns`. Throws InputError when the link ends.
   std::optional<CanFrame> next_frame(std::uint32_t id, std::int64_t deadline_ns);
-  /// Forgets frames with this identifier that have arrived already.
-  void forget(std::uint32_t id);
+  void forget_arrived();
   void send(const CanFrame& frame);
   std::string failure(const SdoTransfer& transfer, const char* doing) const;
 

@@ -154,6 +154,8 @@ class FixedPort final : public CanPort {
     position.size = 8;
     position.bytes[4] = 0x27;
     queue_[count_++] = {position, 0, ReceivedFrame::Kind::kData, 0};
+    const CanFrame heartbeat = canopen::heartbeat_frame(3, canopen::NmtState::kOperational);
+    if (count_ < queue_.size()) queue_[count_++] = {heartbeat, 0, ReceivedFrame::Kind::kData, 0};
     return SendResult::kSent;
   }
   ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept override {
