@@ -28,7 +28,7 @@ std::string can_detail_text(std::uint32_t drive_error) {
     case CanDetail::kNone: return "no detail";
     case CanDetail::kInterfaceDown: return "the CAN interface is down";
     case CanDetail::kInterfaceGone: return "the CAN interface has gone: plug it in and restart the daemon";
-    case CanDetail::kFramesStuck: return "frames do not leave within a period: nobody acknowledges, or the bus is full";
+    case CanDetail::kFramesStuck: return "frames do not leave: nobody acknowledges, the bus is full, or the interface goes down";
     case CanDetail::kBusOff: return "bus-off: set the interface down and up, then clear the fault";
     case CanDetail::kErrorPassive: return "the controller is error-passive";
     case CanDetail::kForeignSender: return "somebody else sends our identifier " + hexadecimal(value);
