@@ -118,6 +118,7 @@ TEST_F(JointLoopLimits, LetASilentDriveSayItsFaultWhenSomebodyEnablesIt) {
   order(OrderKind::kDisable);
   while (loop_->mode() != Mode::kOff) step();
   drive_->reading.has_position = false;
+  step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
   drive_->reading.fault = ActuatorFault::kDriveRestarted;
   step();
@@ -220,6 +221,7 @@ TEST_F(JointLoopLimits, LeaveAJointThatIsOffAloneWhateverItsDriveSays) {
   for (int i = 0; i < 100; ++i) step();
   EXPECT_EQ(loop_->mode(), Mode::kOff);
   drive_->reading.has_position = false;
+  drive_->reading.fault = ActuatorFault::kNone;
   step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
 }
