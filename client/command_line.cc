@@ -177,6 +177,21 @@ void add_keygen(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_can(CLI::App& app, Invocation& invocation) {
+  CLI::App* scan = app.add_subcommand("can-scan", "who is on a CAN bus: reads only (no daemon)");
+  auto interface_name = std::make_shared<std::string>();
+  scan->add_option("IFACE", *interface_name, "CAN interface, such as can0")->required()->type_name("");
+  scan->callback([&invocation, interface_name] {
+    invocation.local_command = [interface_name](const Output& output) { can_scan(output, *interface_name); };
+  });
+  CLI::App* check = app.add_subcommand("can-check", "do to the drives all that start-up does, enable none (no daemon)");
+  auto config = std::make_shared<std::filesystem::path>();
+  check->add_option("CONFIG", *config, "the daemon's configuration file")->required()->type_name("");
+  check->callback([&invocation, config] {
+    invocation.local_command = [config](const Output& output) { can_check(output, *config); };
+  });
+}
+
 void add_plot_record(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("plot-record", "draw a flight record into a PNG (needs gnuplot, no daemon)");
   auto arguments = std::make_shared<PlotRecordArguments>();
@@ -220,6 +235,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_record(app, invocation);
   add_plot_record(app, invocation);
   add_keygen(app, invocation);
+  add_can(app, invocation);
 }
 
 /// The arguments as CLI11 takes them: last first, and "-.5" as "-0.5", which it would take for an option.

@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "control/input_error.h"
+#include "daemon/config_can.h"
 #include "daemon/config_simulated.h"
 #include "daemon/toml_section.h"
 #include "lcmtypes/channels.h"
@@ -115,7 +116,7 @@ void read_features(TomlSection section, JointControllerConfig& controller) {
   section.refuse_unknown_keys();
 }
 
-JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder) {
+JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder, CanConfig& can) {
   JointConfig joint;
   joint.name = read_name(section, "name", "");
   joint.plant.joint_model = FixedString<32>(section.text("joint_model"));
@@ -131,9 +132,10 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.loop.fault_stops_group && joint.group.empty()) section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   read_features(section.section_or_empty("control"), joint.loop.controller);
-  joint.driver = section.choice("driver", {"simulated"});
+  joint.driver = section.choice("driver", {"simulated", "can"});
   TomlSection driver = section.section_or_empty(joint.driver);
-  read_simulated_driver(driver, period_s, joint);
+  if (joint.driver == "can") can.read_joint(driver, joint);
+  else read_simulated_driver(driver, period_s, joint);
   driver.refuse_unknown_keys();
   section.refuse_unknown_keys();
   return joint;
@@ -203,13 +205,15 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   config.gateway_user = read_gateway_user(daemon);
   daemon.refuse_unknown_keys();
 
+  CanConfig can(root, config.loop.period_s);
   std::vector<TomlSection> joints = root.sections("joint");
   if (joints.size() > kMaxJoints) root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");
   std::set<std::string> names;
   for (TomlSection& section : joints) {
-    config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path()));
+    config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can));
     if (!names.insert(config.joints.back().name).second) section.fail("name", "each joint needs a name of its own");
   }
+  config.buses = can.buses();
   number_groups(config.joints);
   config.recorder = read_recorder(root.section_or_empty("recorder"), path.parent_path());
   const double recorder_MB = static_cast<double>(config.joints.size() * sizeof(FlightSample)) *

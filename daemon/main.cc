@@ -8,6 +8,7 @@
 
 #include "control/input_error.h"
 #include "daemon/config.h"
+#include "daemon/drive_check.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
 
@@ -17,6 +18,8 @@ int main(int argc, char** argv) {
   bool check_only = false;
   app.add_option("--config", config_path, "configuration file (TOML)")->required();
   app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
+  bool check_drives = false;
+  app.add_flag("--check-drives", check_drives, "do to the drives all that start-up does, enable none, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
   CLI11_PARSE(app, argc, argv);
   // A log that may not grow or has lost its reader is no reason to end.
@@ -28,6 +31,7 @@ int main(int argc, char** argv) {
       std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix << '\n';
       return 0;
     }
+    if (check_drives) return strainwave::check_drives(config, std::cout) ? 0 : 1;
     strainwave::start_logging();
     strainwave::Supervisor supervisor(config);
     supervisor.run();

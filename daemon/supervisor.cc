@@ -18,6 +18,7 @@
 
 #include "control/gain_table_json.h"
 #include "control/input_error.h"
+#include "daemon/drive_check.h"
 #include "daemon/table_admission.h"
 
 namespace strainwave {
@@ -67,9 +68,7 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
   std::vector<InstanceLock> locks;
   locks.emplace_back("prefix " + config.prefix,
                      "stop that one (systemctl stop strainwaved), or give this one its own daemon.prefix");
-  for (const JointConfig& joint : config.joints)
-    if (!joint.driver_resource.empty())
-      locks.emplace_back("drive " + joint.driver_resource, "a drive has one master; stop the other daemon");
+  for (InstanceLock& lock : lock_drives(config)) locks.push_back(std::move(lock));
   return locks;
 }
 

@@ -64,6 +64,7 @@ struct DriveConfig {
   Identity identity;
   UnitConfig units;
   double torque_limit_Nm = 0.0;         ///< at the joint; written to 6072h
+  double rated_current_A = 0.0;         ///< of a drive that has no 6075h; 0: not given
   double period_s = 0.001;
   bool produces_sync = false;           ///< this drive is the bus's SYNC producer
   bool daemon_sends_sync = true;        ///< we are

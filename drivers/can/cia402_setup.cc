@@ -66,7 +66,8 @@ std::uint32_t number(SdoClient& client, Entry entry, std::size_t bytes = 4) {
   return static_cast<std::uint32_t>(client.upload_number(entry, bytes));
 }
 
-std::uint32_t milliseconds(double duration_s) { return static_cast<std::uint32_t>(std::lround(duration_s * 1e3)); }
+/// Milliseconds of seconds, milliamperes of amperes.
+std::uint32_t thousandths(double value) { return static_cast<std::uint32_t>(std::lround(value * 1e3)); }
 
 [[noreturn]] void refuse(const SdoClient& client, const std::string& what) {
   throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
@@ -123,9 +124,9 @@ void switch_off_other_pdos(SdoClient& client) {
 // The drive must notice when we are gone, and must do something about it: nothing else protects then.
 void configure_supervision(SdoClient& client, const DriveConfig& config) {
   const std::uint32_t consumer =
-      static_cast<std::uint32_t>(config.our_node_id) << 16U | milliseconds(config.our_heartbeat_timeout_s);
+      static_cast<std::uint32_t>(config.our_node_id) << 16U | thousandths(config.our_heartbeat_timeout_s);
   client.write_verified({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
-  client.write_verified({kProducerHeartbeat_ms, milliseconds(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
+  client.write_verified({kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
   client.write_verified({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2, ~0U,
                          "reaction to a lost connection"});
   if (config.quick_stop_option)
@@ -157,7 +158,11 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
 }
 
 double configure_torque(SdoClient& client, const DriveConfig& config) {
-  const RatedValues rated{number(client, kRatedTorque), number(client, kRatedCurrent_mA)};
+  const auto current_mA = client.upload_if_there(kRatedCurrent_mA, 4);
+  if (!current_mA && config.rated_current_A <= 0.0)
+    refuse(client, "has no rated current (6075h) to check the unit of its torque with: give motor.rated_current_A");
+  const RatedValues rated{number(client, kRatedTorque),
+                          current_mA ? static_cast<std::uint32_t>(*current_mA) : thousandths(config.rated_current_A)};
   const double rated_Nm =
       rated_joint_torque_Nm(rated, config.units, client.who() + ": node " + std::to_string(client.node()));
   const TorqueScale scale(rated_Nm, config.units.direction, config.torque_limit_Nm);

@@ -23,7 +23,7 @@ const std::vector<Folder> kFolders{
     {"drivers", {"control"}},
     {"lcmtypes", {"control"}},
     {"daemon", {"control", "drivers", "lcmtypes"}},
-    {"client", {"control", "lcmtypes"}},
+    {"client", {"control", "lcmtypes", "drivers/can/can_scan.h"}},
     {"bench", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
     {"tests", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
 };
