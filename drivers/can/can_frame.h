@@ -1,4 +1,4 @@
-// A classic CAN data frame with an 11-bit identifier. Plain data, real-time safe. Source: ISO 11898-1.
+// A classic CAN frame with an 11-bit identifier. Plain data, real-time safe. Source: ISO 11898-1.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@ struct CanFrame {
   std::uint32_t id = 0;                               ///< 0..kMaxCanId; the lowest wins the bus
   std::uint8_t size = 0;                              ///< 0..kMaxCanBytes
   std::array<std::uint8_t, kMaxCanBytes> bytes{};     ///< beyond size: 0
+  bool remote = false;                                ///< asks for the frame instead of carrying it; only ever sent
 
   bool operator==(const CanFrame&) const = default;
   std::span<const std::uint8_t> payload() const noexcept { return {bytes.data(), size}; }

@@ -171,7 +171,7 @@ void CanSocket::bind_to(const std::string& interface_name) {
 
 SendResult CanSocket::send(const CanFrame& frame) noexcept {
   can_frame raw{};
-  raw.can_id = frame.id;
+  raw.can_id = frame.id | (frame.remote ? CAN_RTR_FLAG : 0U);
   raw.can_dlc = std::min<std::uint8_t>(frame.size, CAN_MAX_DLEN);
   std::copy_n(frame.bytes.begin(), raw.can_dlc, raw.data);
   if (::send(descriptor_, &raw, sizeof raw, MSG_DONTWAIT) == sizeof raw) return SendResult::kSent;

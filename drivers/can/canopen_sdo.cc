@@ -129,8 +129,8 @@ SdoTransfer::Action SdoTransfer::answer_upload_segment(const CanFrame& frame) {
   if (specifier_of(frame) != kServerUploadSegment) return refuse(SdoAbort::kBadCommand);
   if (((first & kToggleBit) != 0) != toggle_) return refuse(SdoAbort::kToggle);
   const std::size_t count = kSegmentBytes - ((first >> 1U) & 7U);
+  if (value_.size() + count > kMaxSdoBytes) return refuse(SdoAbort::kOutOfMemory);
   value_.insert(value_.end(), &frame.bytes[1], &frame.bytes[1] + count);
-  if (value_.size() > kMaxSdoBytes) return refuse(SdoAbort::kOutOfMemory);
   if ((first & kLastSegment) != 0) {
     if (announced_ != 0 && value_.size() != announced_) return refuse(SdoAbort::kLengthMismatch);
     return finish();

@@ -88,7 +88,8 @@ void VirtualCan::put_on_bus(const CanFrame& frame, Port* sender, bool from_node)
   trace_.push_back({now_ns_, frame, from_node});
   for (Port* port : ports_) port->hear(frame, port == sender);
   if (from_node) return;
-  const can_nodes::Frame theirs(frame.id, frame.payload());
+  can_nodes::Frame theirs(frame.id, frame.payload());
+  theirs.remote = frame.remote;
   for (const auto& node : nodes_) node->receive(theirs, now_ns_ / 1000);
 }
 
