@@ -18,7 +18,8 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
-std::map<int, std::string> matches(const std::string& text, const std::regex& pattern, std::size_t number, std::size_t name) {
+std::map<int, std::string> matches(const std::string& text, const std::regex& pattern, std::size_t number,
+                                   std::size_t name) {
   std::map<int, std::string> found;
   for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)
     found[std::stoi((*it)[number])] = (*it)[name];
@@ -28,7 +29,8 @@ std::map<int, std::string> matches(const std::string& text, const std::regex& pa
 TEST(CanPage, ListsEveryDetailWithItsNumberAndName) {
   const std::string header = text_of("drivers/can/can_detail.h");
   const std::size_t begin = header.find("enum class CanDetail");
-  const auto declared = matches(header.substr(begin, header.find("};", begin) - begin), std::regex(R"((k\w+) = (\d+))"), 2, 1);
+  const auto declared =
+      matches(header.substr(begin, header.find("};", begin) - begin), std::regex(R"((k\w+) = (\d+))"), 2, 1);
   const auto documented = matches(text_of("docs/can.md"), std::regex(R"(\| (\d+) \| `(k\w+)` \|)"), 1, 2);
   ASSERT_GT(declared.size(), 10U);
   EXPECT_EQ(documented, declared);
