@@ -1,4 +1,4 @@
-// enable, disable, hold, clear-fault, home, move: one message each, its answer, and where asked the mode that
+// enable, disable, hold, clear-fault, home, revert-table, move: one message each, its answer, and where asked the mode that
 // follows.
 #include <fmt/format.h>
 
@@ -135,6 +135,11 @@ void clear_fault(Client& client, const Output& output, const std::string& joint)
   output.stream << joint << ": fault cleared; enable it to go on\n";
 }
 
+void revert_table(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kRevertTable);
+  output.stream << joint << ": the previous table is in use again\n";
+}
+
 void home(Client& client, const Output& output, const std::string& joint) {
   order(client, joint, Action::kHome);
   try {
@@ -151,9 +156,10 @@ void home(Client& client, const Output& output, const std::string& joint) {
 }
 
 void move(Client& client, const Output& output, const MoveArguments& arguments) {
-  const auto& [joint, position_rad, wait] = arguments;
+  const auto& [joint, position_rad, wait, speed_limit_rad_s] = arguments;
   setpoint_v1 message{};
   message.position_rad = position_rad;
+  message.speed_limit_rad_s = speed_limit_rad_s;
   message.acknowledge = 1;
   const Answer answer = client.request(joint, channel_kind::kSetpoint, message);
   std::string hint;

@@ -12,8 +12,7 @@ void JointLoop::obey_homing(const Homing::Order& order) noexcept {
     case Homing::Order::Kind::kGoOn:
       return;
     case Homing::Order::Kind::kMove:
-      controller_.set_speed(order.speed_rad_s);
-      controller_.set_target(order.target_rad);
+      controller_.set_target(order.target_rad, order.speed_rad_s);
       return;
     case Homing::Order::Kind::kStop:
       controller_.stop();
@@ -48,11 +47,6 @@ void JointLoop::end_homing(const CycleTime& time) noexcept {
   } else if (homing_.phase() == Homing::Phase::kIdle && motion_.at_target) {
     (void)change_mode(ModeEvent::kArrived, time);
   }
-}
-
-void JointLoop::leave_homing() noexcept {
-  homing_.abort();
-  controller_.set_speed(config_.controller.motion.velocity_rad_s);
 }
 
 bool JointLoop::into_limit_switch(double direction) const noexcept {

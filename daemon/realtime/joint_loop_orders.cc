@@ -45,7 +45,8 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
 Reason JointLoop::enable(const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return Reason::kFaulted;
   if (!controller_.has_table()) return Reason::kNoTable;
-  if (mode_ == Mode::kOff && !reading_fresh_) return Reason::kDriveNotReady;
+  // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
+  if (mode_ == Mode::kOff && !reading_fresh_ && reading_.fault == ActuatorFault::kNone) return Reason::kDriveNotReady;
   if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
   setpoint_expired_ = false;
   stream_refused_ = false;
@@ -75,7 +76,7 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   const double target_rad = order.position_rad - position_offset_rad_;
   if (into_limit_switch(target_rad - reading_.joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
-  controller_.set_target(target_rad);
+  controller_.set_target(target_rad, order.speed_limit_rad_s);
   setpoint_expires_ns_ =
       streamed ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
   setpoint_expired_ = false;

@@ -19,6 +19,7 @@ struct Order {
   double position_rad = 0.0;    ///< kSetpoint
   double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
   Injection injection;          ///< kInject
+  double speed_limit_rad_s = 0.0;  ///< kSetpoint; 0: the joint's own
 };
 
 /// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.
@@ -35,6 +36,7 @@ struct LoopEvent {
   Mode from = Mode::kOff;
   Mode to = Mode::kOff;
   Fault fault = Fault::kNone;
+  std::uint32_t drive_error = 0;  ///< with a fault: what the driver said
 };
 
 using OrderQueue = SpscQueue<Order, 64>;

@@ -18,12 +18,12 @@ struct Folder {
 /// shipped may include tests.
 const std::vector<Folder> kFolders{
     {"control", {}},
-    {"design", {"control"}},
+    {"design", {"control", "lcmtypes"}},
     {"sim", {"control", "drivers/actuator.h"}},
     {"drivers", {"control"}},
     {"lcmtypes", {"control"}},
     {"daemon", {"control", "drivers", "lcmtypes"}},
-    {"client", {"control", "lcmtypes"}},
+    {"client", {"control", "lcmtypes", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
     {"bench", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
     {"tests", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
 };
@@ -42,7 +42,7 @@ struct Library {
 const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"lcm/", {"daemon/gateway/", "client/", "tests/"}},
-    {"strainwave/", {"lcmtypes/", "daemon/", "client/", "tests/", "bench/"}},
+    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"daemon/", "sim/", "tests/"}},
     {"seccomp", {"daemon/gateway/"}},
     {"gpiod", {"drivers/gpio/line_request_v"}},
@@ -50,7 +50,7 @@ const std::vector<Library> kLibraries{
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
-    {"CLI/", {"design/", "sim/", "daemon/", "client/"}, false},
+    {"CLI/", {"design/", "sim/", "daemon/", "client/", "tests/support/"}, false},
 };
 
 /// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON
