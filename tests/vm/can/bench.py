@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 
+FAIL_FAST = False
 BUS = 'vcan0'
 JOINT = 'elbow'
 FAULTS = {name: number for number, name in enumerate(
@@ -84,6 +85,10 @@ def wait_until(condition, timeout_s, what):
 def make_bus(name=BUS):
     subprocess.run(['ip', 'link', 'add', 'dev', name, 'type', 'vcan'], check=True)
     subprocess.run(['ip', 'link', 'set', name, 'txqueuelen', '100', 'up'], check=True)
+
+
+def remove_bus(name=BUS):
+    subprocess.run(['ip', 'link', 'delete', name], check=True)
 
 
 class Drive:
@@ -245,7 +250,7 @@ def show_and_exit(tests):
     """Runs unittest cases; on failure shows every log, for the guest is gone afterwards."""
     import unittest
     suite = unittest.defaultTestLoader.loadTestsFromTestCase
-    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout, failfast=True).run(
+    result = unittest.TextTestRunner(verbosity=2, stream=sys.stdout, failfast=FAIL_FAST).run(
         unittest.TestSuite(suite(case) for case in tests))
     if not result.wasSuccessful():
         for path in sorted(pathlib.Path('.').glob('*.log')):
