@@ -39,9 +39,9 @@ cia402::Identity read_identity(TomlSection section) {
 
 cia402::NumberType number_type(const std::string& name) {
   using Type = cia402::NumberType;
-  const std::pair<const char*, Type> types[]{{"int8", Type::kInt8},     {"uint8", Type::kUint8},   {"int16", Type::kInt16},
-                                             {"uint16", Type::kUint16}, {"int32", Type::kInt32},   {"uint32", Type::kUint32},
-                                             {"real32", Type::kReal32}};
+  const std::pair<const char*, Type> types[]{
+      {"int8", Type::kInt8},   {"uint8", Type::kUint8},   {"int16", Type::kInt16},  {"uint16", Type::kUint16},
+      {"int32", Type::kInt32}, {"uint32", Type::kUint32}, {"real32", Type::kReal32}};
   for (const auto& [text, type] : types)
     if (name == text) return type;
   return Type::kInt16;
@@ -51,13 +51,14 @@ cia402::TemperatureObject read_temperature(TomlSection section, double period_s)
   cia402::TemperatureObject object;
   object.entry.index = static_cast<std::uint16_t>(section.integer("index", 0x1000, kMaxObject));
   object.entry.sub_index = static_cast<std::uint8_t>(section.integer_or("sub_index", 0, 0, kMaxSubIndex));
-  object.type = number_type(
-      section.choice("type", {"int8", "uint8", "int16", "uint16", "int32", "uint32", "real32"}));
+  object.type =
+      number_type(section.choice("type", {"int8", "uint8", "int16", "uint16", "int32", "uint32", "real32"}));
   object.scale_C = section.number("scale_C", {-1e6, 1e6});
   if (object.scale_C == 0.0) section.fail("scale_C", "a number other than 0 is allowed");
   object.offset_C = section.number_or("offset_C", 0.0, {-1000.0, 1000.0});
-  object.way = section.choice_or("way", "sdo", {"sdo", "pdo"}) == "pdo" ? cia402::TemperatureObject::Way::kPdo
-                                                                         : cia402::TemperatureObject::Way::kSdo;
+  object.way = section.choice_or("way", "sdo", {"sdo", "pdo"}) == "pdo"
+                   ? cia402::TemperatureObject::Way::kPdo
+                   : cia402::TemperatureObject::Way::kSdo;
   object.period_s = section.number_or("period_s", 1.0, {std::max(0.01, period_s), 60.0});
   section.refuse_unknown_keys();
   return object;
@@ -97,19 +98,23 @@ void read_units(TomlSection& section, const JointConfig& joint, cia402::UnitConf
 
 void read_supervision(TomlSection& section, cia402::DriveConfig& drive) {
   drive.drive_heartbeat_s = section.number_or("drive_heartbeat_s", drive.drive_heartbeat_s, kHeartbeat_s);
-  drive.drive_heartbeat_timeout_s =
-      section.number_or("drive_heartbeat_timeout_s", 3.0 * drive.drive_heartbeat_s, {drive.drive_heartbeat_s, 60.0});
-  const std::string abort = section.choice_or("abort_connection", "quick_stop", {"fault", "disable_voltage", "quick_stop"});
+  drive.drive_heartbeat_timeout_s = section.number_or(
+      "drive_heartbeat_timeout_s", 3.0 * drive.drive_heartbeat_s, {drive.drive_heartbeat_s, 60.0});
+  const std::string abort =
+      section.choice_or("abort_connection", "quick_stop", {"fault", "disable_voltage", "quick_stop"});
   drive.abort_connection = abort == "fault"             ? cia402::AbortConnection::kFault
                            : abort == "disable_voltage" ? cia402::AbortConnection::kDisableVoltage
                                                         : cia402::AbortConnection::kQuickStop;
   if (section.has("quick_stop_option"))
-    drive.quick_stop_option = static_cast<std::int16_t>(section.integer_or("quick_stop_option", 2, -32768, 32767));
-  drive.zero_torque_after = static_cast<int>(section.integer_or("zero_torque_after", drive.zero_torque_after, 0, 100));
+    drive.quick_stop_option =
+        static_cast<std::int16_t>(section.integer_or("quick_stop_option", 2, -32768, 32767));
+  drive.zero_torque_after =
+      static_cast<int>(section.integer_or("zero_torque_after", drive.zero_torque_after, 0, 100));
   const int stop_after = std::max(drive.quick_stop_after, drive.zero_torque_after);
   drive.quick_stop_after =
       static_cast<int>(section.integer_or("quick_stop_after", stop_after, drive.zero_torque_after, 1000));
-  drive.quick_stop_timeout_s = section.number_or("quick_stop_timeout_s", drive.quick_stop_timeout_s, {0.0, 60.0});
+  drive.quick_stop_timeout_s =
+      section.number_or("quick_stop_timeout_s", drive.quick_stop_timeout_s, {0.0, 60.0});
   drive.step_timeout_s = section.number_or("step_timeout_s", drive.step_timeout_s, {0.01, 60.0});
   drive.boot_timeout_s = section.number_or("boot_timeout_s", drive.boot_timeout_s, {0.1, 60.0});
   drive.status_period_s = section.number_or("status_period_s", drive.status_period_s, {drive.period_s, 1.0});
@@ -122,15 +127,19 @@ CanConfig::CanConfig(TomlSection& root, double period_s) : period_s_(period_s) {
   for (TomlSection& section : root.sections("can_bus")) {
     Bus bus{section.text("name"), section, {}, false, {}, {}, false};
     bus.config.interface_name = bus.section.text("interface");
-    bus.config.bit_rate = static_cast<std::uint32_t>(bus.section.integer_or("bit_rate", 1'000'000, 10'000, 1'000'000));
+    bus.config.bit_rate =
+        static_cast<std::uint32_t>(bus.section.integer_or("bit_rate", 1'000'000, 10'000, 1'000'000));
     bus.config.load_limit = bus.section.number_or("load_limit", bus.config.load_limit, {0.01, 1.0});
     const std::string sync = bus.section.choice_or("sync", "daemon", {"daemon", "drive", "other", "none"});
-    bus.config.sync = sync == "daemon" ? SyncProducer::kDaemon : sync == "none" ? SyncProducer::kNone : SyncProducer::kOther;
+    bus.config.sync = sync == "daemon" ? SyncProducer::kDaemon
+                      : sync == "none" ? SyncProducer::kNone
+                                       : SyncProducer::kOther;
     bus.drive_makes_sync = sync == "drive";
-    bus.config.our_node_id =
-        static_cast<std::uint8_t>(bus.section.integer_or("our_node_id", bus.config.our_node_id, 1, kMaxNodeId));
+    bus.config.our_node_id = static_cast<std::uint8_t>(
+        bus.section.integer_or("our_node_id", bus.config.our_node_id, 1, kMaxNodeId));
     bus.config.heartbeat_period_s = bus.section.number_or("heartbeat_s", 0.05, kHeartbeat_s);
-    bus.config.stuck_periods = static_cast<int>(bus.section.integer_or("stuck_periods", bus.config.stuck_periods, 1, 1000));
+    bus.config.stuck_periods =
+        static_cast<int>(bus.section.integer_or("stuck_periods", bus.config.stuck_periods, 1, 1000));
     bus.config.period_s = period_s;
     bus.section.refuse_unknown_keys();
     for (const Bus& other : buses_) {
@@ -144,7 +153,8 @@ CanConfig::CanConfig(TomlSection& root, double period_s) : period_s_(period_s) {
 
 CanConfig::Bus& CanConfig::find_bus(TomlSection& section) {
   const std::string name = section.text("bus");
-  const auto found = std::find_if(buses_.begin(), buses_.end(), [&](const Bus& bus) { return bus.name == name; });
+  const auto found =
+      std::find_if(buses_.begin(), buses_.end(), [&](const Bus& bus) { return bus.name == name; });
   if (found == buses_.end()) section.fail("bus", "the name of a [[can_bus]] is allowed");
   return *found;
 }
@@ -154,7 +164,8 @@ void CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   const auto node_id = static_cast<int>(section.integer("node_id", 1, kMaxNodeId));
   if (std::find(bus.node_ids.begin(), bus.node_ids.end(), node_id) != bus.node_ids.end())
     section.fail("node_id", "each drive on a bus needs a node id of its own");
-  if (node_id == bus.config.our_node_id) section.fail("node_id", "another than the bus's our_node_id is allowed");
+  if (node_id == bus.config.our_node_id)
+    section.fail("node_id", "another than the bus's our_node_id is allowed");
   (void)section.choice("protocol", {"cia402"});
   joint.bus = static_cast<int>(&bus - buses_.data());
   joint.bus_slot = bus.make_nodes.size();
@@ -177,20 +188,22 @@ void CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id, JointCo
   if (drive.produces_sync && (!bus.drive_makes_sync || bus.has_sync_drive))
     section.fail("produces_sync", "one drive of a bus with sync = \"drive\" may produce it");
   bus.has_sync_drive = bus.has_sync_drive || drive.produces_sync;
-  drive.our_heartbeat_timeout_s = section.number_or("our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s,
-                                                    {bus.config.heartbeat_period_s, 60.0});
+  drive.our_heartbeat_timeout_s = section.number_or(
+      "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
   read_supervision(section, drive);
-  if (section.has("temperature")) drive.temperature = read_temperature(section.section("temperature"), period_s_);
+  if (section.has("temperature"))
+    drive.temperature = read_temperature(section.section("temperature"), period_s_);
 
   JointControllerConfig& controller = joint.loop.controller;
   controller.motor = read_motor(section.section("motor"), drive);
   controller.encoder_resolution_rad = 2.0 * std::numbers::pi / drive.units.counts_per_output_revolution;
   // What is read was sampled with the last SYNC, and what is ordered acts from the next one on: one period.
-  controller.delay_samples =
-      static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
-  joint.drive_error_text = [](Fault /*fault*/, std::uint32_t drive_error) { return cia402::drive_error_text(drive_error); };
+  controller.delay_samples = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
+  joint.drive_error_text = [](Fault /*fault*/, std::uint32_t drive_error) {
+    return cia402::drive_error_text(drive_error);
+  };
   bus.make_nodes.emplace_back([drive] { return std::make_unique<cia402::Node>(drive); });
 }
 
@@ -207,15 +220,16 @@ std::vector<BusConfig> CanConfig::buses() const {
     };
     const CanBusConfig& config = bus.config;
     require_bus_load(bus.name, CanBus::traffic_of(config, make_nodes()), config.bit_rate, config.load_limit);
-    result.push_back({bus.name, [config, make_nodes]() -> std::unique_ptr<Fieldbus> {
-                        std::vector<std::unique_ptr<CanNode>> nodes = make_nodes();
-                        const int frames = static_cast<int>(nodes.size()) + 1 + kSpareFrames;
-                        require_can_interface(config.interface_name, inspect_can_interface(config.interface_name),
-                                              config.bit_rate, frames);
-                        return std::make_unique<CanBus>(config, std::move(nodes), [config](const CanPortOptions& options) {
-                          return std::make_unique<CanSocket>(config.interface_name, options);
-                        });
-                      }});
+    result.push_back(
+        {bus.name, [config, make_nodes]() -> std::unique_ptr<Fieldbus> {
+           std::vector<std::unique_ptr<CanNode>> nodes = make_nodes();
+           const int frames = static_cast<int>(nodes.size()) + 1 + kSpareFrames;
+           require_can_interface(config.interface_name, inspect_can_interface(config.interface_name),
+                                 config.bit_rate, frames);
+           return std::make_unique<CanBus>(config, std::move(nodes), [config](const CanPortOptions& options) {
+             return std::make_unique<CanSocket>(config.interface_name, options);
+           });
+         }});
   }
   return result;
 }

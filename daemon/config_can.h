@@ -21,7 +21,8 @@ class CanConfig {
   /// Reads [joint.can]: puts the drive on its bus, and sets what depends on the driver. Throws InputError.
   void read_joint(TomlSection& section, JointConfig& joint);
 
-  /// After all joints: what makes the buses. Throws InputError for a bus without joints, or one that would be too full.
+  /// After all joints: what makes the buses. Throws InputError for a bus without joints, or one that would be
+  /// too full.
   std::vector<BusConfig> buses() const;
 
  private:

@@ -1,8 +1,10 @@
-// The seam for what joints share: a bus to several drives. The loop begins the bus's cycle before any joint reads and
-// ends it after every joint wrote, so that a bus is emptied once for all and ends its period by one SYNC.
+// The seam for what joints share: a bus to several drives. The loop begins the bus's cycle before any joint
+// reads and ends it after every joint wrote, so that a bus is emptied once for all and ends its period by one
+// SYNC.
 //
-// Real-time rules as in actuator.h: making a bus may block, allocate and throw InputError; begin_cycle() and end_cycle()
-// are called from the real-time thread and do none of it. Drives on no bus, as the simulated ones, need none.
+// Real-time rules as in actuator.h: making a bus may block, allocate and throw InputError; begin_cycle() and
+// end_cycle() are called from the real-time thread and do none of it. Drives on no bus, as the simulated
+// ones, need none.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +25,15 @@ class Fieldbus {
   Fieldbus(const Fieldbus&) = delete;
   Fieldbus& operator=(const Fieldbus&) = delete;
 
-  /// The drive in place `slot`, in the order of the configuration. It refers to this bus, which must outlive it.
+  /// The drive in place `slot`, in the order of the configuration. It refers to this bus, which must outlive
+  /// it.
   virtual std::unique_ptr<Actuator> make_actuator(std::size_t slot) = 0;
-  /// Lines for the log since the last call: what was found and computed at start, and what happened since. May be called
-  /// from another thread than the loop's.
+  /// Lines for the log since the last call: what was found and computed at start, and what happened since.
+  /// May be called from another thread than the loop's.
   virtual std::vector<std::string> take_messages() { return {}; }
 
-  /// Takes what has arrived. `now_ns` is CLOCK_MONOTONIC at the start of this period, the same as the joints get.
+  /// Takes what has arrived. `now_ns` is CLOCK_MONOTONIC at the start of this period, the same as the joints
+  /// get.
   virtual void begin_cycle(std::int64_t now_ns) noexcept = 0;
   /// Sends what belongs to all joints. Also called once after the last stop() of every joint.
   virtual void end_cycle() noexcept = 0;

@@ -34,10 +34,13 @@ std::string bus_load_text(const std::string& bus, const std::vector<FrameTraffic
   return text;
 }
 
-void require_bus_load(const std::string& bus, const std::vector<FrameTraffic>& traffic, double bit_rate, double limit) {
+void require_bus_load(const std::string& bus, const std::vector<FrameTraffic>& traffic, double bit_rate,
+                      double limit) {
   if (bus_load(traffic, bit_rate) <= limit) return;
-  throw InputError(bus_load_text(bus, traffic, bit_rate) + "; more than load_limit = " + number_text(limit, 2) +
-                   " allows: put joints on another bus, raise bit_rate or period_s, or lengthen the slow messages' periods");
+  throw InputError(bus_load_text(bus, traffic, bit_rate) +
+                   "; more than load_limit = " + number_text(limit, 2) +
+                   " allows: put joints on another bus, raise bit_rate or period_s, or lengthen the slow "
+                   "messages' periods");
 }
 
 }  // namespace strainwave

@@ -45,13 +45,15 @@ std::vector<FrameTraffic> CanBus::traffic_of(const CanBusConfig& config,
                                              const std::vector<std::unique_ptr<CanNode>>& nodes) {
   std::vector<FrameTraffic> traffic;
   if (config.sync != SyncProducer::kNone) traffic.push_back({"SYNC", 0, 1.0 / config.period_s});
-  if (config.heartbeat_period_s > 0.0) traffic.push_back({"our heartbeat", 1, 1.0 / config.heartbeat_period_s});
+  if (config.heartbeat_period_s > 0.0)
+    traffic.push_back({"our heartbeat", 1, 1.0 / config.heartbeat_period_s});
   for (const auto& node : nodes)
     for (const FrameTraffic& frame : node->traffic()) traffic.push_back(frame);
   return traffic;
 }
 
-CanBus::CanBus(const CanBusConfig& config, std::vector<std::unique_ptr<CanNode>> nodes, const CanPortFactory& open)
+CanBus::CanBus(const CanBusConfig& config, std::vector<std::unique_ptr<CanNode>> nodes,
+               const CanPortFactory& open)
     : config_(config), nodes_(std::move(nodes)) {
   const std::vector<FrameTraffic> traffic = traffic_of(config_, nodes_);
   require_bus_load(config_.interface_name, traffic, config_.bit_rate, config_.load_limit);
@@ -107,8 +109,7 @@ void CanBus::open_loop_port(const CanPortFactory& open) {
   owner_.fill(kNobody);
   std::vector<std::uint32_t> ours;
   if (config_.sync == SyncProducer::kDaemon) ours.push_back(canopen::cob_id(canopen::CobId::kSync));
-  if (config_.heartbeat_period_s > 0.0)
-    ours.push_back(our_heartbeat_id());
+  if (config_.heartbeat_period_s > 0.0) ours.push_back(our_heartbeat_id());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     for (const std::uint32_t id : nodes_[i]->receive_ids()) {
       owner_[id] = static_cast<std::int16_t>(i);
@@ -161,9 +162,12 @@ void CanBus::begin_cycle(std::int64_t now_ns) noexcept {
 void CanBus::take(const ReceivedFrame& received) noexcept {
   ++counters_.frames_received;
   switch (received.kind) {
-    case ReceivedFrame::Kind::kTrouble: return take_troubles(received.troubles);
-    case ReceivedFrame::Kind::kOwn: return take_own(received.frame);
-    case ReceivedFrame::Kind::kData: break;
+    case ReceivedFrame::Kind::kTrouble:
+      return take_troubles(received.troubles);
+    case ReceivedFrame::Kind::kOwn:
+      return take_own(received.frame);
+    case ReceivedFrame::Kind::kData:
+      break;
   }
   const std::int16_t owner = owner_[received.frame.id & kMaxCanId];
   if (owner >= 0) return nodes_[static_cast<std::size_t>(owner)]->receive(received.frame);
@@ -171,10 +175,13 @@ void CanBus::take(const ReceivedFrame& received) noexcept {
   if (owner == kOurs) latch(ActuatorFault::kWriteRefused, CanDetail::kForeignSender, received.frame.id);
 }
 
-// The heartbeat has the last priority: a full period may delay it without any harm, so it holds back only itself.
+// The heartbeat has the last priority: a full period may delay it without any harm, so it holds back only
+// itself.
 void CanBus::take_own(const CanFrame& frame) noexcept {
-  if (frame.id == our_heartbeat_id()) heartbeat_waits_ = false;
-  else outstanding_ = std::max<std::int64_t>(outstanding_ - 1, 0);
+  if (frame.id == our_heartbeat_id())
+    heartbeat_waits_ = false;
+  else
+    outstanding_ = std::max<std::int64_t>(outstanding_ - 1, 0);
 }
 
 void CanBus::take_link(CanLink link) noexcept {
@@ -243,11 +250,16 @@ bool CanBus::send(const CanFrame& frame) noexcept {
   }
   switch (port_->send(frame)) {
     case SendResult::kSent:
-      if (frame.id != our_heartbeat_id()) ++outstanding_;
+      // Remote frames pass no filter, so they never come back.
+      if (frame.id != our_heartbeat_id() && !frame.remote) ++outstanding_;
       ++counters_.frames_sent;
       return true;
-    case SendResult::kLinkDown: take_link(CanLink::kDown); break;
-    case SendResult::kQueueFull: dropped_ = true; break;
+    case SendResult::kLinkDown:
+      take_link(CanLink::kDown);
+      break;
+    case SendResult::kQueueFull:
+      dropped_ = true;
+      break;
   }
   ++counters_.frames_dropped;
   return false;

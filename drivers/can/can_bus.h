@@ -3,15 +3,15 @@
 //   begin_cycle: take what has arrived, give it to the nodes     (joints read, compute, write)
 //   end_cycle:   every node's frames, then one SYNC, then our heartbeat when it is due
 //
-// Nothing stale is ever queued: every frame that we send comes back once it is on the bus, and while frames of the period
-// before have not come back nothing more is sent, only counted. So after a bus was dead the drives hear at most one period's
-// old orders, and their heartbeat supervision has disabled them by then. Trouble of the bus is latched, told to every node,
-// and leaves only by a joint's clear_fault().
+// Nothing stale is ever queued: every frame that we send comes back once it is on the bus, and while frames
+// of the period before have not come back nothing more is sent, only counted. So after a bus was dead the
+// drives hear at most one period's old orders, and their heartbeat supervision has disabled them by then.
+// Trouble of the bus is latched, told to every node, and leaves only by a joint's clear_fault().
 //
 // Our heartbeat comes from end_cycle() alone: when the loop ends or hangs, the drives notice.
 //
-// Real time: begin_cycle() and end_cycle() are real-time safe; everything else is not. A background thread of ordinary
-// priority serves the nodes over a socket of its own; it shares only what the nodes keep lock-free.
+// Real time: begin_cycle() and end_cycle() are real-time safe; everything else is not. A background thread of
+// ordinary priority serves the nodes over a socket of its own; it shares only what the nodes keep lock-free.
 #pragma once
 
 #include <array>
@@ -40,15 +40,15 @@ enum class SyncProducer {
 };
 
 struct CanBusConfig {
-  std::string interface_name;          ///< "can0"
+  std::string interface_name;  ///< "can0"
   std::uint32_t bit_rate = 1'000'000;
-  double load_limit = 0.85;            ///< of the computed bus load
+  double load_limit = 0.85;  ///< of the computed bus load
   double period_s = 0.001;
   SyncProducer sync = SyncProducer::kDaemon;
-  std::uint8_t our_node_id = 127;      ///< in our heartbeat
-  double heartbeat_period_s = 0.0;     ///< of ours; 0: none
-  int stuck_periods = 3;               ///< periods that frames may wait for the bus before it is a fault
-  bool background_thread = true;       ///< false: nobody serves but tests, by serve()
+  std::uint8_t our_node_id = 127;   ///< in our heartbeat
+  double heartbeat_period_s = 0.0;  ///< of ours; 0: none
+  int stuck_periods = 3;            ///< periods that frames may wait for the bus before it is a fault
+  bool background_thread = true;    ///< false: nobody serves but tests, by serve()
 };
 
 class CanBus final : public Fieldbus, private CanTransmitter {
@@ -57,13 +57,13 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   struct Counters {
     std::int64_t frames_received = 0;
     std::int64_t frames_sent = 0;
-    std::int64_t frames_dropped = 0;   ///< not sent, because the bus had not taken what was sent before
-    std::int64_t frames_lost = 0;      ///< lost by the kernel before we took them
-    std::int64_t warnings = 0;         ///< error frames of all kinds
+    std::int64_t frames_dropped = 0;  ///< not sent, because the bus had not taken what was sent before
+    std::int64_t frames_lost = 0;     ///< lost by the kernel before we took them
+    std::int64_t warnings = 0;        ///< error frames of all kinds
   };
 
-  /// Checks the load, sets every node up, verifies it, and opens the loop's port last, so that nothing waits in it.
-  /// Throws InputError that names every node that failed.
+  /// Checks the load, sets every node up, verifies it, and opens the loop's port last, so that nothing waits
+  /// in it. Throws InputError that names every node that failed.
   CanBus(const CanBusConfig& config, std::vector<std::unique_ptr<CanNode>> nodes, const CanPortFactory& open);
   ~CanBus() override;
 
@@ -76,7 +76,8 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   void serve();
   const Counters& counters() const noexcept { return counters_; }
   /// All that is sent on this bus.
-  static std::vector<FrameTraffic> traffic_of(const CanBusConfig& config, const std::vector<std::unique_ptr<CanNode>>& nodes);
+  static std::vector<FrameTraffic> traffic_of(const CanBusConfig& config,
+                                              const std::vector<std::unique_ptr<CanNode>>& nodes);
 
  private:
   static constexpr std::size_t kBatch = 64;
@@ -115,8 +116,8 @@ class CanBus final : public Fieldbus, private CanTransmitter {
 
   std::int64_t now_ns_ = 0;
   std::int64_t heartbeat_due_ns_ = 0;
-  NodeFault trouble_;             ///< latched
-  bool link_down_ = false;        ///< nothing can be sent; ends by try_recover()
+  NodeFault trouble_;       ///< latched
+  bool link_down_ = false;  ///< nothing can be sent; ends by try_recover()
   bool link_gone_ = false;
   bool bus_off_ = false;          ///< until the interface was down or the controller restarted
   std::int64_t outstanding_ = 0;  ///< frames sent that have not come back
@@ -125,8 +126,8 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   int flooded_periods_ = 0;
   std::uint32_t overflows_seen_ = 0;
   bool held_back_ = false;
-  bool dropped_ = false;          ///< in this period
-  int dropped_periods_ = 0;       ///< in a row, because the queue was full
+  bool dropped_ = false;     ///< in this period
+  int dropped_periods_ = 0;  ///< in a row, because the queue was full
   Counters counters_;
 
   std::mutex messages_mutex_;

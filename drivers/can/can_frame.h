@@ -12,10 +12,10 @@ inline constexpr std::uint32_t kMaxCanId = 0x7FF;
 inline constexpr std::size_t kMaxCanBytes = 8;
 
 struct CanFrame {
-  std::uint32_t id = 0;                               ///< 0..kMaxCanId; the lowest wins the bus
-  std::uint8_t size = 0;                              ///< 0..kMaxCanBytes
-  std::array<std::uint8_t, kMaxCanBytes> bytes{};     ///< beyond size: 0
-  bool remote = false;                                ///< asks for the frame instead of carrying it; only ever sent
+  std::uint32_t id = 0;                            ///< 0..kMaxCanId; the lowest wins the bus
+  std::uint8_t size = 0;                           ///< 0..kMaxCanBytes
+  std::array<std::uint8_t, kMaxCanBytes> bytes{};  ///< beyond size: 0
+  bool remote = false;  ///< asks for the frame instead of carrying it; only ever sent
 
   bool operator==(const CanFrame&) const = default;
   std::span<const std::uint8_t> payload() const noexcept { return {bytes.data(), size}; }

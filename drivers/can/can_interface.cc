@@ -74,7 +74,8 @@ bool ask(int socket, unsigned long request, const std::string& name, ifreq& answ
   return ::ioctl(socket, request, &answer) == 0;
 }
 
-// The bit rate is known to netlink alone. Without it (a service that may not open such sockets) it stays unknown.
+// The bit rate is known to netlink alone. Without it (a service that may not open such sockets) it stays
+// unknown.
 void ask_netlink(const std::string& name, CanInterface& interface) {
   const Descriptor socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
   if (socket.get() < 0) return;
@@ -121,7 +122,8 @@ CanInterface inspect_can_interface(const std::string& name) {
   if (name.size() >= IFNAMSIZ || !ask(socket.get(), SIOCGIFFLAGS, name, answer)) return interface;
   interface.exists = true;
   interface.up = (answer.ifr_flags & IFF_UP) != 0;
-  if (ask(socket.get(), SIOCGIFHWADDR, name, answer)) interface.is_can = answer.ifr_hwaddr.sa_family == ARPHRD_CAN;
+  if (ask(socket.get(), SIOCGIFHWADDR, name, answer))
+    interface.is_can = answer.ifr_hwaddr.sa_family == ARPHRD_CAN;
   if (ask(socket.get(), SIOCGIFTXQLEN, name, answer)) interface.transmit_queue_frames = answer.ifr_qlen;
   ask_netlink(name, interface);
   return interface;
@@ -134,21 +136,22 @@ void require_can_interface(const std::string& name, const CanInterface& interfac
     throw InputError(name + ": there is no such interface: see `ip link`, and plug the adapter in");
   if (!interface.is_can) throw InputError(name + ": is no CAN interface");
   if (!interface.up)
-    throw InputError(name + ": is down: " + link_set + "type can bitrate " + std::to_string(bit_rate) + "`, then " +
-                     link_set + "up`");
+    throw InputError(name + ": is down: " + link_set + "type can bitrate " + std::to_string(bit_rate) +
+                     "`, then " + link_set + "up`");
   if (interface.bit_rate && *interface.bit_rate != 0 && *interface.bit_rate != bit_rate)
-    throw InputError(name + ": runs at " + std::to_string(*interface.bit_rate) + " bit/s, the configuration says " +
-                     std::to_string(bit_rate) + ": set it down, then " + link_set + "type can bitrate " +
-                     std::to_string(bit_rate) + "`");
+    throw InputError(name + ": runs at " + std::to_string(*interface.bit_rate) +
+                     " bit/s, the configuration says " + std::to_string(bit_rate) + ": set it down, then " +
+                     link_set + "type can bitrate " + std::to_string(bit_rate) + "`");
   if (interface.restart_ms && *interface.restart_ms != 0)
-    throw InputError(name + ": returns by itself after bus-off, and would then send old orders: set it down, then " +
+    throw InputError(name +
+                     ": returns by itself after bus-off, and would then send old orders: set it down, then " +
                      link_set + "type can restart-ms 0`");
   // Interfaces without a queue (vcan) hand frames over at once.
   const bool queues = interface.kind != "vcan" && interface.kind != "vxcan";
   if (queues && interface.transmit_queue_frames < frames_per_cycle)
-    throw InputError(name + ": its queue holds " + std::to_string(interface.transmit_queue_frames) + " frames, a period needs " +
-                     std::to_string(frames_per_cycle) + ": " + link_set + "txqueuelen " +
-                     std::to_string(frames_per_cycle) + "`");
+    throw InputError(name + ": its queue holds " + std::to_string(interface.transmit_queue_frames) +
+                     " frames, a period needs " + std::to_string(frames_per_cycle) + ": " + link_set +
+                     "txqueuelen " + std::to_string(frames_per_cycle) + "`");
 }
 
 }  // namespace strainwave

@@ -1,5 +1,5 @@
-// One drive on a CAN bus, of whatever protocol: what the bus calls besides the four functions of Actuator. See can_bus.h
-// for the order of calls.
+// One drive on a CAN bus, of whatever protocol: what the bus calls besides the four functions of Actuator.
+// See can_bus.h for the order of calls.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,8 @@ class CanNode : public Actuator {
   virtual std::vector<std::string> set_up(CanPort& port) = 0;
   /// Sees that the configured drive sends what the loop needs.
   virtual void verify(CanPort& port) = 0;
-  /// A turn of the bus's background thread: slow readings, a set-up that clear_fault() asked for. Returns lines for the log.
+  /// A turn of the bus's background thread: slow readings, a set-up that clear_fault() asked for. Returns
+  /// lines for the log.
   virtual std::vector<std::string> serve(CanPort& port) = 0;
   /// After the last cycle: leaves the drive disabled, in order. Does not throw.
   virtual void shut_down(CanPort& port) noexcept = 0;

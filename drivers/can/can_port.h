@@ -1,6 +1,6 @@
-// What the CAN drivers need of a bus: to send, to take what has arrived, and, before the loop runs, to wait. CanSocket is
-// the real one; tests script another in virtual time. send() and receive() are real-time safe; wait() and now_ns() are
-// for start-up and background threads only.
+// What the CAN drivers need of a bus: to send, to take what has arrived, and, before the loop runs, to wait.
+// CanSocket is the real one; tests script another in virtual time. send() and receive() are real-time safe;
+// wait() and now_ns() are for start-up and background threads only.
 #pragma once
 
 #include <cstddef>
@@ -18,26 +18,26 @@ namespace strainwave {
 struct CanPortOptions {
   std::vector<std::uint32_t> receive_ids;  ///< exactly these; own frames need their id here as well
   bool error_frames = false;               ///< the controller's troubles arrive as frames of kind kTrouble
-  bool own_frames = false;                 ///< every frame sent comes back, as kind kOwn, once it is on the bus
-  bool urgent = false;                     ///< overtakes other processes' frames in the interface's queue
+  bool own_frames = false;  ///< every frame sent comes back, as kind kOwn, once it is on the bus
+  bool urgent = false;      ///< overtakes other processes' frames in the interface's queue
 };
 
 /// Troubles of controller and bus, a bit set. Source: linux/can/error.h.
 enum class CanTrouble : std::uint32_t {
-  kBusOff = 1U << 0,            ///< the controller has left the bus after too many errors
-  kErrorPassive = 1U << 1,      ///< more than 127 errors counted
-  kErrorWarning = 1U << 2,      ///< more than 96
-  kReceiveOverflow = 1U << 3,   ///< the controller lost frames
-  kNoAcknowledge = 1U << 4,     ///< nobody else hears
-  kTransmitTimeout = 1U << 5,   ///< the interface's driver gave a frame up
-  kRestarted = 1U << 6,         ///< back on the bus after bus-off
-  kErrorActive = 1U << 7,       ///< recovered from error-passive or warning
+  kBusOff = 1U << 0,           ///< the controller has left the bus after too many errors
+  kErrorPassive = 1U << 1,     ///< more than 127 errors counted
+  kErrorWarning = 1U << 2,     ///< more than 96
+  kReceiveOverflow = 1U << 3,  ///< the controller lost frames
+  kNoAcknowledge = 1U << 4,    ///< nobody else hears
+  kTransmitTimeout = 1U << 5,  ///< the interface's driver gave a frame up
+  kRestarted = 1U << 6,        ///< back on the bus after bus-off
+  kErrorActive = 1U << 7,      ///< recovered from error-passive or warning
 };
 
 struct ReceivedFrame {
   enum class Kind : std::uint8_t { kData, kOwn, kTrouble };
-  CanFrame frame;               ///< of no meaning when kTrouble
-  std::uint32_t troubles = 0;   ///< CanTrouble bits when kTrouble
+  CanFrame frame;              ///< of no meaning when kTrouble
+  std::uint32_t troubles = 0;  ///< CanTrouble bits when kTrouble
   Kind kind = Kind::kData;
   /// When the kernel saw it, CLOCK_REALTIME: for differences between frames only. 0: unknown.
   std::int64_t kernel_time_ns = 0;

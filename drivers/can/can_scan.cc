@@ -1,11 +1,12 @@
 #include "drivers/can/can_scan.h"
 
+#include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "drivers/can/can_interface.h"
 #include "drivers/can/can_socket.h"
-#include "drivers/can/cia402_setup.h"
+#include "drivers/can/cia402_description.h"
+#include "drivers/can/hexadecimal.h"
 #include "drivers/can/sdo_client.h"
 
 namespace strainwave {
@@ -71,9 +72,7 @@ void describe_node(SdoClient& client, ScannedNode& node) {
 }
 
 void write_node(const ScannedNode& node, std::ostream& out) {
-  std::array<char, 16> type{};
-  std::snprintf(type.data(), type.size(), "%08Xh", static_cast<unsigned>(node.device_type));
-  out << "node " << static_cast<int>(node.node_id) << ": device type " << type.data();
+  out << "node " << static_cast<int>(node.node_id) << ": device type " << hexadecimal(node.device_type, 8);
   if (!node.identity.empty()) out << ", " << node.identity;
   out << '\n';
   if (!node.modes.empty()) out << "  modes: " << node.modes << '\n';
@@ -94,7 +93,8 @@ std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t t
     ScannedNode node;
     node.node_id = id;
     try {
-      node.device_type = static_cast<std::uint32_t>(SdoClient(*port, id, "scan", timeout_ns).upload_number({0x1000, 0}, 4));
+      node.device_type =
+          static_cast<std::uint32_t>(SdoClient(*port, id, "scan", timeout_ns).upload_number({0x1000, 0}, 4));
     } catch (const canopen::SdoError&) {
       continue;  // nobody there, or no CANopen device
     }
@@ -114,7 +114,8 @@ void scan_can_interface(const std::string& interface_name, std::ostream& out) {
   // At whatever bit rate it runs: that is what a scan is to find out.
   require_can_interface(interface_name, interface, interface.bit_rate.value_or(0), 1);
   const std::vector<ScannedNode> nodes = scan_can_bus(
-      [&](const CanPortOptions& options) { return std::make_unique<CanSocket>(interface_name, options); }, kAskTimeout_ns);
+      [&](const CanPortOptions& options) { return std::make_unique<CanSocket>(interface_name, options); },
+      kAskTimeout_ns);
   for (const ScannedNode& node : nodes) write_node(node, out);
   out << interface_name << ": " << nodes.size() << " CANopen node(s) answered"
       << (nodes.empty() ? "; check bit rate, termination, and the drives' supply" : "") << '\n';

@@ -1,5 +1,5 @@
-// Who is on a CAN bus: every CANopen node that answers, what it is, which modes it has, and where it may show a temperature.
-// Reads only, by SDO; orders nothing. Blocking; not real-time.
+// Who is on a CAN bus: every CANopen node that answers, what it is, which modes it has, and where it may show
+// a temperature. Reads only, by SDO; orders nothing. Blocking; not real-time.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,12 @@ namespace strainwave {
 struct ScannedNode {
   std::uint8_t node_id = 0;
   std::uint32_t device_type = 0;
-  std::string identity;                   ///< in words
-  std::string modes;                      ///< of a servo drive; empty for another device
-  std::vector<std::string> mapped;        ///< objects in its TPDOs, as index:sub and bits
-  std::vector<std::string> temperatures;  ///< objects that drives are known to have a temperature in, with their value
-  std::string trouble;                    ///< why the rest could not be read; empty: nothing
+  std::string identity;             ///< in words
+  std::string modes;                ///< of a servo drive; empty for another device
+  std::vector<std::string> mapped;  ///< objects in its TPDOs, as index:sub and bits
+  std::vector<std::string>
+      temperatures;     ///< objects that drives are known to have a temperature in, with their value
+  std::string trouble;  ///< why the rest could not be read; empty: nothing
 };
 
 /// Asks the nodes 1..127 one after the other, each for `timeout_ns`.

@@ -27,7 +27,9 @@ constexpr int kUrgentPriority = 6;
 constexpr can_err_mask_t kWantedErrors =
     CAN_ERR_TX_TIMEOUT | CAN_ERR_CRTL | CAN_ERR_ACK | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
 
-constexpr std::uint32_t bit(CanTrouble trouble) noexcept { return static_cast<std::uint32_t>(trouble); }
+constexpr std::uint32_t bit(CanTrouble trouble) noexcept {
+  return static_cast<std::uint32_t>(trouble);
+}
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -42,17 +44,21 @@ int open_socket() {
   const int descriptor = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (descriptor >= 0) return descriptor;
   if (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)
-    throw InputError("this kernel offers no CAN sockets (or this process may not open them): load the module can_raw, "
-                     "and allow AF_CAN in the service's RestrictAddressFamilies");
+    throw InputError(
+        "this kernel offers no CAN sockets (or this process may not open them): load the module can_raw, "
+        "and allow AF_CAN in the service's RestrictAddressFamilies");
   fail("opening a CAN socket");
 }
 
 CanLink link_of(int error) noexcept {
   switch (error) {
-    case ENETDOWN: return CanLink::kDown;
+    case ENETDOWN:
+      return CanLink::kDown;
     case ENODEV:
-    case ENXIO: return CanLink::kGone;
-    default: return CanLink::kUp;
+    case ENXIO:
+      return CanLink::kGone;
+    default:
+      return CanLink::kUp;
   }
 }
 
@@ -61,7 +67,8 @@ struct Batch {
   std::array<can_frame, kBatch> frames;
   std::array<iovec, kBatch> vectors;
   std::array<mmsghdr, kBatch> messages;
-  static constexpr std::size_t kControlBytes = CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
+  static constexpr std::size_t kControlBytes =
+      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
   struct alignas(cmsghdr) Control {
     std::array<char, kControlBytes> bytes;
   };
@@ -80,7 +87,8 @@ void prepare(Batch& batch, std::size_t count) noexcept {
 }
 
 void read_control(msghdr& header, ReceivedFrame& frame, std::uint32_t& overflows) noexcept {
-  for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr; control = CMSG_NXTHDR(&header, control)) {
+  for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
+       control = CMSG_NXTHDR(&header, control)) {
     if (control->cmsg_level != SOL_SOCKET) continue;
     if (control->cmsg_type == SO_TIMESTAMPNS) {
       timespec time{};
@@ -128,7 +136,8 @@ std::uint32_t troubles_of(std::uint32_t can_id, std::span<const std::uint8_t, kM
   return troubles;
 }
 
-CanSocket::CanSocket(const std::string& interface_name, const CanPortOptions& options) : descriptor_(open_socket()) {
+CanSocket::CanSocket(const std::string& interface_name, const CanPortOptions& options)
+    : descriptor_(open_socket()) {
   try {
     configure(interface_name, options);
   } catch (...) {
@@ -137,7 +146,9 @@ CanSocket::CanSocket(const std::string& interface_name, const CanPortOptions& op
   }
 }
 
-CanSocket::~CanSocket() { ::close(descriptor_); }
+CanSocket::~CanSocket() {
+  ::close(descriptor_);
+}
 
 // Filters come before bind(): until then a socket hears nothing, afterwards only what it asked for.
 void CanSocket::configure(const std::string& interface_name, const CanPortOptions& options) {
@@ -148,13 +159,16 @@ void CanSocket::configure(const std::string& interface_name, const CanPortOption
     throw InputError(interface_name + ": " + std::to_string(filters.size()) +
                      " identifiers are too many for one socket: put the joints on several buses");
   const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
-  if (::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0) fail("setting CAN filters");
+  if (::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0)
+    fail("setting CAN filters");
   const can_err_mask_t errors = options.error_frames ? kWantedErrors : 0U;
   set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors, "asking for CAN error frames");
-  set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, options.own_frames ? 1 : 0, "asking for own CAN frames");
+  set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, options.own_frames ? 1 : 0,
+             "asking for own CAN frames");
   set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, 1, "asking for timestamps");
   set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, 1, "asking for the count of lost frames");
-  if (options.urgent) set_option(descriptor_, SOL_SOCKET, SO_PRIORITY, kUrgentPriority, "raising the priority");
+  if (options.urgent)
+    set_option(descriptor_, SOL_SOCKET, SO_PRIORITY, kUrgentPriority, "raising the priority");
   bind_to(interface_name);
 }
 
@@ -175,7 +189,8 @@ SendResult CanSocket::send(const CanFrame& frame) noexcept {
   raw.can_dlc = std::min<std::uint8_t>(frame.size, CAN_MAX_DLEN);
   std::copy_n(frame.bytes.begin(), raw.can_dlc, raw.data);
   if (::send(descriptor_, &raw, sizeof raw, MSG_DONTWAIT) == sizeof raw) return SendResult::kSent;
-  // ENOBUFS: the interface's queue is full. EAGAIN: the socket's. Anything that is not the link's end is a lost frame.
+  // ENOBUFS: the interface's queue is full. EAGAIN: the socket's. Anything that is not the link's end is a
+  // lost frame.
   return link_of(errno) == CanLink::kUp ? SendResult::kQueueFull : SendResult::kLinkDown;
 }
 
@@ -186,7 +201,8 @@ ReceiveResult CanSocket::receive(std::span<ReceivedFrame> frames) noexcept {
   for (std::size_t taken = 0; taken < frames.size();) {
     const std::size_t wanted = std::min(kBatch, frames.size() - taken);
     prepare(batch, wanted);
-    const int got = ::recvmmsg(descriptor_, batch.messages.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
+    const int got =
+        ::recvmmsg(descriptor_, batch.messages.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
     if (got < 0) {
       result.link = link_of(errno);
       return result;

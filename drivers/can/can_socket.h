@@ -1,6 +1,6 @@
-// A raw SocketCAN socket behind CanPort: non-blocking, exact filters set before it hears anything, error frames, the
-// kernel's count of lost frames, software timestamps. send() and receive() are real-time safe and make one system call
-// each; the constructor is not. Source: Linux Documentation/networking/can.rst.
+// A raw SocketCAN socket behind CanPort: non-blocking, exact filters set before it hears anything, error
+// frames, the kernel's count of lost frames, software timestamps. send() and receive() are real-time safe and
+// make one system call each; the constructor is not. Source: Linux Documentation/networking/can.rst.
 #pragma once
 
 #include <array>
@@ -10,13 +10,14 @@
 
 namespace strainwave {
 
-/// The CanTrouble bits of an error frame: `can_id` with its flag taken off, and its eight bytes. 0: nothing that matters.
+/// The CanTrouble bits of an error frame: `can_id` with its flag taken off, and its eight bytes. 0: nothing
+/// that matters.
 std::uint32_t troubles_of(std::uint32_t can_id, std::span<const std::uint8_t, kMaxCanBytes> bytes) noexcept;
 
 class CanSocket final : public CanPort {
  public:
-  /// Opens `interface_name`. Throws InputError that says what to do: no CAN in the kernel, no such interface, not a CAN
-  /// interface, too many filters.
+  /// Opens `interface_name`. Throws InputError that says what to do: no CAN in the kernel, no such interface,
+  /// not a CAN interface, too many filters.
   CanSocket(const std::string& interface_name, const CanPortOptions& options);
   ~CanSocket() override;
 

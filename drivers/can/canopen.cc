@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+
+#include "drivers/can/hexadecimal.h"
 
 namespace strainwave::canopen {
 
@@ -22,7 +23,8 @@ struct CodeText {
   std::string_view text;
 };
 
-// The first match holds, so single codes stand before their classes. CiA 301 table 26 and CiA 402-2 section 6.
+// The first match holds, so single codes stand before their classes. CiA 301 table 26 and CiA 402-2
+// section 6.
 constexpr std::array kEmergencyTexts{
     CodeText{0x2310, 0xFFFF, "continuous over-current at the output"},
     CodeText{0x2320, 0xFFFF, "short circuit or earth leakage at the output"},
@@ -75,10 +77,14 @@ constexpr std::array kEmergencyTexts{
 
 std::string_view to_text(NmtState state) noexcept {
   switch (state) {
-    case NmtState::kBootUp: return "boot-up";
-    case NmtState::kStopped: return "stopped";
-    case NmtState::kOperational: return "operational";
-    case NmtState::kPreOperational: return "pre-operational";
+    case NmtState::kBootUp:
+      return "boot-up";
+    case NmtState::kStopped:
+      return "stopped";
+    case NmtState::kOperational:
+      return "operational";
+    case NmtState::kPreOperational:
+      return "pre-operational";
   }
   return "unknown";
 }
@@ -87,7 +93,9 @@ CanFrame nmt_frame(NmtCommand command, std::uint8_t node) noexcept {
   return frame_of(cob_id(CobId::kNmt), {static_cast<std::uint8_t>(command), node});
 }
 
-CanFrame sync_frame() noexcept { return frame_of(cob_id(CobId::kSync), {}); }
+CanFrame sync_frame() noexcept {
+  return frame_of(cob_id(CobId::kSync), {});
+}
 
 CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept {
   return frame_of(cob_id(CobId::kHeartbeat, node), {static_cast<std::uint8_t>(state)});
@@ -101,7 +109,8 @@ std::optional<NmtState> decode_heartbeat(const CanFrame& frame) noexcept {
     case NmtState::kBootUp:
     case NmtState::kStopped:
     case NmtState::kOperational:
-    case NmtState::kPreOperational: return state;
+    case NmtState::kPreOperational:
+      return state;
   }
   return std::nullopt;
 }
@@ -119,11 +128,8 @@ std::string_view emergency_text(std::uint16_t code) noexcept {
 
 std::string drive_error_text(std::uint32_t drive_error) {
   const auto code = static_cast<std::uint16_t>(drive_error & 0xFFFFU);
-  std::array<char, 32> number{};
-  std::snprintf(number.data(), number.size(), "%04Xh", static_cast<unsigned>(code));
-  std::string text = "emergency " + std::string(number.data()) + ", " + std::string(emergency_text(code));
-  std::snprintf(number.data(), number.size(), " (register %02Xh)", static_cast<unsigned>(drive_error >> 16U & 0xFFU));
-  return text + number.data();
+  return "emergency " + hexadecimal(code, 4) + ", " + std::string(emergency_text(code)) + " (register " +
+         hexadecimal(drive_error >> 16U & 0xFFU, 2) + ")";
 }
 
 }  // namespace strainwave::canopen

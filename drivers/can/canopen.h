@@ -1,5 +1,6 @@
-// CANopen's frames besides SDO and PDO: identifiers, network management, SYNC, heartbeat, emergency. Pure functions with
-// the standard's numbers, real-time safe. Source: CiA 301 v4.2.0, sections 7.2.6 to 7.2.8 and 7.3.
+// CANopen's frames besides SDO and PDO: identifiers, network management, SYNC, heartbeat, emergency. Pure
+// functions with the standard's numbers, real-time safe. Source: CiA 301 v4.2.0, sections 7.2.6 to 7.2.8
+// and 7.3.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,12 @@ enum class NmtCommand : std::uint8_t {
 };
 
 /// As a heartbeat tells it.
-enum class NmtState : std::uint8_t { kBootUp = 0x00, kStopped = 0x04, kOperational = 0x05, kPreOperational = 0x7F };
+enum class NmtState : std::uint8_t {
+  kBootUp = 0x00,
+  kStopped = 0x04,
+  kOperational = 0x05,
+  kPreOperational = 0x7F
+};
 std::string_view to_text(NmtState state) noexcept;
 
 /// `node` 0 means every node.
@@ -47,7 +53,8 @@ CanFrame nmt_frame(NmtCommand command, std::uint8_t node) noexcept;
 CanFrame sync_frame() noexcept;
 CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept;
 
-/// The state in a heartbeat or boot-up message; nothing for a frame of another size or with a number that is no state.
+/// The state in a heartbeat or boot-up message; nothing for a frame of another size or with a number that is
+/// no state.
 std::optional<NmtState> decode_heartbeat(const CanFrame& frame) noexcept;
 
 /// An emergency message. Code 0x0000: the error has gone.

@@ -41,7 +41,8 @@ std::size_t Pdo::bytes() const noexcept {
 }
 
 Entry Pdo::communication(std::uint8_t sub_index) const noexcept {
-  const std::uint16_t first = direction == PdoDirection::kTransmit ? kTransmitCommunication : kReceiveCommunication;
+  const std::uint16_t first =
+      direction == PdoDirection::kTransmit ? kTransmitCommunication : kReceiveCommunication;
   return {static_cast<std::uint16_t>(first + number - 1), sub_index};
 }
 
@@ -55,7 +56,8 @@ std::vector<SdoWrite> pdo_configuration(const Pdo& pdo, std::uint8_t node, std::
   const std::string name = name_of(pdo);
   const auto count = static_cast<std::uint8_t>(pdo.objects.size());
   std::vector<SdoWrite> writes;
-  writes.push_back({pdo.communication(kIdentifierSub), identifier | kPdoInvalid, 4, kPdoInvalid, name + " off"});
+  writes.push_back(
+      {pdo.communication(kIdentifierSub), identifier | kPdoInvalid, 4, kPdoInvalid, name + " off"});
   writes.push_back({pdo.mapping(0), 0, 1, ~0U, name + " emptied"});
   writes.push_back({pdo.communication(kTypeSub), pdo.transmission_type, 1, ~0U, name + " transmission type"});
   for (std::uint8_t i = 0; i < count; ++i)
@@ -70,7 +72,8 @@ SdoWrite pdo_switched_off(PdoDirection direction, int number, std::uint32_t old_
   Pdo pdo;
   pdo.direction = direction;
   pdo.number = number;
-  return {pdo.communication(kIdentifierSub), old_identifier | kPdoInvalid, 4, kPdoInvalid, name_of(pdo) + " off"};
+  return {pdo.communication(kIdentifierSub), old_identifier | kPdoInvalid, 4, kPdoInvalid,
+          name_of(pdo) + " off"};
 }
 
 }  // namespace strainwave::canopen

@@ -1,5 +1,6 @@
-// Process data objects: what a drive is told so that it sends and takes what we want, and the fields of a frame. Pure
-// functions; reading and writing fields is real-time safe. Source: CiA 301 v4.2.0, sections 7.2.2 and 7.5.2.35 to 38.
+// Process data objects: what a drive is told so that it sends and takes what we want, and the fields of a
+// frame. Pure functions; reading and writing fields is real-time safe. Source: CiA 301 v4.2.0, sections 7.2.2
+// and 7.5.2.35 to 38.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,8 @@ struct Pdo {
   Entry mapping(std::uint8_t sub_index) const noexcept;        ///< of 1600h or 1A00h onwards
 };
 
-/// Bit 31 of a PDO's identifier entry: it does not exist. Bit 30: no remote requests; a drive may not let it be changed.
+/// Bit 31 of a PDO's identifier entry: it does not exist. Bit 30: no remote requests; a drive may not let it
+/// be changed.
 inline constexpr std::uint32_t kPdoInvalid = 1U << 31U;
 inline constexpr std::uint32_t kPdoNoRemoteRequest = 1U << 30U;
 
@@ -39,13 +41,13 @@ inline constexpr std::uint32_t kPdoNoRemoteRequest = 1U << 30U;
 struct SdoWrite {
   Entry entry;
   std::uint32_t value = 0;
-  std::uint8_t bytes = 4;             ///< 1, 2 or 4
-  std::uint32_t verified = ~0U;       ///< bits that reading back must find again
-  std::string purpose;                ///< for messages
+  std::uint8_t bytes = 4;        ///< 1, 2 or 4
+  std::uint32_t verified = ~0U;  ///< bits that reading back must find again
+  std::string purpose;           ///< for messages
 };
 
-/// What to write, in the standard's order: invalid, no objects, type, objects, their count, valid. `old_identifier` is
-/// what the drive holds now; its bit 30 is kept.
+/// What to write, in the standard's order: invalid, no objects, type, objects, their count, valid.
+/// `old_identifier` is what the drive holds now; its bit 30 is kept.
 std::vector<SdoWrite> pdo_configuration(const Pdo& pdo, std::uint8_t node, std::uint32_t old_identifier);
 /// Switches off a PDO that nobody wants.
 SdoWrite pdo_switched_off(PdoDirection direction, int number, std::uint32_t old_identifier);

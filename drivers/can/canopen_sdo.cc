@@ -70,7 +70,8 @@ SdoTransfer SdoTransfer::download(std::uint8_t node, Entry entry, std::span<cons
   transfer.value_.assign(value.begin(), value.end());
   if (value.size() <= kExpeditedBytes) {
     const auto unused = static_cast<std::uint8_t>((kExpeditedBytes - value.size()) << 2U);
-    transfer.start_request(static_cast<std::uint8_t>(command(kClientDownload) | unused | kExpedited | kSizeTold));
+    transfer.start_request(
+        static_cast<std::uint8_t>(command(kClientDownload) | unused | kExpedited | kSizeTold));
     std::copy(value.begin(), value.end(), transfer.request_.bytes.begin() + 4);
   } else {
     transfer.start_request(static_cast<std::uint8_t>(command(kClientDownload) | kSizeTold));
@@ -90,10 +91,14 @@ SdoTransfer::Action SdoTransfer::answer(const CanFrame& frame) {
     return Action::kFinish;
   }
   switch (step_) {
-    case Step::kUploadInitiate: return answer_upload_initiate(frame);
-    case Step::kUploadSegment: return answer_upload_segment(frame);
-    case Step::kDownloadInitiate: return answer_download_initiate(frame);
-    case Step::kDownloadSegment: return answer_download_segment(frame);
+    case Step::kUploadInitiate:
+      return answer_upload_initiate(frame);
+    case Step::kUploadSegment:
+      return answer_upload_segment(frame);
+    case Step::kDownloadInitiate:
+      return answer_download_initiate(frame);
+    case Step::kDownloadSegment:
+      return answer_download_segment(frame);
   }
   return Action::kIgnore;
 }
@@ -154,8 +159,8 @@ SdoTransfer::Action SdoTransfer::send_next_segment() noexcept {
   const bool last = sent_ + count == value_.size();
   request_.bytes = {};
   const auto unused = static_cast<std::uint8_t>((kSegmentBytes - count) << 1U);
-  request_.bytes[0] = static_cast<std::uint8_t>(command(kClientDownloadSegment) | (toggle_ ? kToggleBit : 0) | unused |
-                                                (last ? kLastSegment : 0));
+  request_.bytes[0] = static_cast<std::uint8_t>(command(kClientDownloadSegment) | (toggle_ ? kToggleBit : 0) |
+                                                unused | (last ? kLastSegment : 0));
   std::copy_n(value_.begin() + static_cast<std::ptrdiff_t>(sent_), count, request_.bytes.begin() + 1);
   sent_ += count;
   return Action::kSend;

@@ -1,6 +1,6 @@
-// One SDO transfer as a state machine without I/O: what to send, what the answer means. Expedited and segmented, both ways.
-// Real-time safe but for the value's vector; used at start-up and by background threads only. Source: CiA 301 v4.2.0,
-// section 7.2.4.3.
+// One SDO transfer as a state machine without I/O: what to send, what the answer means. Expedited and
+// segmented, both ways. Real-time safe but for the value's vector; used at start-up and by background threads
+// only. Source: CiA 301 v4.2.0, section 7.2.4.3.
 #pragma once
 
 #include <cstdint>
@@ -88,8 +88,8 @@ class SdoTransfer {
   State state_ = State::kBusy;
   CanFrame request_;
   std::vector<std::uint8_t> value_;
-  std::size_t sent_ = 0;           ///< bytes of a segmented download
-  std::size_t announced_ = 0;      ///< bytes of a segmented upload; 0: not told
+  std::size_t sent_ = 0;       ///< bytes of a segmented download
+  std::size_t announced_ = 0;  ///< bytes of a segmented upload; 0: not told
   bool toggle_ = false;
   std::uint32_t abort_code_ = 0;
 };

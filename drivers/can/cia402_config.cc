@@ -33,9 +33,11 @@ PdoLayout::Field map(Pdo& pdo, const MappedObject& object) {
 
 std::uint8_t sync_divider(const DriveConfig& config) {
   double period_s = config.status_period_s;
-  if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo && !config.uses_drive_velocity())
+  if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo &&
+      !config.uses_drive_velocity())
     period_s = std::min(period_s, config.temperature->period_s);
-  return static_cast<std::uint8_t>(std::clamp(std::lround(period_s / config.period_s), 1L, long{kMaxSyncDivider}));
+  return static_cast<std::uint8_t>(
+      std::clamp(std::lround(period_s / config.period_s), 1L, long{kMaxSyncDivider}));
 }
 
 }  // namespace
@@ -43,13 +45,27 @@ std::uint8_t sync_divider(const DriveConfig& config) {
 double temperature_C(const TemperatureObject& object, std::uint64_t raw) noexcept {
   double value = 0.0;
   switch (object.type) {
-    case NumberType::kInt8: value = static_cast<std::int8_t>(raw); break;
-    case NumberType::kUint8: value = static_cast<std::uint8_t>(raw); break;
-    case NumberType::kInt16: value = static_cast<std::int16_t>(raw); break;
-    case NumberType::kUint16: value = static_cast<std::uint16_t>(raw); break;
-    case NumberType::kInt32: value = static_cast<std::int32_t>(raw); break;
-    case NumberType::kUint32: value = static_cast<std::uint32_t>(raw); break;
-    case NumberType::kReal32: value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw))); break;
+    case NumberType::kInt8:
+      value = static_cast<std::int8_t>(raw);
+      break;
+    case NumberType::kUint8:
+      value = static_cast<std::uint8_t>(raw);
+      break;
+    case NumberType::kInt16:
+      value = static_cast<std::int16_t>(raw);
+      break;
+    case NumberType::kUint16:
+      value = static_cast<std::uint16_t>(raw);
+      break;
+    case NumberType::kInt32:
+      value = static_cast<std::int32_t>(raw);
+      break;
+    case NumberType::kUint32:
+      value = static_cast<std::uint32_t>(raw);
+      break;
+    case NumberType::kReal32:
+      value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
+      break;
   }
   return value * object.scale_C + object.offset_C;
 }

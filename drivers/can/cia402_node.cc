@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/input_error.h"
-#include "drivers/can/cia402_setup.h"
-#include "drivers/can/sdo_client.h"
-
 namespace strainwave::cia402 {
 
 namespace {
@@ -14,23 +10,10 @@ namespace {
 using canopen::CobId;
 using canopen::NmtState;
 
-constexpr double kNanosecondsPerSecond = 1e9;
-constexpr std::int64_t kShutDownTimeout_ns = 100'000'000;
 /// Statusword bit 4: the supply of the power stage is there.
 constexpr std::uint16_t kVoltageEnabled = 1U << 4U;
 constexpr std::uint16_t kVoltageErrors = 0x3000;
 constexpr std::uint16_t kErrorClass = 0xF000;
-
-std::int64_t nanoseconds(double duration_s) noexcept {
-  return static_cast<std::int64_t>(std::llround(duration_s * kNanosecondsPerSecond));
-}
-
-PowerTimes times_of(const DriveConfig& config) noexcept {
-  PowerTimes times;
-  times.step_ns = nanoseconds(config.step_timeout_s);
-  times.quick_stop_ns = nanoseconds(config.quick_stop_timeout_s);
-  return times;
-}
 
 /// The fault that an emergency means: what begins with 3 is about the supply.
 ActuatorFault fault_of_emergency(std::uint32_t emergency) noexcept {
@@ -46,96 +29,6 @@ std::uint64_t raw_field(const CanFrame& frame, const PdoLayout::Field& field) no
 std::string drive_error_text(std::uint32_t drive_error) {
   return detail_of(drive_error) == CanDetail::kNone ? canopen::drive_error_text(drive_error)
                                                     : can_detail_text(drive_error);
-}
-
-Node::Node(const DriveConfig& config)
-    : config_(config),
-      layout_(pdo_layout(config)),
-      heartbeat_timeout_ns_(nanoseconds(config.drive_heartbeat_timeout_s)),
-      power_(times_of(config)),
-      position_scale_(config.units) {}
-
-std::vector<std::uint32_t> Node::receive_ids() const {
-  std::vector<std::uint32_t> ids{layout_.fast.cob_id(config_.node_id), cob_id(CobId::kEmergency, config_.node_id),
-                                 cob_id(CobId::kHeartbeat, config_.node_id)};
-  if (!layout_.slow.objects.empty()) ids.push_back(layout_.slow.cob_id(config_.node_id));
-  return ids;
-}
-
-std::vector<std::uint32_t> Node::transmit_ids() const { return {layout_.command.cob_id(config_.node_id)}; }
-
-std::vector<std::uint32_t> Node::setup_ids() const {
-  return {cob_id(CobId::kSdoAnswer, config_.node_id), cob_id(CobId::kHeartbeat, config_.node_id)};
-}
-
-std::vector<FrameTraffic> Node::traffic() const {
-  const double rate_Hz = 1.0 / config_.period_s;
-  const auto bytes = [](const canopen::Pdo& pdo) { return static_cast<int>(pdo.bytes()); };
-  std::vector<FrameTraffic> traffic{
-      {"RPDO1 of " + config_.name, bytes(layout_.command), rate_Hz},
-      {"TPDO1 of " + config_.name, bytes(layout_.fast), rate_Hz},
-      {"heartbeat of " + config_.name, 1, 1.0 / config_.drive_heartbeat_s}};
-  if (!layout_.slow.objects.empty())
-    traffic.push_back({"TPDO2 of " + config_.name, bytes(layout_.slow), rate_Hz / layout_.slow.transmission_type});
-  if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo)
-    traffic.push_back({"temperature SDO of " + config_.name, static_cast<int>(kMaxCanBytes),
-                       2.0 / config_.temperature->period_s});
-  return traffic;
-}
-
-std::vector<std::string> Node::set_up(CanPort& port) {
-  canopen::SdoClient client(port, config_.node_id, config_.name);
-  const Found found = set_up_drive(client, config_, layout_);
-  mode_ = found.mode;
-  torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
-  initial_error_ = found.error_code;
-  setup_.store(Setup::kReady, std::memory_order_release);
-  return found.report;
-}
-
-void Node::verify(CanPort& port) { verify_drive(port, config_, layout_); }
-
-std::vector<std::string> Node::serve(CanPort& port) {
-  std::vector<std::string> messages;
-  Setup requested = Setup::kRequested;
-  if (setup_.compare_exchange_strong(requested, Setup::kRunning, std::memory_order_acq_rel)) {
-    try {
-      messages = set_up(port);
-      messages.push_back(config_.name + ": set up again");
-    } catch (const InputError& error) {
-      messages.emplace_back(error.what());
-      setup_.store(Setup::kFailed, std::memory_order_release);
-    }
-  }
-  if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo &&
-      setup_.load(std::memory_order_acquire) == Setup::kReady)
-    read_temperature(port, messages);
-  return messages;
-}
-
-void Node::read_temperature(CanPort& port, std::vector<std::string>& messages) {
-  const std::int64_t now_ns = port.now_ns();
-  if (now_ns < temperature_due_ns_) return;
-  const TemperatureObject& object = *config_.temperature;
-  temperature_due_ns_ = now_ns + nanoseconds(object.period_s);
-  try {
-    canopen::SdoClient client(port, config_.node_id, config_.name);
-    sdo_temperature_.put(temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))), now_ns);
-    if (temperature_failed_) messages.push_back(config_.name + ": the temperature can be read again");
-    temperature_failed_ = false;
-  } catch (const InputError& error) {
-    if (!temperature_failed_) messages.emplace_back(error.what());
-    temperature_failed_ = true;
-  }
-}
-
-void Node::shut_down(CanPort& port) noexcept {
-  try {
-    canopen::SdoClient client(port, config_.node_id, config_.name, kShutDownTimeout_ns);
-    release_drive(client);
-  } catch (const std::exception&) {
-    // A drive that cannot be reached is disabled by its own supervision of our heartbeat.
-  }
 }
 
 void Node::begin_cycle(std::int64_t now_ns) noexcept {
@@ -189,7 +82,8 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
   if (has(layout_.torque))
     torque_applied_Nm_ = torque_scale_.torque_Nm(static_cast<std::int16_t>(raw_field(frame, layout_.torque)));
   if (has(layout_.velocity))
-    velocity_rad_s_ = position_scale_.velocity_rad_s(static_cast<std::int32_t>(raw_field(frame, layout_.velocity)));
+    velocity_rad_s_ =
+        position_scale_.velocity_rad_s(static_cast<std::int32_t>(raw_field(frame, layout_.velocity)));
   if (has(layout_.mode)) {
     shown_mode_ = static_cast<std::uint8_t>(raw_field(frame, layout_.mode));
     wrong_mode_ = shown_mode_ != static_cast<std::uint8_t>(mode_);
@@ -200,7 +94,8 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
     has_pdo_temperature_ = true;
   }
   if (has(layout_.position)) {
-    position_rad_ = position_scale_.position_rad(static_cast<std::int32_t>(raw_field(frame, layout_.position)));
+    position_rad_ =
+        position_scale_.position_rad(static_cast<std::int32_t>(raw_field(frame, layout_.position)));
     fresh_ = true;
   }
 }
@@ -234,7 +129,8 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   return reading;
 }
 
-// Whoever was out of sight may have restarted, or left its network state, as the standard has it when we were out of its.
+// Whoever was out of sight may have restarted, or left its network state, as the standard has it when we were
+// out of its.
 void Node::note_bus(const NodeFault& trouble) noexcept {
   bus_trouble_ = trouble;
   if (trouble.fault == ActuatorFault::kLinkLost || detail_of(trouble.drive_error) == CanDetail::kBusOff)
@@ -245,7 +141,8 @@ void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.quick_stop_after + 1);
   if (!fresh_ && ready()) ++missed_total_;
   const NodeFault present = present_trouble();
-  if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted) needs_set_up_ = true;
+  if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted)
+    needs_set_up_ = true;
   if (!command_.enable) return;
   latch(present);
   latch(power_trouble());
@@ -254,7 +151,8 @@ void Node::supervise() noexcept {
 // What holds as long as its cause lasts, in use or not.
 NodeFault Node::present_trouble() const noexcept {
   if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
-  if (setup_seen_ == Setup::kFailed) return {ActuatorFault::kDriveRestarted, drive_error_of(CanDetail::kSetupFailed)};
+  if (setup_seen_ == Setup::kFailed)
+    return {ActuatorFault::kDriveRestarted, drive_error_of(CanDetail::kSetupFailed)};
   if (!ready()) return {};
   if (restarted_.fault != ActuatorFault::kNone) return restarted_;
   if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)
@@ -278,7 +176,8 @@ NodeFault Node::power_trouble() const noexcept {
     return {powered ? ActuatorFault::kDriveFault : ActuatorFault::kPowerLost,
             drive_error_of(CanDetail::kLeftOperation, statusword)};
   }
-  if (power_.stuck(now_ns_)) return {ActuatorFault::kDriveFault, drive_error_of(CanDetail::kEnableStep, statusword)};
+  if (power_.stuck(now_ns_))
+    return {ActuatorFault::kDriveFault, drive_error_of(CanDetail::kEnableStep, statusword)};
   return {};
 }
 
@@ -290,15 +189,17 @@ DriveState Node::drive_state() const noexcept {
   if (latched_.fault != ActuatorFault::kNone && power_.has_torque()) return DriveState::kFault;
   if (has_status_ && power_.in_fault()) return command_.enable ? DriveState::kFault : DriveState::kDisabled;
   if (command_.enable)
-    return fresh_ && power_.state() == PowerState::kOperationEnabled && !stop_ordered_ ? DriveState::kEnabled
-                                                                                       : DriveState::kEnabling;
+    return fresh_ && power_.state() == PowerState::kOperationEnabled && !stop_ordered_
+               ? DriveState::kEnabled
+               : DriveState::kEnabling;
   return power_.has_torque() ? DriveState::kEnabled : DriveState::kDisabled;
 }
 
 void Node::fill_temperature(ActuatorReading& reading) const noexcept {
   if (!config_.temperature) return;
   if (config_.temperature->way == TemperatureObject::Way::kSdo) {
-    reading.has_temperature = sdo_temperature_.get(now_ns_, reading.temperature_C, reading.temperature_age_ns);
+    reading.has_temperature =
+        sdo_temperature_.get(now_ns_, reading.temperature_C, reading.temperature_age_ns);
     return;
   }
   reading.has_temperature = has_pdo_temperature_;

@@ -1,10 +1,10 @@
-// One CiA 402 drive in the loop: its frames in, its state, its torque out, and every way in which it can fail. The
-// constructor takes a checked configuration; set_up() and serve() block and run outside the loop; everything from
-// begin_cycle() on is real-time safe.
+// One CiA 402 drive in the loop: its frames in, its state, its torque out, and every way in which it can
+// fail. The constructor takes a checked configuration; set_up() and serve() block and run outside the loop;
+// everything from begin_cycle() on is real-time safe.
 //
-// Faults are latched while the drive is in use. While it is not, they are told as long as their cause lasts, so that
-// enabling shows them. A drive that has restarted or was out of sight is set up again by the background thread, after
-// clear_fault() only.
+// Faults are latched while the drive is in use. While it is not, they are told as long as their cause lasts,
+// so that enabling shows them. A drive that has restarted or was out of sight is set up again by the
+// background thread, after clear_fault() only.
 #pragma once
 
 #include <atomic>
@@ -96,8 +96,8 @@ class Node final : public CanNode {
   std::int64_t missed_total_ = 0;
   std::int64_t malformed_ = 0;
   int missed_ = 0;
-  std::uint32_t emergency_ = 0;       ///< the last one, until the drive takes it back
-  NodeFault restarted_;               ///< boot-up or another network state; ends by a new set-up
+  std::uint32_t emergency_ = 0;  ///< the last one, until the drive takes it back
+  NodeFault restarted_;          ///< boot-up or another network state; ends by a new set-up
   NodeFault bus_trouble_;
   NodeFault latched_;
   ActuatorCommand command_;
@@ -108,7 +108,7 @@ class Node final : public CanNode {
   std::uint8_t shown_mode_ = 0;
   bool stop_ordered_ = false;
   bool needs_set_up_ = false;  ///< before it can be used again
-  bool settling_ = false;  ///< the first period after a set-up
+  bool settling_ = false;      ///< the first period after a set-up
 };
 
 }  // namespace strainwave::cia402

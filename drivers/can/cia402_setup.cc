@@ -1,12 +1,12 @@
 #include "drivers/can/cia402_setup.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
+#include "drivers/can/cia402_description.h"
 #include "drivers/can/cia402_state.h"
+#include "drivers/can/hexadecimal.h"
 
 namespace strainwave::cia402 {
 
@@ -19,14 +19,11 @@ using canopen::SdoClient;
 using canopen::SdoWrite;
 
 // Communication profile, CiA 301.
-constexpr Entry kDeviceType{0x1000, 0};
 constexpr Entry kSyncIdentifier{0x1005, 0};
 constexpr Entry kSyncPeriod_us{0x1006, 0};
-constexpr Entry kDeviceName{0x1008, 0};
 constexpr Entry kEmergencyIdentifier{0x1014, 0};
 constexpr Entry kConsumerHeartbeat{0x1016, 1};
 constexpr Entry kProducerHeartbeat_ms{0x1017, 0};
-constexpr std::uint16_t kIdentityObject = 0x1018;
 // Drive profile, CiA 402.
 constexpr Entry kAbortConnection{0x6007, 0};
 constexpr Entry kErrorCode{0x603F, 0};
@@ -41,10 +38,7 @@ constexpr Entry kRatedCurrent_mA{0x6075, 0};
 constexpr Entry kRatedTorque{0x6076, 0};
 constexpr Entry kInterpolationMantissa{0x60C2, 1};
 constexpr Entry kInterpolationExponent{0x60C2, 2};
-constexpr Entry kSupportedModes{0x6502, 0};
 
-constexpr std::uint32_t kServoProfile = 0x0192;
-constexpr std::uint32_t kProfileMask = 0xFFFF;
 constexpr std::uint32_t kSyncProducerBit = 1U << 30U;
 constexpr std::uint32_t kTorqueModeBit = 1U << 3U;
 constexpr std::uint32_t kCyclicTorqueModeBit = 1U << 9U;
@@ -56,18 +50,14 @@ constexpr std::int64_t kDisableWait_ns = 500'000'000;
 /// SYNCs until a drive must have sent both of its TPDOs.
 constexpr int kVerifySyncs = 2 * 240;
 
-std::string hexadecimal(std::uint32_t value, int digits = 8) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%0*Xh", digits, static_cast<unsigned>(value));
-  return text.data();
-}
-
 std::uint32_t number(SdoClient& client, Entry entry, std::size_t bytes = 4) {
   return static_cast<std::uint32_t>(client.upload_number(entry, bytes));
 }
 
 /// Milliseconds of seconds, milliamperes of amperes.
-std::uint32_t thousandths(double value) { return static_cast<std::uint32_t>(std::lround(value * 1e3)); }
+std::uint32_t thousandths(double value) {
+  return static_cast<std::uint32_t>(std::lround(value * 1e3));
+}
 
 [[noreturn]] void refuse(const SdoClient& client, const std::string& what) {
   throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
@@ -83,8 +73,9 @@ void reset_communication(SdoClient& client, const DriveConfig& config) {
 void check_identity(SdoClient& client, const Identity& wanted, const Description& found) {
   const auto compare = [&](const char* key, std::optional<std::uint32_t> want, std::uint32_t have) {
     if (want && *want != have)
-      refuse(client, std::string(key) + " = " + hexadecimal(*want) + " is wanted, the drive has " + hexadecimal(have) +
-                         ": it is another drive than the configuration means (" + to_text(found) + ")");
+      refuse(client, std::string(key) + " = " + hexadecimal(*want, 8) + " is wanted, the drive has " +
+                         hexadecimal(have, 8) + ": it is another drive than the configuration means (" +
+                         to_text(found) + ")");
   };
   compare("vendor_id", wanted.vendor_id, found.vendor_id);
   compare("product_code", wanted.product_code, found.product_code);
@@ -96,7 +87,8 @@ OperationMode choose_mode(SdoClient& client, std::uint32_t supported) {
   if ((supported & kCyclicTorqueModeBit) != 0) return OperationMode::kCyclicTorque;
   if ((supported & kTorqueModeBit) != 0) return OperationMode::kTorque;
   refuse(client, "supports neither cyclic synchronous torque (mode 10) nor torque (mode 4): 6502h = " +
-                     hexadecimal(supported) + " (" + modes_text(supported) + "); it cannot be driven by torque");
+                     hexadecimal(supported, 8) + " (" + modes_text(supported) +
+                     "); it cannot be driven by torque");
 }
 
 void configure_pdos(SdoClient& client, const PdoLayout& layout) {
@@ -126,7 +118,8 @@ void configure_supervision(SdoClient& client, const DriveConfig& config) {
   const std::uint32_t consumer =
       static_cast<std::uint32_t>(config.our_node_id) << 16U | thousandths(config.our_heartbeat_timeout_s);
   client.write_verified({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
-  client.write_verified({kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
+  client.write_verified(
+      {kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
   client.write_verified({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2, ~0U,
                          "reaction to a lost connection"});
   if (config.quick_stop_option)
@@ -141,7 +134,8 @@ void configure_supervision(SdoClient& client, const DriveConfig& config) {
 /// A period as a number of one byte and a power of ten of seconds.
 void configure_period(SdoClient& client, const DriveConfig& config) {
   const auto period_us = static_cast<std::uint32_t>(std::lround(config.period_s * 1e6));
-  if (client.upload_if_there(kSyncPeriod_us, 4)) client.write_verified({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
+  if (client.upload_if_there(kSyncPeriod_us, 4))
+    client.write_verified({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
   if (config.produces_sync) {
     const std::uint32_t sync = canopen::cob_id(canopen::CobId::kSync);
     client.write_verified({kSyncIdentifier, sync | kSyncProducerBit, 4, ~0U, "production of SYNC"});
@@ -151,7 +145,8 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
   int exponent = -6;
   for (; mantissa % 10 == 0 && exponent < 0; ++exponent) mantissa /= 10;
   if (mantissa > UINT8_MAX)
-    refuse(client, "a period of " + std::to_string(period_us) + " us cannot be written to 60C2h: choose a rounder period_s");
+    refuse(client, "a period of " + std::to_string(period_us) +
+                       " us cannot be written to 60C2h: choose a rounder period_s");
   client.write_verified({kInterpolationMantissa, mantissa, 1, ~0U, "interpolation period"});
   client.write_verified({kInterpolationExponent, static_cast<std::uint8_t>(exponent), 1, ~0U,
                          "unit of the interpolation period"});
@@ -160,15 +155,17 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
 double configure_torque(SdoClient& client, const DriveConfig& config) {
   const auto current_mA = client.upload_if_there(kRatedCurrent_mA, 4);
   if (!current_mA && config.rated_current_A <= 0.0)
-    refuse(client, "has no rated current (6075h) to check the unit of its torque with: give motor.rated_current_A");
-  const RatedValues rated{number(client, kRatedTorque),
-                          current_mA ? static_cast<std::uint32_t>(*current_mA) : thousandths(config.rated_current_A)};
+    refuse(client,
+           "has no rated current (6075h) to check the unit of its torque with: give motor.rated_current_A");
+  const RatedValues rated{number(client, kRatedTorque), current_mA ? static_cast<std::uint32_t>(*current_mA)
+                                                                   : thousandths(config.rated_current_A)};
   const double rated_Nm =
       rated_joint_torque_Nm(rated, config.units, client.who() + ": node " + std::to_string(client.node()));
   const TorqueScale scale(rated_Nm, config.units.direction, config.torque_limit_Nm);
   if (scale.limit_per_mille() == 0)
-    refuse(client, "torque_Nm = " + std::to_string(config.torque_limit_Nm) + " is less than a thousandth of the rated " +
-                       std::to_string(rated_Nm) + " N.m at the joint, which is the drive's step");
+    refuse(client, "torque_Nm = " + std::to_string(config.torque_limit_Nm) +
+                       " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
+                       " N.m at the joint, which is the drive's step");
   client.write_verified({kMaxTorque, scale.limit_per_mille(), 2, ~0U, "torque limit"});
   return rated_Nm;
 }
@@ -198,67 +195,33 @@ void take_torque_off(SdoClient& client) {
            state == PowerState::kFaultReaction;
   };
   while (has_torque()) {
-    if (client.port().now_ns() >= deadline_ns) refuse(client, "does not leave operation when the voltage is ordered off");
+    if (client.port().now_ns() >= deadline_ns)
+      refuse(client, "does not leave operation when the voltage is ordered off");
     (void)client.port().wait(kPoll_ns);
   }
 }
 
 void report_found(Found& found, const Description& description, const DriveConfig& config) {
   std::ostringstream text;
-  text << config.name << ": node " << static_cast<int>(config.node_id) << ", " << to_text(description) << ", mode "
-       << static_cast<int>(found.mode) << (found.mode == OperationMode::kCyclicTorque ? " (CST)" : " (TQ)")
-       << ", rated " << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm << " N.m";
+  text << config.name << ": node " << static_cast<int>(config.node_id) << ", " << to_text(description)
+       << ", mode " << static_cast<int>(found.mode)
+       << (found.mode == OperationMode::kCyclicTorque ? " (CST)" : " (TQ)") << ", rated "
+       << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm << " N.m";
   found.report.push_back(text.str());
   if (power_state_of(found.statusword) == PowerState::kFault)
-    found.report.push_back(config.name + ": the drive is in fault, " + canopen::drive_error_text(found.error_code) +
+    found.report.push_back(config.name + ": the drive is in fault, " +
+                           canopen::drive_error_text(found.error_code) +
                            "; enable shows it, clear-fault resets it");
 }
 
 }  // namespace
-
-Description describe(SdoClient& client) {
-  Description found;
-  found.device_type = number(client, kDeviceType);
-  found.vendor_id = number(client, {kIdentityObject, 1});
-  const auto optional = [&](std::uint8_t sub_index) {
-    return static_cast<std::uint32_t>(client.upload_if_there({kIdentityObject, sub_index}, 4).value_or(0));
-  };
-  found.product_code = optional(2);
-  found.revision_number = optional(3);
-  found.serial_number = optional(4);
-  if (is_servo_drive(found)) found.supported_modes = number(client, kSupportedModes);
-  try {
-    found.device_name = client.upload_text(kDeviceName);
-  } catch (const canopen::SdoError&) {
-    // A name is a courtesy.
-  }
-  return found;
-}
-
-bool is_servo_drive(const Description& description) noexcept {
-  return (description.device_type & kProfileMask) == kServoProfile;
-}
-
-std::string to_text(const Description& found) {
-  return (found.device_name.empty() ? "" : "\"" + found.device_name + "\" ") + "vendor " + hexadecimal(found.vendor_id) +
-         ", product " + hexadecimal(found.product_code) + ", revision " + hexadecimal(found.revision_number) +
-         ", serial " + hexadecimal(found.serial_number);
-}
-
-std::string modes_text(std::uint32_t supported_modes) {
-  constexpr std::array<const char*, 11> kNames{"PP", "VL", "PV", "TQ", "", "HM", "IP", "CSP", "CSV", "CST", "CSTCA"};
-  std::string text;
-  for (std::size_t bit = 0; bit < kNames.size(); ++bit)
-    if ((supported_modes >> bit & 1U) != 0 && *kNames[bit] != '\0') text += (text.empty() ? "" : " ") + std::string(kNames[bit]);
-  return text.empty() ? "none" : text;
-}
 
 Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout& layout) {
   Found found;
   reset_communication(client, config);
   const Description description = describe(client);
   if (!is_servo_drive(description))
-    refuse(client, "is no CiA 402 drive: device type 1000h = " + hexadecimal(description.device_type) +
+    refuse(client, "is no CiA 402 drive: device type 1000h = " + hexadecimal(description.device_type, 8) +
                        ", the profile must be 0192h");
   check_identity(client, config.identity, description);
   found.mode = choose_mode(client, description.supported_modes);
@@ -291,11 +254,13 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
       if (result.link != CanLink::kUp) throw InputError(who + "the CAN interface went down");
       for (std::size_t i = 0; i < result.count; ++i) {
         const CanFrame& frame = frames[i].frame;
-        for (const auto& [pdo, seen] : {std::pair{&layout.fast, &fast_seen}, std::pair{&layout.slow, &slow_seen}}) {
+        for (const auto& [pdo, seen] :
+             {std::pair{&layout.fast, &fast_seen}, std::pair{&layout.slow, &slow_seen}}) {
           if (frame.id != pdo->cob_id(config.node_id) || pdo->objects.empty()) continue;
           if (frame.size != pdo->bytes())
-            throw InputError(who + "TPDO" + std::to_string(pdo->number) + " has " + std::to_string(frame.size) +
-                             " bytes instead of the " + std::to_string(pdo->bytes()) + " that were mapped");
+            throw InputError(who + "TPDO" + std::to_string(pdo->number) + " has " +
+                             std::to_string(frame.size) + " bytes instead of the " +
+                             std::to_string(pdo->bytes()) + " that were mapped");
           *seen = true;
         }
       }
@@ -303,8 +268,9 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
     } while (port.now_ns() < deadline_ns);
   }
   if (fast_seen && slow_seen) return;
-  throw InputError(who + "no TPDO" + (fast_seen ? "2" : "1") + " came in " + std::to_string(kVerifySyncs) + " periods: " +
-                   (config.daemon_sends_sync ? "the drive does not answer our SYNC" : "is the SYNC producer running?"));
+  throw InputError(
+      who + "no TPDO" + (fast_seen ? "2" : "1") + " came in " + std::to_string(kVerifySyncs) + " periods: " +
+      (config.daemon_sends_sync ? "the drive does not answer our SYNC" : "is the SYNC producer running?"));
 }
 
 void release_drive(SdoClient& client) {

@@ -17,24 +17,31 @@ struct StatusRow {
   std::uint16_t quick_stop;
 };
 
+using enum PowerState;
 // clang-format off
+constexpr std::uint16_t kOff = kDisableVoltage;
 constexpr std::array<StatusRow, 8> kTable{{
-    {0x4F, 0x00, PowerState::kNotReady,         "not ready to switch on", kDisableVoltage, kDisableVoltage,  kDisableVoltage},
-    {0x4F, 0x40, PowerState::kSwitchOnDisabled, "switch on disabled",     kDisableVoltage, kShutdown,        kDisableVoltage},
-    {0x6F, 0x21, PowerState::kReadyToSwitchOn,  "ready to switch on",     kDisableVoltage, kSwitchOn,        kDisableVoltage},
-    {0x6F, 0x23, PowerState::kSwitchedOn,       "switched on",            kShutdown,       kEnableOperation, kDisableVoltage},
-    {0x6F, 0x27, PowerState::kOperationEnabled, "operation enabled",      kShutdown,       kEnableOperation, kQuickStop},
-    {0x6F, 0x07, PowerState::kQuickStopActive,  "quick stop active",      kDisableVoltage, kDisableVoltage,  kQuickStop},
-    {0x4F, 0x0F, PowerState::kFaultReaction,    "fault reaction active",  kDisableVoltage, kDisableVoltage,  kDisableVoltage},
-    {0x4F, 0x08, PowerState::kFault,            "fault",                  kDisableVoltage, kDisableVoltage,  kDisableVoltage},
+    // status and its mask, state,            text,                    to disable, to enable,        to quick stop
+    {0x4F, 0x00, kNotReady,         "not ready to switch on", kOff,       kOff,             kOff},
+    {0x4F, 0x40, kSwitchOnDisabled, "switch on disabled",     kOff,       kShutdown,        kOff},
+    {0x6F, 0x21, kReadyToSwitchOn,  "ready to switch on",     kOff,       kSwitchOn,        kOff},
+    {0x6F, 0x23, kSwitchedOn,       "switched on",            kShutdown,  kEnableOperation, kOff},
+    {0x6F, 0x27, kOperationEnabled, "operation enabled",      kShutdown,  kEnableOperation, kQuickStop},
+    {0x6F, 0x07, kQuickStopActive,  "quick stop active",      kOff,       kOff,             kQuickStop},
+    {0x4F, 0x0F, kFaultReaction,    "fault reaction active",  kOff,       kOff,             kOff},
+    {0x4F, 0x08, kFault,            "fault",                  kOff,       kOff,             kOff},
 }};
 // clang-format on
 
-const StatusRow& row_of(PowerState state) noexcept { return kTable[static_cast<std::size_t>(state)]; }
+const StatusRow& row_of(PowerState state) noexcept {
+  return kTable[static_cast<std::size_t>(state)];
+}
 
 }  // namespace
 
-std::string_view to_text(PowerState state) noexcept { return row_of(state).text; }
+std::string_view to_text(PowerState state) noexcept {
+  return row_of(state).text;
+}
 
 PowerState power_state_of(std::uint16_t statusword) noexcept {
   for (const StatusRow& row : kTable)
@@ -46,9 +53,12 @@ PowerState power_state_of(std::uint16_t statusword) noexcept {
 std::uint16_t controlword_towards(Goal goal, PowerState state) noexcept {
   const StatusRow& row = row_of(state);
   switch (goal) {
-    case Goal::kDisabled: return row.disable;
-    case Goal::kEnabled: return row.enable;
-    case Goal::kQuickStop: return row.quick_stop;
+    case Goal::kDisabled:
+      return row.disable;
+    case Goal::kEnabled:
+      return row.enable;
+    case Goal::kQuickStop:
+      return row.quick_stop;
   }
   return kDisableVoltage;
 }

@@ -1,5 +1,5 @@
-// The power state machine of a drive as a table: what a statusword says, and which controlword leads on. Pure functions,
-// real-time safe. Source: CiA 402-2 (IEC 61800-7-201), tables 27 to 30.
+// The power state machine of a drive as a table: what a statusword says, and which controlword leads on. Pure
+// functions, real-time safe. Source: CiA 402-2 (IEC 61800-7-201), tables 27 to 30.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,8 @@ inline constexpr std::uint16_t kFaultReset = 0x80;
 /// Of a statusword (6041h). Every value has one.
 PowerState power_state_of(std::uint16_t statusword) noexcept;
 
-/// The next controlword (6040h) on the way to `goal`. A fault is never reset by it: that is an operator's order.
+/// The next controlword (6040h) on the way to `goal`. A fault is never reset by it: that is an operator's
+/// order.
 std::uint16_t controlword_towards(Goal goal, PowerState state) noexcept;
 
 }  // namespace strainwave::cia402

@@ -17,7 +17,9 @@ constexpr double kMillinewtonmetre_Nm = 1e-3;
 constexpr double kMicronewtonmetre_Nm = 1e-6;
 constexpr double kPerMille = 1000.0;
 
-bool fits(double a, double b) { return a > 0.0 && b > 0.0 && a < b * kTolerance && b < a * kTolerance; }
+bool fits(double a, double b) {
+  return a > 0.0 && b > 0.0 && a < b * kTolerance && b < a * kTolerance;
+}
 
 double rated_motor_Nm(const RatedValues& rated, double unit_Nm, bool at_joint, double gear_ratio) {
   return rated.torque * unit_Nm / (at_joint ? gear_ratio : 1.0);
@@ -47,18 +49,21 @@ double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, 
   if (fits(motor_Nm, expected_Nm)) return motor_Nm * units.gear_ratio;
   std::ostringstream text;
   text << where << ": rated torque 6076h = " << rated.torque << " is " << motor_Nm << " N.m at the motor by "
-       << setting(units.rated_torque_unit_Nm, units.torque_at_joint) << ", but rated current 6075h = "
-       << rated.current_mA << " mA times torque_constant_Nm_A = " << units.torque_constant_Nm_A << " is "
-       << expected_Nm << " N.m: ";
+       << setting(units.rated_torque_unit_Nm, units.torque_at_joint)
+       << ", but rated current 6075h = " << rated.current_mA
+       << " mA times torque_constant_Nm_A = " << units.torque_constant_Nm_A << " is " << expected_Nm
+       << " N.m: ";
   const std::string fitting = fitting_settings(rated, units, expected_Nm);
   if (fitting.empty())
-    text << "no unit makes them agree; check 6075h and 6076h against the motor's data sheet, and the torque constant";
+    text << "no unit makes them agree; check 6075h and 6076h against the motor's data sheet, and the torque "
+            "constant";
   else
     text << fitting << " would agree; check which it is before any torque is applied";
   throw InputError(text.str());
 }
 
-TorqueScale::TorqueScale(double rated_Nm, int direction, double limit_Nm) : unit_Nm_(direction * rated_Nm / kPerMille) {
+TorqueScale::TorqueScale(double rated_Nm, int direction, double limit_Nm)
+    : unit_Nm_(direction * rated_Nm / kPerMille) {
   const double limit = std::floor(limit_Nm / rated_Nm * kPerMille + 1e-9);
   limit_ = static_cast<std::uint16_t>(std::clamp(limit, 0.0, static_cast<double>(INT16_MAX)));
 }
@@ -81,7 +86,8 @@ double PositionScale::position_rad(std::int32_t counts) noexcept {
     started_ = true;
   } else {
     // Modulo 2^32: right whichever way the counter wrapped.
-    total_counts_ += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) - static_cast<std::uint32_t>(last_counts_));
+    total_counts_ += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) -
+                                               static_cast<std::uint32_t>(last_counts_));
   }
   last_counts_ = counts;
   return rad_per_count_ * static_cast<double>(total_counts_) + offset_rad_;

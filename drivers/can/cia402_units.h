@@ -1,5 +1,5 @@
-// A drive's units and ours: counts to joint angle, per mille of rated torque to joint torque. Conversions are real-time
-// safe; building them is not. Source: CiA 402-2, objects 6064h, 606Ch, 6071h, 6075h, 6076h.
+// A drive's units and ours: counts to joint angle, per mille of rated torque to joint torque. Conversions are
+// real-time safe; building them is not. Source: CiA 402-2, objects 6064h, 606Ch, 6071h, 6075h, 6076h.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct RatedValues {
   std::uint32_t current_mA = 0;
 };
 
-/// Rated torque at the joint. Throws InputError when 6076h in the configured unit is not what 6075h and the torque constant
-/// give: it names the unit or side that would fit. A wrong unit is a factor of 1000, a wrong side the gear ratio; peak and
-/// rms amperes differ by 1.41.
+/// Rated torque at the joint. Throws InputError when 6076h in the configured unit is not what 6075h and the
+/// torque constant give: it names the unit or side that would fit. A wrong unit is a factor of 1000, a wrong
+/// side the gear ratio; peak and rms amperes differ by 1.41.
 double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, const std::string& where);
 
 /// Torque in per mille of rated torque, both ways.

@@ -1,5 +1,5 @@
-// A temperature and its time in one word, so that a background thread can hand it to the loop without a lock. Real-time
-// safe.
+// A temperature and its time in one word, so that a background thread can hand it to the loop without a lock.
+// Real-time safe.
 #pragma once
 
 #include <atomic>
@@ -29,7 +29,9 @@ class PackedTemperature {
 
  private:
   static constexpr std::int64_t kMillisecond_ns = 1'000'000;
-  static std::uint32_t stamp(std::int64_t time_ns) noexcept { return static_cast<std::uint32_t>(time_ns / kMillisecond_ns); }
+  static std::uint32_t stamp(std::int64_t time_ns) noexcept {
+    return static_cast<std::uint32_t>(time_ns / kMillisecond_ns);
+  }
 
   std::atomic<std::uint64_t> word_{0};
   std::atomic<bool> there_{false};

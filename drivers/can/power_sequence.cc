@@ -6,7 +6,8 @@ namespace strainwave::cia402 {
 
 namespace {
 
-/// Periods that the reset bit stays low, then high. Several, because a frame may be lost; the edge is what counts.
+/// Periods that the reset bit stays low, then high. Several, because a frame may be lost; the edge is what
+/// counts.
 constexpr int kResetHalf = 5;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A drive's power state over time: leads it towards a goal, gives every step a time, resets a fault by a rising edge.
-// Real-time safe; time is an argument. Source: CiA 402-2, section 6.
+// A drive's power state over time: leads it towards a goal, gives every step a time, resets a fault by a
+// rising edge. Real-time safe; time is an argument. Source: CiA 402-2, section 6.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 namespace strainwave::cia402 {
 
 struct PowerTimes {
-  std::int64_t step_ns = 500'000'000;         ///< for each step of enabling
-  std::int64_t quick_stop_ns = 1'000'000'000; ///< then the voltage is ordered off
-  std::int64_t reset_ns = 1'000'000'000;      ///< for the drive to leave its fault
+  std::int64_t step_ns = 500'000'000;          ///< for each step of enabling
+  std::int64_t quick_stop_ns = 1'000'000'000;  ///< then the voltage is ordered off
+  std::int64_t reset_ns = 1'000'000'000;       ///< for the drive to leave its fault
 };
 
 class PowerSequence {
@@ -27,7 +27,9 @@ class PowerSequence {
 
   PowerState state() const noexcept { return power_state_of(statusword_); }
   std::uint16_t statusword() const noexcept { return statusword_; }
-  bool in_fault() const noexcept { return state() == PowerState::kFault || state() == PowerState::kFaultReaction; }
+  bool in_fault() const noexcept {
+    return state() == PowerState::kFault || state() == PowerState::kFaultReaction;
+  }
   bool has_torque() const noexcept {
     return state() == PowerState::kOperationEnabled || state() == PowerState::kQuickStopActive;
   }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdio>
+
+#include "drivers/can/hexadecimal.h"
 
 namespace strainwave::canopen {
 
@@ -14,12 +15,6 @@ constexpr std::size_t kBatch = 16;
 constexpr std::int64_t kQueueWait_ns = 1'000'000;
 constexpr int kSendAttempts = 50;
 constexpr int kForgottenBatches = 1000;
-
-std::string hexadecimal(std::uint64_t value, int digits) {
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "%0*llXh", digits, static_cast<unsigned long long>(value));
-  return text.data();
-}
 
 }  // namespace
 
@@ -33,7 +28,8 @@ SdoClient::SdoClient(CanPort& port, std::uint8_t node, std::string who, std::int
 
 std::string SdoClient::failure(const SdoTransfer& transfer, const char* doing) const {
   return who_ + ": node " + std::to_string(node_) + ": " + doing + " " + to_text(transfer.entry()) + ": " +
-         std::string(sdo_abort_text(transfer.abort_code())) + " (" + hexadecimal(transfer.abort_code(), 8) + ")";
+         std::string(sdo_abort_text(transfer.abort_code())) + " (" + hexadecimal(transfer.abort_code(), 8) +
+         ")";
 }
 
 void SdoClient::send(const CanFrame& frame) {
@@ -43,8 +39,10 @@ void SdoClient::send(const CanFrame& frame) {
     if (result == SendResult::kLinkDown) throw InputError(who_ + ": the CAN interface is down or gone");
     (void)port_.wait(kQueueWait_ns);
   }
-  throw InputError(who_ + ": the CAN interface's queue stays full: nobody acknowledges; check cable, termination, bit rate "
-                          "and the drives' supply");
+  throw InputError(
+      who_ +
+      ": the CAN interface's queue stays full: nobody acknowledges; check cable, termination, bit rate "
+      "and the drives' supply");
 }
 
 std::optional<CanFrame> SdoClient::next_frame(std::uint32_t id, std::int64_t deadline_ns) {
@@ -93,9 +91,12 @@ void SdoClient::run(SdoTransfer& transfer) {
         send(transfer.request());
         deadline_ns = port_.now_ns() + timeout_ns_;
         break;
-      case SdoTransfer::Action::kAbort: send(transfer.request()); break;
+      case SdoTransfer::Action::kAbort:
+        send(transfer.request());
+        break;
       case SdoTransfer::Action::kIgnore:
-      case SdoTransfer::Action::kFinish: break;
+      case SdoTransfer::Action::kFinish:
+        break;
     }
   }
 }
@@ -114,7 +115,8 @@ std::uint64_t SdoClient::upload_number(Entry entry, std::size_t bytes) {
   const bool padded = value.size() == 4 && bytes < 4;
   if (value.size() != bytes && !padded)
     throw SdoError(who_ + ": node " + std::to_string(node_) + ": reading " + to_text(entry) + ": " +
-                       std::to_string(value.size()) + " bytes came, " + std::to_string(bytes) + " were expected",
+                       std::to_string(value.size()) + " bytes came, " + std::to_string(bytes) +
+                       " were expected",
                    static_cast<std::uint32_t>(SdoAbort::kLengthMismatch));
   return little_endian(value.data(), bytes);
 }
@@ -146,16 +148,20 @@ void SdoClient::download(Entry entry, std::uint64_t value, std::size_t bytes) {
 }
 
 void SdoClient::write_verified(const SdoWrite& write) {
-  const std::uint64_t mask = write.bytes >= 4 ? write.verified : write.verified & ((1U << 8U * write.bytes) - 1U);
+  const std::uint64_t mask =
+      write.bytes >= 4 ? write.verified : write.verified & ((1U << 8U * write.bytes) - 1U);
   download(write.entry, write.value, write.bytes);
   const std::uint64_t kept = upload_number(write.entry, write.bytes);
   if ((kept & mask) == (write.value & mask)) return;
-  throw InputError(who_ + ": node " + std::to_string(node_) + ": " + write.purpose + ": " + to_text(write.entry) +
-                   " was set to " + hexadecimal(write.value, 2 * write.bytes) + " but reads " +
-                   hexadecimal(kept, 2 * write.bytes) + ": the drive does not take this value");
+  throw InputError(who_ + ": node " + std::to_string(node_) + ": " + write.purpose + ": " +
+                   to_text(write.entry) + " was set to " + hexadecimal(write.value, 2 * write.bytes) +
+                   " but reads " + hexadecimal(kept, 2 * write.bytes) +
+                   ": the drive does not take this value");
 }
 
-void SdoClient::send_nmt(NmtCommand command) { send(nmt_frame(command, node_)); }
+void SdoClient::send_nmt(NmtCommand command) {
+  send(nmt_frame(command, node_));
+}
 
 bool SdoClient::reset_communication(std::int64_t timeout_ns) {
   // The boot-up message of an earlier restart is none of this one.

@@ -1,5 +1,5 @@
-// Blocking SDO and network management with one node: for start-up, background threads and tools, never for the loop.
-// Source: CiA 301 v4.2.0, sections 7.2.4 and 7.3.2.
+// Blocking SDO and network management with one node: for start-up, background threads and tools, never for
+// the loop. Source: CiA 301 v4.2.0, sections 7.2.4 and 7.3.2.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,8 @@ class SdoError : public InputError {
 
 class SdoClient {
  public:
-  /// `port` must hear the node's SDO answers and, for reset_communication(), its heartbeat. `who` begins every message ("elbow").
+  /// `port` must hear the node's SDO answers and, for reset_communication(), its heartbeat. `who` begins
+  /// every message ("elbow").
   SdoClient(CanPort& port, std::uint8_t node, std::string who, std::int64_t timeout_ns = kDefaultTimeout_ns);
 
   std::vector<std::uint8_t> upload(Entry entry);

@@ -40,7 +40,8 @@ class CanConfigTest : public ::testing::Test {
     return "";
   }
   static void expect_mentions(const std::string& message, std::initializer_list<const char*> parts) {
-    for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+    for (const char* part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   }
   TemporaryFolder temporary_;
   const std::filesystem::path& folder_ = temporary_.path();
@@ -68,14 +69,16 @@ TEST_F(CanConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLeaves
 }
 
 TEST_F(CanConfigTest, RefusesNodesThatCollide) {
-  expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 1"), {"joint[1].can.node_id", "of its own"});
+  expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 1"),
+                  {"joint[1].can.node_id", "of its own"});
   expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 127"), {"node_id", "our_node_id"});
   expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 128"), {"node_id", "1 to 127"});
   expect_mentions(error_after("elmo.toml", "node_id = 2\n", ""), {"node_id", "required"});
 }
 
 TEST_F(CanConfigTest, RefusesABusThatNobodyNamedOrUses) {
-  expect_mentions(error_after("epos4.toml", "bus = \"arm\"", "bus = \"leg\""), {"can.bus", "leg", "[[can_bus]]"});
+  expect_mentions(error_after("epos4.toml", "bus = \"arm\"", "bus = \"leg\""),
+                  {"can.bus", "leg", "[[can_bus]]"});
   const std::string other = "[[can_bus]]\nname = \"leg\"\ninterface = \"can1\"\n\n[[can_bus]]";
   expect_mentions(error_after("epos4.toml", "[[can_bus]]", other), {"can_bus[0].name", "at least one joint"});
   const std::string same = "[[can_bus]]\nname = \"leg\"\ninterface = \"can0\"\n\n[[can_bus]]";
@@ -88,15 +91,18 @@ TEST_F(CanConfigTest, RefusesABusThatWouldBeTooFull) {
 }
 
 TEST_F(CanConfigTest, WantsUnitAndSideOfTorqueSaid) {
-  expect_mentions(error_after("epos4.toml", "rated_torque_unit = \"uNm\"", ""), {"rated_torque_unit", "required"});
+  expect_mentions(error_after("epos4.toml", "rated_torque_unit = \"uNm\"", ""),
+                  {"rated_torque_unit", "required"});
   expect_mentions(error_after("epos4.toml", "torque_side = \"motor\"", ""), {"torque_side", "required"});
   expect_mentions(error_after("epos4.toml", "\"uNm\"", "\"Nm\""), {"rated_torque_unit", "mNm", "uNm"});
 }
 
 TEST_F(CanConfigTest, LetsOneDriveMakeTheSyncWhenTheBusSaysSo) {
-  expect_mentions(error_after("epos4.toml", "protocol = \"cia402\"", "protocol = \"cia402\"\nproduces_sync = true"),
-                  {"produces_sync", "sync = \"drive\""});
-  expect_mentions(error_after("epos4.toml", "bit_rate = 1000000\n", "sync = \"drive\"\n"), {"can_bus[0].sync", "produces_sync"});
+  expect_mentions(
+      error_after("epos4.toml", "protocol = \"cia402\"", "protocol = \"cia402\"\nproduces_sync = true"),
+      {"produces_sync", "sync = \"drive\""});
+  expect_mentions(error_after("epos4.toml", "bit_rate = 1000000\n", "sync = \"drive\"\n"),
+                  {"can_bus[0].sync", "produces_sync"});
   std::string text = example("epos4.toml");
   text.replace(text.find("bit_rate = 1000000\n"), 19, "sync = \"drive\"\n");
   text.replace(text.find("protocol = \"cia402\""), 19, "protocol = \"cia402\"\nproduces_sync = true");

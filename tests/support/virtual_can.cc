@@ -117,7 +117,9 @@ void VirtualCan::run_to(std::int64_t time_ns) {
   advance_nodes();
 }
 
-void VirtualCan::send_as_stranger(const CanFrame& frame) { put_on_bus(frame, nullptr, false); }
+void VirtualCan::send_as_stranger(const CanFrame& frame) {
+  put_on_bus(frame, nullptr, false);
+}
 
 void VirtualCan::tell_trouble(CanTrouble trouble) {
   for (Port* port : ports_) port->hear_trouble(trouble);

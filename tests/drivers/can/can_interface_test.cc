@@ -89,7 +89,9 @@ TEST(CanInterface, SurvivesLengthsThatLie) {
   }
 }
 
-TEST(CanInterface, IsAcceptedWhenItIsUpAtTheRightRateWithRoomForAPeriod) { EXPECT_EQ(refusal(sound_interface()), ""); }
+TEST(CanInterface, IsAcceptedWhenItIsUpAtTheRightRateWithRoomForAPeriod) {
+  EXPECT_EQ(refusal(sound_interface()), "");
+}
 
 TEST(CanInterface, RefusalNamesTheCommandThatMendsIt) {
   CanInterface interface = sound_interface();

@@ -11,7 +11,9 @@ namespace {
 
 using Bytes = std::array<std::uint8_t, kMaxCanBytes>;
 
-bool has(std::uint32_t troubles, CanTrouble trouble) { return (troubles & static_cast<std::uint32_t>(trouble)) != 0; }
+bool has(std::uint32_t troubles, CanTrouble trouble) {
+  return (troubles & static_cast<std::uint32_t>(trouble)) != 0;
+}
 
 TEST(CanErrorFrame, TellsBusOffFromEverythingElse) {
   EXPECT_TRUE(has(troubles_of(CAN_ERR_BUSOFF, Bytes{}), CanTrouble::kBusOff));
@@ -25,7 +27,8 @@ TEST(CanErrorFrame, TellsTheControllersState) {
     EXPECT_FALSE(has(troubles, CanTrouble::kErrorWarning));
   }
   EXPECT_TRUE(has(troubles_of(CAN_ERR_CRTL, Bytes{0, CAN_ERR_CRTL_ACTIVE}), CanTrouble::kErrorActive));
-  EXPECT_EQ(troubles_of(CAN_ERR_BUSERROR, Bytes{0, CAN_ERR_CRTL_TX_PASSIVE}), 0U) << "only CAN_ERR_CRTL fills byte 1";
+  EXPECT_EQ(troubles_of(CAN_ERR_BUSERROR, Bytes{0, CAN_ERR_CRTL_TX_PASSIVE}), 0U)
+      << "only CAN_ERR_CRTL fills byte 1";
 }
 
 TEST(CanSocket, SaysWhatToDoWhenThereIsNoInterface) {
@@ -34,7 +37,8 @@ TEST(CanSocket, SaysWhatToDoWhenThereIsNoInterface) {
     FAIL() << "opened";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    const bool helpful = text.find("can_raw") != std::string::npos || text.find("ip link") != std::string::npos;
+    const bool helpful =
+        text.find("can_raw") != std::string::npos || text.find("ip link") != std::string::npos;
     EXPECT_TRUE(helpful) << text;
   }
 }

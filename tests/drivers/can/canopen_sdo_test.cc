@@ -120,8 +120,8 @@ TEST(SdoTransfer, EndsWhateverADriveAnswers) {
   std::mt19937 random(1);
   for (int round = 0; round < 2000; ++round) {
     const std::vector<std::uint8_t> value(20, 7);
-    SdoTransfer transfer = round % 2 == 0 ? SdoTransfer::upload(3, {0x1008, 0})
-                                          : SdoTransfer::download(3, {0x1008, 0}, value);
+    SdoTransfer transfer =
+        round % 2 == 0 ? SdoTransfer::upload(3, {0x1008, 0}) : SdoTransfer::download(3, {0x1008, 0}, value);
     for (int frames = 0; frames < 400 && transfer.state() == State::kBusy; ++frames) {
       CanFrame frame;
       frame.size = static_cast<std::uint8_t>(random() % 4 == 0 ? random() % 9 : 8);

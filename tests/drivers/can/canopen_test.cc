@@ -55,7 +55,8 @@ TEST(Canopen, PutsEveryEmergencyCodeIntoWords) {
 TEST(DriveErrorText, TellsTheDrivesNumbersFromOurs) {
   EXPECT_EQ(cia402::drive_error_text(drive_error_of({0x3220, 0x05})),
             "emergency 3220h, under-voltage of the supply (register 05h)");
-  const std::string ours = cia402::drive_error_text(strainwave::drive_error_of(CanDetail::kNetworkState, 0x7F));
+  const std::string ours =
+      cia402::drive_error_text(strainwave::drive_error_of(CanDetail::kNetworkState, 0x7F));
   EXPECT_NE(ours.find("pre-operational"), std::string::npos) << ours;
   for (std::uint32_t detail = 1; detail <= 17; ++detail)
     EXPECT_EQ(cia402::drive_error_text(detail << 24U).find("unknown"), std::string::npos) << detail;

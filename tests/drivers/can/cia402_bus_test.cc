@@ -93,7 +93,8 @@ TEST_F(Cia402Bus, EndsEachPeriodByOneSyncAfterTheOrdersOfAllJoints) {
   for (const VirtualCan::Entry& entry : bench.can().trace()) {
     if (entry.time_ns <= since_ns || entry.from_node) continue;
     if (entry.frame.id == 0x080) order += 'S';
-    if (entry.frame.id > 0x200 && entry.frame.id < 0x280) order += static_cast<char>('0' + entry.frame.id - 0x200);
+    if (entry.frame.id > 0x200 && entry.frame.id < 0x280)
+      order += static_cast<char>('0' + entry.frame.id - 0x200);
   }
   std::string expected;
   for (int i = 0; i < 100; ++i) expected += "123S";
@@ -140,10 +141,12 @@ TEST_F(Cia402Bus, LeavesTheDriveDisabledAndWithoutAFaultAtTheEnd) {
   bench_.end();
   EXPECT_EQ(bench_.node().drive().power(), can_nodes::PowerState::kSwitchOnDisabled);
   bench_.can().run_to(bench_.can().now_ns() + 1'000'000'000);
-  for (const std::string& note : bench_.can().notes()) EXPECT_EQ(note.find("heartbeat-lost"), std::string::npos);
+  for (const std::string& note : bench_.can().notes())
+    EXPECT_EQ(note.find("heartbeat-lost"), std::string::npos);
 }
 
-/// A loop's port in fixed memory: every frame sent comes back, every SYNC is answered by a position of an enabled drive.
+/// A loop's port in fixed memory: every frame sent comes back, every SYNC is answered by a position of an
+/// enabled drive.
 class FixedPort final : public CanPort {
  public:
   SendResult send(const CanFrame& frame) noexcept override {

@@ -1,4 +1,5 @@
-// Every way in which drive and bus can fail: the reaction, its time, and the way back. docs/can.md lists them.
+// Every way in which drive and bus can fail: the reaction, its time, and the way back. docs/can.md lists
+// them.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -18,7 +19,8 @@ class Cia402Failure : public ::testing::Test {
   }
   void expect_fault(ActuatorFault fault, CanDetail detail) {
     EXPECT_EQ(bench_.reading().fault, fault);
-    EXPECT_EQ(detail_of(bench_.reading().drive_error), detail) << can_detail_text(bench_.reading().drive_error);
+    EXPECT_EQ(detail_of(bench_.reading().drive_error), detail)
+        << can_detail_text(bench_.reading().drive_error);
   }
   /// The last controlword and torque that the drive was sent.
   std::uint64_t last_controlword() { return little_endian(last_order().bytes.data(), 2); }
@@ -289,7 +291,8 @@ TEST_F(Cia402Failure, FramesOfAnotherSizeAreNoPositions) {
 }
 
 TEST_F(Cia402Failure, ATorqueThatIsNoNumberIsNeverSent) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
     bench_.step({bad, true});
     EXPECT_EQ(last_torque(), 0U);
   }
@@ -302,7 +305,8 @@ TEST_F(Cia402Failure, StopTakesTheTorqueInTheSamePeriod) {
   bench_.step({0.0, false});
   EXPECT_EQ(last_torque(), 0U);
   EXPECT_EQ(last_controlword(), 0x02U);
-  for (int i = 0; i < 2000 && bench_.reading().drive_state != DriveState::kDisabled; ++i) bench_.step({0.0, false});
+  for (int i = 0; i < 2000 && bench_.reading().drive_state != DriveState::kDisabled; ++i)
+    bench_.step({0.0, false});
   EXPECT_EQ(bench_.reading().drive_state, DriveState::kDisabled);
   EXPECT_TRUE(bench_.enable());
 }

@@ -60,7 +60,8 @@ TEST(Cia402Setup, FallsBackToTorqueProfileAndRefusesADriveWithout) {
 TEST(Cia402Setup, RefusesAnotherDriveThanTheConfigurationMeans) {
   BenchDrive drive = bench_drive(3);
   drive.config.identity.vendor_id = 0x0000009A;
-  expect_mentions(DriveBench({drive}).start_refusal(), {"vendor_id = 0000009Ah", "000000FBh", "another drive"});
+  expect_mentions(DriveBench({drive}).start_refusal(),
+                  {"vendor_id = 0000009Ah", "000000FBh", "another drive"});
   drive = bench_drive(3);
   drive.config.identity.serial_number = 7;
   expect_mentions(DriveBench({drive}).start_refusal(), {"serial_number = 00000007h", "00000001h"});
@@ -75,12 +76,13 @@ TEST(Cia402Setup, RefusesADeviceOfAnotherProfile) {
 TEST(Cia402Setup, RefusesTorqueInTheWrongUnit) {
   BenchDrive drive = bench_drive(3);
   drive.node.drive.rated_torque_units_per_Nm = 1e6;
-  expect_mentions(DriveBench({drive}).start_refusal(), {"6076h", "rated_torque_unit = \"uNm\"", "would agree"});
+  expect_mentions(DriveBench({drive}).start_refusal(),
+                  {"6076h", "rated_torque_unit = \"uNm\"", "would agree"});
 }
 
 TEST(Cia402Setup, RefusesADriveThatKeepsAnotherValueThanItWasGiven) {
-  for (const char* lie : {"pretend 0x1016 1 0", "pretend 0x6007 0 0", "pretend 0x6072 0 999", "pretend 0x1A00 1 0",
-                          "pretend 0x6061 0 8"}) {
+  for (const char* lie : {"pretend 0x1016 1 0", "pretend 0x6007 0 0", "pretend 0x6072 0 999",
+                          "pretend 0x1A00 1 0", "pretend 0x6061 0 8"}) {
     DriveBench bench({bench_drive(3)});
     bench.tell_node(lie);
     const std::string text = bench.start_refusal();
@@ -100,7 +102,8 @@ TEST(Cia402Setup, NamesEveryDriveThatFails) {
   absent.config.boot_timeout_s = 0.2;
   BenchDrive wrong = bench_drive(3);
   wrong.config.identity.product_code = 1;
-  expect_mentions(DriveBench({absent, wrong}).start_refusal(), {"node 5", "no boot-up", "node 3", "product_code"});
+  expect_mentions(DriveBench({absent, wrong}).start_refusal(),
+                  {"node 5", "no boot-up", "node 3", "product_code"});
 }
 
 TEST(Cia402Setup, LeavesADisabledDriveWhateverItWasDoing) {

@@ -9,17 +9,23 @@ namespace {
 
 TEST(PowerState, IsReadFromTheBitsThatTheStandardNames) {
   const std::pair<std::uint16_t, PowerState> table[]{
-      {0x0000, PowerState::kNotReady},         {0x0040, PowerState::kSwitchOnDisabled},
-      {0x0060, PowerState::kSwitchOnDisabled}, {0x0021, PowerState::kReadyToSwitchOn},
-      {0x0023, PowerState::kSwitchedOn},       {0x0027, PowerState::kOperationEnabled},
-      {0x0007, PowerState::kQuickStopActive},  {0x000F, PowerState::kFaultReaction},
-      {0x002F, PowerState::kFaultReaction},    {0x0008, PowerState::kFault},
+      {0x0000, PowerState::kNotReady},
+      {0x0040, PowerState::kSwitchOnDisabled},
+      {0x0060, PowerState::kSwitchOnDisabled},
+      {0x0021, PowerState::kReadyToSwitchOn},
+      {0x0023, PowerState::kSwitchedOn},
+      {0x0027, PowerState::kOperationEnabled},
+      {0x0007, PowerState::kQuickStopActive},
+      {0x000F, PowerState::kFaultReaction},
+      {0x002F, PowerState::kFaultReaction},
+      {0x0008, PowerState::kFault},
       {0x0028, PowerState::kFault},
   };
   for (const auto& [status, state] : table) {
     // Bits 4, 7 and above (voltage, warning, remote, target, vendor's) say nothing of the state.
     for (const int others : {0x0000, 0x0010, 0x0090, 0xFF80, 0xFF90})
-      EXPECT_EQ(power_state_of(static_cast<std::uint16_t>(status | others)), state) << status << ' ' << others;
+      EXPECT_EQ(power_state_of(static_cast<std::uint16_t>(status | others)), state)
+          << status << ' ' << others;
   }
 }
 
@@ -103,7 +109,8 @@ TEST_F(PowerSequenceTest, EndsTheResetWithTheFault) {
 }
 
 TEST_F(PowerSequenceTest, KnowsADriveThatLeavesOperationByItself) {
-  for (const int status : {0x40, 0x21, 0x23, 0x27}) period(Goal::kEnabled, static_cast<std::uint16_t>(status));
+  for (const int status : {0x40, 0x21, 0x23, 0x27})
+    period(Goal::kEnabled, static_cast<std::uint16_t>(status));
   EXPECT_FALSE(power_.left_operation());
   period(Goal::kEnabled, 0x40);
   EXPECT_TRUE(power_.left_operation());

@@ -19,12 +19,13 @@ BenchDrive bench_drive(std::uint8_t node_id) {
   config.units.gear_ratio = kReferenceGearRatio;
   config.units.torque_constant_Nm_A = 0.192;
   config.torque_limit_Nm = 20.0;
-  config.temperature = cia402::TemperatureObject{{0x3201, 1}, cia402::NumberType::kInt16, 0.1, 0.0,
-                                                 cia402::TemperatureObject::Way::kPdo, 0.1};
+  config.temperature = cia402::TemperatureObject{{0x3201, 1}, cia402::NumberType::kInt16,           0.1,
+                                                 0.0,         cia402::TemperatureObject::Way::kPdo, 0.1};
   return drive;
 }
 
-DriveBench::DriveBench(std::vector<BenchDrive> drives) : drives_(std::move(drives)), readings_(drives_.size()) {
+DriveBench::DriveBench(std::vector<BenchDrive> drives)
+    : drives_(std::move(drives)), readings_(drives_.size()) {
   bus_config_.interface_name = "can0";
   bus_config_.heartbeat_period_s = 0.05;
   bus_config_.load_limit = 1.0;
