@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "daemon/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
+#include "drivers/temperature_file.h"
 
 namespace strainwave {
 
@@ -41,7 +44,10 @@ struct JointConfig {
   std::string group;             ///< name of the joints that stop together; empty: none
   bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
+  std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
   ActuatorFactory make_actuator;
+  /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
+  std::function<bool(std::ostream&)> describe_lines;
   std::filesystem::path table;  ///< initial gain table; empty: none
 };
 

@@ -79,6 +79,9 @@ std::string advice(const Reply& reply) {
     case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
     case Reason::kStreamExpired:
       return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
+    case Reason::kNotHomed: return mode + ", and its position is not known: strainwavectl home first";
+    case Reason::kAtLimitSwitch: return mode + " at a limit switch: only a move away from it is possible";
+    case Reason::kNoHoming: return mode + ", and joint.homing says of no switch or index that it is home";
     case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
       return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
@@ -365,6 +368,8 @@ void Supervisor::end_hung_gateway(std::int64_t now_ns) {
 void Supervisor::publish_timing(std::int64_t now_ns) {
   if (now_ns < timing_due_ns_) return;
   timing_due_ns_ = now_ns + kTimingEvery_ns;
+  for (std::size_t i = 0; i < config_.joints.size(); ++i)
+    answers_.limits(i, config_.joints[i].plant, config_.joints[i].loop);
   answers_.timing(loop_.statistics(), admission_.rejects(), config_.loop, loop_.real_time_refusal().empty(),
                   static_cast<std::int64_t>(inbound_.state_records_dropped.load(std::memory_order_relaxed)));
 }
