@@ -8,6 +8,7 @@
 
 #include "control/input_error.h"
 #include "daemon/config.h"
+#include "daemon/drive_check.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
 
@@ -36,6 +37,8 @@ int main(int argc, char** argv) {
   app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
   bool check_lines = false;
   app.add_flag("--check-lines", check_lines, "show every digital line of the joints and who holds it, and end");
+  bool check_drives = false;
+  app.add_flag("--check-drives", check_drives, "do to the drives all that start-up does, enable none, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
   CLI11_PARSE(app, argc, argv);
   // A log that may not grow or has lost its reader is no reason to end.
@@ -48,6 +51,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (check_lines) return show_lines(config);
+    if (check_drives) return strainwave::check_drives(config, std::cout) ? 0 : 1;
     strainwave::start_logging();
     strainwave::Supervisor supervisor(config);
     supervisor.run();

@@ -17,6 +17,7 @@
 
 #include "control/gain_table_json.h"
 #include "control/input_error.h"
+#include "daemon/drive_check.h"
 #include "daemon/table_admission.h"
 
 namespace strainwave {
@@ -64,9 +65,7 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
   std::vector<InstanceLock> locks;
   locks.emplace_back("prefix " + config.prefix,
                      "stop that one (systemctl stop strainwaved), or give this one its own daemon.prefix");
-  for (const JointConfig& joint : config.joints)
-    if (!joint.driver_resource.empty())
-      locks.emplace_back("drive " + joint.driver_resource, "a drive has one master; stop the other daemon");
+  for (InstanceLock& lock : lock_drives(config)) locks.push_back(std::move(lock));
   return locks;
 }
 
@@ -87,6 +86,12 @@ std::string advice(const Reply& reply) {
       return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
     default: return mode;
   }
+}
+
+// The drive's own reason behind a fault, if there is one.
+std::string drive_words(const JointConfig& joint, const LoopEvent& event) {
+  if (event.drive_error == 0 || joint.drive_error_text == nullptr) return "";
+  return ": " + joint.drive_error_text(event.fault, event.drive_error);
 }
 
 std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
@@ -182,6 +187,7 @@ void Supervisor::run() {
   // The gateway first: a process started by a real-time one would inherit too much.
   start_gateway();
   flight_records_.start();
+  log_buses();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
                                                                : "as user " + config_.gateway_user.name);
   loop_.start();
@@ -204,6 +210,7 @@ void Supervisor::turn(std::int64_t now_ns) {
   take_messages(now_ns);
   take_replies(now_ns);
   take_events();
+  log_buses();
   take_states(now_ns);
   watch_gateway(now_ns);
   publish_timing(now_ns);
@@ -319,11 +326,17 @@ void Supervisor::take_events() {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
     if (event.to == Mode::kFaulted) {
       const std::string_view key = configuration_key(event.fault);
-      spdlog::error("{}: fault {}: {}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
+      spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
+                    to_text(event.fault), drive_words(config_.joints[static_cast<std::size_t>(event.joint)], event),
                     key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
     } else
       spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
   }
+}
+
+void Supervisor::log_buses() {
+  for (const auto& bus : loop_.buses())
+    for (const std::string& line : bus->take_messages()) spdlog::info("{}", line);
 }
 
 void Supervisor::take_states(std::int64_t now_ns) {

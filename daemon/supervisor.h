@@ -50,6 +50,7 @@ class Supervisor {
   bool prepare_table(Verdict& verdict);
   void take_replies(std::int64_t now_ns);
   void take_events();
+  void log_buses();
   void take_states(std::int64_t now_ns);
   void watch_gateway(std::int64_t now_ns);
   void end_hung_gateway(std::int64_t now_ns);

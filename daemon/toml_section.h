@@ -23,6 +23,7 @@ class TomlSection {
 
   double number(std::string_view key, Range allowed);
   double number_or(std::string_view key, double fallback, Range allowed);
+  std::int64_t integer(std::string_view key, std::int64_t min, std::int64_t max);
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t min, std::int64_t max);
   bool boolean_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);

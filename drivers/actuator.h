@@ -27,6 +27,8 @@ enum class ActuatorFault : std::int32_t {
   kImplausible = 5,    ///< the reading contradicts itself (stuck, jumped, not finite)
   kLinkLost = 6,       ///< bus or device gone
   kEmergencyStop = 7,  ///< the e-stop input is active
+  kDriveRestarted = 8, ///< the drive has restarted by itself and forgotten its settings
+  kBusError = 9,       ///< the bus's controller counts too many errors
 };
 
 /// Digital inputs at the joint; true: active, whatever the wiring's polarity. What a drive does not have stays false.
@@ -48,6 +50,7 @@ struct ActuatorReading {
   DriveState drive_state = DriveState::kDisabled;
   ActuatorFault fault = ActuatorFault::kNone;
   JointInputs inputs;                  ///< of this period, even without a fresh position
+  std::uint32_t drive_error = 0;       ///< why, in the driver's own numbers; 0: nothing to say
   bool has_position = false;           ///< false: no fresh sample this period, the value is the last one
   bool has_velocity = false;
   bool has_temperature = false;

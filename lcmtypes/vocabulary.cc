@@ -25,6 +25,8 @@ std::string_view to_text(Fault fault) noexcept {
     case Fault::kImplausibleReading: return "implausible reading";
     case Fault::kLinkLost: return "link to the drive lost";
     case Fault::kEmergencyStop: return "emergency stop";
+    case Fault::kDriveRestarted: return "drive restarted by itself";
+    case Fault::kBusError: return "bus error";
     case Fault::kStartTimeout: return "drive did not enable in time";
     case Fault::kStopTimeout: return "joint did not stop in time";
     case Fault::kPositionLimit: return "position limit";
@@ -142,6 +144,8 @@ std::string_view configuration_key(Fault fault) noexcept {
     case Fault::kLinkLost:
     case Fault::kEmergencyStop:
     case Fault::kLimitSwitch:
+    case Fault::kDriveRestarted:
+    case Fault::kBusError:
     case Fault::kNotFinite: return "";
   }
   return "";

@@ -23,6 +23,8 @@ enum class Fault : std::int32_t {
   kImplausibleReading = 5,
   kLinkLost = 6,
   kEmergencyStop = 7,
+  kDriveRestarted = 8,
+  kBusError = 9,
   kStartTimeout = 10,
   kStopTimeout = 11,
   kPositionLimit = 12,

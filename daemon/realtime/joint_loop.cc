@@ -20,6 +20,8 @@ Fault fault_of(ActuatorFault fault) noexcept {
     case ActuatorFault::kImplausible: return Fault::kImplausibleReading;
     case ActuatorFault::kLinkLost: return Fault::kLinkLost;
     case ActuatorFault::kEmergencyStop: return Fault::kEmergencyStop;
+    case ActuatorFault::kDriveRestarted: return Fault::kDriveRestarted;
+    case ActuatorFault::kBusError: return Fault::kBusError;
   }
   return Fault::kDriveFault;
 }
@@ -193,6 +195,7 @@ void JointLoop::command_drive(const CycleTime& /*time*/) noexcept {
 void JointLoop::raise_fault(Fault fault, const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return;  // the first fault is the one that is shown
   ++faults_total_;
+  drive_error_ = reading_.drive_error;
   drive_stopped_ = false;
   // Counts may be missing from now on.
   if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost) homed_ = false;
@@ -204,7 +207,7 @@ bool JointLoop::change_mode(ModeEvent event, const CycleTime& time, Fault fault)
   const auto next = next_mode(mode_, event);
   if (!next) return false;
   if (*next != mode_) {
-    (void)events_.push({index_, time.cycle, mode_, *next, fault});
+    (void)events_.push({index_, time.cycle, mode_, *next, fault, drive_error_});
     if (mode_ == Mode::kHoming) homing_.abort();
     mode_ = *next;
     mode_since_ns_ = time.now_ns;
@@ -241,6 +244,8 @@ void JointLoop::fill_record(const CycleTime& time) noexcept {
   state.gains_in_use = static_cast<std::int32_t>(motion_.gains_in_use);
   state.temperature_status = static_cast<std::int32_t>(temperature_.status());
   state.faults_total = faults_total_;
+  // The drive may forget; what it said when the fault came is what explains it.
+  state.drive_error = mode_ == Mode::kFaulted ? drive_error_ : reading_.drive_error;
   record_.temperature_measured_C = temperature_.measured_C();
   record_.temperature_age_s = temperature_.age_s(time.now_ns);
 }

@@ -144,6 +144,7 @@ class JointLoop {
   Fault fault_ = Fault::kNone;
   std::int64_t mode_since_ns_ = 0;
   std::int64_t faults_total_ = 0;
+  std::uint32_t drive_error_ = 0;         ///< at the last fault
   std::int64_t setpoint_expires_ns_ = 0;  ///< 0: a move, which does not expire
   std::int64_t table_id_ = 0;
   std::int64_t temperature_update_periods_;

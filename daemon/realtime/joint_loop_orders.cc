@@ -45,7 +45,8 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
 Reason JointLoop::enable(const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return Reason::kFaulted;
   if (!controller_.has_table()) return Reason::kNoTable;
-  if (mode_ == Mode::kOff && !reading_fresh_) return Reason::kDriveNotReady;
+  // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
+  if (mode_ == Mode::kOff && !reading_fresh_ && reading_.fault == ActuatorFault::kNone) return Reason::kDriveNotReady;
   if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
   setpoint_expired_ = false;
   stream_refused_ = false;

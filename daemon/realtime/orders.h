@@ -36,6 +36,7 @@ struct LoopEvent {
   Mode from = Mode::kOff;
   Mode to = Mode::kOff;
   Fault fault = Fault::kNone;
+  std::uint32_t drive_error = 0;  ///< with a fault: what the driver said
 };
 
 using OrderQueue = SpscQueue<Order, 64>;

@@ -23,7 +23,7 @@ const std::vector<Folder> kFolders{
     {"drivers", {"control"}},
     {"lcmtypes", {"control"}},
     {"daemon", {"control", "drivers", "lcmtypes"}},
-    {"client", {"control", "lcmtypes", "drivers/injected_fault.h"}},
+    {"client", {"control", "lcmtypes", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
     {"bench", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
     {"tests", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
 };
@@ -50,7 +50,7 @@ const std::vector<Library> kLibraries{
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
-    {"CLI/", {"design/", "sim/", "daemon/", "client/"}, false},
+    {"CLI/", {"design/", "sim/", "daemon/", "client/", "tests/support/"}, false},
 };
 
 /// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON

@@ -84,6 +84,8 @@ TEST_F(JointLoopLimits, TurnEveryFaultOfTheDriveIntoTheJointsWithinOneCycle) {
       {ActuatorFault::kImplausible, Fault::kImplausibleReading},
       {ActuatorFault::kLinkLost, Fault::kLinkLost},
       {ActuatorFault::kEmergencyStop, Fault::kEmergencyStop},
+      {ActuatorFault::kDriveRestarted, Fault::kDriveRestarted},
+      {ActuatorFault::kBusError, Fault::kBusError},
   };
   for (const auto& [drive_fault, expected] : pairs) {
     drive_->reading.drive_state = DriveState::kDisabled;
@@ -96,6 +98,33 @@ TEST_F(JointLoopLimits, TurnEveryFaultOfTheDriveIntoTheJointsWithinOneCycle) {
     ASSERT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
     EXPECT_EQ(loop_->mode(), Mode::kOff);
   }
+}
+
+TEST_F(JointLoopLimits, KeepTheDrivesOwnErrorNumberWithTheFaultThatItExplains) {
+  hold();
+  drive_->reading.fault = ActuatorFault::kDriveFault;
+  drive_->reading.drive_error = 0x3210;
+  step();
+  drive_->reading.drive_error = 0x8130;  // what follows explains nothing
+  step();
+  EXPECT_EQ(loop_->record().state.drive_error, 0x3210);
+  LoopEvent event;
+  while (events_.pop(event) && event.to != Mode::kFaulted) continue;
+  EXPECT_EQ(event.drive_error, 0x3210U);
+}
+
+TEST_F(JointLoopLimits, LetASilentDriveSayItsFaultWhenSomebodyEnablesIt) {
+  hold();
+  order(OrderKind::kDisable);
+  while (loop_->mode() != Mode::kOff) step();
+  drive_->reading.has_position = false;
+  step();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
+  drive_->reading.fault = ActuatorFault::kDriveRestarted;
+  step();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  EXPECT_EQ(fault(), Fault::kDriveRestarted);
+  EXPECT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
 }
 
 TEST_F(JointLoopLimits, LeaveAReleasedEmergencyStopWithoutMotion) {
@@ -192,6 +221,7 @@ TEST_F(JointLoopLimits, LeaveAJointThatIsOffAloneWhateverItsDriveSays) {
   for (int i = 0; i < 100; ++i) step();
   EXPECT_EQ(loop_->mode(), Mode::kOff);
   drive_->reading.has_position = false;
+  drive_->reading.fault = ActuatorFault::kNone;
   step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
 }
