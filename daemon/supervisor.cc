@@ -202,6 +202,7 @@ void Supervisor::run() {
     wait(kTurn_ms);
     turn(monotonic_now_ns());
   }
+  loop_.close_buses();
   turn(monotonic_now_ns());
   spdlog::info("stopped: every joint is at rest");
 }

@@ -70,7 +70,9 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
   const bool malformed = reading.has_position && !reading_fresh_;
   reading_ = reading;
   if (!reading_fresh_) {
-    reading_.joint_position_rad = last_position_rad;
+    // Where the joint must be by now: a position that stands still and then jumps would look like a blocked joint.
+    const double moved_rad = is_controlled(mode_) ? motion_.joint_velocity_rad_s * config_.controller.period_s : 0.0;
+    reading_.joint_position_rad = last_position_rad + moved_rad;
     reading_.has_velocity = false;
     reading_.torque_applied_Nm = 0.0;
   }

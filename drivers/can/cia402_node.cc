@@ -219,7 +219,9 @@ Goal Node::goal() const noexcept {
 }
 
 void Node::transmit(CanTransmitter& bus) noexcept {
-  if (!ready() || restarted_.fault != ActuatorFault::kNone) return;
+  // A drive that said it restarted gets the order to stop, too: if it did not restart after all it still has torque, and if
+  // it did it takes no PDO.
+  if (!ready()) return;
   const Goal wanted = goal();
   const std::uint16_t controlword = power_.controlword(wanted, now_ns_);
   const bool driven = wanted == Goal::kEnabled && power_.state() == PowerState::kOperationEnabled &&
