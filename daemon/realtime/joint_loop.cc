@@ -228,7 +228,10 @@ void JointLoop::fill_record(const CycleTime& time) noexcept {
   const double position_rad = reading_.joint_position_rad + position_offset_rad_;
   state.setpoint_position_rad = controlled ? motion_.reference.position_rad + position_offset_rad_ : position_rad;
   state.setpoint_velocity_rad_s = controlled ? motion_.reference.velocity_rad_s : 0.0;
-  state.target_position_rad = controlled ? controller_.target_rad() + position_offset_rad_ : position_rad;
+  // To the bit what was ordered, so that whoever ordered it knows it again.
+  const bool as_ordered = controller_.target_rad() == ordered_target_rad_;
+  const double target_rad = as_ordered ? ordered_position_rad_ : controller_.target_rad() + position_offset_rad_;
+  state.target_position_rad = controlled ? target_rad : position_rad;
   state.joint_position_rad = position_rad;
   state.joint_velocity_rad_s = controlled ? motion_.joint_velocity_rad_s : reading_.joint_velocity_rad_s;
   state.torque_commanded_Nm = controlled ? motion_.output.torque_Nm : 0.0;

@@ -149,6 +149,8 @@ class JointLoop {
   std::int64_t table_id_ = 0;
   std::int64_t temperature_update_periods_;
   std::int64_t next_temperature_cycle_ = 0;
+  double ordered_target_rad_ = 0.0;    ///< of the last setpoint, as the drive counts
+  double ordered_position_rad_ = 0.0;  ///< the same as it was ordered
   double position_offset_rad_ = 0.0;  ///< what the drive counts plus this is the joint's position
   double scheduling_temperature_C_ = 0.0;
   double table_min_C_ = 0.0;

@@ -42,6 +42,7 @@ void JointLoop::advance_homing(const CycleTime& time) noexcept {
 void JointLoop::end_homing(const CycleTime& time) noexcept {
   if (homing_.phase() == Homing::Phase::kDone) {
     position_offset_rad_ = config_.homing.home_position_rad - homing_.found_rad();
+    ordered_position_rad_ = ordered_target_rad_ + position_offset_rad_;
     homed_ = true;
     (void)change_mode(ModeEvent::kArrived, time);
   } else if (homing_.phase() == Homing::Phase::kIdle && motion_.at_target) {

@@ -77,6 +77,8 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   if (into_limit_switch(target_rad - reading_.joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
   controller_.set_target(target_rad, order.speed_limit_rad_s);
+  ordered_target_rad_ = target_rad;
+  ordered_position_rad_ = order.position_rad;
   setpoint_expires_ns_ =
       streamed ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
   setpoint_expired_ = false;

@@ -61,7 +61,7 @@ TEST_F(JointLoopHoming, MakesPositionsTrueWithoutAJump) {
   ASSERT_TRUE(arrive());
   bench_->run(1.0);
   EXPECT_NEAR(truth_rad(), -0.5, 1e-3);
-  EXPECT_NEAR(bench_->state(0).target_position_rad, -0.5, 1e-12);
+  EXPECT_EQ(bench_->state(0).target_position_rad, -0.5) << "clients compare it with what they ordered";
 }
 
 TEST_F(JointLoopHoming, IsNeverFasterThanItsSearch) {
