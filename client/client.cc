@@ -46,6 +46,7 @@ std::vector<std::string> Client::wait_for_joints() {
 
 Answer Client::exchange(const std::string& joint, const SealedMessage& order) {
   awaited_ = &order;
+  requested_ = order.sequence;
   awaited_channel_ = channel(options_.prefix, joint, channel_kind::kAck);
   ack_.reset();
   for (int transmission = 0; transmission <= kRepetitions && !ack_; ++transmission) {
@@ -70,9 +71,13 @@ void Client::handle(int timeout_ms) {
 }
 
 void Client::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  if (awaited_ == nullptr || ack_ || channel != awaited_channel_) return;
   const auto ack = decode_exactly<ack_v1>(payload(*buffer));
-  if (ack && ack->sender_id == awaited_->sender_id && ack->sequence == awaited_->sequence) ack_ = ack;
+  if (!ack || ack->sender_id != sender_.sender_id()) return;
+  if (awaited_ != nullptr && channel == awaited_channel_ && ack->sequence == awaited_->sequence) {
+    if (!ack_) ack_ = ack;
+  } else if (ack->sequence > requested_ && ack->accepted != 1) {
+    refusal_ = to_answer(*ack);
+  }
 }
 
 void Client::explain_silence(const std::string& joint) const {

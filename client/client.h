@@ -6,6 +6,7 @@
 #include <optional>
 #include <strainwave/ack_v1.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/connection.h"
@@ -68,6 +69,18 @@ class Client {
     return exchange(joint, sender_.seal_unsigned(channel(options_.prefix, joint, kind), message, session_id));
   }
 
+  /// Sends `message` to a joint that is heard, once and without waiting: one of a stream. Only a refusal of
+  /// it is answered, see take_refusal().
+  template <typename Message>
+  void send(const std::string& joint, std::string_view kind, const Message& message) {
+    const std::int64_t session_id = wait_for_joint(joint).state.session_id;
+    const SealedMessage sealed = sender_.seal(channel(options_.prefix, joint, kind), message, session_id);
+    connection_.publish(sealed.channel, sealed.bytes);
+  }
+
+  /// The daemon's latest refusal of a message of send() since the last call.
+  std::optional<Answer> take_refusal() { return std::exchange(refusal_, std::nullopt); }
+
   /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError
   /// (interrupted).
   template <typename Done>
@@ -92,6 +105,8 @@ class Client {
   const SealedMessage* awaited_ = nullptr;  ///< the order whose answer counts
   std::string awaited_channel_;             ///< where its answer comes from
   std::optional<ack_v1> ack_;
+  std::int64_t requested_ = 0;  ///< sequence of the last order that was waited for
+  std::optional<Answer> refusal_;
   Subscription acknowledgements_;
 };
 

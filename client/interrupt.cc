@@ -27,4 +27,8 @@ bool interrupted() noexcept {
   return signal_seen != 0;
 }
 
+void resume_after_interrupt() noexcept {
+  signal_seen = 0;
+}
+
 }  // namespace strainwave

@@ -10,4 +10,8 @@ void catch_interrupts();
 /// True once a signal has come.
 bool interrupted() noexcept;
 
+/// Forgets the signal, so that what is left to do (stopping a joint) can be waited for. The next one ends the
+/// program.
+void resume_after_interrupt() noexcept;
+
 }  // namespace strainwave

@@ -63,7 +63,8 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       shaper_(config.period_s),
       observer_(observer_config(config)),
       landing_(landing_config(config)),
-      rest_detector_(config.encoder_resolution_rad) {
+      rest_detector_(config.encoder_resolution_rad),
+      motion_(config.motion) {
   assert(config.delay_samples >= 0 && config.delay_samples <= kMaxControlDelay);
   shaper_.set_limits(config.motion);
 }
@@ -83,6 +84,7 @@ void JointController::load(const GainTable& table) noexcept {
 }
 
 void JointController::start(double position_rad) noexcept {
+  motion_ = config_.motion;
   shaper_.reset(position_rad, 0.0);
   observer_.reset(position_rad);
   rest_detector_.reset();
@@ -100,7 +102,9 @@ void JointController::start(double position_rad) noexcept {
   carry_over_ = false;
 }
 
-void JointController::set_target(double position_rad) noexcept {
+void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
+  motion_ = config_.motion;
+  if (speed_limit_rad_s > 0.0) motion_.velocity_rad_s = std::min(motion_.velocity_rad_s, speed_limit_rad_s);
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   plans_ = 0;
@@ -184,8 +188,8 @@ void JointController::advance_reference() noexcept {
   replan_ = false;
   const double speed =
       std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
-  shaper_.set_limits(reachable_limits(config_.motion, config_.motor, adapted_, now_.disturbance,
-                                      torque_limit_Nm_, config_.torque_reserve, speed, config_.period_s));
+  shaper_.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
+                                      config_.torque_reserve, speed, config_.period_s));
   reference_ = shaper_.step();
 }
 

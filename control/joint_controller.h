@@ -80,8 +80,8 @@ class JointController {
 
   /// Begins to hold `position_rad` with nothing remembered: call when the drive becomes enabled.
   void start(double position_rad) noexcept;
-  /// Moves there, from now on.
-  void set_target(double position_rad) noexcept;
+  /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
+  void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept { shaper_.stop(); }
   /// Where the motion ends.
@@ -132,7 +132,8 @@ class JointController {
   JointEstimate then_;            ///< when this period's torque begins to act
   Reference reference_;
   std::array<double, kMaxControlDelay + 1>
-      torques_Nm_{};  ///< newest first, as far as the motor can deliver them
+      torques_Nm_{};     ///< newest first, as far as the motor can deliver them
+  MotionLimits motion_;  ///< the configuration's, and this order's speed
   double torque_limit_Nm_ = 0.0;
   double temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;

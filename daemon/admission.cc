@@ -55,6 +55,7 @@ std::optional<OrderKind> order_of(Action action) {
     case Action::kHold: return OrderKind::kHold;
     case Action::kClearFault: return OrderKind::kClearFault;
     case Action::kRevertTable: return OrderKind::kUseTable;
+    case Action::kHome: return OrderKind::kHome;
   }
   return std::nullopt;
 }
@@ -149,8 +150,9 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
   if (auto verdict = check_envelope(message, {setpoint->session_id, Role::kOperator}, requester))
     return std::move(*verdict);
-  if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s))
-    return refuse(requester, Reason::kNotFinite, "position_rad and valid_for_s must be finite numbers");
+  if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
+      !std::isfinite(setpoint->speed_limit_rad_s))
+    return refuse(requester, Reason::kNotFinite, "position_rad, valid_for_s and speed_limit_rad_s must be finite numbers");
   const JointAdmission& limits = joints_[joint];
   std::ostringstream text;
   if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
@@ -162,9 +164,15 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
     text << "valid_for_s = " << setpoint->valid_for_s << ": from 0 (a move) to " << kMaxValidFor_s << " is allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
+  if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
+    text << "speed_limit_rad_s = " << setpoint->speed_limit_rad_s << ": from 0 (no limit of its own) to "
+         << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_rad_s of " << limits.name << ")";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
   Verdict verdict = pass(requester, OrderKind::kSetpoint);
   verdict.order.position_rad = setpoint->position_rad;
   verdict.order.valid_for_s = setpoint->valid_for_s;
+  verdict.order.speed_limit_rad_s = setpoint->speed_limit_rad_s;
   return verdict;
 }
 

@@ -31,6 +31,7 @@ struct JointAdmission {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
   double torque_limit_Nm = 0.0;
+  double speed_limit_rad_s = 0.0;
   bool takes_injected_faults = false;  ///< the simulated driver's
 };
 
@@ -92,7 +93,8 @@ class Admission {
   /// A refusal or a repeat, or nothing when the envelope is in order; then the requester is authentic.
   std::optional<Verdict> check_envelope(const WireMessage& message, const Envelope& envelope,
                                         Requester& requester);
-  std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed, Requester& requester);
+  std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed,
+                                      Requester& requester);
   static std::optional<Verdict> check_sequence(SequenceMemory& memory, Requester& requester);
 
   std::string prefix_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <strainwave/ack_v1.hpp>
+#include <strainwave/limits_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
@@ -68,6 +69,28 @@ void Answers::temperature(const StateRecord& record) {
   message.fallback_in_use = static_cast<GainsInUse>(record.state.gains_in_use) == GainsInUse::kFallback ? 1 : 0;
   const auto& joint = joints_[static_cast<std::size_t>(record.joint_index)];
   out_.write(wire(channel(prefix_, joint, channel_kind::kTemperature), message));
+}
+
+void Answers::limits(std::size_t joint, const PlantIdentity& plant, const JointLoopConfig& config) {
+  const MotionLimits& motion = config.controller.motion;
+  limits_v1 message{};
+  message.utime = utime_now();
+  message.session_id = session_id_;
+  message.position_min_rad = config.limits.position_min_rad;
+  message.position_max_rad = config.limits.position_max_rad;
+  message.speed_rad_s = motion.velocity_rad_s;
+  message.acceleration_rad_s2 = motion.acceleration_rad_s2;
+  message.deceleration_rad_s2 = motion.deceleration_rad_s2;
+  message.torque_Nm = config.controller.torque_limit_Nm;
+  message.overspeed_rad_s = config.limits.overspeed_rad_s;
+  message.following_error_rad = config.limits.following_error_rad;
+  message.temperature_C = config.limits.hot_C;
+  message.period_s = plant.period_s;
+  message.inertia_kgm2 = plant.inertia_kgm2;
+  message.gear_ratio = plant.gear_ratio;
+  const std::string_view model = plant.joint_model.view();
+  std::copy_n(model.begin(), std::min(model.size(), sizeof message.joint_model - 1), message.joint_model);
+  out_.write(wire(channel(prefix_, joints_[joint], channel_kind::kLimits), message));
 }
 
 void Answers::timing(const LoopStatistics& statistics, const std::array<std::int64_t, kReasonCount>& rejects,

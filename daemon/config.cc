@@ -11,7 +11,10 @@
 
 #include "control/input_error.h"
 #include "daemon/config_can.h"
+#include "daemon/config_gpio.h"
+#include "daemon/config_homing.h"
 #include "daemon/config_simulated.h"
+#include "daemon/config_thermometer.h"
 #include "daemon/toml_section.h"
 #include "lcmtypes/channels.h"
 
@@ -132,11 +135,20 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.loop.fault_stops_group && joint.group.empty()) section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   read_features(section.section_or_empty("control"), joint.loop.controller);
-  joint.driver = section.choice("driver", {"simulated", "can"});
+  joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
+  if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
+  if (joint.thermometer && joint.driver == "simulated")
+    section.fail("thermometer", "a sensor of a real drive is allowed: the simulated one has its own temperature");
   TomlSection driver = section.section_or_empty(joint.driver);
-  if (joint.driver == "can") can.read_joint(driver, joint);
-  else read_simulated_driver(driver, period_s, joint);
+  HomingInputs inputs;
+  if (joint.driver == "can")
+    can.read_joint(driver, joint);
+  else if (joint.driver == "gpio")
+    inputs = read_gpio_driver(driver, section.full_name("gpio"), period_s, joint);
+  else
+    inputs = read_simulated_driver(driver, period_s, joint);
   driver.refuse_unknown_keys();
+  read_homing(section.section_or_empty("homing"), inputs, joint);
   section.refuse_unknown_keys();
   return joint;
 }
@@ -171,7 +183,7 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
   if (security.unsigned_allowed && !simulated)
     section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
   if (section.has("authorized_keys"))
-    security.keys = read_authorized_keys(folder / section.text("authorized_keys"));
+    security.keys = read_authorized_keys(credential_or_file(folder / section.text("authorized_keys")));
   else if (!security.unsigned_allowed)
     section.fail("authorized_keys", "give the file with the public keys that may give orders (strainwavectl keygen makes "
                                     "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
@@ -231,7 +243,8 @@ std::vector<JointAdmission> admission_of(const DaemonConfig& config) {
   std::vector<JointAdmission> joints;
   for (const JointConfig& joint : config.joints)
     joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad, joint.loop.limits.position_max_rad,
-                      joint.loop.controller.torque_limit_Nm, joint.takes_injected_faults});
+                      joint.loop.controller.torque_limit_Nm, joint.loop.controller.motion.velocity_rad_s,
+                      joint.takes_injected_faults});
   return joints;
 }
 

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
 #include "drivers/fieldbus.h"
+#include "drivers/temperature_file.h"
 
 namespace strainwave {
 
@@ -45,7 +48,10 @@ struct JointConfig {
   std::string group;             ///< name of the joints that stop together; empty: none
   bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
+  std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
   ActuatorFactory make_actuator;  ///< of a drive of its own; unused when `bus` says which bus makes it
+  /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
+  std::function<bool(std::ostream&)> describe_lines;
   DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
   int bus = -1;                   ///< index in DaemonConfig::buses; -1: on none
   std::size_t bus_slot = 0;       ///< the drive's place on that bus

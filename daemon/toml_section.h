@@ -43,6 +43,8 @@ class TomlSection {
   /// Throws when the table has a key that was never asked for, with the nearest known key as a suggestion.
   void refuse_unknown_keys() const;
 
+  /// How messages name `key`: "joint[0].limits.torque_Nm".
+  std::string full_name(std::string_view key) const;
   /// An InputError about `key` of this table.
   [[noreturn]] void fail(std::string_view key, const std::string& allowed) const;
 
@@ -50,7 +52,6 @@ class TomlSection {
   const toml::node* find(std::string_view key);
   const toml::node& require(std::string_view key);
   double checked(std::string_view key, const toml::node& node, Range allowed) const;
-  std::string full_name(std::string_view key) const;
 
   const toml::table* table_;
   std::string file_;

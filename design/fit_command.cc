@@ -8,6 +8,7 @@
 #include "design/catalogue.h"
 #include "design/commands.h"
 #include "design/estimation.h"
+#include "design/fit_log_command.h"
 #include "design/friction_file.h"
 
 namespace strainwave {
@@ -26,6 +27,7 @@ struct Options {
   int rules = 5;
   double gear_ratio = 50.0;
   double starting_torque_Ncm = 1.6;
+  FitLogOptions log;
 };
 
 struct Job {
@@ -148,15 +150,35 @@ int fit(const Options& options) {
   return 0;
 }
 
+void add_log_options(CLI::App& command, Options& options) {
+  FitLogOptions& log = options.log;
+  CLI::Option* const catalogue = command.get_option("CATALOGUE");
+  CLI::Option* const logs =
+      command
+          .add_option("--log", log.logs,
+                      "instead of a catalogue: logs of strainwavectl identify, best at several temperatures")
+          ->excludes(catalogue)
+          ->type_name("FILE");
+  const auto add = [&](const std::string& name, auto& value, const std::string& help) {
+    return command.add_option(name, value, help)->needs(logs)->capture_default_str();
+  };
+  logs->needs(add("--prior", log.prior, "friction file of the catalogue, which the logs correct"));
+  add("--joint", log.joint, "which joint, when a log holds several");
+  add("--prior-common", log.weights.common,
+      "relative deviation from the catalogue that all temperatures share");
+  add("--prior-own", log.weights.own, "relative deviation of each temperature rule by itself");
+  add("--torque-uncertainty", log.weights.torque_uncertainty, "relative deviation of the torque measurement");
+  add("--confidence", log.confidence, "of the intervals");
+  add("--wanted", log.wanted, "relative half width above which a temperature is called missing");
+}
+
 }  // namespace
 
 Action add_fit_command(CLI::App& app, CLI::App*& command) {
-  command = app.add_subcommand("fit", "Fit friction over temperature to a catalogue");
+  command = app.add_subcommand("fit", "Fit friction over temperature to a catalogue, or to logs of a joint");
   const auto options = std::make_shared<Options>();
-  command
-      ->add_option("CATALOGUE", options->catalogue,
-                   "CSV: running torque over speed and temperature, or parameters")
-      ->required();
+  command->add_option("CATALOGUE", options->catalogue,
+                      "CSV: running torque over speed and temperature, or parameters");
   command->add_option("--model", options->model, "what to fit")
       ->check(CLI::IsMember({"exponential", "fuzzy", "both"}))
       ->capture_default_str();
@@ -180,7 +202,13 @@ Action add_fit_command(CLI::App& app, CLI::App*& command) {
                    "static less Coulomb friction at the motor side, where the catalogue has no column for it")
       ->capture_default_str();
   command->add_option("--out", options->out, "friction file to write (JSON)")->required();
-  return [options] { return fit(*options); };
+  add_log_options(*command, *options);
+  return [options] {
+    options->log.out = options->out;
+    if (!options->log.logs.empty()) return fit_logs(options->log);
+    if (options->catalogue.empty()) throw InputError("fit: a CATALOGUE or --log FILE... is needed");
+    return fit(*options);
+  };
 }
 
 }  // namespace strainwave

@@ -156,6 +156,7 @@ std::string to_json(const FrictionFile& file) {
     document["fuzzy"] = {{"friction", fuzzy_friction_to_json(file.fuzzy->friction)},
                          {"fit", record_to_json(file.fuzzy->fit)}};
   }
+  if (file.identification) document["identification"] = to_json(*file.identification);
   return document.dump(2) + "\n";
 }
 
@@ -179,6 +180,8 @@ FrictionFile friction_file_from_json(const std::string& text, const std::string&
                                      record_from_json(fuzzy.object("fit"))};
     fuzzy.finish();
   }
+  if (object.has("identification"))
+    file.identification = identification_from_json(object.object("identification"));
   object.finish();
   return file;
 }

@@ -9,6 +9,7 @@
 
 #include "control/friction.h"
 #include "control/fuzzy_friction.h"
+#include "design/identification_record.h"
 
 namespace strainwave {
 
@@ -16,8 +17,8 @@ inline constexpr int kFrictionFileFormat = 1;
 
 /// How good a fit is; costs at the motor side in the catalogue's units (N.cm, N.cm/RPM).
 struct FitRecord {
-  std::string method;     ///< "least-squares" or "epgs"
-  std::string weighting;  ///< "source" or "torque": what was minimised
+  std::string method;  ///< "least-squares" or "epgs"; "logs": measured, see IdentificationRecord, costs are 0
+  std::string weighting;  ///< "source" or "torque": what was minimised; "bayes" for logs
   bool physical = true;   ///< constrained to be non-negative and not increasing with temperature
   double cost_source = 0.0;
   double cost_torque = 0.0;
@@ -47,6 +48,7 @@ struct FrictionFile {
   std::string data_sha256;
   std::optional<ExponentialFriction> exponential;
   std::optional<FuzzyFrictionRecord> fuzzy;
+  std::optional<IdentificationRecord> identification;  ///< measured on a joint
 };
 
 std::string to_json(const FrictionFile& file);

@@ -32,6 +32,9 @@ class Fieldbus {
   /// May be called from another thread than the loop's.
   virtual std::vector<std::string> take_messages() { return {}; }
 
+  /// After the last end_cycle(): leaves the drives in order. Blocks; not for the loop's thread. Nothing may follow it.
+  virtual void close() {}
+
   /// Takes what has arrived. `now_ns` is CLOCK_MONOTONIC at the start of this period, the same as the joints
   /// get.
   virtual void begin_cycle(std::int64_t now_ns) noexcept = 0;

@@ -11,6 +11,7 @@ namespace strainwave {
 namespace channel_kind {
 inline constexpr std::string_view kState = "STATE";
 inline constexpr std::string_view kTemperature = "TEMPERATURE";
+inline constexpr std::string_view kLimits = "LIMITS";
 inline constexpr std::string_view kTiming = "TIMING";
 inline constexpr std::string_view kSetpoint = "SETPOINT";
 inline constexpr std::string_view kCommand = "COMMAND";
@@ -37,7 +38,8 @@ std::string timing_channel(std::string_view prefix);
 /// The parts of a channel name, or nothing when it is none of ours.
 std::optional<ChannelName> parse_channel(std::string_view name);
 
-/// A regular expression as LCM's subscribe() takes it, for one kind of every joint under `prefix`; "[^.]+" for any prefix.
+/// A regular expression as LCM's subscribe() takes it, for one kind of every joint under `prefix`; "[^.]+"
+/// for any prefix.
 std::string channel_pattern(std::string_view prefix, std::string_view kind);
 
 }  // namespace strainwave

@@ -1,4 +1,4 @@
-# Draws what the demo recorded. Variables: record (CSV of strainwavectl record), picture (PNG to write).
+# Draws what the demo recorded. Variables: record (CSV of strainwavectl export), picture (PNG to write).
 set datafile separator ","
 set datafile columnheaders
 set terminal pngcairo size 1200,1300 font "sans,11" linewidth 1.5

@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject };
+enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject, kHome };
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {
@@ -19,6 +19,7 @@ struct Order {
   double position_rad = 0.0;    ///< kSetpoint
   double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
   Injection injection;          ///< kInject
+  double speed_limit_rad_s = 0.0;  ///< kSetpoint; 0: the joint's own
 };
 
 /// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.

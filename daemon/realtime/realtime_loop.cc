@@ -100,6 +100,10 @@ void RealtimeLoop::run() noexcept {
   }
 }
 
+void RealtimeLoop::close_buses() {
+  for (const auto& bus : buses_) bus->close();
+}
+
 void RealtimeLoop::stop_drives() noexcept {
   for (const auto& joint : joints_) joint->stop_drive();
   for (const auto& bus : buses_) bus->end_cycle();

@@ -51,6 +51,9 @@ class RealtimeLoop {
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_release); }
   bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
 
+  /// After finished(): leaves the drives on buses in order, before their supervision of us runs out.
+  void close_buses();
+
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
   /// Null when the configuration wants none.
   FlightRecorder* recorder(std::size_t index) noexcept { return recorders_.empty() ? nullptr : recorders_[index].get(); }

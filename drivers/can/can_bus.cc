@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::chrono::milliseconds kServeEvery{20};
+constexpr std::int64_t kTellEvery_ns = 10'000'000'000;
+
+void add(std::atomic<std::int64_t>& counter, std::int64_t count = 1) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
+}
 
 constexpr bool has(std::uint32_t troubles, CanTrouble trouble) noexcept {
   return (troubles & static_cast<std::uint32_t>(trouble)) != 0;
@@ -74,6 +79,11 @@ CanBus::CanBus(const CanBusConfig& config, std::vector<std::unique_ptr<CanNode>>
 }
 
 CanBus::~CanBus() {
+  close();
+}
+
+void CanBus::close() {
+  if (std::exchange(closed_, true)) return;
   ending_.store(true, std::memory_order_release);
   if (background_.joinable()) background_.join();
   for (const auto& node : nodes_) node->shut_down(*setup_port_);
@@ -143,6 +153,20 @@ void CanBus::serve() {
     const std::vector<std::string> lines = node->serve(*setup_port_);
     if (!lines.empty()) say(lines);
   }
+  tell_losses();
+}
+
+// Losses that do no harm yet are worth a line now and then.
+void CanBus::tell_losses() {
+  const std::int64_t dropped = counters_.frames_dropped.load(std::memory_order_relaxed);
+  const std::int64_t lost = counters_.frames_lost.load(std::memory_order_relaxed);
+  const std::int64_t errors = counters_.error_frames.load(std::memory_order_relaxed);
+  const std::int64_t now_ns = setup_port_->now_ns();
+  if (dropped + lost + errors == losses_told_ || now_ns - losses_told_ns_ < kTellEvery_ns) return;
+  losses_told_ = dropped + lost + errors;
+  losses_told_ns_ = now_ns;
+  say({config_.interface_name + ": since the start " + std::to_string(dropped) + " frames were not sent, " +
+       std::to_string(lost) + " were lost on the way in, " + std::to_string(errors) + " error frames came"});
 }
 
 void CanBus::begin_cycle(std::int64_t now_ns) noexcept {
@@ -160,7 +184,6 @@ void CanBus::begin_cycle(std::int64_t now_ns) noexcept {
 }
 
 void CanBus::take(const ReceivedFrame& received) noexcept {
-  ++counters_.frames_received;
   switch (received.kind) {
     case ReceivedFrame::Kind::kTrouble:
       return take_troubles(received.troubles);
@@ -196,7 +219,7 @@ void CanBus::take_link(CanLink link) noexcept {
 }
 
 void CanBus::take_troubles(std::uint32_t troubles) noexcept {
-  ++counters_.warnings;
+  add(counters_.error_frames);
   if (has(troubles, CanTrouble::kRestarted)) bus_off_ = false;
   if (has(troubles, CanTrouble::kBusOff)) {
     bus_off_ = true;
@@ -209,7 +232,7 @@ void CanBus::take_troubles(std::uint32_t troubles) noexcept {
 void CanBus::account_outstanding(bool emptied) noexcept {
   const std::uint32_t overflows = port_->overflows();
   if (overflows != overflows_seen_) {
-    counters_.frames_lost += static_cast<std::uint32_t>(overflows - overflows_seen_);
+    add(counters_.frames_lost, static_cast<std::uint32_t>(overflows - overflows_seen_));
     overflows_seen_ = overflows;
     // Among the lost may be our own that came back; nobody can tell any more.
     if (emptied) {
@@ -245,14 +268,14 @@ void CanBus::send_heartbeat() noexcept {
 
 bool CanBus::send(const CanFrame& frame) noexcept {
   if (held_back_ || link_down_ || bus_off_) {
-    ++counters_.frames_dropped;
+    add(counters_.frames_dropped);
     return false;
   }
   switch (port_->send(frame)) {
     case SendResult::kSent:
       // Remote frames pass no filter, so they never come back.
       if (frame.id != our_heartbeat_id() && !frame.remote) ++outstanding_;
-      ++counters_.frames_sent;
+      add(counters_.frames_sent);
       return true;
     case SendResult::kLinkDown:
       take_link(CanLink::kDown);
@@ -261,7 +284,7 @@ bool CanBus::send(const CanFrame& frame) noexcept {
       dropped_ = true;
       break;
   }
-  ++counters_.frames_dropped;
+  add(counters_.frames_dropped);
   return false;
 }
 

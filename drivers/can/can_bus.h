@@ -53,22 +53,23 @@ struct CanBusConfig {
 
 class CanBus final : public Fieldbus, private CanTransmitter {
  public:
-  /// Counts since the start.
+  /// Counts since the start; the loop writes, anybody reads.
   struct Counters {
-    std::int64_t frames_received = 0;
-    std::int64_t frames_sent = 0;
-    std::int64_t frames_dropped = 0;  ///< not sent, because the bus had not taken what was sent before
-    std::int64_t frames_lost = 0;     ///< lost by the kernel before we took them
-    std::int64_t warnings = 0;        ///< error frames of all kinds
+    std::atomic<std::int64_t> frames_sent{0};
+    std::atomic<std::int64_t> frames_dropped{0};  ///< not sent: the bus had not taken what was sent before
+    std::atomic<std::int64_t> frames_lost{0};     ///< lost by the kernel before we took them
+    std::atomic<std::int64_t> error_frames{0};    ///< of the controller, of all kinds
   };
 
   /// Checks the load, sets every node up, verifies it, and opens the loop's port last, so that nothing waits
   /// in it. Throws InputError that names every node that failed.
   CanBus(const CanBusConfig& config, std::vector<std::unique_ptr<CanNode>> nodes, const CanPortFactory& open);
+  /// Closes.
   ~CanBus() override;
 
   std::unique_ptr<Actuator> make_actuator(std::size_t slot) override;
   std::vector<std::string> take_messages() override;
+  void close() override;
   void begin_cycle(std::int64_t now_ns) noexcept override;
   void end_cycle() noexcept override;
 
@@ -92,6 +93,7 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   void set_up_nodes(const CanPortFactory& open);
   void open_loop_port(const CanPortFactory& open);
   void say(const std::vector<std::string>& lines);
+  void tell_losses();
 
   bool send(const CanFrame& frame) noexcept override;
   void take(const ReceivedFrame& received) noexcept;
@@ -130,10 +132,13 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   int dropped_periods_ = 0;  ///< in a row, because the queue was full
   Counters counters_;
 
+  std::int64_t losses_told_ = 0;  ///< background thread
+  std::int64_t losses_told_ns_ = 0;
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;
   std::atomic<bool> ending_{false};
   std::thread background_;
+  bool closed_ = false;
 };
 
 }  // namespace strainwave

@@ -4,13 +4,16 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
+#include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
 #include "client/exit_status.h"
 #include "control/input_error.h"
+#include "lcmtypes/event_log.h"
 #include "tests/client/fake_daemon.h"
 #include "tests/support/temporary_folder.h"
 
@@ -33,7 +36,7 @@ class CommandsTest : public testing::Test {
   bool message_has(const std::string& part) const { return message.find(part) != std::string::npos; }
   bool output_has(const std::string& part) const { return stream.str().find(part) != std::string::npos; }
   ExitStatus move_and_wait(double position_rad) {
-    return status_of([&] { move(client, output, {"elbow", position_rad, true}); });
+    return status_of([&] { move(client, output, {"elbow", position_rad, true, 0.0}); });
   }
 
   Connection connection{"memq://"};
@@ -50,11 +53,36 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   enable(client, output, "elbow");
   hold(client, output, "elbow");
   clear_fault(client, output, "elbow");
+  revert_table(client, output, "elbow");
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kHolding};
+  home(client, output, "elbow");
   daemon.modes_after_answer = {Mode::kOff};
   disable(client, output, "elbow");
   std::vector<std::int32_t> actions;
   for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
-  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 2}));
+  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 6, 2}));
+}
+
+TEST_F(CommandsTest, AnInjectionCarriesKindAmountAndDuration) {
+  daemon.publish_state();
+  inject(client, output, parse_injection("elbow", "sensor_jump", 0.25, 1.5));
+  ASSERT_EQ(daemon.heard().size(), 1U);
+  EXPECT_TRUE(daemon.heard().front().channel.ends_with(".INJECT"));
+  const auto injection = decode_exactly<inject_v1>(daemon.heard().front().bytes);
+  ASSERT_TRUE(injection);
+  EXPECT_EQ(injection->kind, static_cast<std::int32_t>(InjectedFault::kSensorJump));
+  EXPECT_EQ(injection->amount, 0.25);
+  EXPECT_EQ(injection->for_s, 1.5);
+}
+
+TEST_F(CommandsTest, AnUnknownInjectionNamesThoseThatThereAre) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "gremlins", 0.0, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("gremlins") && message_has("sensor_nan") && message_has("power_lost")) << message;
+}
+
+TEST_F(CommandsTest, AnAmountOutOfRangeIsRefusedWithRangeAndUnit) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "slow_read", 1.5, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("1.5") && message_has("0 to 1 s")) << message;
 }
 
 TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
@@ -63,6 +91,19 @@ TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kDone);
   EXPECT_EQ(client.find("elbow")->state.mode, static_cast<std::int32_t>(Mode::kHolding));
   EXPECT_TRUE(output_has("elbow: enabled"));
+}
+
+TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kHolding, Mode::kHoming, Mode::kHoming, Mode::kHolding};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_TRUE(output_has("elbow: homed"));
+  daemon.state.notices = static_cast<std::int32_t>(Notice::kNotHomed);
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("before it found home")) << message;
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kStopping};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("did not find home: the joint was disabled")) << message;
 }
 
 TEST_F(CommandsTest, EnablePrintsTheReasonOfARefusal) {
@@ -209,9 +250,9 @@ TEST_F(CommandsTest, WatchOnATerminalRewritesItsLinesInPlace) {
   EXPECT_TRUE(output_has("\x1b[2A"));
 }
 
-TEST_F(CommandsTest, RecordWritesEveryReceivedStateOfTheChosenJoints) {
+TEST_F(CommandsTest, RecordWritesEveryMessageOfTheChosenJoints) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "record_test.csv";
+  const auto file = folder.path() / "record.lcm";
   FakeDaemon wrist(connection, "SW", "wrist");
   daemon.publish_state(Mode::kHolding);
   client.wait_for_joint("elbow");
@@ -219,18 +260,17 @@ TEST_F(CommandsTest, RecordWritesEveryReceivedStateOfTheChosenJoints) {
     daemon.publish_state();
     wrist.publish_state();
   }
+  connection.publish("OTHER.elbow.STATE", encode(state_v1{}));
   record(client, output, {{"elbow"}, file, 0.2, false});
-  std::ifstream stream_in(file);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream_in, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 21U);
-  EXPECT_TRUE(lines[0].starts_with("joint,utime,"));
-  for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_TRUE(lines[i].starts_with("elbow,")) << lines[i];
+  std::map<std::string, int> counts;
+  EventLogReader reader(file);
+  for (LogEvent event; reader.next(event);) ++counts[event.channel];
+  EXPECT_EQ(counts, (std::map<std::string, int>{{"SW.elbow.STATE", 20}}));
 }
 
 TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "record_kept.csv";
+  const auto file = folder.path() / "record_kept.lcm";
   std::ofstream(file) << "precious\n";
   daemon.publish_state();
   const auto attempt = [&](bool overwrite) {
@@ -246,7 +286,7 @@ TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
 TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
   daemon.publish_state();
   EXPECT_EQ(status_of([&] {
-              record(client, output, {{"elbow"}, "/nonexistent/a.csv", 0.01, false});
+              record(client, output, {{"elbow"}, "/nonexistent/a.lcm", 0.01, false});
             }),
             ExitStatus::kFile);
 }

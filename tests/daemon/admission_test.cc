@@ -16,7 +16,7 @@ constexpr std::int64_t kSession = 4711;
 
 class AdmissionTest : public ::testing::Test {
  protected:
-  AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}, {"wrist", {}, -2.0, 2.0, 34.0}},
+  AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}, {"wrist", {}, -2.0, 2.0, 34.0, 6.0}},
                               {{}, /*unsigned_allowed=*/true}) {}
 
   setpoint_v1 setpoint(double position_rad) {
@@ -49,6 +49,25 @@ TEST_F(AdmissionTest, PassesASoundSetpointToItsJoint) {
   EXPECT_EQ(verdict.requester.joint, 1U);
   EXPECT_EQ(verdict.order.kind, OrderKind::kSetpoint);
   EXPECT_EQ(verdict.order.position_rad, 1.5);
+}
+
+TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
+  setpoint_v1 message = setpoint(0.5);
+  message.speed_limit_rad_s = 6.0;
+  const Verdict passed = consider(wire("SW.elbow.SETPOINT", message));
+  ASSERT_EQ(passed.kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(passed.order.speed_limit_rad_s, 6.0);
+  for (const double speed : {-1e-9, 6.001, 1e300}) {
+    message = setpoint(0.5);
+    message.speed_limit_rad_s = speed;
+    const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
+    EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
+    EXPECT_EQ(verdict.reason, Reason::kOutOfRange);
+    EXPECT_NE(verdict.text.find("joint.limits.speed_rad_s"), std::string::npos) << verdict.text;
+  }
+  message = setpoint(0.5);
+  message.speed_limit_rad_s = std::nan("");
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kNotFinite);
 }
 
 TEST_F(AdmissionTest, JudgesTheRangeByTheJointThatIsMeant) {

@@ -18,12 +18,12 @@ struct Folder {
 /// shipped may include tests.
 const std::vector<Folder> kFolders{
     {"control", {}},
-    {"design", {"control"}},
+    {"design", {"control", "lcmtypes"}},
     {"sim", {"control", "drivers/actuator.h"}},
     {"drivers", {"control"}},
     {"lcmtypes", {"control"}},
     {"daemon", {"control", "drivers", "lcmtypes"}},
-    {"client", {"control", "lcmtypes", "drivers/can/can_scan.h"}},
+    {"client", {"control", "lcmtypes", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
     {"bench", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
     {"tests", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
 };
@@ -42,9 +42,11 @@ struct Library {
 const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"lcm/", {"daemon/gateway/", "client/", "tests/"}},
-    {"strainwave/", {"lcmtypes/", "daemon/", "client/", "tests/", "bench/"}},
+    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"daemon/", "sim/", "tests/"}},
     {"seccomp", {"daemon/gateway/"}},
+    {"gpiod", {"drivers/gpio/line_request_v"}},
+    {"linux/gpio", {"drivers/gpio/edge_events.cc"}},
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},

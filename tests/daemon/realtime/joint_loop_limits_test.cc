@@ -113,6 +113,20 @@ TEST_F(JointLoopLimits, KeepTheDrivesOwnErrorNumberWithTheFaultThatItExplains) {
   EXPECT_EQ(event.drive_error, 0x3210U);
 }
 
+TEST(JointLoopMissedReadings, DoNotDisturbAMotionAtFullSpeed) {
+  for (const int missing : {1, 2, 3}) {
+    JointBench bench({demo_joint()});
+    bench.bring_to_hold(0);
+    ASSERT_EQ(bench.move(0, 1.0), Reason::kAccepted);
+    const double full_speed_rad_s = demo_joint().loop.controller.motion.velocity_rad_s;
+    ASSERT_GE(bench.step_until([&] { return bench.state(0).joint_velocity_rad_s > 0.98 * full_speed_rad_s; }, 500), 0);
+    bench.drive(0).miss_readings(missing);
+    bench.run(1.0);
+    EXPECT_EQ(bench.fault(0), Fault::kNone) << missing << ": " << to_text(bench.fault(0));
+    EXPECT_NEAR(bench.state(0).joint_position_rad, 1.0, 1e-4) << missing;
+  }
+}
+
 TEST_F(JointLoopLimits, LetASilentDriveSayItsFaultWhenSomebodyEnablesIt) {
   hold();
   order(OrderKind::kDisable);

@@ -33,6 +33,47 @@ TEST_F(JointLoopOrders, FollowAStreamAsLongAsItGoesOn) {
   EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
 }
 
+TEST_F(JointLoopOrders, MoveNoFasterThanTheOrderSaysAndOnlyThatOrder) {
+  bench_.bring_to_hold(0);
+  Order order;
+  order.kind = OrderKind::kSetpoint;
+  order.position_rad = 0.5;
+  order.speed_limit_rad_s = 0.5;
+  ASSERT_EQ(bench_.order(0, order), Reason::kAccepted);
+  double fastest_rad_s = 0.0;
+  const auto arrived = [&](double target_rad) {
+    return [&, target_rad] {
+      fastest_rad_s = std::max(fastest_rad_s, std::abs(state().setpoint_velocity_rad_s));
+      return state().setpoint_position_rad == target_rad && state().setpoint_velocity_rad_s == 0.0;
+    };
+  };
+  ASSERT_GE(bench_.step_until(arrived(0.5), 2000), 1000) << "0.5 rad at 0.5 rad/s";
+  EXPECT_EQ(fastest_rad_s, 0.5);
+  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
+  ASSERT_GE(bench_.step_until(arrived(3.0), 2000), 0);
+  EXPECT_GT(fastest_rad_s, 5.0);
+}
+
+TEST_F(JointLoopOrders, SlowDownWithinTheDecelerationWhenASlowerOrderComes) {
+  const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
+  bench_.run(0.15);
+  double previous_rad_s = state().setpoint_velocity_rad_s;
+  ASSERT_GT(previous_rad_s, 5.0);
+  Order slower;
+  slower.kind = OrderKind::kSetpoint;
+  slower.position_rad = 3.0;
+  slower.speed_limit_rad_s = 1.0;
+  ASSERT_EQ(bench_.order(0, slower), Reason::kAccepted);
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_LE(previous_rad_s - state().setpoint_velocity_rad_s, deceleration_rad_s2 * 0.001 * (1.0 + 1e-9));
+    previous_rad_s = state().setpoint_velocity_rad_s;
+    bench_.step();
+  }
+  EXPECT_DOUBLE_EQ(previous_rad_s, 1.0);
+}
+
 TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
   const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
   bench_.bring_to_hold(0);

@@ -1,0 +1,43 @@
+// Static, Coulomb and viscous friction at one temperature from the torques at several speeds, with confidence
+// intervals. Joint side, SI. Offline.
+//
+//   F(w) = (Fs - Fc) s(w) + Fc + Fv w,   s(w) = exp(-(w/ws)^delta) known:   linear in (Fs - Fc, Fc, Fv)
+//   least squares; s^2 = residuals' squares / (n - 3); covariance s^2 (X'X)^-1; interval by Student's t with
+//   n - 3
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "control/friction.h"
+#include "design/steady_speed.h"
+
+namespace strainwave {
+
+/// Row of the model at one speed: factors of (Fs - Fc, Fc, Fv).
+Eigen::RowVector3d friction_row(const StribeckShape& shape, double speed_rad_s);
+
+/// A value and the half width of its interval.
+struct Interval {
+  double value = 0.0;
+  double half_width = 0.0;
+};
+
+struct FrictionRegression {
+  double temperature_C = 0.0;  ///< mean of the points
+  int points = 0;
+  Interval static_Nm, coulomb_Nm, viscous_Nms_rad;
+  double residual_squares = 0.0;  ///< N^2.m^2, sum
+  int degrees_of_freedom = 0;
+};
+
+/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. Throws InputError
+/// when they do not determine the three parameters, saying which speeds are missing.
+inline constexpr int kLeastRegressionPoints = 4;
+FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape,
+                                    double confidence);
+
+/// The points in groups of one temperature each: sorted, a gap of more than `gap_C` begins a new group.
+std::vector<std::vector<SteadyPoint>> group_by_temperature(std::vector<SteadyPoint> points, double gap_C);
+
+}  // namespace strainwave

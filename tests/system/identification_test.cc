@@ -1,0 +1,167 @@
+// Identification on site, from the plan to the better table, in virtual time: the daemon's loop on a
+// simulated joint whose friction is 30 % off the catalogue runs the client's plan, the log is fitted, a table
+// is designed, and the joint tracks with it as well as with a table that was designed for its true friction.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "client/identify_plan.h"
+#include "control/text_file.h"
+#include "design/controller_design.h"
+#include "design/friction_file.h"
+#include "design/friction_fit.h"
+#include "design/friction_update.h"
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr double kFrictionScale = 1.3;
+constexpr std::int64_t kStateEvery = 5;  // cycles: 200 Hz
+
+/// The simulated joint with the given friction in units of the catalogue's, at a constant temperature.
+BenchJoint joint_at(double temperature_C) {
+  BenchJoint joint = demo_joint();
+  joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+  for (FrictionParameters* part :
+       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
+    part->static_Nm *= kFrictionScale;
+    part->coulomb_Nm *= kFrictionScale;
+    part->viscous_Nms_rad *= kFrictionScale;
+  }
+  return joint;
+}
+
+limits_v1 limits_of(const BenchJoint& joint) {
+  limits_v1 limits{};
+  limits.position_min_rad = joint.loop.limits.position_min_rad;
+  limits.position_max_rad = joint.loop.limits.position_max_rad;
+  limits.speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
+  limits.acceleration_rad_s2 = joint.loop.controller.motion.acceleration_rad_s2;
+  limits.deceleration_rad_s2 = joint.loop.controller.motion.deceleration_rad_s2;
+  limits.torque_Nm = joint.loop.controller.torque_limit_Nm;
+  return limits;
+}
+
+/// To `target_rad` and until the reference is there; what is seen at 200 Hz goes to `samples`.
+void leg(JointBench& bench, double target_rad, double speed_rad_s, std::vector<MotionSample>& samples) {
+  Order order;
+  order.kind = OrderKind::kSetpoint;
+  order.position_rad = target_rad;
+  order.speed_limit_rad_s = speed_rad_s;
+  ASSERT_EQ(bench.order(0, order), Reason::kAccepted);
+  const auto arrived = [&] {
+    const state_v1& state = bench.state(0);
+    if (state.cycle % kStateEvery == 0)
+      samples.push_back({1e-3 * static_cast<double>(state.cycle), bench.mode(0) == Mode::kTracking,
+                         state.setpoint_velocity_rad_s, state.joint_position_rad, state.joint_velocity_rad_s,
+                         state.torque_applied_Nm, state.temperature_C});
+    return state.setpoint_position_rad == target_rad && state.setpoint_velocity_rad_s == 0.0;
+  };
+  ASSERT_GE(bench.step_until(arrived, 60'000), 0) << target_rad << " rad at " << speed_rad_s << " rad/s";
+  ASSERT_EQ(bench.fault(0), Fault::kNone);
+}
+
+SteadyPoints identify_at(double temperature_C) {
+  const BenchJoint joint = joint_at(temperature_C);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  IdentifyArguments arguments;
+  arguments.joint = "elbow";
+  const IdentifyPlan plan =
+      plan_identification(arguments, limits_of(joint), bench.state(0).joint_position_rad);
+  std::vector<MotionSample> samples;
+  for (const Sweep& sweep : plan.sweeps) {
+    leg(bench, sweep.from_rad, plan.approach_speed_rad_s, samples);
+    leg(bench, sweep.to_rad, sweep.speed_rad_s, samples);
+    leg(bench, sweep.from_rad, sweep.speed_rad_s, samples);
+  }
+  return find_steady_points(samples, joint.loop.controller.motion.velocity_rad_s > 0.0 ? 0.089 : 0.0);
+}
+
+FrictionFile catalogue() {
+  const std::string path = std::string(STRAINWAVE_SOURCE_DIR) + "/data/tables/rhs17-6006-friction.json";
+  return friction_file_from_json(read_text_file(path), path);
+}
+
+FuzzyFriction scaled(FuzzyFriction friction) {
+  for (TemperatureRule& rule : friction.rules) {
+    rule.friction.static_Nm *= kFrictionScale;
+    rule.friction.coulomb_Nm *= kFrictionScale;
+    rule.friction.viscous_Nms_rad *= kFrictionScale;
+  }
+  return friction;
+}
+
+GainTable table_for(const FuzzyFriction& friction) {
+  TableRequest request;
+  request.design.plant = demo_table().plant;
+  request.design.friction = friction;
+  request.design.weights = demo_table().primary.weights;
+  request.design.initial_states = {StateVector(0.0, 1.0, 0.0)};
+  request.name = "identification test";
+  request.torque_limit_Nm = demo_table().torque_limit_Nm;
+  return design_table(Controller::kC4, request);
+}
+
+/// Root of the mean squared distance between the joint and the reference of the period before, which is when
+/// this period's torque was computed (the drive has one period of delay), over moves there and back of
+/// several lengths.
+double tracking_error_rad(const GainTable& table, double temperature_C) {
+  JointBench bench({joint_at(temperature_C)});
+  bench.joint(0).table_slot(0) = {table, 1};
+  EXPECT_EQ(bench.order(0, OrderKind::kUseTable), Reason::kAccepted);
+  EXPECT_EQ(bench.order(0, OrderKind::kEnable), Reason::kAccepted);
+  EXPECT_GE(bench.step_until([&] { return bench.mode(0) == Mode::kHolding; }, 1000), 0);
+  double squares = 0.0;
+  std::int64_t count = 0;
+  for (const double target_rad : {0.001, 0.01, 0.1, 1.0, 0.0}) {
+    EXPECT_EQ(bench.move(0, target_rad), Reason::kAccepted);
+    for (int i = 0; i < 1000; ++i, ++count) {
+      const double wanted_rad = bench.state(0).setpoint_position_rad;
+      bench.step();
+      squares += std::pow(bench.state(0).joint_position_rad - wanted_rad, 2);
+    }
+  }
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
+TEST(Identification, FindsTheFrictionOfAJointThatIs30PerCentOffTheCatalogue) {
+  std::vector<SteadyPoint> points;
+  for (const double temperature_C : {-5.0, 10.0, 30.0}) {
+    const SteadyPoints found = identify_at(temperature_C);
+    EXPECT_GE(found.points.size(), 7U) << temperature_C;
+    points.insert(points.end(), found.points.begin(), found.points.end());
+  }
+  const StribeckShape shape = source_stribeck_shape(50.0);
+  const FrictionUpdate update(catalogue().fuzzy->friction, shape, points, 0.02, {});
+  const ExponentialTemperatureLaw law = demo_joint().drive.plant.joint.friction;
+  for (const double temperature_C : {-5.0, 10.0, 30.0}) {
+    for (const double speed_rad_s : {0.02, 0.2, 3.0}) {
+      const double truth_Nm =
+          kFrictionScale * stribeck_friction_Nm(law.at(temperature_C), shape, speed_rad_s);
+      EXPECT_NEAR(update.friction_Nm(temperature_C, speed_rad_s).value, truth_Nm, 0.03 * truth_Nm)
+          << temperature_C << " degC, " << speed_rad_s << " rad/s";
+    }
+  }
+
+  const GainTable from_catalogue = table_for(catalogue().fuzzy->friction);
+  const GainTable identified = table_for(update.friction());
+  const GainTable from_truth = table_for(scaled(catalogue().fuzzy->friction));
+  for (const double temperature_C : {-5.0, 10.0, 30.0}) {
+    const double with_catalogue = tracking_error_rad(from_catalogue, temperature_C);
+    const double with_identified = tracking_error_rad(identified, temperature_C);
+    const double with_truth = tracking_error_rad(from_truth, temperature_C);
+    std::printf(
+        "%5.1f degC: tracking error %.3e rad with the catalogue's table, %.3e identified, %.3e true "
+        "friction\n",
+        temperature_C, with_catalogue, with_identified, with_truth);
+    EXPECT_LE(with_identified, 1.05 * with_truth) << temperature_C;
+    EXPECT_GT(with_catalogue, 1.05 * with_truth)
+        << "the test would show nothing at " << temperature_C << " degC";
+  }
+}
+
+}  // namespace
+}  // namespace strainwave::testing
