@@ -1,4 +1,5 @@
-// What decoding one edge of an encoder costs, without the kernel's part: a bound on the rate that the fallback could ever reach.
+// What decoding one edge of an encoder costs, without the kernel's part: a bound on the rate that the
+// fallback could ever reach.
 #include <benchmark/benchmark.h>
 
 #include "drivers/gpio/quadrature_decoder.h"

@@ -73,7 +73,7 @@ void add_inject(CLI::App& app, Invocation& invocation) {
   auto kind = std::make_shared<std::string>();
   auto amount = std::make_shared<double>(0.0);
   auto for_s = std::make_shared<double>(0.0);
-  command->add_option("JOINT", *joint, "joint")->required()->check(name_validator())->type_name("");
+  add_joint(*command, *joint)->required();
   command->add_option("FAULT", *kind, "sensor_nan, power_lost, ...: see docs/faults.md")->required()->type_name("");
   command->add_option("--amount", *amount, "how much, for the faults that have an amount")->type_name("NUMBER");
   add_seconds(*command, "--for_s", *for_s, "how long; otherwise until ended");

@@ -22,8 +22,10 @@ int run_sibling(const std::string& name, const std::vector<std::string>& argumen
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t child = -1;
-  if (const int failure = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ); failure != 0)
-    throw ClientError(ExitStatus::kFile, program + " cannot be run: " + std::generic_category().message(failure) +
+  if (const int failure = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ);
+      failure != 0)
+    throw ClientError(ExitStatus::kFile, program +
+                                             " cannot be run: " + std::generic_category().message(failure) +
                                              ": install it beside strainwavectl");
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)

@@ -31,7 +31,9 @@ LineOptions read_line(TomlSection section) {
 
 JointLines read_lines(TomlSection& section) {
   JointLines lines;
-  const auto read = [&](LineRole role, TomlSection line) { lines[static_cast<std::size_t>(role)] = read_line(std::move(line)); };
+  const auto read = [&](LineRole role, TomlSection line) {
+    lines[static_cast<std::size_t>(role)] = read_line(std::move(line));
+  };
   read(LineRole::kEnable, section.section("enable"));
   if (section.has("direction")) read(LineRole::kDirection, section.section("direction"));
   if (section.has("brake_release")) read(LineRole::kBrakeRelease, section.section("brake_release"));
@@ -47,7 +49,9 @@ JointLines read_lines(TomlSection& section) {
   return lines;
 }
 
-bool has(const JointLines& lines, LineRole role) { return lines[static_cast<std::size_t>(role)].has_value(); }
+bool has(const JointLines& lines, LineRole role) {
+  return lines[static_cast<std::size_t>(role)].has_value();
+}
 
 PwmConfig read_pwm(TomlSection section) {
   PwmConfig pwm;
@@ -65,7 +69,7 @@ struct Motor {
   double torque_constant_Nm_A = 0.0;
   double efficiency = 1.0;
   double peak_current_A = 0.0;
-  double resistance_ohm = 0.0;    ///< 0: not told
+  double resistance_ohm = 0.0;  ///< 0: not told
   double back_emf_Vs_rad = 0.0;
 };
 
@@ -84,15 +88,19 @@ void read_amplifier(TomlSection section, const Motor& motor, double gear_ratio, 
   TorqueOutputConfig& torque = gpio.torque;
   const bool voltage = section.choice("kind", {"current", "voltage"}) == "voltage";
   torque.amplifier = voltage ? AmplifierKind::kVoltage : AmplifierKind::kCurrent;
-  torque.bridge = section.choice_or("bridge", "sign_magnitude", {"sign_magnitude", "locked_antiphase"}) == "sign_magnitude"
+  torque.bridge = section.choice_or("bridge", "sign_magnitude", {"sign_magnitude", "locked_antiphase"}) ==
+                          "sign_magnitude"
                       ? BridgeKind::kSignMagnitude
                       : BridgeKind::kLockedAntiphase;
   if ((torque.bridge == BridgeKind::kSignMagnitude) != has(gpio.lines, LineRole::kDirection))
-    section.fail("bridge", "\"sign_magnitude\" with a joint.gpio.direction line, or \"locked_antiphase\" without one, is allowed");
+    section.fail("bridge",
+                 "\"sign_magnitude\" with a joint.gpio.direction line, or \"locked_antiphase\" without one, "
+                 "is allowed");
   torque.torque_constant_Nm_A = motor.torque_constant_Nm_A * gear_ratio * motor.efficiency;
   torque.back_emf_Vs_rad = motor.back_emf_Vs_rad * gear_ratio;
   torque.resistance_ohm = motor.resistance_ohm;
-  if (voltage && motor.resistance_ohm <= 0.0) section.fail("kind", "\"voltage\" needs joint.gpio.motor.resistance_ohm");
+  if (voltage && motor.resistance_ohm <= 0.0)
+    section.fail("kind", "\"voltage\" needs joint.gpio.motor.resistance_ohm");
   if (!voltage) torque.full_scale_A = section.number("full_scale_A", kPositive);
   if (voltage || section.has("supply_V")) torque.supply_V = section.number("supply_V", kPositive);
   torque.duty_min = section.number_or("duty_min", torque.duty_min, {0.0, 0.99});
@@ -121,16 +129,18 @@ double read_encoder(TomlSection section, double period_s, const JointConfig& joi
   gpio.motion.count_rad = 1.0 / counts_per_rad;
   gpio.motion.period_s = period_s;
   gpio.motion.encoder_reversed = section.boolean_or("reversed", false);
-  gpio.motion.velocity_filter_s = section.number_or("velocity_filter_s", gpio.motion.velocity_filter_s, {0.0, 1.0});
+  gpio.motion.velocity_filter_s =
+      section.number_or("velocity_filter_s", gpio.motion.velocity_filter_s, {0.0, 1.0});
   const double fastest_counts_s = joint.loop.limits.overspeed_rad_s * counts_per_rad;
   if (section.choice("source", {"counter", "edges"}) == "counter") {
     CounterConfig counter;
     counter.count_folder = section.text("counter");
-    if (!counter.count_folder.is_absolute()) counter.count_folder = "/sys/bus/counter/devices" / counter.count_folder;
+    if (!counter.count_folder.is_absolute())
+      counter.count_folder = "/sys/bus/counter/devices" / counter.count_folder;
     const double least = std::max(3.0, std::ceil(4.0 * fastest_counts_s * period_s));
     if (section.has("ceiling"))
-      counter.ceiling = static_cast<std::uint64_t>(
-          section.integer_or("ceiling", 0, static_cast<std::int64_t>(least), std::numeric_limits<std::int64_t>::max()));
+      counter.ceiling = static_cast<std::uint64_t>(section.integer_or(
+          "ceiling", 0, static_cast<std::int64_t>(least), std::numeric_limits<std::int64_t>::max()));
     gpio.encoder = counter;
   } else {
     if (!has(gpio.lines, LineRole::kQuadratureA) || !has(gpio.lines, LineRole::kQuadratureB))
@@ -144,7 +154,8 @@ double read_encoder(TomlSection section, double period_s, const JointConfig& joi
     quadrature.clock_ns = &monotonic_now_ns;
     const double wanted_Hz = joint.loop.controller.motion.velocity_rad_s * counts_per_rad;
     if (wanted_Hz > quadrature.max_rate_Hz)
-      section.fail("source", "\"counter\" is allowed: joint.limits.speed_rad_s makes " + std::to_string(std::lround(wanted_Hz)) +
+      section.fail("source", "\"counter\" is allowed: joint.limits.speed_rad_s makes " +
+                                 std::to_string(std::lround(wanted_Hz)) +
                                  " edges a second, and edges are counted up to max_rate_Hz = " +
                                  std::to_string(std::lround(quadrature.max_rate_Hz)));
     gpio.encoder = quadrature;
@@ -161,14 +172,16 @@ MotorLimits motor_limits(const Motor& motor, const TorqueOutputConfig& torque) {
   limits.stall_torque_Nm = std::numeric_limits<double>::infinity();
   if (torque.supply_V > 0.0 && motor.resistance_ohm > 0.0) {
     limits.stall_torque_Nm = torque.torque_constant_Nm_A * torque.supply_V / motor.resistance_ohm;
-    limits.torque_per_speed_Nms_rad = torque.torque_constant_Nm_A * torque.back_emf_Vs_rad / motor.resistance_ohm;
+    limits.torque_per_speed_Nms_rad =
+        torque.torque_constant_Nm_A * torque.back_emf_Vs_rad / motor.resistance_ohm;
   }
   return limits;
 }
 
 }  // namespace
 
-HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s, JointConfig& joint) {
+HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s,
+                              JointConfig& joint) {
   GpioJointConfig gpio;
   gpio.joint = joint.name;
   gpio.where = where;

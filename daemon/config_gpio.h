@@ -1,4 +1,5 @@
-// The keys of [joint.gpio]: a bare motor behind amplifier, encoder and digital lines. Not real-time. docs/gpio.md explains them.
+// The keys of [joint.gpio]: a bare motor behind amplifier, encoder and digital lines. Not real-time.
+// docs/gpio.md explains them.
 #pragma once
 
 #include "daemon/config.h"
@@ -7,8 +8,10 @@
 
 namespace strainwave {
 
-/// Reads the section and sets what depends on the driver: make_actuator, describe_lines, and the encoder and motor data of the
-/// controller. `where` is the section's path in messages. What the joint can be homed by. Throws InputError.
-HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s, JointConfig& joint);
+/// Reads the section and sets what depends on the driver: make_actuator, describe_lines, and the encoder and
+/// motor data of the controller. `where` is the section's path in messages. What the joint can be homed by.
+/// Throws InputError.
+HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s,
+                              JointConfig& joint);
 
 }  // namespace strainwave

@@ -14,7 +14,8 @@ struct HomingInputs {
   bool index = false;
 };
 
-/// Reads the section into `joint`, whose limits are known. Throws InputError, also when the driver lacks what is looked for.
+/// Reads the section into `joint`, whose limits are known. Throws InputError, also when the driver lacks what
+/// is looked for.
 void read_homing(TomlSection section, const HomingInputs& available, JointConfig& joint);
 
 }  // namespace strainwave

@@ -10,10 +10,10 @@ namespace strainwave {
 struct SimulatedInputsConfig {
   double negative_limit_rad = -std::numeric_limits<double>::infinity();  ///< active at and below
   double positive_limit_rad = std::numeric_limits<double>::infinity();   ///< active at and above
-  double home_from_rad = 0.0;       ///< home switch: active from here
-  double home_to_rad = -1.0;        ///< to here; below home_from_rad: there is none
-  double index_rad = 0.0;           ///< where one index pulse is
-  double index_spacing_rad = 0.0;   ///< and the others; 0: there are none
+  double home_from_rad = 0.0;                                            ///< home switch: active from here
+  double home_to_rad = -1.0;       ///< to here; below home_from_rad: there is none
+  double index_rad = 0.0;          ///< where one index pulse is
+  double index_spacing_rad = 0.0;  ///< and the others; 0: there are none
 };
 
 class SimulatedInputs {

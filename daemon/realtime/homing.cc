@@ -6,11 +6,15 @@ namespace strainwave {
 
 bool Homing::active(const JointInputs& inputs) const noexcept {
   switch (config_.target) {
-    case HomingTarget::kHomeSwitch: return inputs.home;
-    case HomingTarget::kNegativeLimit: return inputs.negative_limit;
-    case HomingTarget::kPositiveLimit: return inputs.positive_limit;
+    case HomingTarget::kHomeSwitch:
+      return inputs.home;
+    case HomingTarget::kNegativeLimit:
+      return inputs.negative_limit;
+    case HomingTarget::kPositiveLimit:
+      return inputs.positive_limit;
     case HomingTarget::kIndex:
-    case HomingTarget::kNone: return false;
+    case HomingTarget::kNone:
+      return false;
   }
   return false;
 }
@@ -66,23 +70,28 @@ Homing::Order Homing::step(const Observation& observation) noexcept {
   if (!under_way) return {};
   if (!may_go_on(observation)) return fail();
   switch (phase_) {
-    case Phase::kSearching: return search(observation);
-    case Phase::kStopping: return observation.at_rest ? after_stop(observation) : Order{};
+    case Phase::kSearching:
+      return search(observation);
+    case Phase::kStopping:
+      return observation.at_rest ? after_stop(observation) : Order{};
     case Phase::kReturning:
-      if (active(observation.inputs)) return go(Phase::kLeaving, -search_direction_, config_.creep_speed_rad_s);
+      if (active(observation.inputs))
+        return go(Phase::kLeaving, -search_direction_, config_.creep_speed_rad_s);
       return other_limit_ahead(observation.inputs) ? fail() : Order{};
     case Phase::kLeaving:
       if (active(observation.inputs)) return other_limit_ahead(observation.inputs) ? fail() : Order{};
       if (!config_.then_index) return found(observation.joint_position_rad);
       index_count_ = observation.inputs.index_count;
       return go(Phase::kToIndex, -search_direction_, config_.creep_speed_rad_s);
-    case Phase::kToIndex: return to_index(observation);
+    case Phase::kToIndex:
+      return to_index(observation);
     case Phase::kResting:
       if (observation.at_rest) phase_ = Phase::kDone;
       return {};
     case Phase::kIdle:
     case Phase::kDone:
-    case Phase::kFailed: return {};
+    case Phase::kFailed:
+      return {};
   }
   return {};
 }

@@ -1,12 +1,13 @@
-// Homing: finds the place whose position is known, at a low speed, within a travel and a time. A state machine that is given
-// measurements and says where to go; it moves nothing itself. Real-time safe; time is an argument.
+// Homing: finds the place whose position is known, at a low speed, within a travel and a time. A state
+// machine that is given measurements and says where to go; it moves nothing itself. Real-time safe; time is
+// an argument.
 //
-// A switch is left, always towards the same side and at the creep speed, and the place where it opens is home: the same edge
-// whatever the search met first. `d` is the search's direction.
+// A switch is left, always towards the same side and at the creep speed, and the place where it opens is
+// home: the same edge whatever the search met first. `d` is the search's direction.
 //
-//   search: d until the switch closes -> stop -> creep: -d until it opens = home -> (creep: -d to the next index pulse) -> rest
-//   A limit switch that is not looked for turns the search round, once. What overshot the switch returns to it first.
-//   The index alone: creep in d to the next pulse.
+//   search: d until the switch closes -> stop -> creep: -d until it opens = home -> (creep: -d to the next
+//   index pulse) -> rest A limit switch that is not looked for turns the search round, once. What overshot
+//   the switch returns to it first. The index alone: creep in d to the next pulse.
 #pragma once
 
 #include <cstdint>

@@ -9,11 +9,14 @@ Homing::Observation JointLoop::observe(const CycleTime& time) const noexcept {
 
 void JointLoop::obey_homing(const Homing::Order& order) noexcept {
   switch (order.kind) {
-    case Homing::Order::Kind::kGoOn: return;
+    case Homing::Order::Kind::kGoOn:
+      return;
     case Homing::Order::Kind::kMove:
       controller_.set_target(order.target_rad, order.speed_rad_s);
       return;
-    case Homing::Order::Kind::kStop: controller_.stop(); return;
+    case Homing::Order::Kind::kStop:
+      controller_.stop();
+      return;
   }
 }
 

@@ -1,8 +1,10 @@
-// Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as a quadrature
-// decoder of the SoC. read() is real-time safe as far as SysfsFile is; the constructor configures the counter.
+// Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as
+// a quadrature decoder of the SoC. read() is real-time safe as far as SysfsFile is; the constructor
+// configures the counter.
 //
-// The count wraps at its ceiling: from one period to the next it moves the shorter way round. A joint must therefore move less
-// than half the ceiling in a period. Source: the kernel's Documentation/driver-api/generic-counter.rst, ABI sysfs-bus-counter.
+// The count wraps at its ceiling: from one period to the next it moves the shorter way round. A joint must
+// therefore move less than half the ceiling in a period. Source: the kernel's
+// Documentation/driver-api/generic-counter.rst, ABI sysfs-bus-counter.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +18,8 @@
 namespace strainwave {
 
 struct CounterConfig {
-  std::filesystem::path count_folder;    ///< ".../counter0/count0"
-  std::optional<std::uint64_t> ceiling;  ///< set at the start; without it what the counter has, or 2^32 - 1
+  std::filesystem::path count_folder;      ///< ".../counter0/count0"
+  std::optional<std::uint64_t> ceiling;    ///< set at the start; without it what the counter has, or 2^32 - 1
   std::string function = "quadrature x4";  ///< set where the counter has the attribute
 };
 

@@ -1,9 +1,10 @@
-// The order of amplifier and brake: a state machine that is told what is wanted and says what the outputs are. Pure, real-time
-// safe; time is an argument.
+// The order of amplifier and brake: a state machine that is told what is wanted and says what the outputs
+// are. Pure, real-time safe; time is an argument.
 //
 //   off --enable--> amplifier on, no torque, brake shut --enable_delay--> brake opens --release_delay--> on
 //   on --disable--> brake shuts while the last torque holds the load --engage_delay--> off
-//   any --stop--> no torque, amplifier off at once; the brake shuts after stop_delay, when friction has slowed the joint
+//   any --stop--> no torque, amplifier off at once; the brake shuts after stop_delay, when friction has
+//   slowed the joint
 // Without a brake its delays are 0.
 #pragma once
 

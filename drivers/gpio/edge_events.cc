@@ -23,10 +23,17 @@ std::uint64_t flags_of(const LineOptions& line, EdgeKind kind) {
   if (kind == EdgeKind::kBoth) flags |= GPIO_V2_LINE_FLAG_EDGE_FALLING;
   if (line.active_low) flags |= GPIO_V2_LINE_FLAG_ACTIVE_LOW;
   switch (line.bias) {
-    case LineBias::kAsIs: break;
-    case LineBias::kOff: flags |= GPIO_V2_LINE_FLAG_BIAS_DISABLED; break;
-    case LineBias::kPullUp: flags |= GPIO_V2_LINE_FLAG_BIAS_PULL_UP; break;
-    case LineBias::kPullDown: flags |= GPIO_V2_LINE_FLAG_BIAS_PULL_DOWN; break;
+    case LineBias::kAsIs:
+      break;
+    case LineBias::kOff:
+      flags |= GPIO_V2_LINE_FLAG_BIAS_DISABLED;
+      break;
+    case LineBias::kPullUp:
+      flags |= GPIO_V2_LINE_FLAG_BIAS_PULL_UP;
+      break;
+    case LineBias::kPullDown:
+      flags |= GPIO_V2_LINE_FLAG_BIAS_PULL_DOWN;
+      break;
   }
   return flags;
 }
@@ -37,8 +44,8 @@ int request(const std::string& chip_path, gpio_v2_line_request& request, const s
   const int error = errno;
   if (chip >= 0) ::close(chip);
   if (result < 0)
-    throw InputError(where + ": edges of " + chip_path + " cannot be requested: " +
-                     std::generic_category().message(error) +
+    throw InputError(where + ": edges of " + chip_path +
+                     " cannot be requested: " + std::generic_category().message(error) +
                      (error == EBUSY ? ": see who holds the lines with strainwavectl gpio-check"
                                      : ": the chip must raise interrupts, and the kernel be 5.10 or newer"));
   ::fcntl(request.fd, F_SETFL, ::fcntl(request.fd, F_GETFL) | O_NONBLOCK);
@@ -55,8 +62,10 @@ EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const 
   for (const LineOptions& line : lines) {
     const LinePlace place = find_line(line, where);
     if (place.info.held) throw InputError(where, "line", line.line, describe_holder(place.info));
-    if (!chip_path.empty() && (place.chip_path != chip_path || line.bias != first.bias || line.active_low != first.active_low))
-      throw InputError(where, "chip", line.chip, "both lines of an encoder must be on one chip, with the same active and bias");
+    if (!chip_path.empty() &&
+        (place.chip_path != chip_path || line.bias != first.bias || line.active_low != first.active_low))
+      throw InputError(where, "chip", line.chip,
+                       "both lines of an encoder must be on one chip, with the same active and bias");
     chip_path = place.chip_path;
     wanted.offsets[wanted.num_lines++] = place.offset;
     offsets_.push_back(place.offset);
@@ -80,7 +89,8 @@ int EdgeEvents::read(std::span<Edge> edges) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
     const auto line = std::find(offsets_.begin(), offsets_.end(), events[i].offset);
     edges[i] = {static_cast<std::int64_t>(events[i].timestamp_ns), events[i].seqno,
-                static_cast<std::uint32_t>(line - offsets_.begin()), events[i].id == GPIO_V2_LINE_EVENT_RISING_EDGE};
+                static_cast<std::uint32_t>(line - offsets_.begin()),
+                events[i].id == GPIO_V2_LINE_EVENT_RISING_EDGE};
   }
   return static_cast<int>(count);
 }

@@ -1,7 +1,7 @@
-// Edges of GPIO lines of one chip, in their order and with proof that none is missing. It speaks the kernel's GPIO uAPI v2
-// itself (linux/gpio.h): libgpiod 1.6 knows only v1, which has one queue of 16 events per line, tells no order between lines
-// and drops silently. read() and levels() are one system call each, never block and are real-time safe.
-// Source: the kernel's include/uapi/linux/gpio.h.
+// Edges of GPIO lines of one chip, in their order and with proof that none is missing. It speaks the kernel's
+// GPIO uAPI v2 itself (linux/gpio.h): libgpiod 1.6 knows only v1, which has one queue of 16 events per line,
+// tells no order between lines and drops silently. read() and levels() are one system call each, never block
+// and are real-time safe. Source: the kernel's include/uapi/linux/gpio.h.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,20 @@ struct Edge {
   bool active = false;         ///< what it became
 };
 
-/// Of a line that both edges are wanted of, the kernel reads the level a little after the interrupt: a pulse shorter than that
-/// shows as two edges to the same level. A pulse whose beginning alone counts needs kActive.
+/// Of a line that both edges are wanted of, the kernel reads the level a little after the interrupt: a pulse
+/// shorter than that shows as two edges to the same level. A pulse whose beginning alone counts needs
+/// kActive.
 enum class EdgeKind { kBoth, kActive };
 
 class EdgeEvents {
  public:
   static constexpr std::size_t kReadAtOnce = 64;
-  static constexpr std::uint32_t kKernelBuffer = 1024;  ///< events that the kernel keeps; older ones are dropped and counted
+  static constexpr std::uint32_t kKernelBuffer =
+      1024;  ///< events that the kernel keeps; older ones are dropped and counted
 
   /// Requests the lines, which must be on one chip with the same settings. Throws InputError.
-  EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const std::string& consumer, const std::string& where);
+  EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const std::string& consumer,
+             const std::string& where);
   ~EdgeEvents();
   EdgeEvents(const EdgeEvents&) = delete;
   EdgeEvents& operator=(const EdgeEvents&) = delete;

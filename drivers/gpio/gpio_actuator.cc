@@ -8,9 +8,15 @@ namespace strainwave {
 
 GpioActuator::GpioActuator(GpioParts parts, const GpioMotionConfig& motion, const TorqueOutputConfig& torque,
                            const DriveSequenceConfig& sequence)
-    : parts_(std::move(parts)), motion_(motion), torque_(torque), sequence_(sequence), last_output_(torque_.idle()) {}
+    : parts_(std::move(parts)),
+      motion_(motion),
+      torque_(torque),
+      sequence_(sequence),
+      last_output_(torque_.idle()) {}
 
-GpioActuator::~GpioActuator() { stop(); }
+GpioActuator::~GpioActuator() {
+  stop();
+}
 
 ActuatorReading GpioActuator::read(std::int64_t now_ns) noexcept {
   now_ns_ = now_ns;
@@ -68,7 +74,8 @@ ActuatorFault GpioActuator::fault_of_inputs() const noexcept {
   if (lines_failed_) return ActuatorFault::kLinkLost;
   if ((active_ & bit(LineRole::kEmergencyStop)) != 0) return ActuatorFault::kEmergencyStop;
   // An amplifier that is off may well say that it is not ready.
-  if (sequence_.amplifier_ready() && (active_ & bit(LineRole::kAmplifierFault)) != 0) return ActuatorFault::kDriveFault;
+  if (sequence_.amplifier_ready() && (active_ & bit(LineRole::kAmplifierFault)) != 0)
+    return ActuatorFault::kDriveFault;
   return write_failed_ ? ActuatorFault::kWriteRefused : ActuatorFault::kNone;
 }
 
@@ -77,11 +84,15 @@ void GpioActuator::write(const ActuatorCommand& command) noexcept {
   // Outputs in doubt are no outputs.
   if (lines_failed_ || write_failed_) return put_out(torque_.idle(), sequence_.stop(now_ns_));
   const DriveSequence::Outputs outputs = sequence_.step(command.enable, now_ns_);
-  if (sequence_.on()) put_out(torque_.step(command.torque_Nm, velocity_rad_s_), outputs);
-  else put_out(sequence_.holds_torque() ? last_output_ : torque_.idle(), outputs);
+  if (sequence_.on())
+    put_out(torque_.step(command.torque_Nm, velocity_rad_s_), outputs);
+  else
+    put_out(sequence_.holds_torque() ? last_output_ : torque_.idle(), outputs);
 }
 
-void GpioActuator::stop() noexcept { put_out(torque_.idle(), sequence_.stop(now_ns_)); }
+void GpioActuator::stop() noexcept {
+  put_out(torque_.idle(), sequence_.stop(now_ns_));
+}
 
 void GpioActuator::clear_fault() noexcept {
   write_failed_ = false;
@@ -89,10 +100,12 @@ void GpioActuator::clear_fault() noexcept {
 }
 
 // No torque first, torque last and only with its lines right; whatever fails, what makes safe is done.
-void GpioActuator::put_out(const TorqueOutput::Output& torque, const DriveSequence::Outputs& sequence) noexcept {
+void GpioActuator::put_out(const TorqueOutput::Output& torque,
+                           const DriveSequence::Outputs& sequence) noexcept {
   const std::uint32_t lines = (sequence.enable ? bit(LineRole::kEnable) : 0) |
                               (sequence.brake_open ? bit(LineRole::kBrakeRelease) : 0) |
-                              (torque.negative ? bit(LineRole::kDirection) : 0) | (alive_ ? bit(LineRole::kAlive) : 0);
+                              (torque.negative ? bit(LineRole::kDirection) : 0) |
+                              (alive_ ? bit(LineRole::kAlive) : 0);
   const bool idle = torque.duty == torque_.idle_duty();
   bool good = true;
   if (idle) good = parts_.pwm->set_duty(torque.duty) && good;

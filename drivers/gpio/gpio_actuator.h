@@ -1,7 +1,7 @@
-// A bare DC motor behind the seam: amplifier or H-bridge by PWM and digital lines, encoder by a hardware counter or, slowly, by
-// edges, temperature by a file. read(), write(), stop() and clear_fault() are real-time safe as far as this side goes: each makes
-// a few system calls (one per group of lines, one for the PWM, one for the counter), none of which waits for anything but locks
-// of the kernel's own drivers.
+// A bare DC motor behind the seam: amplifier or H-bridge by PWM and digital lines, encoder by a hardware
+// counter or, slowly, by edges, temperature by a file. read(), write(), stop() and clear_fault() are
+// real-time safe as far as this side goes: each makes a few system calls (one per group of lines, one for the
+// PWM, one for the counter), none of which waits for anything but locks of the kernel's own drivers.
 //
 // What stops the joint when this process dies is wiring, not software: docs/gpio.md.
 #pragma once
@@ -22,9 +22,10 @@
 namespace strainwave {
 
 struct GpioMotionConfig {
-  double count_rad = 0.0;            ///< joint's rotation per count, > 0
-  bool encoder_reversed = false;     ///< rising counts are falling position
-  double velocity_filter_s = 0.005;  ///< time constant of the velocity that back-EMF is compensated with, >= 0
+  double count_rad = 0.0;         ///< joint's rotation per count, > 0
+  bool encoder_reversed = false;  ///< rising counts are falling position
+  double velocity_filter_s =
+      0.005;  ///< time constant of the velocity that back-EMF is compensated with, >= 0
   double period_s = 0.001;
 };
 

@@ -1,4 +1,5 @@
-// One joint's GPIO hardware by configuration: makes the drive, and tells of its lines without touching them. Not real-time.
+// One joint's GPIO hardware by configuration: makes the drive, and tells of its lines without touching them.
+// Not real-time.
 #pragma once
 
 #include <memory>
@@ -23,13 +24,17 @@ struct GpioJointConfig {
   TorqueOutputConfig torque;
   DriveSequenceConfig sequence;
   std::optional<TemperatureFileConfig> thermometer;
+
+  /// As whom the lines are held; the kernel keeps 31 characters.
+  std::string consumer() const { return ("strainwaved " + joint).substr(0, 31); }
 };
 
 /// Requests everything, outputs safe. Throws InputError before anything is driven.
 std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config);
 
-/// One line of text per line: role, place, direction, level, holder. Outputs are not requested, inputs only as they are and only
-/// when nobody holds them. False when a line is missing or held by somebody else; what is wrong with it is in its text.
+/// One line of text per line: role, place, direction, level, holder. Outputs are not requested, inputs only
+/// as they are and only when nobody holds them. False when a line is missing or held by somebody else; what
+/// is wrong with it is in its text.
 bool report_lines(const GpioJointConfig& config, std::ostream& out);
 
 }  // namespace strainwave

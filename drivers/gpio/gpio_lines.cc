@@ -53,7 +53,8 @@ std::string find_chip(const std::string& chip, const std::string& where) {
     }
   }
   if (found.size() == 1) return found.front();
-  throw InputError(where, "chip", chip, (found.empty() ? "no such chip; " : "several chips have this label; ") + known_chips());
+  throw InputError(where, "chip", chip,
+                   (found.empty() ? "no such chip; " : "several chips have this label; ") + known_chips());
 }
 
 std::optional<unsigned> number_of(const std::string& text) {
@@ -63,11 +64,15 @@ std::optional<unsigned> number_of(const std::string& text) {
   return number;
 }
 
-std::string role_section(const std::string& where, LineRole role) { return where + "." + std::string(to_text(role)); }
+std::string role_section(const std::string& where, LineRole role) {
+  return where + "." + std::string(to_text(role));
+}
 
 }  // namespace
 
-std::string_view to_text(LineRole role) noexcept { return kNames[static_cast<std::size_t>(role)]; }
+std::string_view to_text(LineRole role) noexcept {
+  return kNames[static_cast<std::size_t>(role)];
+}
 
 LinePlace find_line(const LineOptions& options, const std::string& where) {
   const std::string path = find_chip(options.chip, where);
@@ -106,18 +111,21 @@ std::vector<GpioLines::Group> GpioLines::group(const JointLines& lines, const st
     const LineOptions& line = *lines[i];
     const LinePlace place = find_line(line, role_section(where, role));
     if (!taken.insert({place.chip_path, place.offset}).second)
-      throw InputError(role_section(where, role), "line", line.line, "each line has one role: this one has two");
-    if (place.info.held) throw InputError(role_section(where, role), "line", line.line, describe_holder(place.info));
+      throw InputError(role_section(where, role), "line", line.line,
+                       "each line has one role: this one has two");
+    if (place.info.held)
+      throw InputError(role_section(where, role), "line", line.line, describe_holder(place.info));
     if (is_edge_input(role)) continue;
     const LineDirection direction = is_output(role) ? LineDirection::kOutput : LineDirection::kInput;
     const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
       const LineRequest::Settings& settings = group.settings;
-      return settings.chip_path == place.chip_path && settings.direction == direction && settings.bias == line.bias &&
-             settings.active_low == line.active_low;
+      return settings.chip_path == place.chip_path && settings.direction == direction &&
+             settings.bias == line.bias && settings.active_low == line.active_low;
     });
-    Group& target = same != groups.end() ? *same
-                                         : groups.emplace_back(Group{{place.chip_path, consumer, direction, line.bias,
-                                                                      line.active_low, {}}, {}});
+    Group& target = same != groups.end()
+                        ? *same
+                        : groups.emplace_back(Group{
+                              {place.chip_path, consumer, direction, line.bias, line.active_low, {}}, {}});
     target.settings.offsets.push_back(place.offset);
     target.roles.push_back(role);
   }
@@ -131,14 +139,18 @@ GpioLines::GpioLines(const JointLines& lines, const std::string& consumer, const
       requests_.push_back({LineRequest(group.settings), group.roles, output});
     } catch (const std::system_error& error) {
       std::string names;
-      for (const LineRole role : group.roles) names += (names.empty() ? "" : ", ") + std::string(to_text(role));
-      throw InputError(where + ": lines " + names + " of " + group.settings.chip_path + " cannot be requested: " + error.what() +
+      for (const LineRole role : group.roles)
+        names += (names.empty() ? "" : ", ") + std::string(to_text(role));
+      throw InputError(where + ": lines " + names + " of " + group.settings.chip_path +
+                       " cannot be requested: " + error.what() +
                        " (strainwavectl gpio-check shows who holds them)");
     }
   }
 }
 
-GpioLines::~GpioLines() { (void)write(0); }
+GpioLines::~GpioLines() {
+  (void)write(0);
+}
 
 bool GpioLines::read(std::uint32_t& active) noexcept {
   active = 0;
@@ -161,8 +173,10 @@ bool GpioLines::write(std::uint32_t active) noexcept {
       if ((active & bit(requested.roles[i])) != 0) bits |= 1U << i;
     if (bits == requested.written) continue;
     // What could not be written is tried again; the other lines are written in any case.
-    if (requested.request.write(bits)) requested.written = bits;
-    else good = false;
+    if (requested.request.write(bits))
+      requested.written = bits;
+    else
+      good = false;
   }
   return good;
 }

@@ -1,8 +1,9 @@
-// The digital lines of a joint by what they are for, wherever they are wired: names are looked up once, lines of one chip with
-// the same settings are requested together. read() and write() are real-time safe; the rest is not.
+// The digital lines of a joint by what they are for, wherever they are wired: names are looked up once, lines
+// of one chip with the same settings are requested together. read() and write() are real-time safe; the rest
+// is not.
 //
-// True is active, whatever the polarity. Every output is inactive when it is requested and when this object ends: wire them
-// so that inactive is safe.
+// True is active, whatever the polarity. Every output is inactive when it is requested and when this object
+// ends: wire them so that inactive is safe.
 #pragma once
 
 #include <array>
@@ -18,23 +19,29 @@ namespace strainwave {
 
 /// Outputs first.
 enum class LineRole {
-  kEnable,         ///< out: the amplifier may drive
-  kDirection,      ///< out: negative torque
-  kBrakeRelease,   ///< out: the brake is open
-  kAlive,          ///< out: changes every period, for a hardware watchdog
+  kEnable,        ///< out: the amplifier may drive
+  kDirection,     ///< out: negative torque
+  kBrakeRelease,  ///< out: the brake is open
+  kAlive,         ///< out: changes every period, for a hardware watchdog
   kAmplifierFault,
   kEmergencyStop,
   kNegativeLimit,
   kPositiveLimit,
   kHome,
-  kIndex,          ///< edges, see edge_events.h
-  kQuadratureA,    ///< edges
-  kQuadratureB,    ///< edges
+  kIndex,        ///< edges, see edge_events.h
+  kQuadratureA,  ///< edges
+  kQuadratureB,  ///< edges
 };
 inline constexpr std::size_t kLineRoles = 12;
-constexpr bool is_output(LineRole role) noexcept { return role <= LineRole::kAlive; }
-constexpr bool is_edge_input(LineRole role) noexcept { return role >= LineRole::kIndex; }
-constexpr std::uint32_t bit(LineRole role) noexcept { return 1U << static_cast<unsigned>(role); }
+constexpr bool is_output(LineRole role) noexcept {
+  return role <= LineRole::kAlive;
+}
+constexpr bool is_edge_input(LineRole role) noexcept {
+  return role >= LineRole::kIndex;
+}
+constexpr std::uint32_t bit(LineRole role) noexcept {
+  return 1U << static_cast<unsigned>(role);
+}
 /// Key in the configuration.
 std::string_view to_text(LineRole role) noexcept;
 
@@ -69,8 +76,8 @@ class DigitalLines {
 
 class GpioLines final : public DigitalLines {
  public:
-  /// Requests every line of `lines` but edge inputs. Throws InputError before anything is driven: missing chip, unknown or
-  /// repeated line, a line that somebody holds. `where` is how messages name the section.
+  /// Requests every line of `lines` but edge inputs. Throws InputError before anything is driven: missing
+  /// chip, unknown or repeated line, a line that somebody holds. `where` is how messages name the section.
   GpioLines(const JointLines& lines, const std::string& consumer, const std::string& where);
   /// Outputs inactive, then released.
   ~GpioLines() override;
@@ -91,7 +98,8 @@ class GpioLines final : public DigitalLines {
     bool output;
     std::uint32_t written = 0;
   };
-  static std::vector<Group> group(const JointLines& lines, const std::string& consumer, const std::string& where);
+  static std::vector<Group> group(const JointLines& lines, const std::string& consumer,
+                                  const std::string& where);
 
   std::vector<Requested> requests_;
 };

@@ -1,5 +1,5 @@
-// Where the encoder's index pulse was: its edges come with the time of the interrupt, and between two position samples the joint
-// is taken to move evenly. Real-time safe.
+// Where the encoder's index pulse was: its edges come with the time of the interrupt, and between two
+// position samples the joint is taken to move evenly. Real-time safe.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,9 @@ struct ChipCloser {
 };
 using Chip = std::unique_ptr<gpiod_chip, ChipCloser>;
 
-[[noreturn]] void fail(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
+[[noreturn]] void fail(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
 
 Chip open_chip(const std::string& path) {
   Chip chip(::gpiod_chip_open(path.c_str()));
@@ -24,30 +26,41 @@ Chip open_chip(const std::string& path) {
   return chip;
 }
 
-std::string text_or_empty(const char* text) { return text == nullptr ? std::string() : std::string(text); }
+std::string text_or_empty(const char* text) {
+  return text == nullptr ? std::string() : std::string(text);
+}
 
 int request_type(LineDirection direction) {
   switch (direction) {
-    case LineDirection::kAsIs: return GPIOD_LINE_REQUEST_DIRECTION_AS_IS;
-    case LineDirection::kInput: return GPIOD_LINE_REQUEST_DIRECTION_INPUT;
-    case LineDirection::kOutput: return GPIOD_LINE_REQUEST_DIRECTION_OUTPUT;
+    case LineDirection::kAsIs:
+      return GPIOD_LINE_REQUEST_DIRECTION_AS_IS;
+    case LineDirection::kInput:
+      return GPIOD_LINE_REQUEST_DIRECTION_INPUT;
+    case LineDirection::kOutput:
+      return GPIOD_LINE_REQUEST_DIRECTION_OUTPUT;
   }
   return GPIOD_LINE_REQUEST_DIRECTION_INPUT;
 }
 
 int bias_flag(LineBias bias) {
   switch (bias) {
-    case LineBias::kAsIs: return 0;
-    case LineBias::kOff: return GPIOD_LINE_REQUEST_FLAG_BIAS_DISABLE;
-    case LineBias::kPullUp: return GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP;
-    case LineBias::kPullDown: return GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
+    case LineBias::kAsIs:
+      return 0;
+    case LineBias::kOff:
+      return GPIOD_LINE_REQUEST_FLAG_BIAS_DISABLE;
+    case LineBias::kPullUp:
+      return GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_UP;
+    case LineBias::kPullDown:
+      return GPIOD_LINE_REQUEST_FLAG_BIAS_PULL_DOWN;
   }
   return 0;
 }
 
 }  // namespace
 
-std::string chip_label(const std::string& path) { return text_or_empty(::gpiod_chip_label(open_chip(path).get())); }
+std::string chip_label(const std::string& path) {
+  return text_or_empty(::gpiod_chip_label(open_chip(path).get()));
+}
 
 std::vector<LineInfo> list_lines(const std::string& path) {
   const Chip chip = open_chip(path);
@@ -55,8 +68,9 @@ std::vector<LineInfo> list_lines(const std::string& path) {
   for (unsigned offset = 0; offset < ::gpiod_chip_num_lines(chip.get()); ++offset) {
     gpiod_line* line = ::gpiod_chip_get_line(chip.get(), offset);
     if (line == nullptr) fail(path + " line " + std::to_string(offset));
-    lines.push_back({offset, text_or_empty(::gpiod_line_name(line)), text_or_empty(::gpiod_line_consumer(line)),
-                     ::gpiod_line_is_used(line), ::gpiod_line_direction(line) == GPIOD_LINE_DIRECTION_OUTPUT,
+    lines.push_back({offset, text_or_empty(::gpiod_line_name(line)),
+                     text_or_empty(::gpiod_line_consumer(line)), ::gpiod_line_is_used(line),
+                     ::gpiod_line_direction(line) == GPIOD_LINE_DIRECTION_OUTPUT,
                      ::gpiod_line_active_state(line) == GPIOD_LINE_ACTIVE_STATE_LOW});
   }
   return lines;
@@ -76,10 +90,11 @@ LineRequest::LineRequest(const Settings& settings) : handle_(std::make_unique<Ha
     if (line == nullptr) fail(settings.chip_path + " line " + std::to_string(offset));
     ::gpiod_line_bulk_add(&handle_->lines, line);
   }
-  const gpiod_line_request_config config{settings.consumer.c_str(), request_type(settings.direction),
-                                         bias_flag(settings.bias) |
-                                             (settings.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0)};
-  if (::gpiod_line_request_bulk(&handle_->lines, &config, handle_->values.data()) != 0) fail(settings.chip_path);
+  const gpiod_line_request_config config{
+      settings.consumer.c_str(), request_type(settings.direction),
+      bias_flag(settings.bias) | (settings.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0)};
+  if (::gpiod_line_request_bulk(&handle_->lines, &config, handle_->values.data()) != 0)
+    fail(settings.chip_path);
 }
 
 LineRequest::LineRequest(LineRequest&&) noexcept = default;
@@ -95,7 +110,8 @@ bool LineRequest::read(std::uint32_t& active) noexcept {
 }
 
 bool LineRequest::write(std::uint32_t active) noexcept {
-  for (unsigned i = 0; i < handle_->lines.num_lines; ++i) handle_->values[i] = (active & (1U << i)) != 0 ? 1 : 0;
+  for (unsigned i = 0; i < handle_->lines.num_lines; ++i)
+    handle_->values[i] = (active & (1U << i)) != 0 ? 1 : 0;
   return ::gpiod_line_set_value_bulk(&handle_->lines, handle_->values.data()) == 0;
 }
 

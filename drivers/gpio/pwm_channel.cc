@@ -23,7 +23,9 @@ PwmChannel::PwmChannel(const PwmConfig& config, double idle_duty, const std::str
   configure(config, where);
 }
 
-PwmChannel::~PwmChannel() { (void)set_idle(); }
+PwmChannel::~PwmChannel() {
+  (void)set_idle();
+}
 
 void PwmChannel::export_channel(const PwmConfig& config, const std::string& where) {
   if (!std::filesystem::exists(folder_)) {

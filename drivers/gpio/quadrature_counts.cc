@@ -14,7 +14,8 @@ namespace {
 constexpr int kIdle_ms = 10;
 }  // namespace
 
-QuadratureCounts::QuadratureCounts(const QuadratureConfig& config, const std::string& consumer, const std::string& where)
+QuadratureCounts::QuadratureCounts(const QuadratureConfig& config, const std::string& consumer,
+                                   const std::string& where)
     : config_(config),
       edges_(std::array{config.a, config.b}, EdgeKind::kBoth, consumer, where),
       decoder_(config.max_rate_Hz),
@@ -40,8 +41,10 @@ void QuadratureCounts::run(const std::stop_token& stop) {
     pollfd descriptor{edges_.descriptor(), POLLIN, 0};
     const int ready = ::poll(&descriptor, 1, kIdle_ms);
     if (clear_requested_.exchange(false)) begin_anew();
-    if (ready > 0) decode();
-    else compare_levels();
+    if (ready > 0)
+      decode();
+    else
+      compare_levels();
     counts_.store(decoder_.count());
     fault_.store(decoder_.fault());
     looked_ns_.store(config_.clock_ns());
@@ -63,7 +66,8 @@ void QuadratureCounts::compare_levels() noexcept {
   std::uint32_t levels = 0;
   if (!edges_.levels(levels)) return decoder_.fail(QuadratureFault::kDeviceGone);
   pollfd descriptor{edges_.descriptor(), POLLIN, 0};
-  if (::poll(&descriptor, 1, 0) == 0 && levels != decoder_.levels()) decoder_.fail(QuadratureFault::kLostEvents);
+  if (::poll(&descriptor, 1, 0) == 0 && levels != decoder_.levels())
+    decoder_.fail(QuadratureFault::kLostEvents);
 }
 
 void QuadratureCounts::begin_anew() noexcept {

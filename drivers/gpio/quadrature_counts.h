@@ -1,5 +1,6 @@
-// The fallback without a counter in hardware: edges of the encoder's lines are counted by a thread of its own. Slow joints
-// only: docs/gpio.md says how slow. read() and clear_fault() are real-time safe; the constructor starts the thread.
+// The fallback without a counter in hardware: edges of the encoder's lines are counted by a thread of its
+// own. Slow joints only: docs/gpio.md says how slow. read() and clear_fault() are real-time safe; the
+// constructor starts the thread.
 #pragma once
 
 #include <atomic>
@@ -11,7 +12,8 @@
 namespace strainwave {
 
 struct QuadratureConfig {
-  /// Caps above this are refused: the highest rate that tests/vm/gpio counts without a loss; docs/gpio.md says what that means.
+  /// Caps above this are refused: the highest rate that tests/vm/gpio counts without a loss; docs/gpio.md
+  /// says what that means.
   static constexpr double kHighestRate_Hz = 5000.0;
 
   LineOptions a;

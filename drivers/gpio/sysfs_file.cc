@@ -16,8 +16,10 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 32;  // a 64-bit number has 20 digits
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& where, const char* what, int error) {
-  throw InputError(where + ": " + path.string() + " cannot be " + what + " (" + std::generic_category().message(error) +
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& where, const char* what,
+                       int error) {
+  throw InputError(where + ": " + path.string() + " cannot be " + what + " (" +
+                   std::generic_category().message(error) +
                    "): is the device there, and may this user use it?");
 }
 
@@ -28,7 +30,9 @@ SysfsFile::SysfsFile(const std::filesystem::path& path, Access access, const std
   if (fd_ < 0) fail(path, where, "opened", errno);
 }
 
-SysfsFile::~SysfsFile() { ::close(fd_); }
+SysfsFile::~SysfsFile() {
+  ::close(fd_);
+}
 
 std::optional<std::uint64_t> SysfsFile::read() noexcept {
   std::array<char, kMaxBytes> text;

@@ -8,14 +8,16 @@ namespace strainwave {
 TorqueOutput::TorqueOutput(const TorqueOutputConfig& config) noexcept
     : config_(config),
       // At least one period: the bridge may take the new duty only at the end of its own period.
-      dead_periods_(std::max<std::int64_t>(1, std::llround(std::ceil(config.dead_time_s / config.period_s - 1e-9)))) {}
+      dead_periods_(
+          std::max<std::int64_t>(1, std::llround(std::ceil(config.dead_time_s / config.period_s - 1e-9)))) {}
 
 double TorqueOutput::share_of(double torque_Nm, double joint_velocity_rad_s) const noexcept {
   const double current_A = torque_Nm / config_.torque_constant_Nm_A;
-  const double share = config_.amplifier == AmplifierKind::kCurrent
-                           ? current_A / config_.full_scale_A
-                           : (config_.resistance_ohm * current_A + config_.back_emf_Vs_rad * joint_velocity_rad_s) /
-                                 config_.supply_V;
+  const double share =
+      config_.amplifier == AmplifierKind::kCurrent
+          ? current_A / config_.full_scale_A
+          : (config_.resistance_ohm * current_A + config_.back_emf_Vs_rad * joint_velocity_rad_s) /
+                config_.supply_V;
   return std::clamp(share, -1.0, 1.0);
 }
 
@@ -34,10 +36,13 @@ double TorqueOutput::limit_slew(double torque_Nm) noexcept {
 }
 
 // Rounding must not pass a limit either.
-double TorqueOutput::limited(double duty) const noexcept { return std::clamp(duty, config_.duty_min, config_.duty_max); }
+double TorqueOutput::limited(double duty) const noexcept {
+  return std::clamp(duty, config_.duty_min, config_.duty_max);
+}
 
 double TorqueOutput::idle_duty() const noexcept {
-  return config_.bridge == BridgeKind::kSignMagnitude ? config_.duty_min : 0.5 * (config_.duty_min + config_.duty_max);
+  return config_.bridge == BridgeKind::kSignMagnitude ? config_.duty_min
+                                                      : 0.5 * (config_.duty_min + config_.duty_max);
 }
 
 TorqueOutput::Output TorqueOutput::idle() noexcept {
@@ -52,7 +57,8 @@ TorqueOutput::Output TorqueOutput::step(double torque_Nm, double joint_velocity_
   const double applied_Nm = torque_of(share, joint_velocity_rad_s);
   const double outward = config_.reversed ? -share : share;
   const double span = config_.duty_max - config_.duty_min;
-  if (config_.bridge == BridgeKind::kLockedAntiphase) return {limited(idle_duty() + 0.5 * outward * span), false, applied_Nm};
+  if (config_.bridge == BridgeKind::kLockedAntiphase)
+    return {limited(idle_duty() + 0.5 * outward * span), false, applied_Nm};
 
   const bool wants_change = outward != 0.0 && (outward < 0.0) != negative_;
   if (wants_change && waited_periods_ < dead_periods_) {

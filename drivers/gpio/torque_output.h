@@ -1,8 +1,9 @@
-// From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure, real-time safe.
-// Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/motor.h.
+// From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
+// real-time safe. Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/motor.h.
 //
-//   current:  the amplifier makes a current from the duty;           T = Kt I                  I = full scale * share
-//   voltage:  the bridge makes a voltage; inductance neglected;      T = Kt (u - Ke w) / R     u = supply * share
+//   current:  the amplifier makes a current from the duty;           T = Kt I                  I = full scale
+//   * share voltage:  the bridge makes a voltage; inductance neglected;      T = Kt (u - Ke w) / R     u =
+//   supply * share
 // Kt at the joint = motor's Kt * gear ratio * efficiency. `share` runs from -1 to 1 and becomes a duty:
 //   sign-magnitude:      duty = min + |share| (max - min), a line tells the direction, idle is min
 //   locked anti-phase:   duty = middle + share (max - min) / 2, idle is the middle
@@ -25,10 +26,10 @@ struct TorqueOutputConfig {
   double back_emf_Vs_rad = 0.0;       ///< kVoltage, joint side, >= 0
   double duty_min = 0.0;              ///< 0 <= duty_min < duty_max <= 1
   double duty_max = 1.0;
-  double slew_Nm_s = 0.0;             ///< fastest change of torque; 0: at once
-  double dead_time_s = 0.0;           ///< without torque before the direction line changes
+  double slew_Nm_s = 0.0;    ///< fastest change of torque; 0: at once
+  double dead_time_s = 0.0;  ///< without torque before the direction line changes
   double period_s = 0.001;
-  bool reversed = false;              ///< positive torque wants negative share
+  bool reversed = false;  ///< positive torque wants negative share
 };
 
 class TorqueOutput {

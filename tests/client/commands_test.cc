@@ -106,6 +106,13 @@ TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
   EXPECT_TRUE(message_has("did not find home: the joint was disabled")) << message;
 }
 
+TEST_F(CommandsTest, GpioCheckSaysWhereItsHelperMustBe) {
+  // Beside this test's program there is no strainwaved.
+  EXPECT_EQ(status_of([&] { gpio_check(output, "gpio.toml"); }), ExitStatus::kFile);
+  EXPECT_TRUE(message_has("strainwaved")) << message;
+  EXPECT_TRUE(message_has("install it beside strainwavectl")) << message;
+}
+
 TEST_F(CommandsTest, EnablePrintsTheReasonOfARefusal) {
   daemon.publish_state();
   daemon.reason = Reason::kNoTable;

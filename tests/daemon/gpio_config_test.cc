@@ -1,4 +1,5 @@
-// [joint.gpio], [joint.homing] and [joint.thermometer]: the example is sound, and what cannot be is refused by name.
+// [joint.gpio], [joint.homing] and [joint.thermometer]: the example is sound, and what cannot be is refused
+// by name.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -49,7 +50,8 @@ class GpioConfig : public ::testing::Test {
   }
   void expect_refused(const std::string& text, std::initializer_list<const char*> parts) {
     const std::string message = error_of(text);
-    for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+    for (const char* part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   }
 
   TemporaryFolder folder_;
@@ -91,8 +93,9 @@ TEST_F(GpioConfig, RefusesMoreTorqueThanTheMotorMayHave) {
 }
 
 TEST_F(GpioConfig, RefusesASpeedThatEdgesCannotFollow) {
-  std::string text = replaced("source = \"counter\"\ncounter = \"counter2/count0\"    # eQEP2\nceiling = 4294967295",
-                              "source = \"edges\"");
+  std::string text =
+      replaced("source = \"counter\"\ncounter = \"counter2/count0\"    # eQEP2\nceiling = 4294967295",
+               "source = \"edges\"");
   expect_refused(text, {"quadrature_a"});
   for (const char* line : {"quadrature_a", "quadrature_b"})
     text += std::string("\n[joint.gpio.") + line + "]\nchip = \"gpiochip0\"\nline = \"" + line + "\"\n";
@@ -124,7 +127,8 @@ TEST_F(GpioConfig, WantsVoltagesDataForAVoltage) {
 }
 
 TEST_F(GpioConfig, NeverMovesForAnybodyWhoAsks) {
-  expect_refused(replaced("authorized_keys = \"authorized_keys\"", "unsigned_orders = \"allow\""), {"unsigned_orders"});
+  expect_refused(replaced("authorized_keys = \"authorized_keys\"", "unsigned_orders = \"allow\""),
+                 {"unsigned_orders"});
 }
 
 TEST_F(GpioConfig, RefusesAThermometerForTheSimulatedJoint) {

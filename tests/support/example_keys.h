@@ -12,7 +12,8 @@ namespace strainwave::testing {
 inline void write_authorized_keys(const std::filesystem::path& folder) {
   const AuthorizedKey key{SecretKey::generate().public_key(), Role::kOperator, "test"};
   std::ofstream(folder / "authorized_keys") << to_line(key) << '\n';
-  std::filesystem::permissions(folder / "authorized_keys", std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  std::filesystem::permissions(folder / "authorized_keys",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
 }  // namespace strainwave::testing

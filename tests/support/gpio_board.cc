@@ -1,13 +1,17 @@
-// The other side of a GPIO joint's wires, for tests in the virtual machine: it reads the lines and the PWM that the daemon
-// drives, turns the motor, and moves counter, switches and encoder lines accordingly. It shares no code with drivers/gpio and
-// knows only what a wire would: gpio-sim's sysfs files and plain files in the place of PWM and counter.
+// The other side of a GPIO joint's wires, for tests in the virtual machine: it reads the lines and the PWM
+// that the daemon drives, turns the motor, and moves counter, switches and encoder lines accordingly. It
+// shares no code with drivers/gpio and knows only what a wire would: gpio-sim's sysfs files and plain files
+// in the place of PWM and counter.
 //
 //   gpio_board plant LINES TREE POSITION_RAD   the joint, until SIGTERM
-//   gpio_board encoder LINES RATE_HZ SECONDS   quadrature edges on lines a and b: three quarters forward, one back; prints the count
+//   gpio_board encoder LINES RATE_HZ SECONDS   quadrature edges on lines a and b: three quarters forward, one
+//   back; prints the count
 //                                              and the rate that came about
-//   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the duty 0
+//   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the
+//   duty 0
 //
-// LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/, count0/ and truth, the joint's position in rad.
+// LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/, count0/ and
+// truth, the joint's position in rad.
 #include <fcntl.h>
 #include <signal.h>
 #include <time.h>
@@ -36,7 +40,9 @@ constexpr double kHomeTo_rad = 0.15;
 constexpr double kIndexSpacing_rad = 2.0 * std::numbers::pi / 50.0;
 
 volatile sig_atomic_t ended = 0;
-void end(int) { ended = 1; }
+void end(int) {
+  ended = 1;
+}
 
 [[noreturn]] void fail(const std::string& what) {
   std::perror(what.c_str());
@@ -81,7 +87,9 @@ class Input {
 };
 
 /// A wire from the daemon's output.
-File output(const std::string& lines, const std::string& name) { return {lines + "/" + name + "/value", O_RDONLY}; }
+File output(const std::string& lines, const std::string& name) {
+  return {lines + "/" + name + "/value", O_RDONLY};
+}
 
 void advance(timespec& time, long step_ns) {
   time.tv_nsec += step_ns;
@@ -118,9 +126,11 @@ int run_plant(const std::string& lines, const std::string& tree, double position
   ::clock_gettime(CLOCK_MONOTONIC, &next);
   double turn = std::floor(position_rad / kIndexSpacing_rad);
   while (ended == 0) {
-    const double share = static_cast<double>(duty.number()) / std::fmax(1.0, static_cast<double>(period.number()));
+    const double share =
+        static_cast<double>(duty.number()) / std::fmax(1.0, static_cast<double>(period.number()));
     const bool driven = enable.number() != 0;
-    const double torque_Nm = (direction.number() != 0 ? -1.0 : 1.0) * share * kFullScale_A * kTorqueConstant_Nm_A;
+    const double torque_Nm =
+        (direction.number() != 0 ? -1.0 : 1.0) * share * kFullScale_A * kTorqueConstant_Nm_A;
     // A shut brake holds whatever the motor does.
     if (brake.number() != 0) plant.step(driven ? torque_Nm : 0.0);
     const double now_rad = plant.state().position_rad;
@@ -196,6 +206,8 @@ int main(int argc, char** argv) {
   if (task == "plant" && argc == 5) return run_plant(argv[2], argv[3], std::atof(argv[4]));
   if (task == "encoder" && argc == 5) return run_encoder(argv[2], std::atof(argv[3]), std::atof(argv[4]));
   if (task == "react" && argc == 5) return run_reaction(argv[2], argv[3], argv[4]);
-  std::fputs("gpio_board plant LINES TREE POSITION_RAD | encoder LINES RATE_HZ SECONDS | react LINES TREE INPUT\n", stderr);
+  std::fputs(
+      "gpio_board plant LINES TREE POSITION_RAD | encoder LINES RATE_HZ SECONDS | react LINES TREE INPUT\n",
+      stderr);
   return 2;
 }

@@ -20,12 +20,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Obeys: goes at the speed ordered, stops with a deceleration.
 class Walker {
  public:
-  Walker(double position_rad, const SimulatedInputsConfig& inputs) : position_rad_(position_rad), inputs_(inputs) {
+  Walker(double position_rad, const SimulatedInputsConfig& inputs)
+      : position_rad_(position_rad), inputs_(inputs) {
     (void)inputs_.at(position_rad, position_rad);
   }
 
   Homing::Observation observe() {
-    return {position_rad_, falsify(inputs_.at(position_rad_, position_rad_)), velocity_rad_s_ == 0.0, now_ns_};
+    return {position_rad_, falsify(inputs_.at(position_rad_, position_rad_)), velocity_rad_s_ == 0.0,
+            now_ns_};
   }
   void obey(const Homing::Order& order) {
     if (order.kind == Homing::Order::Kind::kMove) {

@@ -8,7 +8,8 @@
 namespace strainwave::testing {
 namespace {
 
-/// Limits at -1 and 1, home switch from 0.2 to 0.3; the joint stands at 0.7 and its encoder counts from there.
+/// Limits at -1 and 1, home switch from 0.2 to 0.3; the joint stands at 0.7 and its encoder counts from
+/// there.
 BenchJoint joint_to_be_homed() {
   BenchJoint joint = demo_joint();
   joint.drive.plant.initial_position_rad = 0.7;
@@ -68,7 +69,8 @@ TEST_F(JointLoopHoming, IsNeverFasterThanItsSearch) {
   ASSERT_EQ(bench_->order(0, OrderKind::kHome), Reason::kAccepted);
   double fastest_rad_s = 0.0;
   while (bench_->mode(0) == Mode::kHoming) {
-    fastest_rad_s = std::max(fastest_rad_s, std::abs(bench_->drive(0).simulated().plant().state().velocity_rad_s));
+    fastest_rad_s =
+        std::max(fastest_rad_s, std::abs(bench_->drive(0).simulated().plant().state().velocity_rad_s));
     bench_->step();
   }
   EXPECT_LT(fastest_rad_s, 0.44);
@@ -76,7 +78,8 @@ TEST_F(JointLoopHoming, IsNeverFasterThanItsSearch) {
   ASSERT_EQ(bench_->move(0, -0.8), Reason::kAccepted);
   fastest_rad_s = 0.0;
   while (bench_->mode(0) == Mode::kTracking) {
-    fastest_rad_s = std::max(fastest_rad_s, std::abs(bench_->drive(0).simulated().plant().state().velocity_rad_s));
+    fastest_rad_s =
+        std::max(fastest_rad_s, std::abs(bench_->drive(0).simulated().plant().state().velocity_rad_s));
     bench_->step();
   }
   EXPECT_GT(fastest_rad_s, 2.0) << "the speed limit is the joint's own again";

@@ -22,7 +22,9 @@ class DriveSequenceTest : public ::testing::Test {
     }
     return -1;
   }
-  void switch_on() { ASSERT_GT(periods_until(true, [&] { return sequence_.on(); }), 0); }
+  void switch_on() {
+    ASSERT_GT(periods_until(true, [&] { return sequence_.on(); }), 0);
+  }
 
   DriveSequence sequence_{kConfig};
   DriveSequence::Outputs outputs_;

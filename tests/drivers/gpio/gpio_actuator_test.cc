@@ -52,10 +52,12 @@ class GpioActuatorTest : public ::testing::Test {
     GpioParts parts;
     parts.lines = std::move(lines);
     parts.counts = std::move(counts);
-    parts.pwm = std::make_unique<PwmChannel>(PwmConfig{folder_.path() / "pwmchip0", 0, 20000.0, false}, 0.0, "pwm");
+    parts.pwm =
+        std::make_unique<PwmChannel>(PwmConfig{folder_.path() / "pwmchip0", 0, 20000.0, false}, 0.0, "pwm");
     GpioMotionConfig motion;
     motion.count_rad = 0.001;
-    drive_ = std::make_unique<GpioActuator>(std::move(parts), motion, torque_, DriveSequenceConfig{0.002, 0.003, 0.002, 0.004});
+    drive_ = std::make_unique<GpioActuator>(std::move(parts), motion, torque_,
+                                            DriveSequenceConfig{0.002, 0.003, 0.002, 0.004});
   }
   double duty() const {
     std::ifstream file(folder_.path() / "pwmchip0/pwm0/duty_cycle");
@@ -72,9 +74,7 @@ class GpioActuatorTest : public ::testing::Test {
     for (int i = 0; i < 20; ++i) cycle(true);
     ASSERT_EQ(cycle(true).drive_state, DriveState::kEnabled);
   }
-  bool outputs_safe() const {
-    return duty() == 0.0 && !lines_->out(LineRole::kEnable);
-  }
+  bool outputs_safe() const { return duty() == 0.0 && !lines_->out(LineRole::kEnable); }
 
   TemporaryFolder folder_;
   TorqueOutputConfig torque_;

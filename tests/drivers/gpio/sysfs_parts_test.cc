@@ -28,7 +28,8 @@ class SysfsParts : public ::testing::Test {
     return line;
   }
   void make_pwm() const {
-    for (const char* name : {"enable", "duty_cycle", "period", "polarity"}) write(std::string("pwmchip0/pwm2/") + name, "0\n");
+    for (const char* name : {"enable", "duty_cycle", "period", "polarity"})
+      write(std::string("pwmchip0/pwm2/") + name, "0\n");
   }
   PwmConfig pwm() const { return {folder_.path() / "pwmchip0", 2, 20000.0, false}; }
   CounterConfig counter(std::optional<std::uint64_t> ceiling) const {
@@ -44,7 +45,8 @@ TEST_F(SysfsParts, PwmStartsIdleAndFollowsTheDuty) {
   EXPECT_EQ(read("pwmchip0/pwm2/duty_cycle"), "25000");
   EXPECT_EQ(read("pwmchip0/pwm2/polarity"), "normal");
   EXPECT_EQ(read("pwmchip0/pwm2/enable"), "1");
-  for (const auto& [duty, text] : {std::pair{0.25, "12500"}, {0.0, "0"}, {1.0, "50000"}, {1.5, "50000"}, {-0.5, "0"}}) {
+  for (const auto& [duty, text] :
+       {std::pair{0.25, "12500"}, {0.0, "0"}, {1.0, "50000"}, {1.5, "50000"}, {-0.5, "0"}}) {
     EXPECT_TRUE(channel.set_duty(duty));
     EXPECT_EQ(read("pwmchip0/pwm2/duty_cycle"), text);
   }
@@ -71,7 +73,8 @@ TEST_F(SysfsParts, PwmThatDoesNotExistIsNamed) {
 }
 
 TEST_F(SysfsParts, CounterIsSetUpAndCountsFromWhereItStands) {
-  for (const char* name : {"count", "ceiling", "function", "enable"}) write(std::string("count0/") + name, "0\n");
+  for (const char* name : {"count", "ceiling", "function", "enable"})
+    write(std::string("count0/") + name, "0\n");
   write("count0/count", "700\n");
   CounterCounts counts(counter(999), "joint[0].gpio.encoder");
   EXPECT_EQ(read("count0/ceiling"), "999");
@@ -114,7 +117,8 @@ TEST(CountUnwrapper, GoesTheShorterWayRoundInAnyRange) {
   for (const std::uint64_t ceiling : {std::uint64_t{6399}, std::uint64_t{65535}, std::uint64_t{0xFFFFFFFF},
                                       std::numeric_limits<std::uint64_t>::max()}) {
     CountUnwrapper unwrapper(ceiling);
-    const std::int64_t furthest = static_cast<std::int64_t>(std::min<std::uint64_t>(ceiling / 2 - 1, 1'000'000'000));
+    const std::int64_t furthest =
+        static_cast<std::int64_t>(std::min<std::uint64_t>(ceiling / 2 - 1, 1'000'000'000));
     std::uniform_int_distribution<std::int64_t> step(-furthest, furthest);
     std::int64_t truth = 0;
     std::uint64_t shown = ceiling / 3;

@@ -44,7 +44,6 @@ make_lines() {
     ln -sfn "$folder/sim_gpio$number" "$LINES_FOLDER/${names[$number]}"
   done
   pull home pull-up
-  pull amplifier_fault pull-up
 }
 pull() { echo "$2" >"$LINES_FOLDER/$1/pull"; }
 level() { cat "$LINES_FOLDER/$1/value"; }
@@ -66,8 +65,8 @@ near() { # near A B TOLERANCE
     { echo "      $1 is not $2"; return 1; }
 }
 
-line_table() { # line_table ROLE ACTIVE
-  printf '[joint.gpio.%s]\nchip = "joint-board"\nline = "%s"\nactive = "%s"\n' "$1" "$1" "$2"
+line_table() { # line_table ROLE ACTIVE [BIAS]
+  printf '[joint.gpio.%s]\nchip = "joint-board"\nline = "%s"\nactive = "%s"\nbias = "%s"\n' "$1" "$1" "$2" "${3:-as_is}"
 }
 
 # gpio.toml: the joint of config/gpio.toml on this board.
@@ -129,7 +128,7 @@ $(line_table enable high)
 $(line_table direction high)
 $(line_table brake_release high)
 $(line_table alive high)
-$(line_table amplifier_fault low)
+$(line_table amplifier_fault low pull_up)
 $(line_table estop high)
 $(line_table negative_limit high)
 $(line_table positive_limit high)

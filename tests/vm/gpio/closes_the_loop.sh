@@ -8,9 +8,9 @@ make_configuration
 # Before anything runs: what gpio-check shows, and that it touches nothing.
 check "gpio-check finds every line usable" ctl gpio-check gpio.toml
 check "gpio-check shows every line" test "$(./strainwavectl gpio-check gpio.toml | grep -c joint-board\\\|/dev/gpiochip)" -ge 10
-check "gpio-check tells an active input" bash -c './strainwavectl gpio-check gpio.toml | grep -q "^  home .*inactive"'
+check "gpio-check tells an inactive input" bash -c './strainwavectl gpio-check gpio.toml | grep -q "^  home .*inactive"'
 pull home pull-down
-check "gpio-check tells it from an inactive one" bash -c './strainwavectl gpio-check gpio.toml | grep "^  home " | grep -qv inactive'
+check "gpio-check tells it from an active one" bash -c './strainwavectl gpio-check gpio.toml | grep "^  home " | grep -qv inactive'
 pull home pull-up
 
 # Errors before anything moves: a line that is held, a name that is none.
@@ -32,7 +32,12 @@ check "the daemon starts" start_daemon
 check "its outputs are safe" level_is enable 0
 check "the brake is shut" level_is brake_release 0
 check "the hardware watchdog is fed" bash -c 'for i in $(seq 20); do cat lines/alive/value; sleep 0.0007; done | sort -u | wc -l | grep -qx 2'
-check "gpio-check names the daemon" bash -c './strainwavectl gpio-check gpio.toml | grep -q "held by \"strainwaved elbow\""'
+check "gpio-check names the daemon" bash -c './strainwavectl gpio-check gpio.toml | grep -q "^  estop .*held by \"strainwaved elbow\""'
+check "and shows its inputs" bash -c './strainwavectl gpio-check gpio.toml | grep "^  estop .* in .* inactive "'
+pull estop pull-up
+check "as they are" bash -c './strainwavectl gpio-check gpio.toml | grep "^  estop .* in .* active  "'
+pull estop pull-down
+check "and its outputs" bash -c './strainwavectl gpio-check gpio.toml | grep "^  enable .* out .* inactive "'
 
 check "enable" ctl enable elbow
 check "the amplifier is on" level_is enable 1

@@ -1,5 +1,5 @@
-// Counts edges of the lines quadrature_a and quadrature_b of the chip "joint-board" with the driver's own thread, as the daemon
-// would, until standard input ends; then prints the count and the fault's number.
+// Counts edges of the lines quadrature_a and quadrature_b of the chip "joint-board" with the driver's own
+// thread, as the daemon would, until standard input ends; then prints the count and the fault's number.
 //
 //   quadrature_probe MAX_RATE_HZ
 #include <time.h>
