@@ -26,7 +26,8 @@ ActuatorReading GpioActuator::read(std::int64_t now_ns) noexcept {
   read_inputs(reading);
   read_temperature(reading);
   reading.torque_applied_Nm = last_output_.torque_applied_Nm;
-  if (reading.fault == ActuatorFault::kNone) reading.fault = fault_of_inputs();
+  // Of several causes the one that people must know first.
+  if (const ActuatorFault fault = fault_of_inputs(); fault != ActuatorFault::kNone) reading.fault = fault;
   reading.drive_state = sequence_.drive_state();
   return reading;
 }

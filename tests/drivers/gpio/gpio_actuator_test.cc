@@ -172,6 +172,8 @@ TEST_F(GpioActuatorTest, TellsFreshFromStaleFromImplausiblePositions) {
   EXPECT_EQ(cycle(false).fault, ActuatorFault::kNone);
   counts_->sample.state = CountSource::State::kImplausible;
   EXPECT_EQ(cycle(false).fault, ActuatorFault::kImplausible);
+  lines_->inputs = bit(LineRole::kEmergencyStop);
+  EXPECT_EQ(cycle(false).fault, ActuatorFault::kEmergencyStop) << "the cause that people must know first";
 }
 
 TEST_F(GpioActuatorTest, TogglesTheLineOfTheHardwareWatchdogEveryPeriodWhateverTheMode) {
