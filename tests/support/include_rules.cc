@@ -45,6 +45,7 @@ const std::vector<Library> kLibraries{
     {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"daemon/", "sim/", "tests/"}},
     {"seccomp", {"daemon/gateway/"}},
+    {"curses.h", {"client/watch/terminal.cc"}},
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
