@@ -1,18 +1,15 @@
-# The network and the programs of docs/several-machines.md, as functions: a bridge, three machines on it.
+# The network and the programs of docs/several-machines.md, as functions: two machines and a cable.
 export PATH="$PATH:/usr/sbin:/sbin"
 lcm_url="udpm://239.255.76.67:7667?ttl=1"
-operator_ip=10.7.0.1
 
 in_machine() { ip netns exec "$1" "${@:2}"; }
 
 make_network() {
-  ip link add name strainwave0 type bridge mcast_snooping 0
-  ip link set strainwave0 up
+  ip netns add arm
+  ip netns add leg
+  ip link add eth0 netns arm type veth peer name eth0 netns leg
   local machine number=1
-  for machine in operator arm leg; do
-    ip netns add $machine
-    ip link add $machine-port type veth peer name eth0 netns $machine
-    ip link set $machine-port master strainwave0 up
+  for machine in arm leg; do
     in_machine $machine ip link set lo up
     in_machine $machine ip link set eth0 up multicast on
     in_machine $machine ip address add 10.7.0.$number/24 dev eth0
@@ -45,7 +42,7 @@ stop_daemons() {
   wait || true
 }
 
-# as WHOSE-KEY ARGUMENT...: strainwavectl on the operator's PC.
-as() { in_machine operator ./strainwavectl --lcm-url "$lcm_url" --key "$1.key" --timeout_s 10 "${@:2}"; }
+# as WHOSE-KEY ARGUMENT...: strainwavectl; the operator sits at the arm's PC.
+as() { in_machine arm ./strainwavectl --lcm-url "$lcm_url" --key "$1.key" --timeout_s 20 "${@:2}"; }
 ctl() { as operator "$@"; }
-unsigned() { in_machine operator ./strainwavectl --lcm-url "$lcm_url" --timeout_s 10 "$@"; }
+unsigned() { in_machine arm ./strainwavectl --lcm-url "$lcm_url" --timeout_s 20 "$@"; }
