@@ -44,6 +44,21 @@ std::vector<std::string> Client::wait_for_joints() {
   return states_.joints(options_.prefix);
 }
 
+std::vector<JointName> Client::heard() const {
+  std::vector<JointName> names;
+  for (const std::string& prefix : states_.prefixes()) {
+    if (!options_.all_prefixes && prefix != options_.prefix) continue;
+    for (const std::string& joint : states_.joints(prefix)) names.push_back({prefix, joint});
+  }
+  return names;
+}
+
+std::vector<JointName> Client::wait_for_heard() {
+  if (!wait_until([&] { return !heard().empty(); }, Deadline(options_.timeout_s))) explain_silence("");
+  wait_until([] { return false; }, Deadline(kOtherJoints_s));
+  return heard();
+}
+
 Answer Client::exchange(const std::string& joint, const SealedMessage& order) {
   awaited_ = &order;
   requested_ = order.sequence;

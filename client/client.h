@@ -17,11 +17,18 @@
 
 namespace strainwave {
 
+/// A joint on the LCM network.
+struct JointName {
+  std::string prefix;
+  std::string joint;
+};
+
 struct ClientOptions {
   std::string prefix = "SW";
   double timeout_s =
       2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
   std::filesystem::path key_file = {};  ///< secret key to sign orders with; empty: unsigned
+  bool all_prefixes = false;  ///< what only looks (status, watch) looks at every daemon that is heard
 };
 
 /// The daemon's answer to one order.
@@ -51,6 +58,11 @@ class Client {
 
   /// Waits until a joint is heard, then a little for the others of the daemon. Throws like wait_for_joint().
   std::vector<std::string> wait_for_joints();
+
+  /// Joints that are heard of the prefix, or of all with all_prefixes; in order.
+  std::vector<JointName> heard() const;
+  /// The same after waiting as wait_for_joints() does.
+  std::vector<JointName> wait_for_heard();
 
   /// Sends `message` (setpoint_v1, command_v1 or gain_table_v1) to `joint` on the channel of `kind` and waits
   /// for the answer. Throws ClientError when the joint is not heard or no answer comes.

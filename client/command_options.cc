@@ -49,12 +49,15 @@ CLI::Option* add_positive(CLI::App& command, const std::string& name, double& va
 }
 
 void add_common_options(CLI::App& app, Invocation& invocation) {
+  invocation.options.all_prefixes = true;
   app.add_option("--lcm-url", invocation.lcm_url, "the LCM network")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str()
       ->type_name("URL");
-  app.add_option("--prefix", invocation.options.prefix, "first part of the daemon's channels")
+  app.add_option("--prefix", invocation.options.prefix,
+                 "first part of the daemon's channels; without it status and watch show every daemon")
       ->check(name_validator())
+      ->each([&invocation](const std::string&) { invocation.options.all_prefixes = false; })
       ->capture_default_str()
       ->type_name("NAME");
   app.add_option("--key", invocation.options.key_file, "the secret key to sign orders with (see keygen)")

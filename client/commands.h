@@ -18,7 +18,7 @@ namespace strainwave {
 /// Where a command writes what it found; errors travel as exceptions.
 struct Output {
   std::ostream& stream;
-  bool terminal = false;  ///< a person looks at it: lines may be rewritten in place
+  bool terminal = false;  ///< a person looks at it
 };
 
 /// All joints as a table, or every field of one.
@@ -31,10 +31,10 @@ void show_status(Client& client, const Output& output, const StatusArguments& ar
 /// The daemon's timing totals: real time or not, overruns, worst cases, refused messages.
 void show_timing(Client& client, const Output& output);
 
-/// Joints over time: on a terminal one line each, rewritten in place; otherwise (or plain) a new line each
-/// interval.
+/// Joints over time: on a terminal a full screen that also takes keys (client/watch/), otherwise (or plain) a
+/// line for each joint at each interval.
 struct WatchArguments {
-  std::vector<std::string> joints;  ///< empty: all of the prefix
+  std::vector<std::string> joints;  ///< empty: all that are heard
   double interval_s = 0.2;
   std::optional<double> duration_s;  ///< nothing: until interrupted
   bool plain = false;

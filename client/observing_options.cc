@@ -27,14 +27,17 @@ void add_timing(CLI::App& app, Invocation& invocation) {
 }
 
 void add_watch(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("watch", "joints over time, until Ctrl-C");
+  CLI::App* command = app.add_subcommand(
+      "watch", "a full screen of joints over time; keys stop, enable, hold and clear; q ends");
   auto arguments = std::make_shared<WatchArguments>();
   add_joints(*command, arguments->joints, "joints; none: all");
-  add_seconds(*command, "--interval_s", arguments->interval_s, "time between two lines")
+  add_seconds(*command, "--interval_s", arguments->interval_s,
+              "time between two lines, or two points of the sparklines")
       ->capture_default_str();
   auto duration_s = std::make_shared<double>(0.0);
   add_seconds(*command, "--duration_s", *duration_s, "end after this time");
-  command->add_flag("--plain", arguments->plain, "a new line each time, nothing rewritten in place");
+  command->add_flag("--plain", arguments->plain,
+                    "lines instead of a full screen, as when standard output is no terminal");
   command->callback([&invocation, arguments, duration_s] {
     if (*duration_s > 0.0) arguments->duration_s = *duration_s;
     invocation.command = [arguments](Client& client, const Output& output) {

@@ -1,4 +1,4 @@
-// enable, disable, move, hold, clear-fault, load-table.
+// enable, disable, move, hold, clear-fault, home, load-table, revert-table, inject.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -9,9 +9,9 @@ namespace strainwave {
 
 namespace {
 
-nlohmann::ordered_json joint_json(const std::string& joint, const JointView& view) {
+nlohmann::ordered_json joint_json(const JointName& whose, const JointView& view) {
   const double age_s = seconds_between(view.received, now());
-  nlohmann::ordered_json json{{"joint", joint}, {"age_s", age_s}};
+  nlohmann::ordered_json json{{"prefix", whose.prefix}, {"joint", whose.joint}, {"age_s", age_s}};
   visit_state_fields(view.state, [&](const char* name, const auto& value) {
     if constexpr (requires { value.size(); }) {
       json[name] = std::vector<double>(value.begin(), value.end());
@@ -29,11 +29,11 @@ nlohmann::ordered_json joint_json(const std::string& joint, const JointView& vie
 
 }  // namespace
 
-std::string to_json(const Client& client, const std::vector<std::string>& joints) {
-  nlohmann::ordered_json json{{"prefix", client.options().prefix},
-                              {"joints", nlohmann::ordered_json::array()}};
-  for (const std::string& joint : joints) {
-    if (const JointView* view = client.find(joint)) json["joints"].push_back(joint_json(joint, *view));
+std::string to_json(const StateView& states, const std::vector<JointName>& joints) {
+  nlohmann::ordered_json json{{"joints", nlohmann::ordered_json::array()}};
+  for (const JointName& name : joints) {
+    if (const JointView* view = states.find(name.prefix, name.joint))
+      json["joints"].push_back(joint_json(name, *view));
   }
   return json.dump(2);
 }

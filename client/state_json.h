@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// {"prefix": ..., "joints": [{"joint": ..., "age_s": ..., <fields>, "mode_text": ..., "fault_text": ...,
+/// {"joints": [{"prefix": ..., "joint": ..., "age_s": ..., <fields>, "mode_text": ..., "fault_text": ...,
 /// "notes": ...}]}. A value that is not finite becomes null. Joints that were not heard are left out.
-std::string to_json(const Client& client, const std::vector<std::string>& joints);
+std::string to_json(const StateView& states, const std::vector<JointName>& joints);
 
 }  // namespace strainwave

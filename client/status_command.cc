@@ -6,25 +6,25 @@
 namespace strainwave {
 
 void show_status(Client& client, const Output& output, const StatusArguments& arguments) {
-  std::vector<std::string> joints;
+  std::vector<JointName> joints;
   if (arguments.joint) {
     client.wait_for_joint(*arguments.joint);
-    joints.push_back(*arguments.joint);
+    joints.push_back({client.options().prefix, *arguments.joint});
   } else {
-    joints = client.wait_for_joints();
+    joints = client.wait_for_heard();
   }
   if (arguments.json) {
-    output.stream << to_json(client, joints) << '\n';
+    output.stream << to_json(client.states(), joints) << '\n';
     return;
   }
   if (!arguments.joint) output.stream << state_header() << '\n';
-  for (const std::string& joint : joints) {
-    const JointView& view = *client.find(joint);
+  for (const JointName& name : joints) {
+    const JointView& view = *client.states().find(name.prefix, name.joint);
     const double age_s = seconds_between(view.received, now());
     if (arguments.joint) {
-      output.stream << state_details(joint, view, age_s);
+      output.stream << state_details(name.joint, view, age_s);
     } else {
-      output.stream << state_row(joint, view, age_s) << '\n';
+      output.stream << state_row(display_name(name, joints), view, age_s) << '\n';
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -86,6 +87,12 @@ std::string clipped(std::string_view line, std::size_t columns) {
     if (!continuation && ++seen > columns) return std::string(line.substr(0, i));
   }
   return std::string(line);
+}
+
+std::string display_name(const JointName& name, const std::vector<JointName>& names) {
+  const bool several = std::any_of(names.begin(), names.end(),
+                                   [&](const JointName& other) { return other.prefix != name.prefix; });
+  return several ? name.prefix + "." + name.joint : name.joint;
 }
 
 std::string state_header() {

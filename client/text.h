@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "client/client.h"
 #include "client/state_view.h"
 
 namespace strainwave {
@@ -19,6 +21,9 @@ std::string printable(std::string_view text);
 
 /// At most `columns` characters of `line`; bytes of UTF-8 continuation count for nothing.
 std::string clipped(std::string_view line, std::size_t columns);
+
+/// "elbow", or "SW.elbow" when `names` has joints of several daemons.
+std::string display_name(const JointName& name, const std::vector<JointName>& names);
 
 /// Column titles of state_row().
 std::string state_header();

@@ -140,6 +140,8 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.thermometer && joint.driver == "simulated")
     section.fail("thermometer", "a sensor of a real drive is allowed: the simulated one has its own temperature");
   TomlSection driver = section.section_or_empty(joint.driver);
+  if (joint.thermometer && driver.has("temperature"))
+    section.fail("thermometer", "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
   HomingInputs inputs;
   if (joint.driver == "can")
     can.read_joint(driver, joint);

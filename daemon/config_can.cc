@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "control/input_error.h"
+#include "daemon/config_motor.h"
+#include "daemon/config_odrive.h"
 #include "drivers/can/can_interface.h"
 #include "drivers/can/can_socket.h"
 #include "drivers/can/cia402_node.h"
+#include "drivers/can/odrive_node.h"
 
 namespace strainwave {
 
@@ -64,24 +66,11 @@ cia402::TemperatureObject read_temperature(TomlSection section, double period_s)
   return object;
 }
 
-/// What the motor and its supply leave at the joint; without a supply no line over speed.
 MotorLimits read_motor(TomlSection section, cia402::DriveConfig& drive) {
-  cia402::UnitConfig& units = drive.units;
-  units.torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
+  drive.units.torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
   drive.rated_current_A = section.number_or("rated_current_A", 0.0, {0.0, 1e4});
-  const double back_emf_Vs_rad = section.number_or("back_emf_Vs_rad", units.torque_constant_Nm_A, {0.0, 1e6});
-  MotorLimits limits;
-  limits.peak_torque_Nm = drive.torque_limit_Nm;
-  limits.stall_torque_Nm = std::numeric_limits<double>::infinity();
-  if (section.has("supply_V") != section.has("resistance_ohm"))
-    section.fail("supply_V", "supply_V and resistance_ohm, or neither, are allowed");
-  if (section.has("supply_V")) {
-    const double supply_V = section.number("supply_V", kPositive);
-    const double resistance_ohm = section.number("resistance_ohm", kPositive);
-    const double joint_Nm_A = units.torque_constant_Nm_A * units.gear_ratio;
-    limits.stall_torque_Nm = joint_Nm_A * supply_V / resistance_ohm;
-    limits.torque_per_speed_Nms_rad = joint_Nm_A * back_emf_Vs_rad * units.gear_ratio / resistance_ohm;
-  }
+  const MotorLimits limits = read_motor_limits(section, drive.units.torque_constant_Nm_A,
+                                               drive.units.gear_ratio, drive.torque_limit_Nm);
   section.refuse_unknown_keys();
   return limits;
 }
@@ -137,7 +126,11 @@ CanConfig::CanConfig(TomlSection& root, double period_s) : period_s_(period_s) {
     bus.drive_makes_sync = sync == "drive";
     bus.config.our_node_id = static_cast<std::uint8_t>(
         bus.section.integer_or("our_node_id", bus.config.our_node_id, 1, kMaxNodeId));
-    bus.config.heartbeat_period_s = bus.section.number_or("heartbeat_s", 0.05, kHeartbeat_s);
+    if (bus.config.sync != SyncProducer::kNone)
+      bus.config.heartbeat_period_s = bus.section.number_or("heartbeat_s", 0.05, kHeartbeat_s);
+    else if (bus.section.has("heartbeat_s"))
+      bus.section.fail("heartbeat_s",
+                       "none is sent on a bus with sync = \"none\": ODrives have a watchdog instead");
     bus.config.stuck_periods =
         static_cast<int>(bus.section.integer_or("stuck_periods", bus.config.stuck_periods, 1, 1000));
     bus.config.period_s = period_s;
@@ -161,16 +154,25 @@ CanConfig::Bus& CanConfig::find_bus(TomlSection& section) {
 
 void CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   Bus& bus = find_bus(section);
-  const auto node_id = static_cast<int>(section.integer("node_id", 1, kMaxNodeId));
+  const bool is_odrive = section.choice("protocol", {"cia402", "odrive"}) == "odrive";
+  const auto node_id = static_cast<int>(is_odrive ? section.integer("node_id", 0, odrive::kMaxNodeId)
+                                                  : section.integer("node_id", 1, kMaxNodeId));
   if (std::find(bus.node_ids.begin(), bus.node_ids.end(), node_id) != bus.node_ids.end())
     section.fail("node_id", "each drive on a bus needs a node id of its own");
-  if (node_id == bus.config.our_node_id)
+  if (!is_odrive && node_id == bus.config.our_node_id)
     section.fail("node_id", "another than the bus's our_node_id is allowed");
-  (void)section.choice("protocol", {"cia402"});
   joint.bus = static_cast<int>(&bus - buses_.data());
   joint.bus_slot = bus.make_nodes.size();
   joint.driver_resource = bus.config.interface_name + " node " + std::to_string(node_id);
-  read_cia402(section, bus, node_id, joint);
+  // The protocols' identifiers overlap, so a bus has one of them: CiA 402 needs a SYNC, CANSimple has none.
+  if (is_odrive) {
+    if (bus.config.sync != SyncProducer::kNone)
+      section.fail("protocol", "a bus of their own is what ODrives need: set can_bus.sync to \"none\"");
+    const odrive::DriveConfig drive = read_odrive(section, node_id, period_s_, joint);
+    bus.make_nodes.emplace_back([drive] { return std::make_unique<odrive::Node>(drive); });
+  } else {
+    read_cia402(section, bus, node_id, joint);
+  }
   bus.node_ids.push_back(node_id);
 }
 

@@ -8,6 +8,7 @@
 #include "control/input_error.h"
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
+#include "drivers/thermometer_actuator.h"
 
 namespace strainwave {
 
@@ -25,6 +26,8 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
   for (const JointConfig& joint : config.joints) {
     auto actuator = joint.bus < 0 ? joint.make_actuator()
                                   : buses_[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
+    if (joint.bus >= 0 && joint.thermometer)
+      actuator = std::make_unique<ThermometerActuator>(std::move(actuator), *joint.thermometer);
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
                                                   std::move(actuator), *replies_, *events_));
     if (config.recorder.enabled()) {

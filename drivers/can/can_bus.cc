@@ -243,7 +243,9 @@ void CanBus::account_outstanding(bool emptied) noexcept {
   // What cannot be taken in one period is old before it is used.
   flooded_periods_ = emptied ? 0 : flooded_periods_ + 1;
   if (flooded_periods_ >= config_.stuck_periods) latch(ActuatorFault::kBusError, CanDetail::kFlooded);
-  held_back_ = outstanding_ > 0;
+  // Adapters on USB tell of a frame up to a period late; what is older than that has not left.
+  held_back_ = outstanding_ > sent_last_period_;
+  sent_last_period_ = 0;
   held_back_periods_ = held_back_ ? held_back_periods_ + 1 : 0;
   if (held_back_periods_ >= config_.stuck_periods) latch(ActuatorFault::kLinkLost, CanDetail::kFramesStuck);
 }
@@ -274,7 +276,10 @@ bool CanBus::send(const CanFrame& frame) noexcept {
   switch (port_->send(frame)) {
     case SendResult::kSent:
       // Remote frames pass no filter, so they never come back.
-      if (frame.id != our_heartbeat_id() && !frame.remote) ++outstanding_;
+      if (frame.id != our_heartbeat_id() && !frame.remote) {
+        ++outstanding_;
+        ++sent_last_period_;
+      }
       add(counters_.frames_sent);
       return true;
     case SendResult::kLinkDown:
@@ -289,8 +294,8 @@ bool CanBus::send(const CanFrame& frame) noexcept {
 }
 
 void CanBus::try_recover() noexcept {
-  if (trouble_.fault == ActuatorFault::kNone || link_gone_ || bus_off_ || outstanding_ > 0) return;
-  link_down_ = held_back_ = false;
+  if (trouble_.fault == ActuatorFault::kNone || link_gone_ || bus_off_ || held_back_) return;
+  link_down_ = false;
   // The first frame shows whether the link is there; it orders nothing.
   if (config_.heartbeat_period_s > 0.0) {
     send_heartbeat();

@@ -4,9 +4,9 @@
 //   end_cycle:   every node's frames, then one SYNC, then our heartbeat when it is due
 //
 // Nothing stale is ever queued: every frame that we send comes back once it is on the bus, and while frames
-// of the period before have not come back nothing more is sent, only counted. So after a bus was dead the
-// drives hear at most one period's old orders, and their heartbeat supervision has disabled them by then.
-// Trouble of the bus is latched, told to every node, and leaves only by a joint's clear_fault().
+// older than a period have not come back nothing more is sent, only counted. So after a bus was dead the drives
+// hear at most two periods' old orders, and their heartbeat supervision has disabled them by then. Trouble of
+// the bus is latched, told to every node, and leaves only by a joint's clear_fault().
 //
 // Our heartbeat comes from end_cycle() alone: when the loop ends or hangs, the drives notice.
 //
@@ -122,7 +122,8 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   bool link_down_ = false;  ///< nothing can be sent; ends by try_recover()
   bool link_gone_ = false;
   bool bus_off_ = false;          ///< until the interface was down or the controller restarted
-  std::int64_t outstanding_ = 0;  ///< frames sent that have not come back
+  std::int64_t outstanding_ = 0;  ///< frames sent that have not come back, heartbeats not counted
+  std::int64_t sent_last_period_ = 0;
   bool heartbeat_waits_ = false;  ///< sent and not come back
   int held_back_periods_ = 0;
   int flooded_periods_ = 0;

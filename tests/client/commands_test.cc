@@ -251,10 +251,20 @@ TEST_F(CommandsTest, WatchWithoutATerminalWritesLinesWithoutControlCharacters) {
   EXPECT_TRUE(output_has("elbow"));
 }
 
-TEST_F(CommandsTest, WatchOnATerminalRewritesItsLinesInPlace) {
+TEST_F(CommandsTest, StatusNamesTheDaemonOnlyWhenSeveralAreHeard) {
+  Client all{connection, {"SW", 0.3, "", true}};
+  FakeDaemon other(connection, "ARM2", "elbow");
   daemon.publish_state(Mode::kHolding);
-  watch(client, {stream, true}, {{}, 0.02, 0.1, false});
-  EXPECT_TRUE(output_has("\x1b[2A"));
+  show_status(all, output, {});
+  EXPECT_FALSE(output_has("SW.elbow"));
+  stream.str("");
+  other.publish_state(Mode::kOff);
+  show_status(all, output, {});
+  EXPECT_TRUE(output_has("SW.elbow")) << stream.str();
+  EXPECT_TRUE(output_has("ARM2.elbow")) << stream.str();
+  stream.str("");
+  show_status(client, output, {});
+  EXPECT_FALSE(output_has("ARM2")) << "the prefix was chosen";
 }
 
 TEST_F(CommandsTest, RecordWritesEveryMessageOfTheChosenJoints) {

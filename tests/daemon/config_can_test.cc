@@ -97,6 +97,15 @@ TEST_F(CanConfigTest, WantsUnitAndSideOfTorqueSaid) {
   expect_mentions(error_after("epos4.toml", "\"uNm\"", "\"Nm\""), {"rated_torque_unit", "mNm", "uNm"});
 }
 
+TEST_F(CanConfigTest, TakesOneTemperaturePerJoint) {
+  const std::string sensor = "[joint.thermometer]\nfile = \"/dev/null\"\n\n[joint.can]";
+  expect_mentions(error_after("epos4.toml", "[joint.can]", sensor), {"joint[0].thermometer", "one temperature"});
+  std::string text = example("epos4.toml");
+  text.replace(text.find("[joint.can]"), 11, sensor);
+  text.resize(text.find("[joint.can.temperature]"));
+  EXPECT_TRUE(read(text).joints[0].thermometer.has_value());
+}
+
 TEST_F(CanConfigTest, LetsOneDriveMakeTheSyncWhenTheBusSaysSo) {
   expect_mentions(
       error_after("epos4.toml", "protocol = \"cia402\"", "protocol = \"cia402\"\nproduces_sync = true"),

@@ -24,7 +24,7 @@ std::string read(const std::filesystem::path& path) {
 // Keys that the code reads: the literal in section.number_or("key", ...) and its kin.
 std::set<std::string> keys_in_code() {
   const std::regex asks(
-      R"re(\b(?:number|number_or|integer|integer_or|boolean_or|text|text_or|choice|choice_or|numbers|section|section_or_empty|sections|read_name)\((?:\w+, )?"([A-Za-z0-9_]+)")re");
+      R"re(\b(?:number|number_or|integer|integer_or|boolean_or|text|text_or|choice|choice_or|numbers|section|section_or_empty|sections|read_name)\(\s*(?:\w+,\s*)?"([A-Za-z0-9_]+)")re");
   std::set<std::string> keys;
   for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/daemon")) {
     const std::string name = entry.path().filename().string();

@@ -47,6 +47,7 @@ const std::vector<Library> kLibraries{
     {"seccomp", {"daemon/gateway/"}},
     {"gpiod", {"drivers/gpio/line_request_v"}},
     {"linux/gpio", {"drivers/gpio/edge_events.cc"}},
+    {"curses.h", {"client/watch/terminal.cc"}},
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},

@@ -15,6 +15,8 @@ class VirtualCan::Port final : public CanPort {
 
   SendResult send(const CanFrame& frame) noexcept override { return bus_.send_from_port(*this, frame); }
   ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept override {
+    for (; !late_.empty() && late_.front().first <= bus_.now_ns_; late_.pop_front())
+      queue_.push_back(late_.front().second);
     ReceiveResult result;
     while (result.count < frames.size() && !queue_.empty()) {
       frames[result.count++] = queue_.front();
@@ -36,7 +38,10 @@ class VirtualCan::Port final : public CanPort {
     ReceivedFrame received;
     received.frame = frame;
     received.kind = own ? ReceivedFrame::Kind::kOwn : ReceivedFrame::Kind::kData;
-    queue_.push_back(received);
+    if (own && bus_.echo_delay_ns_ > 0)
+      late_.emplace_back(bus_.now_ns_ + bus_.echo_delay_ns_, received);
+    else
+      queue_.push_back(received);
   }
   void hear_trouble(CanTrouble trouble) {
     if (!options_.error_frames) return;
@@ -56,6 +61,7 @@ class VirtualCan::Port final : public CanPort {
   CanPortOptions options_;
   std::set<std::uint32_t> ids_;
   std::deque<ReceivedFrame> queue_;
+  std::deque<std::pair<std::int64_t, ReceivedFrame>> late_;  ///< with the time at which they come back
   CanLink link_ = CanLink::kUp;
   std::uint32_t overflows_ = 0;
 };

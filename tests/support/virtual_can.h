@@ -48,6 +48,8 @@ class VirtualCan {
   void hold(bool held);
   /// How many more frames fit while held.
   void set_queue_room(int frames) { queue_room_ = frames; }
+  /// A port's own frames come back so late, as from an adapter on USB.
+  void set_echo_delay(std::int64_t delay_ns) { echo_delay_ns_ = delay_ns; }
   /// The kernel lost frames of every port.
   void lose_frames(std::uint32_t count);
 
@@ -83,6 +85,7 @@ class VirtualCan {
   bool down_ = false;
   bool hold_ = false;
   int queue_room_ = 10;
+  std::int64_t echo_delay_ns_ = 0;
 };
 
 }  // namespace strainwave::testing

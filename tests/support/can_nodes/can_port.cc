@@ -21,9 +21,14 @@ namespace {
 
 }  // namespace
 
-CanPort::CanPort(const std::string& interface)
+CanPort::CanPort(const std::string& interface, const std::vector<AcceptanceFilter>& filters)
     : descriptor_(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)) {
   if (descriptor_ < 0) fail("this kernel gives no CAN socket (is the module can-raw there?)");
+  std::vector<can_filter> accepted;
+  for (const AcceptanceFilter& filter : filters) accepted.push_back({filter.id, filter.mask | CAN_EFF_FLAG});
+  if (::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, accepted.data(),
+                   static_cast<socklen_t>(accepted.size() * sizeof(can_filter))) != 0)
+    fail("setting CAN filters");
   const unsigned index = ::if_nametoindex(interface.c_str());
   sockaddr_can address{};
   address.can_family = AF_CAN;

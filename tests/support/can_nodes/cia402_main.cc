@@ -80,7 +80,8 @@ int run(int argc, char** argv) {
   add_options(app, options, config);
   CLI11_PARSE(app, argc, argv);
   finish(options, config);
-  CanPort port(options.interface);
+  // Network management, SYNC, heartbeats, and of the predefined connection set what has this node's number.
+  CanPort port(options.interface, {{0x000}, {0x080}, {0x700, 0x780}, {config.node_id, 0x07F}});
   BusAndRecord output(port);
   Cia402Node node(config, output);
   return run_node(node, port, output, options.control);

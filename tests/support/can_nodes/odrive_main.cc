@@ -21,6 +21,8 @@ int run(int argc, char** argv) {
   std::string ambient = "constant:25";
   double gear_ratio = kReferenceGearRatio;
   double encoder_ms = 10.0;
+  double heartbeat_ms = 100.0;
+  double temperature_ms = 0.0;
   int node_id = 0;
   std::string encoder_side = "motor";
   bool reversed = false;
@@ -36,6 +38,9 @@ int run(int argc, char** argv) {
   app.add_option("--watchdog", config.watchdog_timeout_s, "its time-out in s");
   app.add_option("--watchdog-enabled", config.watchdog_enabled);
   app.add_option("--encoder-ms", encoder_ms, "period of the cyclic encoder message; 0: on request only");
+  app.add_option("--heartbeat-ms", heartbeat_ms, "period of the heartbeat");
+  app.add_option("--temperature-ms", temperature_ms,
+                 "period of the cyclic temperature message; 0: on request only");
   CLI11_PARSE(app, argc, argv);
 
   config.node_id = static_cast<std::uint8_t>(node_id);
@@ -44,7 +49,9 @@ int run(int argc, char** argv) {
   config.joint_torque_per_drive_torque = sign * gear_ratio;
   config.ambient = TemperatureProfile::parse(ambient);
   config.encoder_us = static_cast<std::int64_t>(encoder_ms * 1e3);
-  CanPort port(interface);
+  config.heartbeat_us = static_cast<std::int64_t>(heartbeat_ms * 1e3);
+  config.temperature_us = static_cast<std::int64_t>(temperature_ms * 1e3);
+  CanPort port(interface, {{static_cast<std::uint32_t>(config.node_id) << 5, 0x7E0}});
   BusAndRecord output(port);
   OdriveNode node(config, output);
   return run_node(node, port, output, control);

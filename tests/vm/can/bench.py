@@ -64,9 +64,18 @@ bus = "arm"
 node_id = {node_id}
 protocol = "odrive"
 encoder_turns_per_joint_turn = 50
-encoder_counts_per_joint_revolution = 320000
+encoder_counts_per_joint_turn = 320000
 torque_side = "motor"
+drive_heartbeat_s = 0.02
 {can}
+[joint.can.watchdog]
+enabled_endpoint = 190
+timeout_endpoint = 191
+
+[joint.can.motor]
+torque_constant_Nm_A = 0.192
+resistance_ohm = 4.8
+supply_V = 75
 '''
 
 
@@ -198,9 +207,12 @@ class Daemon:
         self.process = subprocess.Popen(['./strainwaved', '--config', f'{name}.toml'], stdin=subprocess.DEVNULL,
                                         stdout=open(f'{name}.out', 'w'), stderr=open(self.log_path, 'w'))
         if wait_for:
-            wait_until(lambda: self.process.poll() is not None or ctl('status', wait_for, timeout_s=0.5)[0] == 0, 10,
-                       'the daemon answers')
-            assert self.process.poll() is None, 'the daemon ended: ' + self.text()
+            self.wait_for(wait_for)
+
+    def wait_for(self, joint):
+        wait_until(lambda: self.process.poll() is not None or ctl('status', joint, timeout_s=0.5)[0] == 0, 10,
+                   'the daemon answers')
+        assert self.process.poll() is None, 'the daemon ended: ' + self.text()
 
     def text(self):
         return self.log_path.read_text()

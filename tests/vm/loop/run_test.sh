@@ -1,5 +1,4 @@
 #!/bin/bash
-# One test program in virtual time: run_test.sh PROGRAM [ARGUMENT...]
+# One test program in virtual time: run_test.sh [NAME=VALUE...] ./PROGRAM [ARGUMENT...]
 set -euo pipefail
-export STRAINWAVE_VIRTUAL_TIME=1
-exec "./$1" "${@:2}"
+exec env STRAINWAVE_VIRTUAL_TIME=1 "$@"

@@ -1,0 +1,79 @@
+#include "client/watch/order_desk.h"
+
+#include <gtest/gtest.h>
+
+#include <strainwave/command_v1.hpp>
+
+#include "client/key_file.h"
+#include "control/input_error.h"
+#include "tests/client/fake_daemon.h"
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+namespace {
+
+class OrderDeskTest : public ::testing::Test {
+ protected:
+  void handle(double seconds, OrderDesk& desk) {
+    for (const Deadline end(seconds); !end.passed();) {
+      connection_.handle(5);
+      desk.tick();
+    }
+  }
+  Connection connection_{"memq://"};
+  FakeDaemon daemon_{connection_, "ARM2", "elbow"};
+  TemporaryFolder folder_;
+};
+
+TEST_F(OrderDeskTest, AStopIsUnsignedAndNeedsNoSession) {
+  OrderDesk desk(connection_, "/nonexistent/key", 0.4);  // a key in trouble must not keep a stop back
+  desk.stop("ARM2", "elbow");
+  handle(0.1, desk);
+  ASSERT_EQ(daemon_.heard().size(), 1U);
+  const auto command = decode_exactly<command_v1>(daemon_.heard()[0].bytes);
+  ASSERT_TRUE(command);
+  EXPECT_EQ(command->action, static_cast<std::int32_t>(Action::kDisable));
+  EXPECT_TRUE(is_unsigned(daemon_.heard()[0].bytes));
+  EXPECT_EQ(desk.message(), "ARM2.elbow: disable accepted");
+  EXPECT_FALSE(desk.alarm());
+}
+
+TEST_F(OrderDeskTest, RepeatsTheSameOrderUntilItIsAnswered) {
+  daemon_.drop = 2;
+  OrderDesk desk(connection_, "", 0.4);
+  desk.stop("ARM2", "elbow");
+  handle(0.5, desk);
+  ASSERT_EQ(daemon_.heard().size(), 3U);
+  EXPECT_EQ(daemon_.heard()[0].bytes, daemon_.heard()[2].bytes);
+  EXPECT_EQ(desk.message(), "ARM2.elbow: disable accepted");
+}
+
+TEST_F(OrderDeskTest, SaysSoWhenNobodyAnswers) {
+  daemon_.drop = 100;
+  OrderDesk desk(connection_, "", 0.2);
+  desk.stop("ARM2", "elbow");
+  handle(0.5, desk);
+  EXPECT_EQ(desk.message(), "ARM2.elbow: disable: no answer");
+  EXPECT_TRUE(desk.alarm());
+  EXPECT_EQ(daemon_.heard().size(), 4U) << "and does not go on for ever";
+}
+
+TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
+  const auto key = folder_.path() / "key";
+  const AuthorizedKey made = write_new_key(key, Role::kOperator, "test");
+  OrderDesk desk(connection_, key, 0.4);
+  daemon_.reason = Reason::kFaulted;
+  daemon_.text = "see its fault\x1b[2J";
+  desk.order("ARM2", "elbow", 4711, Action::kEnable);
+  handle(0.1, desk);
+  ASSERT_EQ(daemon_.heard().size(), 1U);
+  EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[0].bytes)->session_id, 4711);
+  EXPECT_TRUE(verify("ARM2.elbow.COMMAND", made.key, daemon_.heard()[0].bytes));
+  EXPECT_EQ(desk.message(), "ARM2.elbow: enable refused: joint is faulted: see its fault?[2J");
+  EXPECT_TRUE(desk.alarm());
+  OrderDesk without(connection_, "/nonexistent/key", 0.4);
+  EXPECT_THROW(without.order("ARM2", "elbow", 4711, Action::kEnable), InputError);
+}
+
+}  // namespace
+}  // namespace strainwave
