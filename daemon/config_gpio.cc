@@ -138,9 +138,11 @@ double read_encoder(TomlSection section, double period_s, const JointConfig& joi
     if (!counter.count_folder.is_absolute())
       counter.count_folder = "/sys/bus/counter/devices" / counter.count_folder;
     const double least = std::max(3.0, std::ceil(4.0 * fastest_counts_s * period_s));
-    if (section.has("ceiling"))
-      counter.ceiling = static_cast<std::uint64_t>(section.integer_or(
-          "ceiling", 0, static_cast<std::int64_t>(least), std::numeric_limits<std::int64_t>::max()));
+    constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
+    if (section.has("ceiling")) {
+      const auto at_least = static_cast<std::int64_t>(least);
+      counter.ceiling = static_cast<std::uint64_t>(section.integer_or("ceiling", 0, at_least, kLargest));
+    }
     gpio.encoder = counter;
   } else {
     if (!has(gpio.lines, LineRole::kQuadratureA) || !has(gpio.lines, LineRole::kQuadratureB))
