@@ -5,7 +5,8 @@ target_compile_definitions(strainwave_flags INTERFACE STRAINWAVE_VERSION="${PROJ
 if(STRAINWAVE_SANITIZE)
   # Instrumented code hides from GCC what is initialised; its manual says to expect false alarms of this warning.
   target_compile_options(strainwave_flags INTERFACE
-    -fsanitize=${STRAINWAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+    -fsanitize=${STRAINWAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(strainwave_flags INTERFACE -fsanitize=${STRAINWAVE_SANITIZE})
 endif()
 

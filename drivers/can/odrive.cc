@@ -45,7 +45,7 @@ std::uint32_t word_at(const CanFrame& frame, std::size_t offset) noexcept {
 }
 
 double float_at(const CanFrame& frame, std::size_t offset) noexcept {
-  return double{std::bit_cast<float>(word_at(frame, offset))};
+  return static_cast<double>(std::bit_cast<float>(word_at(frame, offset)));
 }
 
 /// Two REAL32 that fill the frame.

@@ -63,7 +63,9 @@ inline void run_cycles(CanNode& node, FuzzInput& input, std::int64_t now_ns,
     if ((order & 0x10U) != 0) node.stop();
     if ((order & 0x20U) != 0) node.clear_fault();
     const bool fault = reading.fault != ActuatorFault::kNone && (order & 0x20U) == 0;
-    node.write({static_cast<double>(static_cast<std::int8_t>(input.byte())), (order & 0x04U) != 0});
+    // The loop never enables a joint in the period in which it is told of a fault.
+    const bool enable = (order & 0x04U) != 0 && !fault;
+    node.write({static_cast<double>(static_cast<std::int8_t>(input.byte())), enable});
     bus.begin(fault, (order & 0x08U) == 0);
     node.transmit(bus);
   }

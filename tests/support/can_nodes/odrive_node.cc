@@ -143,7 +143,7 @@ void OdriveNode::obey(OdriveCommand command, const Frame& frame) {
     case OdriveCommand::kSetInputTorque:
       if (!has(4)) break;
       if (const float torque_Nm = float_at(frame, 0); std::isfinite(torque_Nm))
-        input_torque_Nm_ = double{torque_Nm};
+        input_torque_Nm_ = static_cast<double>(torque_Nm);
       ++inputs_;
       feed_watchdog();
       break;
@@ -171,7 +171,7 @@ void OdriveNode::answer_endpoint(const Frame& frame) {
   if (!enabled && endpoint != config_.watchdog_timeout_endpoint) return;
   if (!reads) {
     if (enabled && frame.length >= 5) config_.watchdog_enabled = frame.data[4] != 0;
-    if (!enabled && frame.length == 8) config_.watchdog_timeout_s = double{float_at(frame, 4)};
+    if (!enabled && frame.length == 8) config_.watchdog_timeout_s = static_cast<double>(float_at(frame, 4));
     return;
   }
   std::vector<std::uint8_t> bytes{0, frame.data[1], frame.data[2], 0};

@@ -37,8 +37,8 @@ class OdriveNodeTest : public ::testing::Test {
   }
   void torque(float torque_Nm) { tell(0x0E, std::bit_cast<std::uint32_t>(torque_Nm), 4); }
   static double float_of(const Frame& frame, std::size_t offset) {
-    return double{
-        std::bit_cast<float>(static_cast<std::uint32_t>(little_endian(frame.bytes().subspan(offset, 4))))};
+    return static_cast<double>(
+        std::bit_cast<float>(static_cast<std::uint32_t>(little_endian(frame.bytes().subspan(offset, 4)))));
   }
   void run(float torque_Nm, int periods) {
     for (int i = 0; i < periods; ++i) {

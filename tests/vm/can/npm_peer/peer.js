@@ -37,7 +37,8 @@ function makeObjects() {
   eds.setDeviceName('A peer written by others', kept);
   eds.setEmcyCobId(0x80 + id, kept);
   eds.addHeartbeatConsumer(127, 1000, kept);
-  eds.setHeartbeatProducerTime(0, kept);
+  // The library would make it 32 bits wide; the standard has 16.
+  addVariable(eds, 0x1017, UNSIGNED16, 0);
   eds.setIdentity({ vendorId: 0xFB, productCode: 0x61500000, revisionNumber: 1, serialNumber: 7 }, kept);
   eds.addSdoServerParameter(0, 0x580 + id, 0x600 + id, kept);
 
@@ -46,7 +47,7 @@ function makeObjects() {
   const mode = addVariable(eds, 0x6060, INTEGER8, 0);
   const modeDisplay = addVariable(eds, 0x6061, INTEGER8, 0, AccessType.READ_ONLY);
   const position = addVariable(eds, 0x6064, INTEGER32, 160000, AccessType.READ_ONLY);
-  const velocity = addVariable(eds, 0x606C, INTEGER32, 0, AccessType.READ_ONLY);
+  addVariable(eds, 0x606C, INTEGER32, 0, AccessType.READ_ONLY);
   const torque = addVariable(eds, 0x6071, INTEGER16, 0);
   const torqueActual = addVariable(eds, 0x6077, INTEGER16, 0, AccessType.READ_ONLY);
   addVariable(eds, 0x6007, INTEGER16, 1);
@@ -68,9 +69,8 @@ function makeObjects() {
 
   // The library maps PDOs when it starts; these are the ones that our driver asks for.
   eds.addReceivePdo({ cobId: 0x200 + id, transmissionType: 1, dataObjects: [controlword, torque] }, kept);
-  eds.addTransmitPdo({ cobId: 0x180 + id, transmissionType: 1, dataObjects: [position, velocity] }, kept);
-  eds.addTransmitPdo({ cobId: 0x280 + id, transmissionType: 1,
-                       dataObjects: [statusword, torqueActual, temperature.at(1)] }, kept);
+  eds.addTransmitPdo({ cobId: 0x180 + id, transmissionType: 1, dataObjects: [position, statusword, torqueActual] }, kept);
+  eds.addTransmitPdo({ cobId: 0x280 + id, transmissionType: 10, dataObjects: [temperature.at(1), modeDisplay] }, kept);
   return { eds, controlword, statusword, mode, modeDisplay };
 }
 
