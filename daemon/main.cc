@@ -10,6 +10,7 @@
 #include "daemon/config.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
+#include "manual/manual.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Real-time control of strain-wave joints whose friction changes with temperature."};
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   app.add_option("--config", config_path, "configuration file (TOML)")->required();
   app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
+  strainwave::add_manual_option(app, "strainwaved");
   CLI11_PARSE(app, argc, argv);
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);
