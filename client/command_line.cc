@@ -33,6 +33,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_identify_command(app, invocation);
   add_log_commands(app, invocation);
   add_key_commands(app, invocation);
+  add_hardware_commands(app, invocation);
 }
 
 /// The arguments as CLI11 takes them: last first, and "-.5" as "-0.5", which it would take for an option.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "client/client.h"
+#include "drivers/injected_fault.h"
 #include "lcmtypes/key_text.h"
 
 namespace strainwave {
@@ -98,6 +99,8 @@ void enable(Client& client, const Output& output, const std::string& joint);
 void disable(Client& client, const Output& output, const std::string& joint);
 void hold(Client& client, const Output& output, const std::string& joint);
 void clear_fault(Client& client, const Output& output, const std::string& joint);
+/// Returns once the joint holds, homed.
+void home(Client& client, const Output& output, const std::string& joint);
 
 /// Moves to `position_rad`; with `wait`, returns once the joint holds there.
 struct MoveArguments {
@@ -116,6 +119,26 @@ struct LoadTableArguments {
 };
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
 
+/// Uses the previous gain table again; an engineer's order, as loading one is.
+void revert_table(Client& client, const Output& output, const std::string& joint);
+
+/// Injects a fault into a simulated drive, or ends all of them (kNone).
+struct InjectArguments {
+  std::string joint;
+  InjectedFault kind = InjectedFault::kNone;
+  double amount = 0.0;
+  double for_s = 0.0;  ///< 0: until ended
+};
+void inject(Client& client, const Output& output, const InjectArguments& arguments);
+/// Throws ClientError (usage) that names what is allowed: no such kind, amount missing, needless or out of
+/// range.
+InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
+                                double for_s);
+
+/// Prints every digital line of a daemon's configuration, its level and who holds it, without touching outputs. Throws when one
+/// cannot be used. strainwaved does the work; it need not run.
+void gpio_check(const Output& output, const std::filesystem::path& config);
+
 /// Makes a key pair: the secret key in `out`, its public line in `out`.pub. Neither may exist.
 struct KeygenArguments {
   std::filesystem::path out;
@@ -123,6 +146,11 @@ struct KeygenArguments {
   std::optional<std::string> comment;  ///< nothing: user@host
 };
 void keygen(const Output& output, const KeygenArguments& arguments);
+
+/// Who answers on a CAN bus; reads only.
+void can_scan(const Output& output, const std::string& interface_name);
+/// Runs the daemon's own start-up of the drives of `config`, without enabling any.
+void can_check(const Output& output, const std::filesystem::path& config);
 
 /// Throws ClientError (refused) with the reason unless `answer` accepts what `what` names.
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,

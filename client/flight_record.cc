@@ -66,7 +66,7 @@ std::string printable(const std::string& text) {
 
 std::string mode_names() {
   std::string tics;
-  for (int mode = 0; mode <= static_cast<int>(Mode::kFaulted); ++mode)
+  for (int mode = 0; mode <= static_cast<int>(Mode::kHoming); ++mode)
     tics += fmt::format("{}'{}' {}", mode == 0 ? "" : ", ", to_text(static_cast<Mode>(mode)), mode);
   return tics;
 }

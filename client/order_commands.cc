@@ -1,8 +1,9 @@
-// enable, disable, hold, clear-fault, move: one message each, its answer, and where asked the mode that
+// enable, disable, hold, clear-fault, home, revert-table, move: one message each, its answer, and where asked the mode that
 // follows.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
@@ -39,34 +40,40 @@ ClientError faulted(const std::string& joint, const JointView& view) {
                       view.state.fault, to_text(fault), joint)};
 }
 
-/// What ends the wait of a move before the joint is there, in words; empty while it is on its way.
-std::string move_ended(const JointView& view, double position_rad, std::int64_t session_id) {
+/// A motion that is waited for.
+struct Motion {
+  Mode mode;                                                 ///< while it lasts
+  std::string purpose;                                       ///< in words, after "did not"
+  std::function<bool(const JointView&)> replaced = nullptr;  ///< by another order of this kind; null: cannot be
+};
+
+/// What ends the wait before the joint is there, in words; empty while it is on its way.
+std::string motion_ended(const JointView& view, const Motion& motion, std::int64_t session_id) {
   if (view.state.session_id != session_id) return "the daemon was restarted";
   const Mode mode = mode_of(view);
   if (mode == Mode::kOff || mode == Mode::kStopping) return "the joint was disabled";
-  if (view.state.target_position_rad != position_rad) return "another order replaced this one";
+  if (motion.replaced && motion.replaced(view)) return "another order replaced this one";
   return "";
 }
 
-void wait_for_arrival(Client& client, const std::string& joint, double position_rad) {
+void wait_until_holding(Client& client, const std::string& joint, const Motion& motion) {
   const JointView& view = *client.find(joint);
   const std::int64_t session_id = view.state.session_id;
   const Deadline old_states(kOldStates_s);
-  bool tracking_seen = false;
+  bool motion_seen = false;
   while (true) {
     const std::int64_t seen = view.messages;
     if (!client.wait_until([&] { return view.messages != seen; }, Deadline(client.options().timeout_s))) {
       throw ClientError(
           ExitStatus::kNoAnswer,
-          fmt::format("{}: the daemon fell silent during the move; the joint's state is not known", joint));
+          fmt::format("{}: the daemon fell silent during the motion; the joint's state is not known", joint));
     }
     const Mode mode = mode_of(view);
     if (mode == Mode::kFaulted) throw faulted(joint, view);
-    tracking_seen = tracking_seen || mode == Mode::kTracking;
-    if (!tracking_seen && !old_states.passed()) continue;
-    if (const std::string end = move_ended(view, position_rad, session_id); !end.empty()) {
-      throw ClientError(ExitStatus::kRefused,
-                        fmt::format("{}: did not arrive at {} rad: {}", joint, position_rad, end));
+    motion_seen = motion_seen || mode == motion.mode;
+    if (!motion_seen && !old_states.passed()) continue;
+    if (const std::string end = motion_ended(view, motion, session_id); !end.empty()) {
+      throw ClientError(ExitStatus::kRefused, fmt::format("{}: did not {}: {}", joint, motion.purpose, end));
     }
     if (mode == Mode::kHolding) return;
   }
@@ -128,6 +135,26 @@ void clear_fault(Client& client, const Output& output, const std::string& joint)
   output.stream << joint << ": fault cleared; enable it to go on\n";
 }
 
+void revert_table(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kRevertTable);
+  output.stream << joint << ": the previous table is in use again\n";
+}
+
+void home(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kHome);
+  try {
+    wait_until_holding(client, joint, {Mode::kHoming, "find home"});
+  } catch (const ClientError& error) {
+    if (error.status() != ExitStatus::kInterrupted) throw;
+    throw ClientError(error.status(),
+                      fmt::format("stopped waiting; {0} goes on homing. To stop it: strainwavectl hold {0}", joint));
+  }
+  const state_v1& state = client.find(joint)->state;
+  if ((state.notices & static_cast<std::int32_t>(Notice::kNotHomed)) != 0)
+    throw ClientError(ExitStatus::kRefused, joint + ": homing was stopped before it found home");
+  output.stream << fmt::format("{}: homed, holding at {:.6f} rad\n", joint, state.joint_position_rad);
+}
+
 void move(Client& client, const Output& output, const MoveArguments& arguments) {
   const auto& [joint, position_rad, wait, speed_limit_rad_s] = arguments;
   setpoint_v1 message{};
@@ -146,7 +173,9 @@ void move(Client& client, const Output& output, const MoveArguments& arguments) 
     return;
   }
   try {
-    wait_for_arrival(client, joint, position_rad);
+    wait_until_holding(client, joint,
+                       {Mode::kTracking, fmt::format("arrive at {} rad", position_rad),
+                        [&](const JointView& view) { return view.state.target_position_rad != position_rad; }});
   } catch (const ClientError& error) {
     if (error.status() != ExitStatus::kInterrupted) throw;
     throw ClientError(error.status(),

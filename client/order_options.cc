@@ -1,4 +1,4 @@
-// enable, disable, move, hold, clear-fault, load-table.
+// enable, disable, move, hold, clear-fault, home, load-table, revert-table, inject.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -67,6 +67,22 @@ void add_load_table(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_inject(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("inject", "give a simulated drive a fault, for tests (none: end them)");
+  auto joint = std::make_shared<std::string>();
+  auto kind = std::make_shared<std::string>();
+  auto amount = std::make_shared<double>(0.0);
+  auto for_s = std::make_shared<double>(0.0);
+  add_joint(*command, *joint)->required();
+  command->add_option("FAULT", *kind, "sensor_nan, power_lost, ...: see docs/faults.md")->required()->type_name("");
+  command->add_option("--amount", *amount, "how much, for the faults that have an amount")->type_name("NUMBER");
+  add_seconds(*command, "--for_s", *for_s, "how long; otherwise until ended");
+  command->callback([&invocation, joint, kind, amount, for_s] {
+    const InjectArguments arguments = parse_injection(*joint, *kind, *amount, *for_s);
+    invocation.command = [arguments](Client& client, const Output& output) { inject(client, output, arguments); };
+  });
+}
+
 }  // namespace
 
 void add_order_commands(CLI::App& app, Invocation& invocation) {
@@ -75,7 +91,10 @@ void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_move(app, invocation);
   add_order(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
+  add_order(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);
+  add_order(app, invocation, "revert-table", "use the previous gain table again", revert_table);
+  add_inject(app, invocation);
 }
 
 }  // namespace strainwave

@@ -33,6 +33,7 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("gains_in_use", state.gains_in_use);
   visit("temperature_status", state.temperature_status);
   visit("faults_total", state.faults_total);
+  visit("drive_error", state.drive_error);
 }
 
 }  // namespace strainwave

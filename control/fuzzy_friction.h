@@ -9,10 +9,9 @@
 #include <cstdint>
 
 #include "control/friction.h"
+#include "control/memberships.h"
 
 namespace strainwave {
-
-inline constexpr int kMaxTemperatureRules = 16;
 
 /// One rule of layer 1: "if T is about center_C, friction is ...". width_C > 0.
 struct TemperatureRule {
@@ -29,14 +28,8 @@ struct VelocityMemberships {
   double high_center_rad_s = 1.0;
   double high_width_rad_s = 1.0;
 
-  /// alpha_0 = mu_zero / (mu_zero + mu_high), in (0, 1), even in velocity.
+  /// alpha_0; see ZeroVelocityWeight, which the loop keeps prepared.
   double zero_weight(double velocity_rad_s) const noexcept;
-};
-
-/// Normalised memberships of layer 1: each >= 0, sum 1 over the first `count`.
-struct TemperatureWeights {
-  std::array<double, kMaxTemperatureRules> weight{};
-  std::int32_t count = 0;
 };
 
 /// The whole model, as it travels in a gain table. 1 <= rule_count <= kMaxTemperatureRules, centres
@@ -48,8 +41,7 @@ struct FuzzyFriction {
   double temperature_min_C = 0.0;  ///< Range the rules were fitted over; temperatures are clamped to it.
   double temperature_max_C = 0.0;
 
-  /// Memberships at `temperature_C`, normalised in the log domain so that they never become 0/0 far from
-  /// every centre. The temperature is clamped to the table's range first; it must not be NaN.
+  /// Memberships at `temperature_C`; see TemperatureMemberships, which the loop keeps prepared.
   TemperatureWeights weights(double temperature_C) const noexcept;
 
   /// Layer 1: the friction parameters blended by `weights`.

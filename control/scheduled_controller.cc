@@ -25,9 +25,19 @@ double velocity_error_rad_s(const ControllerInput& input) noexcept {
 
 ScheduledController::ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
                                          const PlantIdentity& plant) noexcept
-    : gains_(gains), friction_(friction), plant_(plant) {
+    : memberships_(friction),
+      zero_weight_(friction.velocity),
+      zero_velocity_gain_(gains.gain(0)),
+      period_s_(plant.period_s),
+      scheduled_(gains.scheduled()),
+      has_integrator_(gains.has_integrator != 0) {
+  for (int i = 0; i < friction.rule_count; ++i) {
+    const FrictionParameters& parameters = friction.rules[static_cast<std::size_t>(i)].friction;
+    rules_.col(i) << parameters.static_Nm, parameters.coulomb_Nm, parameters.viscous_Nms_rad,
+        gains.gain(scheduled_ ? i + 1 : 0).transpose();
+  }
   const StateMatrix P = gains.lyapunov(0);
-  if (gains.has_integrator != 0 && P(0, 0) > 0.0) {
+  if (has_integrator_ && P(0, 0) > 0.0) {
     position_share_s_ = P(0, 1) / P(0, 0);
     velocity_share_s2_ = P(0, 2) / P(0, 0);
   }
@@ -35,15 +45,16 @@ ScheduledController::ScheduledController(const FeedbackGains& gains, const Fuzzy
 }
 
 void ScheduledController::set_temperature(double temperature_C) noexcept {
-  weights_ = friction_.weights(temperature_C);
-  blended_friction_ = friction_.blend(weights_);
-  if (!gains_.scheduled()) {
-    high_velocity_gain_ = gains_.gain(0);
-    return;
-  }
-  high_velocity_gain_.setZero();
+  const double scale = memberships_.evaluate(temperature_C, weights_);
+  Blend blend = Blend::Zero();
   for (int i = 0; i < weights_.count; ++i)
-    high_velocity_gain_ += weights_.weight[static_cast<std::size_t>(i)] * gains_.gain(i + 1);
+    blend += weights_.weight[static_cast<std::size_t>(i)] * rules_.col(i);
+  // Normalised last: the sum of the memberships and its reciprocal are computed beside the blend, not before
+  // it.
+  blend *= scale;
+  weights_.scale_by(scale);
+  blended_friction_ = {blend(0), blend(1), blend(2)};
+  high_velocity_gain_ = blend.tail<3>().transpose();
 }
 
 double ScheduledController::friction_torque_Nm(const ControllerInput& input,
@@ -60,12 +71,15 @@ double ScheduledController::friction_torque_Nm(const ControllerInput& input,
 ScheduledController::Terms ScheduledController::evaluate(const ControllerInput& input) const noexcept {
   const StateVector x{integral_rad_s_, position_error_rad(input), velocity_error_rad_s(input)};
   const double planned_Nm = input.planned ? input.planned_torque_Nm : 0.0;
-  if (!gains_.scheduled()) return {high_velocity_gain_.dot(x), planned_Nm, high_velocity_gain_(0), 1.0};
+  if (!scheduled_) return {zero_velocity_gain_.dot(x), planned_Nm, zero_velocity_gain_(0), 1.0};
 
-  const double zero_weight = friction_.velocity.zero_weight(input.joint_velocity_rad_s);
-  const GainRow gain = zero_weight * gains_.gain(0) + (1.0 - zero_weight) * high_velocity_gain_;
+  const double zero_weight = zero_weight_.at(input.joint_velocity_rad_s);
+  const double at_zero_Nm = zero_velocity_gain_.dot(x);
+  const double at_speed_Nm = high_velocity_gain_.dot(x);
   const double feedforward_Nm = input.planned ? planned_Nm : friction_torque_Nm(input, zero_weight);
-  return {gain.dot(x), feedforward_Nm, gain(0), zero_weight};
+  return {at_speed_Nm + zero_weight * (at_zero_Nm - at_speed_Nm), feedforward_Nm,
+          high_velocity_gain_(0) + zero_weight * (zero_velocity_gain_(0) - high_velocity_gain_(0)),
+          zero_weight};
 }
 
 double ScheduledController::fast_part(const ControllerInput& input,
@@ -76,7 +90,7 @@ double ScheduledController::fast_part(const ControllerInput& input,
 
 // Saturation and setpoint jumps leave the slow part of the state as it was; planned motion makes no jumps.
 void ScheduledController::keep_slow_part(const ControllerInput& input) noexcept {
-  if (gains_.has_integrator == 0) return;
+  if (!has_integrator_) return;
   const double last_setpoint_rad = has_setpoint_ ? last_setpoint_rad_ : input.joint_position_rad;
   const bool jumped = !input.planned && input.setpoint_position_rad != last_setpoint_rad;
   if (jumped && !saturated_) slow_rad_s_ = integral_rad_s_ + fast_part(input, last_setpoint_rad);
@@ -87,11 +101,12 @@ ControllerOutput ScheduledController::step(const ControllerInput& input) noexcep
   keep_slow_part(input);
   const Terms terms = evaluate(input);
   const double wanted_Nm = terms.feedback_Nm + terms.feedforward_Nm;
-  const double torque_Nm = std::clamp(wanted_Nm, std::max(-input.torque_limit_Nm, input.torque_min_Nm),
-                                      std::min(input.torque_limit_Nm, input.torque_max_Nm));
+  const double lowest_Nm = std::max(-input.torque_limit_Nm, input.torque_min_Nm);
+  const double highest_Nm = std::min(input.torque_limit_Nm, input.torque_max_Nm);
+  const double torque_Nm = std::min(std::max(wanted_Nm, lowest_Nm), highest_Nm);
   saturated_ = torque_Nm != wanted_Nm;
   slow_rad_s_ = integral_rad_s_ + fast_part(input, input.setpoint_position_rad);
-  if (gains_.has_integrator != 0) integral_rad_s_ += plant_.period_s * position_error_rad(input);
+  if (has_integrator_) integral_rad_s_ += period_s_ * position_error_rad(input);
   last_setpoint_rad_ = input.setpoint_position_rad;
   has_setpoint_ = true;
   return {torque_Nm, terms.feedback_Nm, terms.feedforward_Nm, terms.zero_weight, saturated_};
@@ -105,16 +120,17 @@ void ScheduledController::reset() noexcept {
 }
 
 double ScheduledController::integral_torque_Nm() const noexcept {
-  if (!gains_.scheduled()) return high_velocity_gain_(0) * integral_rad_s_;
-  const double zero_weight = friction_.velocity.zero_weight(0.0);
-  return (zero_weight * gains_.gain(0)(0) + (1.0 - zero_weight) * high_velocity_gain_(0)) * integral_rad_s_;
+  if (!scheduled_) return zero_velocity_gain_(0) * integral_rad_s_;
+  const double zero_weight = zero_weight_.at(0.0);
+  return (zero_weight * zero_velocity_gain_(0) + (1.0 - zero_weight) * high_velocity_gain_(0)) *
+         integral_rad_s_;
 }
 
 void ScheduledController::carry_over(const ControllerInput& input, double torque_Nm) noexcept {
   last_setpoint_rad_ = input.setpoint_position_rad;
   has_setpoint_ = true;
   saturated_ = false;
-  if (gains_.has_integrator == 0) return;
+  if (!has_integrator_) return;
   const Terms terms = evaluate(input);
   if (terms.integral_gain != 0.0)
     integral_rad_s_ += (torque_Nm - terms.feedback_Nm - terms.feedforward_Nm) / terms.integral_gain;

@@ -20,6 +20,7 @@
 // certificate still holds.
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "control/gain_table.h"
@@ -54,7 +55,7 @@ struct ControllerOutput {
 class ScheduledController {
  public:
   ScheduledController() = default;
-  /// `gains` and `friction` must have passed find_defect(); they are copied.
+  /// `gains` and `friction` must have passed find_defect(). What the law needs of them is copied.
   ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
                       const PlantIdentity& plant) noexcept;
 
@@ -88,9 +89,18 @@ class ScheduledController {
   void keep_slow_part(const ControllerInput& input) noexcept;
   double fast_part(const ControllerInput& input, double setpoint_position_rad) const noexcept;
 
-  FeedbackGains gains_;
-  FuzzyFriction friction_;
-  PlantIdentity plant_;
+  /// What layer 1 blends, a column per temperature rule: static_Nm, coulomb_Nm, viscous_Nms_rad, then the
+  /// gain at high velocity. One array, so that the blend is one sum of vectors.
+  using Blend = Eigen::Matrix<double, 6, 1>;
+  Eigen::Matrix<double, 6, kMaxTemperatureRules> rules_ =
+      Eigen::Matrix<double, 6, kMaxTemperatureRules>::Zero();
+  TemperatureMemberships memberships_;
+  ZeroVelocityWeight zero_weight_;
+  GainRow zero_velocity_gain_ = GainRow::Zero();  ///< F_0; of a controller without temperature its only gain
+  double period_s_ = 0.0;
+  bool scheduled_ = false;
+  bool has_integrator_ = false;
+
   TemperatureWeights weights_;
   FrictionParameters blended_friction_;           ///< at the last temperature
   GainRow high_velocity_gain_ = GainRow::Zero();  ///< sum_i w_i F_i at the last temperature

@@ -55,6 +55,7 @@ std::optional<OrderKind> order_of(Action action) {
     case Action::kHold: return OrderKind::kHold;
     case Action::kClearFault: return OrderKind::kClearFault;
     case Action::kRevertTable: return OrderKind::kUseTable;
+    case Action::kHome: return OrderKind::kHome;
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <system_error>
@@ -68,6 +69,14 @@ std::optional<std::size_t> AuthorizedKeys::find(const KeyId& id) const noexcept 
   const auto found =
       std::find_if(keys_.begin(), keys_.end(), [&](const AuthorizedKey& key) { return key.key.id() == id; });
   return found == keys_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - keys_.begin()));
+}
+
+std::filesystem::path credential_or_file(const std::filesystem::path& path) {
+  const char* folder = std::getenv("CREDENTIALS_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
+  if (folder == nullptr || *folder == '\0') return path;
+  std::error_code unreadable;
+  const std::filesystem::path credential = std::filesystem::path(folder) / path.filename();
+  return std::filesystem::exists(credential, unreadable) ? credential : path;
 }
 
 AuthorizedKeys read_authorized_keys(const std::filesystem::path& path) {

@@ -33,6 +33,10 @@ struct SecurityPolicy {
   bool unsigned_allowed = false;  ///< orders without a signature are obeyed: for simulated joints only
 };
 
+/// The credential of the same file name, if the service manager hands one over ($CREDENTIALS_DIRECTORY; LoadCredential= in
+/// the unit): the file itself may then be readable by root alone. Otherwise `path`.
+std::filesystem::path credential_or_file(const std::filesystem::path& path);
+
 /// Reads `path`: a key per line, see lcmtypes/key_text.h; empty lines and lines that begin with # are
 /// skipped. Throws InputError with file and line: unreadable, writable by everyone, owned by a third user, no
 /// key, a defective line, a key twice.

@@ -10,7 +10,11 @@
 #include <toml++/toml.h>
 
 #include "control/input_error.h"
+#include "daemon/config_can.h"
+#include "daemon/config_gpio.h"
+#include "daemon/config_homing.h"
 #include "daemon/config_simulated.h"
+#include "daemon/config_thermometer.h"
 #include "daemon/toml_section.h"
 #include "lcmtypes/channels.h"
 
@@ -115,7 +119,7 @@ void read_features(TomlSection section, JointControllerConfig& controller) {
   section.refuse_unknown_keys();
 }
 
-JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder) {
+JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder, CanConfig& can) {
   JointConfig joint;
   joint.name = read_name(section, "name", "");
   joint.plant.joint_model = FixedString<32>(section.text("joint_model"));
@@ -131,10 +135,22 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.loop.fault_stops_group && joint.group.empty()) section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   read_features(section.section_or_empty("control"), joint.loop.controller);
-  joint.driver = section.choice("driver", {"simulated"});
+  joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
+  if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
+  if (joint.thermometer && joint.driver == "simulated")
+    section.fail("thermometer", "a sensor of a real drive is allowed: the simulated one has its own temperature");
   TomlSection driver = section.section_or_empty(joint.driver);
-  read_simulated_driver(driver, period_s, joint);
+  if (joint.thermometer && driver.has("temperature"))
+    section.fail("thermometer", "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
+  HomingInputs inputs;
+  if (joint.driver == "can")
+    can.read_joint(driver, joint);
+  else if (joint.driver == "gpio")
+    inputs = read_gpio_driver(driver, section.full_name("gpio"), period_s, joint);
+  else
+    inputs = read_simulated_driver(driver, period_s, joint);
   driver.refuse_unknown_keys();
+  read_homing(section.section_or_empty("homing"), inputs, joint);
   section.refuse_unknown_keys();
   return joint;
 }
@@ -169,7 +185,7 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
   if (security.unsigned_allowed && !simulated)
     section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
   if (section.has("authorized_keys"))
-    security.keys = read_authorized_keys(folder / section.text("authorized_keys"));
+    security.keys = read_authorized_keys(credential_or_file(folder / section.text("authorized_keys")));
   else if (!security.unsigned_allowed)
     section.fail("authorized_keys", "give the file with the public keys that may give orders (strainwavectl keygen makes "
                                     "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
@@ -203,13 +219,15 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   config.gateway_user = read_gateway_user(daemon);
   daemon.refuse_unknown_keys();
 
+  CanConfig can(root, config.loop.period_s);
   std::vector<TomlSection> joints = root.sections("joint");
   if (joints.size() > kMaxJoints) root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");
   std::set<std::string> names;
   for (TomlSection& section : joints) {
-    config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path()));
+    config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can));
     if (!names.insert(config.joints.back().name).second) section.fail("name", "each joint needs a name of its own");
   }
+  config.buses = can.buses();
   number_groups(config.joints);
   config.recorder = read_recorder(root.section_or_empty("recorder"), path.parent_path());
   const double recorder_MB = static_cast<double>(config.joints.size() * sizeof(FlightSample)) *

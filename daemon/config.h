@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@
 #include "daemon/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
 #include "drivers/actuator.h"
+#include "drivers/fieldbus.h"
+#include "drivers/temperature_file.h"
 
 namespace strainwave {
 
@@ -30,6 +34,9 @@ struct LoopConfig {
   double state_rate_Hz = 200.0;
 };
 
+/// What ActuatorReading::drive_error says with `fault`, in words.
+using DriveErrorText = std::string (*)(Fault fault, std::uint32_t drive_error);
+
 /// Makes the joint's driver; called once, before the loop runs. Throws InputError.
 using ActuatorFactory = std::function<std::unique_ptr<Actuator>()>;
 
@@ -41,8 +48,20 @@ struct JointConfig {
   std::string group;             ///< name of the joints that stop together; empty: none
   bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
-  ActuatorFactory make_actuator;
+  std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
+  ActuatorFactory make_actuator;  ///< of a drive of its own; unused when `bus` says which bus makes it
+  /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
+  std::function<bool(std::ostream&)> describe_lines;
+  DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
+  int bus = -1;                   ///< index in DaemonConfig::buses; -1: on none
+  std::size_t bus_slot = 0;       ///< the drive's place on that bus
   std::filesystem::path table;  ///< initial gain table; empty: none
+};
+
+/// What several joints share.
+struct BusConfig {
+  std::string name;
+  FieldbusFactory make_bus;
 };
 
 struct DaemonConfig {
@@ -52,6 +71,7 @@ struct DaemonConfig {
   std::string lcm_url;
   GatewayUser gateway_user;
   SecurityPolicy security;
+  std::vector<BusConfig> buses;
   std::vector<JointConfig> joints;
 };
 

@@ -1,5 +1,7 @@
 #include "daemon/config_simulated.h"
 
+#include <numbers>
+
 #include "control/input_error.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "drivers/faulty_actuator.h"
@@ -44,9 +46,30 @@ std::vector<Injection> read_faults(TomlSection& section) {
   return faults;
 }
 
+// Switches and index; what the joint has none of stays away.
+HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInputsConfig& inputs) {
+  constexpr Range kPosition{-1e3, 1e3};
+  HomingInputs available;
+  available.negative_limit = section.has("negative_limit_rad");
+  if (available.negative_limit) inputs.negative_limit_rad = section.number("negative_limit_rad", kPosition);
+  available.positive_limit = section.has("positive_limit_rad");
+  if (available.positive_limit) inputs.positive_limit_rad = section.number("positive_limit_rad", kPosition);
+  available.home = section.has("home_from_rad") || section.has("home_to_rad");
+  if (available.home) {
+    inputs.home_from_rad = section.number("home_from_rad", kPosition);
+    inputs.home_to_rad = section.number("home_to_rad", {inputs.home_from_rad, kPosition.max});
+  }
+  available.index = section.has("index_rad");
+  if (available.index) {
+    inputs.index_rad = section.number("index_rad", kPosition);
+    inputs.index_spacing_rad = 2.0 * std::numbers::pi / gear_ratio;
+  }
+  return available;
+}
+
 }  // namespace
 
-void read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint) {
+HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint) {
   const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
   SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
@@ -59,6 +82,8 @@ void read_simulated_driver(TomlSection& section, double period_s, JointConfig& j
   }
   config.plant.substeps = static_cast<int>(section.integer_or("substeps", config.plant.substeps, 1, 1000));
   config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
+  config.incremental = section.boolean_or("incremental", config.incremental);
+  const HomingInputs available = read_inputs(section, joint.plant.gear_ratio, config.inputs);
   config.ambient = read_profile(section);
   config.load_torque_Nm = section.number_or("load_torque_Nm", 0.0, {-1e3, 1e3});
   config.enable_delay_s = section.number_or("enable_delay_s", config.enable_delay_s, {0.0, 10.0});
@@ -75,6 +100,7 @@ void read_simulated_driver(TomlSection& section, double period_s, JointConfig& j
   joint.make_actuator = [config, faults] {
     return std::make_unique<FaultyActuator>(std::make_unique<SimulatedActuator>(config), faults);
   };
+  return available;
 }
 
 }  // namespace strainwave

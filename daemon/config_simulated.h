@@ -2,12 +2,13 @@
 #pragma once
 
 #include "daemon/config.h"
+#include "daemon/config_homing.h"
 #include "daemon/toml_section.h"
 
 namespace strainwave {
 
 /// Reads the section and sets what depends on the driver: make_actuator and the encoder, delay and motor data of the
-/// controller. Throws InputError.
-void read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint);
+/// controller. What the joint can be homed by. Throws InputError.
+HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint);
 
 }  // namespace strainwave

@@ -1,5 +1,6 @@
 #include "daemon/gateway_process.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -26,23 +27,37 @@ constexpr std::int64_t kStable_ns = 5'000'000'000;
 }  // namespace
 
 GatewayProcess::GatewayProcess(std::string program, Descriptors descriptors)
-    : program_(std::move(program)), descriptors_(descriptors), backoff_ns_(kFirstBackoff_ns) {}
+    : program_(std::move(program)), descriptors_(descriptors), backoff_ns_(kFirstBackoff_ns) {
+  open_program();
+}
 
 GatewayProcess::~GatewayProcess() {
+  if (program_fd_ >= 0) ::close(program_fd_);
   if (pid_ <= 0) return;
   ::kill(pid_, SIGKILL);
   ::waitpid(pid_, nullptr, 0);
 }
 
+void GatewayProcess::open_program() {
+  if (program_fd_ < 0) program_fd_ = ::open(program_.c_str(), O_PATH | O_CLOEXEC);
+}
+
 void GatewayProcess::start(std::int64_t now_ns) {
+  open_program();
+  if (program_fd_ < 0) {
+    const int error = errno;
+    back_off(now_ns);
+    throw std::system_error(error, std::generic_category(), "starting " + program_);
+  }
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawnattr_init(&attributes);
   // Two rounds: the fixed numbers may be in use by the very descriptors that are to be moved there.
   constexpr int kAway = 64;
-  const std::array<int, 3> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake};
-  for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_adddup2(&actions, from[static_cast<std::size_t>(i)], kAway + i);
+  constexpr int kProgram = kAway + 3;
+  const std::array<int, 4> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_};
+  for (int i = 0; i < 4; ++i) ::posix_spawn_file_actions_adddup2(&actions, from[static_cast<std::size_t>(i)], kAway + i);
   for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_adddup2(&actions, kAway + i, kGatewayOutboundFd + i);
   for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_addclose(&actions, kAway + i);
   sigset_t none;
@@ -52,7 +67,8 @@ void GatewayProcess::start(std::int64_t now_ns) {
   std::string name = "strainwave-gateway";
   std::array<char*, 2> arguments{name.data(), nullptr};
   pid_t pid = -1;
-  const int error = ::posix_spawn(&pid, program_.c_str(), &actions, &attributes, arguments.data(), environ);
+  const std::string held = "/proc/self/fd/" + std::to_string(kProgram);
+  const int error = ::posix_spawn(&pid, held.c_str(), &actions, &attributes, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
   if (error != 0) {

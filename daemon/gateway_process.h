@@ -24,6 +24,7 @@ class GatewayProcess {
     int inbound;
     int wake;
   };
+  /// Opens `program` and keeps it: after an upgrade of the package, the running core goes on with the gateway it knows.
   GatewayProcess(std::string program, Descriptors descriptors);
   /// Ends the child.
   ~GatewayProcess();
@@ -45,9 +46,11 @@ class GatewayProcess {
   pid_t pid() const noexcept { return pid_; }
 
  private:
+  void open_program();
   void back_off(std::int64_t now_ns) noexcept;
 
   std::string program_;
+  int program_fd_ = -1;
   Descriptors descriptors_;
   pid_t pid_ = -1;
   int last_exit_status_ = 0;

@@ -1,12 +1,16 @@
 #include "daemon/gateway_user.h"
 
 #include <pwd.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <optional>
+#include <system_error>
 
 #include "control/input_error.h"
+#include "daemon/sanitized.h"
 
 namespace strainwave {
 
@@ -58,6 +62,12 @@ GatewayUser default_gateway_user() {
     if (user && user->uid != 0 && can_become(*user)) return *user;
   }
   return {};
+}
+
+void hide_memory_from_own_user() {
+  // The sanitizers' search for leaks traces its own process.
+  if (!kSanitized && ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
+    throw std::system_error(errno, std::generic_category(), "hiding the daemon's memory");
 }
 
 }  // namespace strainwave

@@ -1,21 +1,74 @@
 #include "daemon/log.h"
 
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/sinks/systemd_sink.h>
+#include <poll.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/ansicolor_sink.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <memory>
+#include <string>
 
 namespace strainwave {
 
+namespace {
+
+bool takes_a_line(int file) {
+  pollfd descriptor{file, POLLOUT, 0};
+  return ::poll(&descriptor, 1, 0) > 0 && (descriptor.revents & POLLOUT) != 0;
+}
+
+/// stderr, without ever waiting for its reader: a pager that nobody pages, or a journal that hangs, must not
+/// keep the supervisor from passing on a stop. What is not taken at once is lost, and the next line that is
+/// taken says how many.
+class NeverWaitingSink final : public spdlog::sinks::ansicolor_stderr_sink_mt {
+ public:
+  void log(const spdlog::details::log_msg& message) override {
+    if (!takes_a_line(STDERR_FILENO)) {
+      lost_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    if (const std::int64_t lost = lost_.exchange(0, std::memory_order_relaxed); lost > 0) {
+      const std::string text = std::to_string(lost) + " lines of this log were lost: nobody took them";
+      Base::log({message.logger_name, spdlog::level::warn, text});
+    }
+    Base::log(message);
+  }
+
+ private:
+  using Base = spdlog::sinks::ansicolor_stderr_sink_mt;
+  std::atomic<std::int64_t> lost_ = 0;
+};
+
+/// "%*": the level as the journal reads it at the start of a line, "<3>" for an error (sd-daemon(3)).
+class JournalLevel final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
+              spdlog::memory_buf_t& out) override {
+    const char level = message.level >= spdlog::level::critical ? '2'
+                       : message.level == spdlog::level::err    ? '3'
+                       : message.level == spdlog::level::warn   ? '4'
+                       : message.level == spdlog::level::info   ? '6'
+                                                                : '7';
+    for (const char character : {'<', level, '>'}) out.push_back(character);
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<JournalLevel>(); }
+};
+
+}  // namespace
+
 void start_logging() {
+  auto logger = std::make_shared<spdlog::logger>("strainwaved", std::make_shared<NeverWaitingSink>());
   // systemd tells by this variable that stderr is the journal's.
-  const bool under_systemd = std::getenv("JOURNAL_STREAM") != nullptr;  // NOLINT(concurrency-mt-unsafe): before threads
-  auto logger = under_systemd ? std::make_shared<spdlog::logger>(
-                                    "strainwaved", std::make_shared<spdlog::sinks::systemd_sink_mt>("strainwaved"))
-                              : spdlog::stderr_color_mt("strainwaved");
-  logger->set_pattern(under_systemd ? "%v" : "%H:%M:%S.%e strainwaved %^%l%$: %v");
+  if (std::getenv("JOURNAL_STREAM") != nullptr) {  // NOLINT(concurrency-mt-unsafe): before any thread
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<JournalLevel>('*').set_pattern("%*%v");
+    logger->set_formatter(std::move(formatter));
+  } else {
+    logger->set_pattern("%H:%M:%S.%e strainwaved %^%l%$: %v");
+  }
   spdlog::set_default_logger(std::move(logger));
 }
 

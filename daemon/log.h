@@ -1,13 +1,12 @@
-// Logging of the core's supervisor and the start-up: spdlog to the journal under systemd, else to stderr. Never from the
-// real-time thread.
+// Logging of the core's supervisor and the start-up: spdlog to stderr, which under systemd is the journal. Never from the
+// real-time thread, and never waiting for a reader.
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 namespace strainwave {
 
-/// Chooses the sink. Call once, first.
+/// Chooses the form of the lines. Call once, first.
 void start_logging();
 
 /// Lets at most `burst` lines through per `window`, and says how many it kept back.

@@ -8,9 +8,27 @@
 
 #include "control/input_error.h"
 #include "daemon/config.h"
+#include "daemon/drive_check.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
 #include "manual/manual.h"
+
+namespace {
+
+/// 0 when every line can be used.
+int show_lines(const strainwave::DaemonConfig& config) {
+  bool good = true;
+  bool any = false;
+  for (const strainwave::JointConfig& joint : config.joints) {
+    if (!joint.describe_lines) continue;
+    any = true;
+    good = joint.describe_lines(std::cout) && good;
+  }
+  if (!any) std::cout << "no joint of this configuration has digital lines\n";
+  return good ? 0 : 1;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Real-time control of strain-wave joints whose friction changes with temperature."};
@@ -18,6 +36,10 @@ int main(int argc, char** argv) {
   bool check_only = false;
   app.add_option("--config", config_path, "configuration file (TOML)")->required();
   app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
+  bool check_lines = false;
+  app.add_flag("--check-lines", check_lines, "show every digital line of the joints and who holds it, and end");
+  bool check_drives = false;
+  app.add_flag("--check-drives", check_drives, "do to the drives all that start-up does, enable none, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
   strainwave::add_manual_option(app, "strainwaved");
   CLI11_PARSE(app, argc, argv);
@@ -30,6 +52,8 @@ int main(int argc, char** argv) {
       std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix << '\n';
       return 0;
     }
+    if (check_lines) return show_lines(config);
+    if (check_drives) return strainwave::check_drives(config, std::cout) ? 0 : 1;
     strainwave::start_logging();
     strainwave::Supervisor supervisor(config);
     supervisor.run();

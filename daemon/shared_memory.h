@@ -16,7 +16,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303032;  // "SWMEM002"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303033;  // "SWMEM003"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {

@@ -6,7 +6,6 @@
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
-#include <systemd/sd-daemon.h>
 #include <unistd.h>
 
 #include <array>
@@ -18,6 +17,7 @@
 
 #include "control/gain_table_json.h"
 #include "control/input_error.h"
+#include "daemon/drive_check.h"
 #include "daemon/table_admission.h"
 
 namespace strainwave {
@@ -29,15 +29,13 @@ constexpr std::int64_t kTurn_ms = 5;
 constexpr std::int64_t kReplyTimeout_ns = 500 * kMillisecond_ns;
 constexpr std::int64_t kTemperatureEvery_ns = 100 * kMillisecond_ns;
 constexpr std::int64_t kTimingEvery_ns = 1000 * kMillisecond_ns;
-constexpr std::int64_t kWatchdogEvery_ns = 200 * kMillisecond_ns;
+constexpr std::int64_t kStatusEvery_ns = 1000 * kMillisecond_ns;
 /// A gateway that does nothing for this long hangs.
 constexpr std::int64_t kGatewaySilence_ns = 2000 * kMillisecond_ns;
 /// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others.
 constexpr double kStrangerAnswersPer_s = 200.0;
 constexpr double kStrangerAnswersAtOnce = 50.0;
 constexpr std::int64_t kGatewayStart_ns = 5000 * kMillisecond_ns;
-/// The loop meets its timing when it has run this many cycles.
-constexpr std::int64_t kCyclesUntilReady = 100;
 
 std::int64_t make_session_id() {
   if (::sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
@@ -67,9 +65,7 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
   std::vector<InstanceLock> locks;
   locks.emplace_back("prefix " + config.prefix,
                      "stop that one (systemctl stop strainwaved), or give this one its own daemon.prefix");
-  for (const JointConfig& joint : config.joints)
-    if (!joint.driver_resource.empty())
-      locks.emplace_back("drive " + joint.driver_resource, "a drive has one master; stop the other daemon");
+  for (InstanceLock& lock : lock_drives(config)) locks.push_back(std::move(lock));
   return locks;
 }
 
@@ -82,11 +78,20 @@ std::string advice(const Reply& reply) {
     case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
     case Reason::kStreamExpired:
       return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
+    case Reason::kNotHomed: return mode + ", and its position is not known: strainwavectl home first";
+    case Reason::kAtLimitSwitch: return mode + " at a limit switch: only a move away from it is possible";
+    case Reason::kNoHoming: return mode + ", and joint.homing says of no switch or index that it is home";
     case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
       return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
     default: return mode;
   }
+}
+
+// The drive's own reason behind a fault, if there is one.
+std::string drive_words(const JointConfig& joint, const LoopEvent& event) {
+  if (event.drive_error == 0 || joint.drive_error_text == nullptr) return "";
+  return ": " + joint.drive_error_text(event.fault, event.drive_error);
 }
 
 std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
@@ -178,9 +183,11 @@ void Supervisor::start_gateway() {
 }
 
 void Supervisor::run() {
+  if (config_.gateway_user.uid < 0) hide_memory_from_own_user();
   // The gateway first: a process started by a real-time one would inherit too much.
   start_gateway();
   flight_records_.start();
+  log_buses();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
                                                                : "as user " + config_.gateway_user.name);
   loop_.start();
@@ -195,6 +202,7 @@ void Supervisor::run() {
     wait(kTurn_ms);
     turn(monotonic_now_ns());
   }
+  loop_.close_buses();
   turn(monotonic_now_ns());
   spdlog::info("stopped: every joint is at rest");
 }
@@ -203,6 +211,7 @@ void Supervisor::turn(std::int64_t now_ns) {
   take_messages(now_ns);
   take_replies(now_ns);
   take_events();
+  log_buses();
   take_states(now_ns);
   watch_gateway(now_ns);
   publish_timing(now_ns);
@@ -221,7 +230,7 @@ void Supervisor::wait(std::int64_t wait_ms) {
     if (signal.ssi_signo == SIGCHLD || stopping_) continue;
     stopping_ = true;
     spdlog::info("signal {}: bringing every joint to rest", signal.ssi_signo);
-    ::sd_notify(0, "STOPPING=1");
+    service_.stopping();
     loop_.request_stop();
   }
 }
@@ -318,11 +327,17 @@ void Supervisor::take_events() {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
     if (event.to == Mode::kFaulted) {
       const std::string_view key = configuration_key(event.fault);
-      spdlog::error("{}: fault {}: {}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault), to_text(event.fault),
+      spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
+                    to_text(event.fault), drive_words(config_.joints[static_cast<std::size_t>(event.joint)], event),
                     key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
     } else
       spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
   }
+}
+
+void Supervisor::log_buses() {
+  for (const auto& bus : loop_.buses())
+    for (const std::string& line : bus->take_messages()) spdlog::info("{}", line);
 }
 
 void Supervisor::take_states(std::int64_t now_ns) {
@@ -374,17 +389,18 @@ void Supervisor::publish_timing(std::int64_t now_ns) {
 }
 
 void Supervisor::tell_systemd(std::int64_t now_ns) {
-  const std::int64_t cycles = loop_.statistics().cycles.load(std::memory_order_acquire);
-  if (!ready_ && cycles >= kCyclesUntilReady) {
-    ready_ = true;
-    ::sd_notify(0, "READY=1");
-    spdlog::info("ready");
-  }
-  if (now_ns < watchdog_due_ns_) return;
-  watchdog_due_ns_ = now_ns + kWatchdogEvery_ns;
-  // Only a loop that goes round may keep the service alive.
-  if (cycles > watchdog_cycles_) ::sd_notify(0, "WATCHDOG=1");
-  watchdog_cycles_ = cycles;
+  const bool was_ready = service_.ready();
+  const LoopStatistics& statistics = loop_.statistics();
+  service_.update(statistics.cycles.load(std::memory_order_acquire), statistics.overruns.load(std::memory_order_acquire),
+                  now_ns);
+  if (service_.ready() && !was_ready) spdlog::info("ready: the loop meets its timing");
+  if (now_ns < status_due_ns_ || state_cursor_ == 0) return;
+  status_due_ns_ = now_ns + kStatusEvery_ns;
+  std::string status;
+  for (std::size_t i = 0; i < latest_.size(); ++i)
+    status += (i == 0 ? "" : ", ") + config_.joints[i].name + ' ' +
+              std::string(to_text(static_cast<Mode>(latest_[i].state.mode)));
+  service_.show(status);
 }
 
 void Supervisor::log_refusal(const Verdict& verdict, std::int64_t now_ns) {

@@ -15,6 +15,7 @@
 #include "daemon/instance_lock.h"
 #include "daemon/log.h"
 #include "daemon/realtime/realtime_loop.h"
+#include "daemon/service_notifier.h"
 #include "daemon/shared_memory.h"
 #include "daemon/table_book.h"
 #include "daemon/token_bucket.h"
@@ -49,6 +50,7 @@ class Supervisor {
   bool prepare_table(Verdict& verdict);
   void take_replies(std::int64_t now_ns);
   void take_events();
+  void log_buses();
   void take_states(std::int64_t now_ns);
   void watch_gateway(std::int64_t now_ns);
   void end_hung_gateway(std::int64_t now_ns);
@@ -75,6 +77,7 @@ class Supervisor {
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
   std::vector<StateRecord> latest_;          ///< of each joint
   LogLimiter refusal_log_;
+  ServiceNotifier service_;
   TokenBucket stranger_answers_;  ///< to those who did not prove who they are
   std::unique_ptr<WireMessage> incoming_;
   std::int64_t next_order_id_ = 1;
@@ -85,9 +88,7 @@ class Supervisor {
   std::int64_t gateway_moved_ns_ = 0;  ///< when it was last seen to do something
   std::int64_t temperature_due_ns_ = 0;
   std::int64_t timing_due_ns_ = 0;
-  std::int64_t watchdog_due_ns_ = 0;
-  std::int64_t watchdog_cycles_ = -1;
-  bool ready_ = false;
+  std::int64_t status_due_ns_ = 0;
   bool stopping_ = false;
 };
 

@@ -91,6 +91,11 @@ double TomlSection::number_or(std::string_view key, double fallback, Range allow
   return node == nullptr ? fallback : checked(key, *node, allowed);
 }
 
+std::int64_t TomlSection::integer(std::string_view key, std::int64_t min, std::int64_t max) {
+  (void)require(key);
+  return integer_or(key, min, min, max);
+}
+
 std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t fallback, std::int64_t min, std::int64_t max) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;

@@ -23,6 +23,7 @@ class TomlSection {
 
   double number(std::string_view key, Range allowed);
   double number_or(std::string_view key, double fallback, Range allowed);
+  std::int64_t integer(std::string_view key, std::int64_t min, std::int64_t max);
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t min, std::int64_t max);
   bool boolean_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
@@ -42,6 +43,8 @@ class TomlSection {
   /// Throws when the table has a key that was never asked for, with the nearest known key as a suggestion.
   void refuse_unknown_keys() const;
 
+  /// How messages name `key`: "joint[0].limits.torque_Nm".
+  std::string full_name(std::string_view key) const;
   /// An InputError about `key` of this table.
   [[noreturn]] void fail(std::string_view key, const std::string& allowed) const;
 
@@ -49,7 +52,6 @@ class TomlSection {
   const toml::node* find(std::string_view key);
   const toml::node& require(std::string_view key);
   double checked(std::string_view key, const toml::node& node, Range allowed) const;
-  std::string full_name(std::string_view key) const;
 
   const toml::table* table_;
   std::string file_;

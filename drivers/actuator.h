@@ -27,6 +27,17 @@ enum class ActuatorFault : std::int32_t {
   kImplausible = 5,    ///< the reading contradicts itself (stuck, jumped, not finite)
   kLinkLost = 6,       ///< bus or device gone
   kEmergencyStop = 7,  ///< the e-stop input is active
+  kDriveRestarted = 8, ///< the drive has restarted by itself and forgotten its settings
+  kBusError = 9,       ///< the bus's controller counts too many errors
+};
+
+/// Digital inputs at the joint; true: active, whatever the wiring's polarity. What a drive does not have stays false.
+struct JointInputs {
+  bool negative_limit = false;  ///< end of travel in the direction of falling position
+  bool positive_limit = false;
+  bool home = false;
+  std::int64_t index_count = 0;      ///< pulses of the encoder's index since the start
+  double index_position_rad = 0.0;   ///< where the last one was, counted as joint_position_rad
 };
 
 /// One period's measurements.
@@ -38,6 +49,8 @@ struct ActuatorReading {
   std::int64_t temperature_age_ns = 0; ///< since the sensor produced it
   DriveState drive_state = DriveState::kDisabled;
   ActuatorFault fault = ActuatorFault::kNone;
+  JointInputs inputs;                  ///< of this period, even without a fresh position
+  std::uint32_t drive_error = 0;       ///< why, in the driver's own numbers; 0: nothing to say
   bool has_position = false;           ///< false: no fresh sample this period, the value is the last one
   bool has_velocity = false;
   bool has_temperature = false;

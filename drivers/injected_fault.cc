@@ -19,6 +19,22 @@ std::string_view to_text(InjectedFault kind) noexcept {
   return injected_fault_of(number) ? kNames[static_cast<std::size_t>(number)] : "unknown";
 }
 
+std::string_view amount_unit(InjectedFault kind) noexcept {
+  switch (kind) {
+    case InjectedFault::kSensorNoisy:
+    case InjectedFault::kSensorJump:
+      return "rad";
+    case InjectedFault::kTemperatureDrifting:
+      return "degC/s";
+    case InjectedFault::kSensorDelayed:
+    case InjectedFault::kOverrun:
+    case InjectedFault::kSlowRead:
+      return "s";
+    default:
+      return "";
+  }
+}
+
 std::optional<InjectedFault> injected_fault_of(std::string_view text) noexcept {
   for (std::int32_t number = 0; number < kInjectedFaultCount; ++number)
     if (kNames[static_cast<std::size_t>(number)] == text) return static_cast<InjectedFault>(number);

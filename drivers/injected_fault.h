@@ -57,6 +57,9 @@ constexpr AmountRange amount_range(InjectedFault kind) noexcept {
   }
 }
 
+/// Unit of the amount; empty for the kinds without one.
+std::string_view amount_unit(InjectedFault kind) noexcept;
+
 /// Name in the configuration and on the command line, and back; nothing for an unknown one.
 std::string_view to_text(InjectedFault kind) noexcept;
 std::optional<InjectedFault> injected_fault_of(std::string_view text) noexcept;

@@ -33,6 +33,8 @@ SimulatedActuatorConfig simulated_reference_joint(bool exact_sensing) {
 SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
     : plant_(config.plant),
       ambient_(config.ambient),
+      inputs_(config.inputs),
+      encoder_zero_rad_(config.incremental ? plant_.measured_position_rad() : 0.0),
       load_torque_Nm_(config.load_torque_Nm),
       enable_delay_periods_(whole_periods(checked_not_negative(config.enable_delay_s, "enable_delay_s"),
                                           config.plant.period_s)),
@@ -49,7 +51,8 @@ SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
 
 ActuatorReading SimulatedActuator::read(std::int64_t /*now_ns*/) noexcept {
   ActuatorReading reading;
-  reading.joint_position_rad = plant_.measured_position_rad();
+  reading.joint_position_rad = plant_.measured_position_rad() - encoder_zero_rad_;
+  reading.inputs = inputs_.at(plant_.state().position_rad, plant_.state().position_rad - encoder_zero_rad_);
   reading.has_position = true;
   reading.has_velocity = plant_.config().encoder.counts_per_joint_revolution <= 0.0;
   if (reading.has_velocity) reading.joint_velocity_rad_s = plant_.state().velocity_rad_s;

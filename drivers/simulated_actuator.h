@@ -10,6 +10,7 @@
 #include <random>
 
 #include "drivers/actuator.h"
+#include "drivers/simulated_inputs.h"
 #include "sim/joint_plant.h"
 #include "sim/temperature_profile.h"
 
@@ -18,6 +19,8 @@ namespace strainwave {
 struct SimulatedActuatorConfig {
   JointPlantConfig plant;             ///< with an ideal encoder the reading has the exact velocity as well
   TemperatureProfile ambient;         ///< over plant time, which starts at 0 with the first write()
+  SimulatedInputsConfig inputs;       ///< by the plant's position
+  bool incremental = false;           ///< the encoder counts from where the joint stands at the start
   double load_torque_Nm = 0.0;        ///< constant, opposes positive motor torque
   double enable_delay_s = 0.05;       ///< from the first enabling write() to kEnabled, >= 0
   double temperature_period_s = 0.1;  ///< the sensor produces a value this often, >= 0 (0: every period)
@@ -52,6 +55,8 @@ class SimulatedActuator final : public Actuator {
 
   JointPlant plant_;
   TemperatureProfile ambient_;
+  SimulatedInputs inputs_;
+  double encoder_zero_rad_;
   double load_torque_Nm_;
   long enable_delay_periods_;
   long temperature_periods_;

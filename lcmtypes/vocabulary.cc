@@ -10,6 +10,7 @@ std::string_view to_text(Mode mode) noexcept {
     case Mode::kTracking: return "tracking";
     case Mode::kStopping: return "stopping";
     case Mode::kFaulted: return "faulted";
+    case Mode::kHoming: return "homing";
   }
   return "unknown";
 }
@@ -24,6 +25,8 @@ std::string_view to_text(Fault fault) noexcept {
     case Fault::kImplausibleReading: return "implausible reading";
     case Fault::kLinkLost: return "link to the drive lost";
     case Fault::kEmergencyStop: return "emergency stop";
+    case Fault::kDriveRestarted: return "drive restarted by itself";
+    case Fault::kBusError: return "bus error";
     case Fault::kStartTimeout: return "drive did not enable in time";
     case Fault::kStopTimeout: return "joint did not stop in time";
     case Fault::kPositionLimit: return "position limit";
@@ -33,6 +36,8 @@ std::string_view to_text(Fault fault) noexcept {
     case Fault::kOverruns: return "too many overruns in a row";
     case Fault::kTemperatureLimit: return "temperature limit";
     case Fault::kGroup: return "another joint of the group faulted";
+    case Fault::kHomingFailed: return "homing failed";
+    case Fault::kLimitSwitch: return "limit switch";
   }
   return "unknown";
 }
@@ -45,6 +50,8 @@ std::string_view to_text(Notice notice) noexcept {
     case Notice::kSetpointExpired: return "setpoint stream expired";
     case Notice::kReadingMissed: return "reading missed";
     case Notice::kSpeedLimited: return "speed limited";
+    case Notice::kNotHomed: return "not homed";
+    case Notice::kAtLimitSwitch: return "at a limit switch";
   }
   return "unknown";
 }
@@ -77,6 +84,9 @@ std::string_view to_text(Reason reason) noexcept {
     case Reason::kSuperseded: return "superseded by a newer command";
     case Reason::kNotSimulated: return "only a simulated drive takes injected faults";
     case Reason::kStreamExpired: return "setpoint stream has expired";
+    case Reason::kNotHomed: return "joint is not homed";
+    case Reason::kAtLimitSwitch: return "limit switch in that direction";
+    case Reason::kNoHoming: return "no homing configured";
   }
   return "unknown";
 }
@@ -88,6 +98,7 @@ std::string_view to_text(Action action) noexcept {
     case Action::kHold: return "hold";
     case Action::kClearFault: return "clear-fault";
     case Action::kRevertTable: return "revert-table";
+    case Action::kHome: return "home";
   }
   return "unknown";
 }
@@ -125,12 +136,16 @@ std::string_view configuration_key(Fault fault) noexcept {
     case Fault::kOverruns: return "daemon.overrun_limit";
     case Fault::kTemperatureLimit: return "joint.limits.temperature_C";
     case Fault::kGroup: return "joint.on_fault";
+    case Fault::kHomingFailed: return "joint.homing";
     case Fault::kNone:
     case Fault::kWriteRefused:
     case Fault::kDriveFault:
     case Fault::kPowerLost:
     case Fault::kLinkLost:
     case Fault::kEmergencyStop:
+    case Fault::kLimitSwitch:
+    case Fault::kDriveRestarted:
+    case Fault::kBusError:
     case Fault::kNotFinite: return "";
   }
   return "";
@@ -144,6 +159,8 @@ std::string_view configuration_key(Notice notice) noexcept {
     case Notice::kSetpointExpired: return "";
     case Notice::kReadingMissed: return "joint.supervision.missed_readings_limit";
     case Notice::kSpeedLimited: return "joint.limits.speed_rad_s";
+    case Notice::kNotHomed: return "joint.homing.required";
+    case Notice::kAtLimitSwitch: return "";
   }
   return "";
 }

@@ -11,7 +11,7 @@
 namespace strainwave {
 
 /// state_v1.mode
-enum class Mode : std::int32_t { kOff = 0, kStarting = 1, kHolding = 2, kTracking = 3, kStopping = 4, kFaulted = 5 };
+enum class Mode : std::int32_t { kOff = 0, kStarting = 1, kHolding = 2, kTracking = 3, kStopping = 4, kFaulted = 5, kHoming = 6 };
 
 /// state_v1.fault: latched, the joint is stopped.
 enum class Fault : std::int32_t {
@@ -23,6 +23,8 @@ enum class Fault : std::int32_t {
   kImplausibleReading = 5,
   kLinkLost = 6,
   kEmergencyStop = 7,
+  kDriveRestarted = 8,
+  kBusError = 9,
   kStartTimeout = 10,
   kStopTimeout = 11,
   kPositionLimit = 12,
@@ -32,6 +34,8 @@ enum class Fault : std::int32_t {
   kOverruns = 16,
   kTemperatureLimit = 17,
   kGroup = 18,
+  kHomingFailed = 19,
+  kLimitSwitch = 20,
 };
 
 /// state_v1.notices: a bit set; the joint goes on, limited.
@@ -42,6 +46,8 @@ enum class Notice : std::int32_t {
   kSetpointExpired = 1 << 3,
   kReadingMissed = 1 << 4,
   kSpeedLimited = 1 << 5,
+  kNotHomed = 1 << 6,
+  kAtLimitSwitch = 1 << 7,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).
@@ -72,11 +78,14 @@ enum class Reason : std::int32_t {
   kSuperseded = 23,
   kNotSimulated = 24,
   kStreamExpired = 25,
+  kNotHomed = 26,
+  kAtLimitSwitch = 27,
+  kNoHoming = 28,
 };
 inline constexpr int kReasonCount = 32;
 
 /// command_v1.action
-enum class Action : std::int32_t { kEnable = 1, kDisable = 2, kHold = 3, kClearFault = 4, kRevertTable = 5 };
+enum class Action : std::int32_t { kEnable = 1, kDisable = 2, kHold = 3, kClearFault = 4, kRevertTable = 5, kHome = 6 };
 
 /// state_v1.temperature_status
 enum class TemperatureStatus : std::int32_t { kValid = 0, kNeverSeen = 1, kTooOld = 2, kOutOfRange = 3, kTooFast = 4, kNotChanging = 5 };

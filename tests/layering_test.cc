@@ -29,6 +29,7 @@ TEST(Layering, FollowsTheArrows) {
   EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint_plant.h\""));
   EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
   EXPECT_TRUE(allowed("client/client.h", "#include \"lcmtypes/channels.h\""));
+  EXPECT_TRUE(allowed("client/can_commands.cc", "#include \"drivers/can/can_scan.h\""));
   EXPECT_TRUE(allowed("tests/design/lmi_test.cc", "#include \"design/lmi.h\""));
   EXPECT_TRUE(allowed("bench/loop.cc", "#include \"daemon/realtime/joint_loop.h\""));
 }
@@ -44,6 +45,7 @@ TEST(Layering, RefusesEveryArrowThatIsNotThere) {
   EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config.h\""));
   EXPECT_FALSE(allowed("client/client.cc", "#include \"daemon/config.h\""));
   EXPECT_FALSE(allowed("client/client.cc", "#include \"sim/joint_plant.h\""));
+  EXPECT_FALSE(allowed("client/client.cc", "#include \"drivers/can/can_bus.h\""));
   EXPECT_FALSE(allowed("design/lmi.cc", "#include \"sim/joint_plant.h\""));
 }
 

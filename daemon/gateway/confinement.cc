@@ -16,17 +16,11 @@
 #include <memory>
 #include <system_error>
 
+#include "daemon/sanitized.h"
+
 namespace strainwave {
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// LCM keeps up to 16 MiB of fragments and its buffers; the rest is programs and stacks.
 constexpr rlim_t kAddressSpaceBytes = 512UL << 20;
@@ -81,6 +75,23 @@ void add_rule(const Filter& filter, std::uint32_t action, int system_call) {
 void add_rule(const Filter& filter, std::uint32_t action, int system_call, const scmp_arg_cmp& condition) {
   if (const int result = ::seccomp_rule_add(filter.get(), action, system_call, 1, condition))
     fail("filtering system calls", -result);
+}
+
+// Before LCM opens its socket nothing hostile has been read; from then on it could be. Setting LCM up needs files and a
+// thread, but no other process: as the daemon's own user the gateway could otherwise signal it or write its memory.
+void keep_from_other_processes() {
+  const Filter filter(::seccomp_init(SCMP_ACT_ALLOW), &::seccomp_release);
+  if (filter == nullptr) fail("keeping from other processes", ENOMEM);
+  for (const int call :
+       {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(pidfd_open),
+        SCMP_SYS(pidfd_getfd), SCMP_SYS(pidfd_send_signal), SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
+        SCMP_SYS(process_vm_writev), SCMP_SYS(process_madvise), SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(fork),
+        SCMP_SYS(vfork), SCMP_SYS(io_uring_setup), SCMP_SYS(bpf), SCMP_SYS(userfaultfd)})
+    add_rule(filter, SCMP_ACT_KILL_PROCESS, call);
+  const auto own_pid = static_cast<scmp_datum_t>(::getpid());
+  const scmp_arg_cmp another = SCMP_A0(SCMP_CMP_NE, own_pid);
+  add_rule(filter, SCMP_ACT_KILL_PROCESS, SCMP_SYS(tgkill), another);
+  if (const int result = ::seccomp_load(filter.get())) fail("keeping from other processes", -result);
 }
 
 void allow_what_receiving_and_sending_needs(const Filter& filter) {
@@ -141,6 +152,7 @@ void confine_before_setup(std::int64_t uid, std::int64_t gid, unsigned int first
   if (!kSanitized && ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0) fail("forbidding inspection");
   for (const auto resource : {RLIMIT_CORE, RLIMIT_RTPRIO, RLIMIT_MEMLOCK, RLIMIT_MSGQUEUE})
     limit(resource, 0);
+  if (!kSanitized) keep_from_other_processes();
 }
 
 void confine_after_setup() {

@@ -12,7 +12,8 @@ namespace strainwave {
 bool has_system_call_filter() noexcept;
 
 /// Becomes user `uid` and group `gid` without further groups (unless -1), gives up every capability for good,
-/// closes every descriptor from `first_descriptor` on. One thread only.
+/// closes every descriptor from `first_descriptor` on, and can from now on neither reach nor start another process.
+/// One thread only.
 void confine_before_setup(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
 
 /// Silences the standard streams (LCM writes a line for each malformed datagram: nobody may fill a log this

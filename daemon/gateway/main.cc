@@ -17,6 +17,8 @@ constexpr int kTurn_ms = 2;
 
 int run() {
   using namespace strainwave;
+  // It was started by descriptor, which says nothing to people.
+  ::prctl(PR_SET_NAME, "strainwave-gateway");
   const MemoryFile outbound_file = MemoryFile::open(kGatewayOutboundFd, sizeof(OutboundMemory), false);
   const MemoryFile inbound_file = MemoryFile::open(kGatewayInboundFd, sizeof(InboundMemory), true);
   const auto& outbound = *static_cast<const OutboundMemory*>(outbound_file.address());

@@ -7,7 +7,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kNanosecondsPerSecond = 1e9;
 /// A speed this close to its limit is at it.
 constexpr double kAtLimit = 1.0 - 1e-9;
 
@@ -21,15 +20,10 @@ Fault fault_of(ActuatorFault fault) noexcept {
     case ActuatorFault::kImplausible: return Fault::kImplausibleReading;
     case ActuatorFault::kLinkLost: return Fault::kLinkLost;
     case ActuatorFault::kEmergencyStop: return Fault::kEmergencyStop;
+    case ActuatorFault::kDriveRestarted: return Fault::kDriveRestarted;
+    case ActuatorFault::kBusError: return Fault::kBusError;
   }
   return Fault::kDriveFault;
-}
-
-double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
-  double largest_Nm = 0.0;
-  for (std::int32_t i = 0; i < friction.rule_count; ++i)
-    largest_Nm = std::max(largest_Nm, friction.rules[static_cast<std::size_t>(i)].friction.static_Nm);
-  return largest_Nm;
 }
 
 }  // namespace
@@ -43,6 +37,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       replies_(replies),
       events_(events),
       controller_(config.controller),
+      homing_(config.homing),
       temperature_(config.temperature),
       position_check_({config.controller.period_s, config.limits.overspeed_rad_s, config.controller.encoder_resolution_rad}),
       temperature_update_periods_(std::max<std::int64_t>(
@@ -57,93 +52,13 @@ void JointLoop::step(const CycleTime& time) noexcept {
   check_reading(time);
   check_temperature(time);
   expire_setpoint(time);
+  advance_homing(time);
   control(time);
   check_motion(time);
   advance_mode(time);
   command_drive(time);
   fill_record(time);
   record_flight(time);
-}
-
-void JointLoop::take_orders(const CycleTime& time) noexcept {
-  Order order;
-  while (orders_.pop(order)) {
-    const Reason reason = obey(order, time);
-    // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
-    if (order.id != 0) (void)replies_.push({order.id, reason, mode_});
-  }
-}
-
-Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
-  switch (order.kind) {
-    case OrderKind::kEnable: return enable(time);
-    case OrderKind::kDisable: return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
-    case OrderKind::kHold: return hold();
-    case OrderKind::kClearFault: return clear_fault(time);
-    case OrderKind::kSetpoint: return begin_setpoint(order, time);
-    case OrderKind::kUseTable: return use_table(static_cast<std::size_t>(order.table_slot));
-    case OrderKind::kInject: return inject(order.injection);
-  }
-  return Reason::kUnknownAction;
-}
-
-Reason JointLoop::enable(const CycleTime& time) noexcept {
-  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
-  if (!controller_.has_table()) return Reason::kNoTable;
-  if (mode_ == Mode::kOff && !reading_fresh_) return Reason::kDriveNotReady;
-  if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
-  setpoint_expired_ = false;
-  stream_refused_ = false;
-  return Reason::kAccepted;
-}
-
-Reason JointLoop::use_table(std::size_t slot) noexcept {
-  // At rest a swap is always allowed; under control only while the reference stands still.
-  const bool at_standstill = mode_ == Mode::kHolding;
-  if (!at_rest() && !at_standstill) return Reason::kMoving;
-  const GainTable& table = tables_[slot].table;
-  controller_.load(table);
-  table_id_ = tables_[slot].id;
-  temperature_rules_ = table.friction.rule_count;
-  table_min_C_ = table.friction.temperature_min_C;
-  table_max_C_ = table.friction.temperature_max_C;
-  position_check_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));
-  return Reason::kAccepted;
-}
-
-Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
-  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
-  const bool streamed = order.valid_for_s > 0.0;
-  // A late packet of a stream that has ended must not set the joint moving again.
-  if (streamed && stream_refused_) return Reason::kStreamExpired;
-  if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
-  controller_.set_target(order.position_rad, order.speed_limit_rad_s);
-  setpoint_expires_ns_ =
-      streamed ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
-  setpoint_expired_ = false;
-  stream_refused_ = false;
-  return Reason::kAccepted;
-}
-
-Reason JointLoop::hold() noexcept {
-  if (!is_controlled(mode_)) return Reason::kWrongMode;
-  controller_.stop();
-  setpoint_expires_ns_ = 0;
-  stream_refused_ = false;
-  return Reason::kAccepted;
-}
-
-Reason JointLoop::inject(const Injection& injection) noexcept {
-  if (injector_ == nullptr) return Reason::kNotSimulated;
-  injector_->inject(injection);
-  return Reason::kAccepted;
-}
-
-Reason JointLoop::clear_fault(const CycleTime& time) noexcept {
-  if (mode_ != Mode::kFaulted) return Reason::kWrongMode;
-  actuator_->clear_fault();
-  missed_readings_ = 0;
-  return change_mode(ModeEvent::kFaultCleared, time) ? Reason::kAccepted : Reason::kWrongMode;
 }
 
 void JointLoop::read_drive(const CycleTime& time) noexcept {
@@ -155,7 +70,9 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
   const bool malformed = reading.has_position && !reading_fresh_;
   reading_ = reading;
   if (!reading_fresh_) {
-    reading_.joint_position_rad = last_position_rad;
+    // Where the joint must be by now: a position that stands still and then jumps would look like a blocked joint.
+    const double moved_rad = is_controlled(mode_) ? motion_.joint_velocity_rad_s * config_.controller.period_s : 0.0;
+    reading_.joint_position_rad = last_position_rad + moved_rad;
     reading_.has_velocity = false;
     reading_.torque_applied_Nm = 0.0;
   }
@@ -169,6 +86,7 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
 void JointLoop::check_reading(const CycleTime& time) noexcept {
   missed_readings_ = reading_fresh_ ? 0 : std::min(missed_readings_ + 1, config_.missed_readings_limit + 1);
   if (missed_readings_ > 0) notice(Notice::kReadingMissed);
+  if (reading_.inputs.negative_limit || reading_.inputs.positive_limit) notice(Notice::kAtLimitSwitch);
   // A drive that is off may be unreadable; it then cannot be enabled, which is enough.
   if (mode_ == Mode::kOff) return;
   if (reading_.fault != ActuatorFault::kNone) return raise_fault(fault_of(reading_.fault), time);
@@ -215,6 +133,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
   measurement.has_velocity = reading_.has_velocity;
   measurement.temperature_valid = temperature_.usable();
   motion_ = controller_.step(measurement);
+  refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
   if (motion_.gains_in_use == GainsInUse::kFallback) notice(Notice::kFallbackGains);
@@ -228,9 +147,12 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
   if (!is_controlled(mode_)) return;
   const JointLimits& limits = config_.limits;
   const double position_rad = reading_.joint_position_rad;
-  if (position_rad < limits.position_min_rad - limits.position_margin_rad ||
-      position_rad > limits.position_max_rad + limits.position_margin_rad)
+  const double known_rad = position_rad + position_offset_rad_;
+  if (position_known() && (known_rad < limits.position_min_rad - limits.position_margin_rad ||
+                           known_rad > limits.position_max_rad + limits.position_margin_rad))
     return raise_fault(Fault::kPositionLimit, time);
+  if (mode_ != Mode::kHoming && into_limit_switch(motion_.reference.velocity_rad_s))
+    return raise_fault(Fault::kLimitSwitch, time);
   if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s) return raise_fault(Fault::kSpeedLimit, time);
   if (std::abs(motion_.reference.position_rad - position_rad) > limits.following_error_rad)
     raise_fault(Fault::kFollowingError, time);
@@ -250,6 +172,7 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       // A stream rests at its last setpoint until the next one comes or it expires.
       if (motion_.at_target && setpoint_expires_ns_ == 0) (void)change_mode(ModeEvent::kArrived, time);
       return;
+    case Mode::kHoming: return end_homing(time);
     case Mode::kStopping:
       if (motion_.at_target && std::abs(motion_.joint_velocity_rad_s) < config_.standstill_rad_s)
         (void)change_mode(ModeEvent::kStopped, time);
@@ -274,7 +197,10 @@ void JointLoop::command_drive(const CycleTime& /*time*/) noexcept {
 void JointLoop::raise_fault(Fault fault, const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return;  // the first fault is the one that is shown
   ++faults_total_;
+  drive_error_ = reading_.drive_error;
   drive_stopped_ = false;
+  // Counts may be missing from now on.
+  if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost) homed_ = false;
   group_stop_due_ = config_.fault_stops_group && fault != Fault::kGroup;
   (void)change_mode(ModeEvent::kFaultRaised, time, fault);
 }
@@ -283,7 +209,8 @@ bool JointLoop::change_mode(ModeEvent event, const CycleTime& time, Fault fault)
   const auto next = next_mode(mode_, event);
   if (!next) return false;
   if (*next != mode_) {
-    (void)events_.push({index_, time.cycle, mode_, *next, fault});
+    (void)events_.push({index_, time.cycle, mode_, *next, fault, drive_error_});
+    if (mode_ == Mode::kHoming) homing_.abort();
     mode_ = *next;
     mode_since_ns_ = time.now_ns;
     if (mode_ == Mode::kStopping) controller_.stop();
@@ -295,12 +222,14 @@ bool JointLoop::change_mode(ModeEvent event, const CycleTime& time, Fault fault)
 void JointLoop::fill_record(const CycleTime& time) noexcept {
   state_v1& state = record_.state;
   const bool controlled = is_controlled(mode_);
+  if (!position_known()) notice(Notice::kNotHomed);
   state.cycle = time.cycle;
   state.table_id = table_id_;
-  state.setpoint_position_rad = controlled ? motion_.reference.position_rad : reading_.joint_position_rad;
+  const double position_rad = reading_.joint_position_rad + position_offset_rad_;
+  state.setpoint_position_rad = controlled ? motion_.reference.position_rad + position_offset_rad_ : position_rad;
   state.setpoint_velocity_rad_s = controlled ? motion_.reference.velocity_rad_s : 0.0;
-  state.target_position_rad = controlled ? controller_.target_rad() : reading_.joint_position_rad;
-  state.joint_position_rad = reading_.joint_position_rad;
+  state.target_position_rad = controlled ? controller_.target_rad() + position_offset_rad_ : position_rad;
+  state.joint_position_rad = position_rad;
   state.joint_velocity_rad_s = controlled ? motion_.joint_velocity_rad_s : reading_.joint_velocity_rad_s;
   state.torque_commanded_Nm = controlled ? motion_.output.torque_Nm : 0.0;
   state.torque_applied_Nm = reading_.torque_applied_Nm;
@@ -317,6 +246,8 @@ void JointLoop::fill_record(const CycleTime& time) noexcept {
   state.gains_in_use = static_cast<std::int32_t>(motion_.gains_in_use);
   state.temperature_status = static_cast<std::int32_t>(temperature_.status());
   state.faults_total = faults_total_;
+  // The drive may forget; what it said when the fault came is what explains it.
+  state.drive_error = mode_ == Mode::kFaulted ? drive_error_ : reading_.drive_error;
   record_.temperature_measured_C = temperature_.measured_C();
   record_.temperature_age_s = temperature_.age_s(time.now_ns);
 }

@@ -1,5 +1,8 @@
 // One joint in the loop: reads its drive, judges what it reads, obeys orders, runs the control law, commands the drive.
 // step() is real-time safe. Everything around the mathematics lives here; the mathematics is control/joint_controller.h.
+//
+// Controller and homing count positions as the drive does; what comes from outside and goes there is moved by the offset that
+// homing finds. So a joint that becomes homed does not jump, and nothing in the control law begins anew.
 #pragma once
 
 #include <array>
@@ -10,6 +13,7 @@
 #include "control/joint_controller.h"
 #include "daemon/mode_machine.h"
 #include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/homing.h"
 #include "daemon/realtime/orders.h"
 #include "daemon/realtime/position_check.h"
 #include "daemon/realtime/temperature_check.h"
@@ -33,6 +37,7 @@ struct JointLoopConfig {
   JointControllerConfig controller;
   JointLimits limits;
   TemperatureCheckConfig temperature;
+  HomingConfig homing;
   double temperature_update_period_s = 0.01;  ///< how often the gains are scheduled anew
   int group = -1;                    ///< joints with the same number >= 0 belong together
   bool fault_stops_group = false;    ///< a fault of this joint stops the others of its group
@@ -92,12 +97,21 @@ class JointLoop {
   Reason hold() noexcept;
   Reason clear_fault(const CycleTime& time) noexcept;
   Reason inject(const Injection& injection) noexcept;
+  Reason home(const CycleTime& time) noexcept;
   void read_drive(const CycleTime& time) noexcept;
   void check_reading(const CycleTime& time) noexcept;
   void check_temperature(const CycleTime& time) noexcept;
   void expire_setpoint(const CycleTime& time) noexcept;
   double scheduling_temperature_C(const CycleTime& time) noexcept;
   void control(const CycleTime& time) noexcept;
+  Homing::Observation observe(const CycleTime& time) const noexcept;
+  void obey_homing(const Homing::Order& order) noexcept;
+  void advance_homing(const CycleTime& time) noexcept;
+  void end_homing(const CycleTime& time) noexcept;
+  bool into_limit_switch(double direction) const noexcept;
+  void refuse_torque_into_limit_switch() noexcept;
+  /// Whether positions mean what the configuration says.
+  bool position_known() const noexcept { return homed_ || !config_.homing.required; }
   void check_motion(const CycleTime& time) noexcept;
   void advance_mode(const CycleTime& time) noexcept;
   void command_drive(const CycleTime& time) noexcept;
@@ -119,6 +133,7 @@ class JointLoop {
   std::array<TableSlot, kTableSlots> tables_{};
 
   JointController controller_;
+  Homing homing_;
   TemperatureCheck temperature_;
   PositionCheck position_check_;
   FlightRecorder* recorder_ = nullptr;
@@ -129,10 +144,12 @@ class JointLoop {
   Fault fault_ = Fault::kNone;
   std::int64_t mode_since_ns_ = 0;
   std::int64_t faults_total_ = 0;
+  std::uint32_t drive_error_ = 0;         ///< at the last fault
   std::int64_t setpoint_expires_ns_ = 0;  ///< 0: a move, which does not expire
   std::int64_t table_id_ = 0;
   std::int64_t temperature_update_periods_;
   std::int64_t next_temperature_cycle_ = 0;
+  double position_offset_rad_ = 0.0;  ///< what the drive counts plus this is the joint's position
   double scheduling_temperature_C_ = 0.0;
   double table_min_C_ = 0.0;
   double table_max_C_ = 0.0;
@@ -141,6 +158,7 @@ class JointLoop {
   int missed_readings_ = 0;
   bool reading_fresh_ = false;
   bool ever_read_ = false;
+  bool homed_ = false;
   bool setpoint_expired_ = false;  ///< shown until the next setpoint is accepted
   bool stream_refused_ = false;    ///< a stream has expired and nobody has said that a new one begins
   bool group_stop_due_ = false;

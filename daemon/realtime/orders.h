@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject };
+enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject, kHome };
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {
@@ -36,6 +36,7 @@ struct LoopEvent {
   Mode from = Mode::kOff;
   Mode to = Mode::kOff;
   Fault fault = Fault::kNone;
+  std::uint32_t drive_error = 0;  ///< with a fault: what the driver said
 };
 
 using OrderQueue = SpscQueue<Order, 64>;

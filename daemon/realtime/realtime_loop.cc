@@ -8,6 +8,7 @@
 #include "control/input_error.h"
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
+#include "drivers/thermometer_actuator.h"
 
 namespace strainwave {
 
@@ -21,9 +22,14 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
       events_(std::make_unique<EventQueue>()),
       statistics_(std::make_unique<LoopStatistics>()),
       overrun_watch_(config.loop.overrun_limit) {
+  for (const BusConfig& bus : config.buses) buses_.push_back(bus.make_bus());
   for (const JointConfig& joint : config.joints) {
+    auto actuator = joint.bus < 0 ? joint.make_actuator()
+                                  : buses_[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
+    if (joint.bus >= 0 && joint.thermometer)
+      actuator = std::make_unique<ThermometerActuator>(std::move(actuator), *joint.thermometer);
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
-                                                  joint.make_actuator(), *replies_, *events_));
+                                                  std::move(actuator), *replies_, *events_));
     if (config.recorder.enabled()) {
       const auto samples = [&](double duration_s) {
         return static_cast<std::size_t>(std::llround(duration_s / config.loop.period_s));
@@ -66,7 +72,7 @@ void RealtimeLoop::thread_main() {
   set_up_.store(true, std::memory_order_release);
   while (!may_run_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   run();
-  for (const auto& joint : joints_) joint->stop_drive();
+  stop_drives();
   finished_.store(true, std::memory_order_release);
 }
 
@@ -81,8 +87,10 @@ void RealtimeLoop::run() noexcept {
     time.now_ns = wake.woke_ns;
     account_wake(wake, time);
     bring_to_rest_when_asked(time);
+    for (const auto& bus : buses_) bus->begin_cycle(time.now_ns);
     for (const auto& joint : joints_) joint->step(time);
     stop_faulted_groups(joints_, time);
+    for (const auto& bus : buses_) bus->end_cycle();
     publish(time);
 
     const bool at_rest = std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });
@@ -93,6 +101,15 @@ void RealtimeLoop::run() noexcept {
     statistics_->page_faults.store(thread_page_faults() - page_faults_before, std::memory_order_relaxed);
     statistics_->cycles.store(statistics_->cycles.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
+}
+
+void RealtimeLoop::close_buses() {
+  for (const auto& bus : buses_) bus->close();
+}
+
+void RealtimeLoop::stop_drives() noexcept {
+  for (const auto& joint : joints_) joint->stop_drive();
+  for (const auto& bus : buses_) bus->end_cycle();
 }
 
 void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept {

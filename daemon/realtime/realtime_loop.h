@@ -33,7 +33,7 @@ struct LoopStatistics {
 
 class RealtimeLoop {
  public:
-  /// Makes the drivers and the joints. `states` is where records go. Throws InputError.
+  /// Makes the buses, the drivers and the joints. `states` is where records go. Throws InputError.
   RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::states)& states);
   /// Stops and joins.
   ~RealtimeLoop();
@@ -51,10 +51,15 @@ class RealtimeLoop {
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_release); }
   bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
 
+  /// After finished(): leaves the drives on buses in order, before their supervision of us runs out.
+  void close_buses();
+
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
   /// Null when the configuration wants none.
   FlightRecorder* recorder(std::size_t index) noexcept { return recorders_.empty() ? nullptr : recorders_[index].get(); }
   std::size_t joint_count() const noexcept { return joints_.size(); }
+  /// In the configuration's order.
+  const std::vector<std::unique_ptr<Fieldbus>>& buses() const noexcept { return buses_; }
   ReplyQueue& replies() noexcept { return *replies_; }
   EventQueue& events() noexcept { return *events_; }
   const LoopStatistics& statistics() const noexcept { return *statistics_; }
@@ -65,6 +70,7 @@ class RealtimeLoop {
   void account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept;
   void bring_to_rest_when_asked(const CycleTime& time) noexcept;
   void publish(const CycleTime& time) noexcept;
+  void stop_drives() noexcept;
 
   LoopConfig config_;
   std::int64_t period_ns_;
@@ -75,6 +81,7 @@ class RealtimeLoop {
   std::unique_ptr<EventQueue> events_;
   std::unique_ptr<LoopStatistics> statistics_;
   std::vector<std::unique_ptr<FlightRecorder>> recorders_;
+  std::vector<std::unique_ptr<Fieldbus>> buses_;  ///< the joints' drives refer to them
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::thread thread_;
   std::string refusal_;

@@ -15,10 +15,11 @@ std::filesystem::path shared_folder(const std::filesystem::path& name) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   const auto installed = program.parent_path().parent_path() / "share" / "strainwave" / name;
   if (!error && std::filesystem::is_directory(installed)) return installed;
-  const auto source = std::filesystem::path(STRAINWAVE_SOURCE_DIR) / name;
-  if (std::filesystem::is_directory(source)) return source;
-  throw InputError("the folder '" + name.string() + "' is neither at " + installed.string() + " nor at " +
-                   source.string() + "; say where it is");
+  // A package knows of no source tree.
+  const std::filesystem::path tree(STRAINWAVE_SOURCE_DIR);
+  if (!tree.empty() && std::filesystem::is_directory(tree / name)) return tree / name;
+  throw InputError("the folder '" + name.string() + "' is not at " + installed.string() +
+                   (tree.empty() ? "" : ", nor at " + (tree / name).string()) + "; say where it is");
 }
 
 }  // namespace strainwave

@@ -38,7 +38,7 @@ TEST(CommandLine, HelpNamesEveryExitStatusAndCommand) {
   EXPECT_EQ(result.status, ExitStatus::kDone);
   for (const char* part :
        {"\n  0 ", "\n  1 ", "\n  2 ", "\n  3 ", "\n  4 ", "\n  5 ", "\n  130 ", "status", "timing", "watch",
-        "enable", "disable", "move", "hold", "clear-fault", "load-table", "record"}) {
+        "enable", "disable", "move", "hold", "clear-fault", "load-table", "revert-table", "inject", "record"}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   }
 }
@@ -51,6 +51,10 @@ TEST(CommandLine, ThatMakesNoSenseIsAUsageError) {
                                              {"move", "elbow", "90deg"},
                                              {"move", "elbow", "nan"},
                                              {"move", "el.bow", "1"},
+                                             {"inject", "elbow", "gremlins"},
+                                             {"inject", "elbow", "sensor_nan", "--amount", "1"},
+                                             {"inject", "elbow", "sensor_noisy"},
+                                             {"inject", "elbow", "slow_read", "--amount", "2"},
                                              {"enable"},
                                              {"enable", "elbow", "wrist"},
                                              {"--prefix", "a.b", "status"},

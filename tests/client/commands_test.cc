@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
+#include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
@@ -52,11 +53,36 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   enable(client, output, "elbow");
   hold(client, output, "elbow");
   clear_fault(client, output, "elbow");
+  revert_table(client, output, "elbow");
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kHolding};
+  home(client, output, "elbow");
   daemon.modes_after_answer = {Mode::kOff};
   disable(client, output, "elbow");
   std::vector<std::int32_t> actions;
   for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
-  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 2}));
+  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 6, 2}));
+}
+
+TEST_F(CommandsTest, AnInjectionCarriesKindAmountAndDuration) {
+  daemon.publish_state();
+  inject(client, output, parse_injection("elbow", "sensor_jump", 0.25, 1.5));
+  ASSERT_EQ(daemon.heard().size(), 1U);
+  EXPECT_TRUE(daemon.heard().front().channel.ends_with(".INJECT"));
+  const auto injection = decode_exactly<inject_v1>(daemon.heard().front().bytes);
+  ASSERT_TRUE(injection);
+  EXPECT_EQ(injection->kind, static_cast<std::int32_t>(InjectedFault::kSensorJump));
+  EXPECT_EQ(injection->amount, 0.25);
+  EXPECT_EQ(injection->for_s, 1.5);
+}
+
+TEST_F(CommandsTest, AnUnknownInjectionNamesThoseThatThereAre) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "gremlins", 0.0, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("gremlins") && message_has("sensor_nan") && message_has("power_lost")) << message;
+}
+
+TEST_F(CommandsTest, AnAmountOutOfRangeIsRefusedWithRangeAndUnit) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "slow_read", 1.5, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("1.5") && message_has("0 to 1 s")) << message;
 }
 
 TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
@@ -65,6 +91,26 @@ TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kDone);
   EXPECT_EQ(client.find("elbow")->state.mode, static_cast<std::int32_t>(Mode::kHolding));
   EXPECT_TRUE(output_has("elbow: enabled"));
+}
+
+TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kHolding, Mode::kHoming, Mode::kHoming, Mode::kHolding};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_TRUE(output_has("elbow: homed"));
+  daemon.state.notices = static_cast<std::int32_t>(Notice::kNotHomed);
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("before it found home")) << message;
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kStopping};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("did not find home: the joint was disabled")) << message;
+}
+
+TEST_F(CommandsTest, GpioCheckSaysWhereItsHelperMustBe) {
+  // Beside this test's program there is no strainwaved.
+  EXPECT_EQ(status_of([&] { gpio_check(output, "gpio.toml"); }), ExitStatus::kFile);
+  EXPECT_TRUE(message_has("strainwaved")) << message;
+  EXPECT_TRUE(message_has("install it beside strainwavectl")) << message;
 }
 
 TEST_F(CommandsTest, EnablePrintsTheReasonOfARefusal) {

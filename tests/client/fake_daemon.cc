@@ -4,6 +4,7 @@
 #include <optional>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
+#include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
 #include "lcmtypes/wire.h"
@@ -14,7 +15,7 @@ FakeDaemon::FakeDaemon(Connection& connection, std::string prefix, std::string j
     : connection_(connection),
       prefix_(std::move(prefix)),
       joint_(std::move(joint)),
-      subscription_(connection.subscribe(prefix_ + "\\." + joint_ + "\\.(SETPOINT|COMMAND|TABLE)",
+      subscription_(connection.subscribe(prefix_ + "\\." + joint_ + "\\.(SETPOINT|COMMAND|TABLE|INJECT)",
                                          &FakeDaemon::on_order, this)) {
   state.session_id = 77;
   state.rule_count = 1;
@@ -44,6 +45,8 @@ void FakeDaemon::on_order(const lcm::ReceiveBuffer* buffer, const std::string& c
     answer(command->sender_id, command->sequence);
   } else if (const auto table = decode_exactly<gain_table_v1>(bytes)) {
     answer(table->sender_id, table->sequence);
+  } else if (const auto injection = decode_exactly<inject_v1>(bytes)) {
+    answer(injection->sender_id, injection->sequence);
   }
 }
 

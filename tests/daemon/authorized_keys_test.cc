@@ -31,6 +31,18 @@ class AuthorizedKeysFile : public ::testing::Test {
   std::filesystem::path path_ = folder_ / "authorized_keys";
 };
 
+TEST_F(AuthorizedKeysFile, IsReplacedByTheServiceManagersCredentialOfTheSameName) {
+  const std::filesystem::path credentials = folder_ / "credentials";
+  std::filesystem::create_directory(credentials);
+  EXPECT_EQ(credential_or_file(path_), path_);
+  ::setenv("CREDENTIALS_DIRECTORY", credentials.c_str(), 1);
+  EXPECT_EQ(credential_or_file(path_), path_) << "there is no such credential";
+  std::ofstream(credentials / "authorized_keys") << "# empty\n";
+  EXPECT_EQ(credential_or_file(path_), credentials / "authorized_keys");
+  EXPECT_EQ(credential_or_file(folder_ / "other_keys"), folder_ / "other_keys");
+  ::unsetenv("CREDENTIALS_DIRECTORY");
+}
+
 TEST_F(AuthorizedKeysFile, ReadsKeysAndSkipsCommentsAndEmptyLines) {
   const AuthorizedKey first = some_key(Role::kOperator);
   const AuthorizedKey second = some_key(Role::kEngineer);

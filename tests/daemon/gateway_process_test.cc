@@ -81,6 +81,18 @@ TEST(GatewayProcess, IsQuickAgainAfterALifeLongEnough) {
   EXPECT_EQ(wait_until_due_ms(gateway, now_ns), 100);
 }
 
+// An upgrade of the package puts another file in its place while the daemon runs.
+TEST(GatewayProcess, GoesOnWithTheProgramItHasOpened) {
+  const EndlessProgram program;
+  GatewayProcess gateway(program.path(), {0, 1, 2});
+  std::filesystem::remove(program.path());
+  std::ofstream(program.path()) << "#!/bin/sh\nexit 3\n";
+  ::chmod(program.path().c_str(), 0700);
+  gateway.start(0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_FALSE(gateway.take_end(0).has_value());
+}
+
 TEST(GatewayProcess, WaitsAlsoWhenTheProgramCannotBeStarted) {
   GatewayProcess gateway("/nonexistent/strainwave-gateway", {0, 1, 2});
   EXPECT_THROW(gateway.start(0), std::system_error);

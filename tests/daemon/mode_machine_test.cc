@@ -7,10 +7,11 @@
 namespace strainwave {
 namespace {
 
-constexpr std::array kModes{Mode::kOff, Mode::kStarting, Mode::kHolding, Mode::kTracking, Mode::kStopping, Mode::kFaulted};
+constexpr std::array kModes{Mode::kOff, Mode::kStarting, Mode::kHolding, Mode::kTracking, Mode::kStopping, Mode::kFaulted,
+                            Mode::kHoming};
 constexpr std::array kEvents{ModeEvent::kEnableOrdered, ModeEvent::kDriveReady,     ModeEvent::kSetpointAccepted,
                              ModeEvent::kArrived,       ModeEvent::kDisableOrdered, ModeEvent::kStopped,
-                             ModeEvent::kFaultRaised,   ModeEvent::kFaultCleared};
+                             ModeEvent::kFaultRaised,   ModeEvent::kFaultCleared,   ModeEvent::kHomeOrdered};
 
 TEST(ModeMachine, FaultsFromEveryMode) {
   for (const Mode mode : kModes) EXPECT_EQ(next_mode(mode, ModeEvent::kFaultRaised), Mode::kFaulted);
@@ -42,6 +43,19 @@ TEST(ModeMachine, TracksOnlyFromUnderControlAndOnlyByASetpoint) {
         EXPECT_EQ(event, ModeEvent::kSetpointAccepted);
         EXPECT_TRUE(mode == Mode::kHolding || mode == Mode::kTracking);
       }
+}
+
+TEST(ModeMachine, LooksForHomeOnlyFromHoldingAndOnlyByAnOrder) {
+  for (const Mode mode : kModes)
+    for (const ModeEvent event : kEvents)
+      if (next_mode(mode, event) == Mode::kHoming) {
+        EXPECT_EQ(event, ModeEvent::kHomeOrdered);
+        EXPECT_EQ(mode, Mode::kHolding);
+      }
+}
+
+TEST(ModeMachine, TakesNoSetpointWhileItLooksForHome) {
+  EXPECT_FALSE(next_mode(Mode::kHoming, ModeEvent::kSetpointAccepted));
 }
 
 TEST(ModeMachine, ObeysADisableInEveryMode) {

@@ -19,7 +19,8 @@ struct Word {
 
 constexpr Word<Mode> kModes[] = {{0, Mode::kOff, "off"},           {1, Mode::kStarting, "starting"},
                                  {2, Mode::kHolding, "holding"},   {3, Mode::kTracking, "tracking"},
-                                 {4, Mode::kStopping, "stopping"}, {5, Mode::kFaulted, "faulted"}};
+                                 {4, Mode::kStopping, "stopping"}, {5, Mode::kFaulted, "faulted"},
+                                 {6, Mode::kHoming, "homing"}};
 
 constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {1, Fault::kReadFailed, "position reading failed"},
@@ -29,6 +30,8 @@ constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {5, Fault::kImplausibleReading, "implausible reading"},
                                    {6, Fault::kLinkLost, "link to the drive lost"},
                                    {7, Fault::kEmergencyStop, "emergency stop"},
+                                   {8, Fault::kDriveRestarted, "drive restarted by itself"},
+                                   {9, Fault::kBusError, "bus error"},
                                    {10, Fault::kStartTimeout, "drive did not enable in time"},
                                    {11, Fault::kStopTimeout, "joint did not stop in time"},
                                    {12, Fault::kPositionLimit, "position limit"},
@@ -37,14 +40,18 @@ constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {15, Fault::kNotFinite, "not-a-number in the loop"},
                                    {16, Fault::kOverruns, "too many overruns in a row"},
                                    {17, Fault::kTemperatureLimit, "temperature limit"},
-                                   {18, Fault::kGroup, "another joint of the group faulted"}};
+                                   {18, Fault::kGroup, "another joint of the group faulted"},
+                                   {19, Fault::kHomingFailed, "homing failed"},
+                                   {20, Fault::kLimitSwitch, "limit switch"}};
 
 constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited"},
                                      {2, Notice::kTemperatureClamped, "temperature outside the table"},
                                      {4, Notice::kFallbackGains, "temperature-free gains in use"},
                                      {8, Notice::kSetpointExpired, "setpoint stream expired"},
                                      {16, Notice::kReadingMissed, "reading missed"},
-                                     {32, Notice::kSpeedLimited, "speed limited"}};
+                                     {32, Notice::kSpeedLimited, "speed limited"},
+                                     {64, Notice::kNotHomed, "not homed"},
+                                     {128, Notice::kAtLimitSwitch, "at a limit switch"}};
 
 constexpr Word<Reason> kReasons[] = {{0, Reason::kAccepted, "accepted"},
                                      {1, Reason::kMalformed, "malformed message"},
@@ -71,13 +78,17 @@ constexpr Word<Reason> kReasons[] = {{0, Reason::kAccepted, "accepted"},
                                      {22, Reason::kDriveNotReady, "drive not ready"},
                                      {23, Reason::kSuperseded, "superseded by a newer command"},
                                      {24, Reason::kNotSimulated, "only a simulated drive takes injected faults"},
-                                     {25, Reason::kStreamExpired, "setpoint stream has expired"}};
+                                     {25, Reason::kStreamExpired, "setpoint stream has expired"},
+                                     {26, Reason::kNotHomed, "joint is not homed"},
+                                     {27, Reason::kAtLimitSwitch, "limit switch in that direction"},
+                                     {28, Reason::kNoHoming, "no homing configured"}};
 
 constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {2, Action::kDisable, "disable"},
                                      {3, Action::kHold, "hold"},
                                      {4, Action::kClearFault, "clear-fault"},
-                                     {5, Action::kRevertTable, "revert-table"}};
+                                     {5, Action::kRevertTable, "revert-table"},
+                                     {6, Action::kHome, "home"}};
 
 constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
     {0, TemperatureStatus::kValid, "valid"},

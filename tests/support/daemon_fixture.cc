@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -42,17 +43,28 @@ std::string read_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-DaemonProcess::DaemonProcess(const std::filesystem::path& folder, const std::string& configuration)
+bool in_virtual_time() {
+  return std::getenv("STRAINWAVE_VIRTUAL_TIME") != nullptr;  // NOLINT(concurrency-mt-unsafe): nobody sets it
+}
+
+std::filesystem::path programs_folder() {
+  // In the virtual machine everything that a test needs lies beside it.
+  return in_virtual_time() ? std::filesystem::current_path() : std::filesystem::path(STRAINWAVE_BINARY_DIR) / "bin";
+}
+
+DaemonProcess::DaemonProcess(const std::filesystem::path& folder, const std::string& configuration,
+                             const DaemonStart& start)
     : log_path_(folder / "daemon.log") {
   const std::filesystem::path config_path = folder / "strainwaved.toml";
   std::ofstream(config_path) << configuration;
-  const std::string program = std::string(STRAINWAVE_BINARY_DIR) + "/bin/strainwaved";
+  const std::string program = programs_folder() / "strainwaved";
   const int log = ::open(log_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   pid_ = ::fork();
   if (pid_ == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves no daemon behind
+    if (!start.preload.empty()) ::setenv("LD_PRELOAD", start.preload.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     ::dup2(log, STDOUT_FILENO);
-    ::dup2(log, STDERR_FILENO);
+    ::dup2(start.log_file >= 0 ? start.log_file : log, STDERR_FILENO);
     ::execl(program.c_str(), program.c_str(), "--config", config_path.c_str(), nullptr);
     ::_exit(127);
   }
@@ -211,10 +223,9 @@ void TestClient::on_timing(const lcm::ReceiveBuffer*, const std::string&, const 
 }
 
 std::string DaemonTest::configuration(const std::string& joint_extra, const std::string& daemon_extra) {
-  return R"([daemon]
-real_time = "ignore"
-overrun_limit = 100000
-)" + daemon_extra +
+  const std::string real_time = in_virtual_time() ? "real_time = \"enforce\"\n"
+                                                  : "real_time = \"ignore\"\noverrun_limit = 100000\n";
+  return "[daemon]\n" + real_time + daemon_extra +
          R"(
 [security]
 unsigned_orders = "allow"
@@ -230,7 +241,9 @@ limits = { position_min_rad = -3.2, position_max_rad = 3.2, speed_rad_s = 6, acc
 }
 
 GainTable DaemonTest::shipped_table() {
-  return read_gain_table(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables" / "rhs17-6006.json");
+  const std::filesystem::path folder =
+      in_virtual_time() ? programs_folder() : std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables";
+  return read_gain_table(folder / "rhs17-6006.json");
 }
 
 }  // namespace strainwave::testing

@@ -27,11 +27,24 @@
 
 namespace strainwave::testing {
 
+/// Whether this is the virtual machine of tests/vm, whose time is virtual: what the loop does there can be asserted to the
+/// cycle. Elsewhere the machine has other things to do.
+bool in_virtual_time();
+
+/// Folder of the programs under test.
+std::filesystem::path programs_folder();
+
+/// How strainwaved is started, where it is not as usual.
+struct DaemonStart {
+  std::filesystem::path preload;  ///< a library that is loaded into it first
+  int log_file = -1;              ///< descriptor that it logs to, instead of a file of its own
+};
+
 /// strainwaved as a child process.
 class DaemonProcess {
  public:
   /// `configuration` is the text of the TOML file; it is written into `folder`.
-  DaemonProcess(const std::filesystem::path& folder, const std::string& configuration);
+  DaemonProcess(const std::filesystem::path& folder, const std::string& configuration, const DaemonStart& start = {});
   /// Ends it by SIGKILL if it still runs.
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;

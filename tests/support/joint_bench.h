@@ -31,7 +31,13 @@ const GainTable& demo_table();
 class WatchedActuator final : public Actuator {
  public:
   explicit WatchedActuator(std::unique_ptr<SimulatedActuator> actuator) : actuator_(std::move(actuator)) {}
-  ActuatorReading read(std::int64_t now_ns) noexcept override { return actuator_->read(now_ns); }
+  ActuatorReading read(std::int64_t now_ns) noexcept override {
+    ActuatorReading reading = actuator_->read(now_ns);
+    if (missing_ > 0 && missing_-- > 0) reading.has_position = false;
+    return reading;
+  }
+  /// The next `count` readings come without a position, as from a bus that lost a frame.
+  void miss_readings(int count) noexcept { missing_ = count; }
   void write(const ActuatorCommand& command) noexcept override {
     command_ = command;
     actuator_->write(command);
@@ -51,6 +57,7 @@ class WatchedActuator final : public Actuator {
   std::unique_ptr<SimulatedActuator> actuator_;
   ActuatorCommand command_;
   int stops_ = 0;
+  int missing_ = 0;
 };
 
 class JointBench {

@@ -1,8 +1,8 @@
 // The daemon under attack: the loop must not notice, whatever becomes of the gateway.
 //
-// What the loop does is read from the daemon's own shared memory, every cycle, since LCM is what is attacked. "No missed
-// cycle because of it" on a machine that others use can only be judged against a run without the attack; the strict
-// figures come from the timing benchmark on a quiet machine.
+// What the loop does is read from the daemon's own shared memory, every cycle, since LCM is what is attacked.
+// On a machine that others use it can only be judged against a run without the attack; in the virtual machine
+// (tests/vm), whose time is virtual, not one cycle may be missed.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -30,13 +30,20 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::int64_t kDatagrams = 1'000'000;
+/// A million, unless $STRAINWAVE_HOSTILE_DATAGRAMS says otherwise.
+std::int64_t datagrams() {
+  const char* text = std::getenv("STRAINWAVE_HOSTILE_DATAGRAMS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  return text != nullptr ? std::stoll(text) : 1'000'000;
+}
+
 constexpr double kDatagramsPer_s = 50'000.0;
 constexpr double kPeriod_s = 0.001;
 // One encoder count at the joint.
 constexpr double kCount_rad = 2.0 * 3.14159265358979323846 / 320000.0;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// The daemon's memory file of this name, mapped for reading.
 MemoryFile open_memory(pid_t daemon, const std::string& name, std::size_t size) {
@@ -51,7 +58,8 @@ MemoryFile open_memory(pid_t daemon, const std::string& name, std::size_t size) 
 /// Reads every cycle's record from the daemon's shared memory, as its gateway does.
 class LoopObserver {
  public:
-  explicit LoopObserver(pid_t daemon) : file_(open_memory(daemon, "strainwave-outbound", sizeof(OutboundMemory))) {
+  explicit LoopObserver(pid_t daemon)
+      : file_(open_memory(daemon, "strainwave-outbound", sizeof(OutboundMemory))) {
     cursor_ = memory().states.written();
   }
 
@@ -66,7 +74,9 @@ class LoopObserver {
     double worst_torque_step_Nm = 0.0;
     bool left_tracking = false;
 
-    double rms_error_rad() const { return std::sqrt(error_squares / static_cast<double>(std::max<std::int64_t>(1, cycles))); }
+    double rms_error_rad() const {
+      return std::sqrt(error_squares / static_cast<double>(std::max<std::int64_t>(1, cycles)));
+    }
   };
   void observe(Summary& summary) {
     StateRecord record{};
@@ -78,7 +88,8 @@ class LoopObserver {
       summary.faults = std::max(summary.faults, state.faults_total);
       summary.worst_error_rad = std::max(summary.worst_error_rad, error_rad);
       summary.error_squares += error_rad * error_rad;
-      summary.left_tracking = summary.left_tracking || state.mode != static_cast<std::int32_t>(Mode::kTracking);
+      summary.left_tracking =
+          summary.left_tracking || state.mode != static_cast<std::int32_t>(Mode::kTracking);
       if (last_cycle_ >= 0) {
         summary.cycles_missed += state.cycle - last_cycle_ - 1;
         summary.worst_torque_step_Nm =
@@ -100,8 +111,8 @@ class LoopObserver {
   double last_torque_Nm_ = 0.0;
 };
 
-/// How often the gateway was away and for how long at most: until the next one does its work, not until it exists. To be
-/// asked often.
+/// How often the gateway was away and for how long at most: until the next one does its work, not until it
+/// exists. To be asked often.
 class GatewayWatch {
  public:
   explicit GatewayWatch(const DaemonProcess& daemon)
@@ -145,19 +156,20 @@ class HostileSystem : public DaemonTest {
  protected:
   void SetUp() override {
     DaemonTest::SetUp();
-    std::ofstream(folder_ / "keys") << to_line(AuthorizedKey{key_.public_key(), Role::kEngineer, "test"}) << '\n';
+    std::ofstream(folder_ / "keys") << to_line(AuthorizedKey{key_.public_key(), Role::kEngineer, "test"})
+                                    << '\n';
   }
 
   /// A slow joint, so that one move lasts as long as an attack; every cycle is published; signed orders only.
-  void start_tracking() {
+  void start_tracking(const DaemonStart& start = {}) {
     std::string text = configuration("", "state_rate_Hz = 1000\n");
     const auto replace = [&text](const std::string& from, const std::string& to) {
       ASSERT_NE(text.find(from), std::string::npos) << from;
       text.replace(text.find(from), from.size(), to);
     };
     replace("unsigned_orders = \"allow\"", "authorized_keys = \"keys\"");
-    replace("speed_rad_s = 6", "speed_rad_s = 0.05");
-    daemon_.emplace(folder_, text);
+    replace("speed_rad_s = 6", "speed_rad_s = 0.02");
+    daemon_.emplace(folder_, text, start);
     TestClient client;
     ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
     ASSERT_TRUE(send(client, "TABLE", client.make_table("elbow", shipped_table())).accepted);
@@ -170,7 +182,8 @@ class HostileSystem : public DaemonTest {
   }
 
   template <typename Message>
-  Answer send(TestClient& client, const char* kind, const Message& message, milliseconds timeout = seconds(5)) {
+  Answer send(TestClient& client, const char* kind, const Message& message,
+              milliseconds timeout = seconds(5)) {
     const std::string channel = std::string("SW.elbow.") + kind;
     std::vector<std::uint8_t> bytes = encode(message);
     sign(channel, key_, bytes);
@@ -193,6 +206,20 @@ class HostileSystem : public DaemonTest {
     return observe_until([&] { return seconds_since(start) >= duration_s; });
   }
 
+  /// The same while orders come that are refused, each a line for the log.
+  LoopObserver::Summary refuse_orders_for(double duration_s) {
+    TestClient client;
+    LoopObserver::Summary summary;
+    const auto start = Clock::now();
+    while (seconds_since(start) < duration_s) {
+      const setpoint_v1 unsigned_order = client.make_setpoint("elbow", 0.0);
+      client.lcm().publish("SW.elbow.SETPOINT", &unsigned_order);
+      client.pump(milliseconds(5));
+      observer_->observe(summary);
+    }
+    return summary;
+  }
+
   /// The loop went round all the time, tracking as ever.
   static void expect_undisturbed(const LoopObserver::Summary& attacked, const LoopObserver::Summary& calm,
                                  double duration_s) {
@@ -202,13 +229,21 @@ class HostileSystem : public DaemonTest {
     EXPECT_LE(attacked.worst_error_rad, calm.worst_error_rad + 2.0 * kCount_rad);
     EXPECT_LE(attacked.rms_error_rad(), 1.05 * calm.rms_error_rad() + 0.1 * kCount_rad);
     EXPECT_LE(attacked.worst_torque_step_Nm, 1.2 * calm.worst_torque_step_Nm);
-    // Generous: the machine has other things to do, and without real-time priority the loop shares it.
-    EXPECT_GT(static_cast<double>(attacked.cycles), 0.8 * duration_s / kPeriod_s);
+    // Elsewhere generous: the machine has other things to do, and without real-time priority the loop shares
+    // it.
+    const double share = in_virtual_time() ? 0.99 : 0.8;
+    EXPECT_GT(static_cast<double>(attacked.cycles), share * duration_s / kPeriod_s);
+    if (in_virtual_time()) {
+      EXPECT_EQ(attacked.cycles_missed, 0);
+      EXPECT_EQ(calm.cycles_missed, 0);
+    }
   }
   static void report(const char* what, const LoopObserver::Summary& summary, double duration_s) {
-    std::printf("%s: %.1f s, %lld cycles, %lld missed, error rms %.3e worst %.3e rad, torque step worst %.3f Nm\n", what,
-                duration_s, static_cast<long long>(summary.cycles), static_cast<long long>(summary.cycles_missed),
-                summary.rms_error_rad(), summary.worst_error_rad, summary.worst_torque_step_Nm);
+    std::printf(
+        "%s: %.1f s, %lld cycles, %lld missed, error rms %.3e worst %.3e rad, torque step worst %.3f Nm\n",
+        what, duration_s, static_cast<long long>(summary.cycles),
+        static_cast<long long>(summary.cycles_missed), summary.rms_error_rad(), summary.worst_error_rad,
+        summary.worst_torque_step_Nm);
   }
 
   /// A fresh client gives an order and is obeyed.
@@ -228,7 +263,7 @@ class HostileSystem : public DaemonTest {
 class Attacker {
  public:
   explicit Attacker(std::uint64_t seed) : pid_(::fork()) {
-    if (pid_ == 0) ::_exit(send_hostile_datagrams(kDatagrams, seed, kDatagramsPer_s) == kDatagrams ? 0 : 1);
+    if (pid_ == 0) ::_exit(send_hostile_datagrams(datagrams(), seed, kDatagramsPer_s) == datagrams() ? 0 : 1);
   }
   ~Attacker() {
     if (status_ != -1) return;
@@ -251,10 +286,10 @@ class Attacker {
 
 TEST_F(HostileSystem, AMillionHostileDatagramsDisturbNeitherTheLoopNorItsTorque) {
   // The same part of the same move, without and with the attack.
-  constexpr double kDuration_s = static_cast<double>(kDatagrams) / kDatagramsPer_s;
+  const double duration_s = static_cast<double>(datagrams()) / kDatagramsPer_s;
   start_tracking();
-  const LoopObserver::Summary calm = observe_for(kDuration_s);
-  report("calm", calm, kDuration_s);
+  const LoopObserver::Summary calm = observe_for(duration_s);
+  report("calm", calm, duration_s);
   start_tracking();
 
   GatewayWatch watch(*daemon_);
@@ -267,7 +302,7 @@ TEST_F(HostileSystem, AMillionHostileDatagramsDisturbNeitherTheLoopNorItsTorque)
   const double attack_s = seconds_since(start);
   report("attacked", attacked, attack_s);
   std::printf("%lld datagrams sent in %.1f s, %d restarts of the gateway, away for at most %.3f s\n",
-              static_cast<long long>(kDatagrams), attack_s, watch.restarts(), watch.longest_absence_s());
+              static_cast<long long>(datagrams()), attack_s, watch.restarts(), watch.longest_absence_s());
   EXPECT_EQ(attacker.status(), 0) << "not all datagrams were sent";
   expect_undisturbed(attacked, calm, attack_s);
   EXPECT_LT(watch.longest_absence_s(), 1.0);
@@ -324,6 +359,43 @@ TEST_F(HostileSystem, AStoppedGatewayIsReplacedAndTheLoopDoesNotNotice) {
   expect_orders_obeyed();
 }
 
+TEST_F(HostileSystem, AFullLogDiskIsNotNoticed) {
+  const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(full, 0);
+  start_tracking({{}, full});
+  const LoopObserver::Summary calm = observe_for(2.0);
+  const LoopObserver::Summary attacked = refuse_orders_for(3.0);
+  expect_undisturbed(attacked, calm, 3.0);
+  expect_orders_obeyed();
+  ::close(full);
+}
+
+TEST_F(HostileSystem, ALogThatNobodyReadsKeepsNoOrderBack) {
+  int pipe[2];
+  ASSERT_EQ(::pipe2(pipe, O_CLOEXEC), 0);
+  const std::string page(4096, 'x');
+  ASSERT_EQ(::fcntl(pipe[1], F_SETFL, O_NONBLOCK), 0);
+  while (::write(pipe[1], page.data(), page.size()) > 0) {
+  }
+  ASSERT_EQ(::fcntl(pipe[1], F_SETFL, 0), 0);
+  start_tracking({{}, pipe[1]});
+  const LoopObserver::Summary calm = observe_for(2.0);
+  const LoopObserver::Summary attacked = refuse_orders_for(3.0);
+  expect_undisturbed(attacked, calm, 3.0);
+  expect_orders_obeyed();
+  // Once somebody reads, the log says that there was more.
+  std::string text(1 << 20, '\0');
+  ASSERT_GT(::read(pipe[0], text.data(), text.size()), 0);
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait_for_end(seconds(10)), 0);
+  const ssize_t length = ::read(pipe[0], text.data(), text.size());
+  ASSERT_GT(length, 0);
+  EXPECT_NE(text.substr(0, static_cast<std::size_t>(length)).find("lines of this log were lost"),
+            std::string::npos);
+  ::close(pipe[0]);
+  ::close(pipe[1]);
+}
+
 TEST_F(HostileSystem, ASubscriberThatNeverReadsHoldsUpNobody) {
   start_tracking();
   const LoopObserver::Summary calm = observe_for(3.0);
@@ -347,7 +419,8 @@ TEST_F(HostileSystem, ASubscriberThatNeverReadsHoldsUpNobody) {
 std::string status_line(const std::string& path, const std::string& key) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
-    if (line.starts_with(key + ":")) return line.substr(std::min(line.find_first_not_of(" \t", key.size() + 1), line.size()));
+    if (line.starts_with(key + ":"))
+      return line.substr(std::min(line.find_first_not_of(" \t", key.size() + 1), line.size()));
   return "absent";
 }
 
@@ -379,8 +452,9 @@ TEST_F(HostileSystem, StartedByRootTheGatewayIsAnotherUserWithNothingOpenButItsC
   EXPECT_EQ(status_line(process + "/status", "Groups"), "");
   for (const auto& entry : std::filesystem::directory_iterator(process + "/fd")) {
     const std::string target = std::filesystem::read_symlink(entry.path());
-    const bool known = target == "/dev/null" || target.starts_with("/memfd:strainwave-") || target.starts_with("socket:") ||
-                       target.starts_with("pipe:") || target == "anon_inode:[eventfd]";
+    const bool known = target == "/dev/null" || target.starts_with("/memfd:strainwave-") ||
+                       target.starts_with("socket:") || target.starts_with("pipe:") ||
+                       target == "anon_inode:[eventfd]";
     EXPECT_TRUE(known) << target;
   }
 }

@@ -61,6 +61,25 @@ TEST_F(Confinement, EndsTheProcessThatTouchesAnother) {
               ::testing::KilledBySignal(SIGSYS), "");
 }
 
+// LCM is set up between the two steps, and may already be fed.
+TEST_F(Confinement, KeepsFromOtherProcessesEvenBeforeLcmIsSetUp) {
+  const auto try_between = [](auto attempt) {
+    confine_before_setup(-1, -1, kKeptDescriptors);
+    ::_exit(attempt() ? 1 : 0);
+  };
+  EXPECT_EXIT(try_between([] { return ::kill(::getppid(), 0) == 0; }), ::testing::KilledBySignal(SIGSYS), "");
+  EXPECT_EXIT(try_between([] { return ::ptrace(PTRACE_ATTACH, ::getppid(), nullptr, nullptr) == 0; }),
+              ::testing::KilledBySignal(SIGSYS), "");
+  EXPECT_EXIT(try_between([] { return ::execl("/bin/true", "true", nullptr) == 0; }), ::testing::KilledBySignal(SIGSYS),
+              "");
+  // What LCM does need.
+  EXPECT_EXIT(try_between([] {
+                std::thread([] {}).join();
+                return ::socket(AF_INET, SOCK_DGRAM, 0) < 0;
+              }),
+              ::testing::ExitedWithCode(0), "");
+}
+
 TEST_F(Confinement, EndsTheProcessThatMakesMemoryRunnable) {
   EXPECT_EXIT(try_confined([] {
                 return ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=

@@ -84,6 +84,8 @@ TEST_F(JointLoopLimits, TurnEveryFaultOfTheDriveIntoTheJointsWithinOneCycle) {
       {ActuatorFault::kImplausible, Fault::kImplausibleReading},
       {ActuatorFault::kLinkLost, Fault::kLinkLost},
       {ActuatorFault::kEmergencyStop, Fault::kEmergencyStop},
+      {ActuatorFault::kDriveRestarted, Fault::kDriveRestarted},
+      {ActuatorFault::kBusError, Fault::kBusError},
   };
   for (const auto& [drive_fault, expected] : pairs) {
     drive_->reading.drive_state = DriveState::kDisabled;
@@ -96,6 +98,47 @@ TEST_F(JointLoopLimits, TurnEveryFaultOfTheDriveIntoTheJointsWithinOneCycle) {
     ASSERT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
     EXPECT_EQ(loop_->mode(), Mode::kOff);
   }
+}
+
+TEST_F(JointLoopLimits, KeepTheDrivesOwnErrorNumberWithTheFaultThatItExplains) {
+  hold();
+  drive_->reading.fault = ActuatorFault::kDriveFault;
+  drive_->reading.drive_error = 0x3210;
+  step();
+  drive_->reading.drive_error = 0x8130;  // what follows explains nothing
+  step();
+  EXPECT_EQ(loop_->record().state.drive_error, 0x3210);
+  LoopEvent event;
+  while (events_.pop(event) && event.to != Mode::kFaulted) continue;
+  EXPECT_EQ(event.drive_error, 0x3210U);
+}
+
+TEST(JointLoopMissedReadings, DoNotDisturbAMotionAtFullSpeed) {
+  for (const int missing : {1, 2, 3}) {
+    JointBench bench({demo_joint()});
+    bench.bring_to_hold(0);
+    ASSERT_EQ(bench.move(0, 1.0), Reason::kAccepted);
+    const double full_speed_rad_s = demo_joint().loop.controller.motion.velocity_rad_s;
+    ASSERT_GE(bench.step_until([&] { return bench.state(0).joint_velocity_rad_s > 0.98 * full_speed_rad_s; }, 500), 0);
+    bench.drive(0).miss_readings(missing);
+    bench.run(1.0);
+    EXPECT_EQ(bench.fault(0), Fault::kNone) << missing << ": " << to_text(bench.fault(0));
+    EXPECT_NEAR(bench.state(0).joint_position_rad, 1.0, 1e-4) << missing;
+  }
+}
+
+TEST_F(JointLoopLimits, LetASilentDriveSayItsFaultWhenSomebodyEnablesIt) {
+  hold();
+  order(OrderKind::kDisable);
+  while (loop_->mode() != Mode::kOff) step();
+  drive_->reading.has_position = false;
+  step();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
+  drive_->reading.fault = ActuatorFault::kDriveRestarted;
+  step();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  EXPECT_EQ(fault(), Fault::kDriveRestarted);
+  EXPECT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
 }
 
 TEST_F(JointLoopLimits, LeaveAReleasedEmergencyStopWithoutMotion) {
@@ -192,6 +235,7 @@ TEST_F(JointLoopLimits, LeaveAJointThatIsOffAloneWhateverItsDriveSays) {
   for (int i = 0; i < 100; ++i) step();
   EXPECT_EQ(loop_->mode(), Mode::kOff);
   drive_->reading.has_position = false;
+  drive_->reading.fault = ActuatorFault::kNone;
   step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
 }

@@ -1,0 +1,77 @@
+# What goes where on a machine, by package (install component). Programs find what belongs to them from where they are
+# themselves: nothing points back into the source or build tree.
+set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc")
+# systemd and udev of Debian 12 look below /lib; with its merged /usr that is /usr/lib.
+set(unit_dir lib/systemd/system)
+
+# Package strainwave: daemon, client, units, example configuration, documentation.
+install(TARGETS strainwaved strainwavectl DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+install(TARGETS strainwave-gateway DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
+install(PROGRAMS systemd/grant-sysfs DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
+
+# strainwave_unit(NAME CONFIGURATION STATE TITLE COMMENT): one source for the service and its template.
+function(strainwave_unit UNIT_NAME UNIT_CONFIGURATION UNIT_STATE UNIT_TITLE UNIT_COMMENT)
+  configure_file(systemd/strainwaved.service.in "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" @ONLY)
+  install(FILES "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" DESTINATION ${unit_dir} COMPONENT daemon)
+endfunction()
+strainwave_unit(strainwaved strainwaved strainwave "" "The daemon of this machine, with /etc/strainwave/strainwaved.toml.")
+strainwave_unit(strainwaved@ %i strainwave/%i " (%i)"
+  "A further daemon: strainwaved@left uses /etc/strainwave/left.toml, with a daemon.prefix and drives of its own.")
+install(FILES systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
+install(FILES systemd/strainwave.sysusers DESTINATION lib/sysusers.d RENAME strainwave.conf COMPONENT daemon)
+install(FILES systemd/strainwave.tmpfiles DESTINATION lib/tmpfiles.d RENAME strainwave.conf COMPONENT daemon)
+install(FILES systemd/60-strainwave.rules DESTINATION lib/udev/rules.d COMPONENT daemon)
+install(DIRECTORY systemd/network DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
+install(FILES packaging/strainwaved.toml packaging/authorized_keys
+        DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/strainwave COMPONENT daemon)
+install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave/tables COMPONENT daemon)
+# The tree's own order, so that links between the pages hold.
+install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
+install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
+
+# Package strainwave-design: what needs no robot.
+install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
+if(STRAINWAVE_BUILD_DESIGN)
+  install(TARGETS strainwave-design DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
+endif()
+install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT design)
+
+# Package strainwave-spy.
+if(STRAINWAVE_BUILD_SPY)
+  install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave-spy COMPONENT spy)
+  install(PROGRAMS spy/strainwave-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT spy)
+endif()
+
+# Package libstrainwave-lcmtypes-dev.
+install(FILES ${STRAINWAVE_LCM_SOURCES} DESTINATION ${CMAKE_INSTALL_DATADIR}/lcmtypes/strainwave COMPONENT lcmtypes)
+install(TARGETS strainwave-lcmtypes DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lcmtypes)
+install(DIRECTORY "${STRAINWAVE_LCM_GENERATED_DIR}/strainwave" "${STRAINWAVE_LCM_GENERATED_DIR}/c/strainwave"
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT lcmtypes FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+install(DIRECTORY "${STRAINWAVE_LCM_GENERATED_DIR}/python/strainwave" DESTINATION lib/python3/dist-packages COMPONENT lcmtypes
+        FILES_MATCHING PATTERN "*.py")
+configure_file(packaging/strainwave-lcmtypes.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" @ONLY)
+install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT lcmtypes)
+
+# Debian wants a copyright, our changelog and that of the packaging in every package's folder.
+find_program(GZIP gzip REQUIRED)
+function(strainwave_compressed source result)
+  add_custom_command(OUTPUT "${CMAKE_BINARY_DIR}/packaging/${result}" DEPENDS ${source} COMMENT "${result}" VERBATIM
+    COMMAND sh -c "\"$1\" -9nc \"$2\" >\"$3\"" sh ${GZIP} "${PROJECT_SOURCE_DIR}/${source}"
+            "${CMAKE_BINARY_DIR}/packaging/${result}")
+endfunction()
+strainwave_compressed(CHANGELOG.md changelog.gz)
+strainwave_compressed(packaging/changelog changelog.Debian.gz)
+set(changelogs "${CMAKE_BINARY_DIR}/packaging/changelog.gz" "${CMAKE_BINARY_DIR}/packaging/changelog.Debian.gz")
+add_custom_target(strainwave_changelogs ALL DEPENDS ${changelogs})
+foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmtypes:libstrainwave-lcmtypes-dev)
+  string(REPLACE ":" ";" pair "${pair}")
+  list(GET pair 0 component)
+  list(GET pair 1 package)
+  set(copyright packaging/copyright)
+  if(EXISTS "${PROJECT_SOURCE_DIR}/packaging/${package}/copyright")
+    set(copyright packaging/${package}/copyright)
+  endif()
+  install(FILES ${copyright} DESTINATION ${doc_dir}/${package} RENAME copyright COMPONENT ${component})
+  install(FILES ${changelogs} DESTINATION ${doc_dir}/${package} COMPONENT ${component})
+endforeach()

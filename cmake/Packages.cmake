@@ -1,0 +1,67 @@
+# Debian packages of the install components; scripts/package makes them.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME strainwave)
+set(CPACK_PACKAGE_VENDOR "Strainwave developers")
+set(CPACK_PACKAGE_CONTACT "Strainwave developers <strainwave@example.org>")
+set(CPACK_PACKAGE_DIRECTORY "${CMAKE_BINARY_DIR}/packages")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL daemon lcmtypes)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+# Of the packaging, while the version stays.
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_DAEMON_PACKAGE_NAME strainwave)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_SECTION electronics)
+set(CPACK_COMPONENT_DAEMON_DESCRIPTION "Real-time control of strain-wave joints
+ Controls joints with strain-wave (harmonic drive) gears, whose friction
+ changes with temperature: a daemon with its network gateway, a client for
+ the operator, and the units of the service. Nothing is started by the
+ installation.")
+# The libraries that the programs link are found by dpkg-shlibdeps.
+set(CPACK_DEBIAN_DAEMON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_DEPENDS "systemd (>= 252), udev, iproute2")
+set(CPACK_DEBIAN_DAEMON_PACKAGE_SUGGESTS "strainwave-design, strainwave-spy")
+set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
+  "${PROJECT_SOURCE_DIR}/packaging/strainwave/postinst;${PROJECT_SOURCE_DIR}/packaging/strainwave/prerm;${PROJECT_SOURCE_DIR}/packaging/strainwave/postrm;${PROJECT_SOURCE_DIR}/packaging/strainwave/conffiles")
+
+if(STRAINWAVE_BUILD_DESIGN)
+  list(APPEND CPACK_COMPONENTS_ALL design)
+endif()
+set(CPACK_DEBIAN_DESIGN_PACKAGE_NAME strainwave-design)
+set(CPACK_DEBIAN_DESIGN_PACKAGE_SECTION electronics)
+set(CPACK_COMPONENT_DESIGN_DESCRIPTION "Design of gain tables for strain-wave joints
+ Fits the friction of a gear to its catalogue or to recorded motion, designs
+ and verifies gain tables for strainwaved, and simulates the closed loop.
+ Needs no robot. The program strainwave-design contains SDPA, which is under
+ the GNU General Public License.")
+set(CPACK_DEBIAN_DESIGN_PACKAGE_SHLIBDEPS ON)
+# It draws its figures with gnuplot.
+set(CPACK_DEBIAN_DESIGN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_DESIGN_PACKAGE_SUGGESTS strainwave)
+
+if(STRAINWAVE_BUILD_SPY)
+  list(APPEND CPACK_COMPONENTS_ALL spy)
+endif()
+set(CPACK_DEBIAN_SPY_PACKAGE_NAME strainwave-spy)
+set(CPACK_DEBIAN_SPY_PACKAGE_SECTION electronics)
+set(CPACK_DEBIAN_SPY_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_SPY_DESCRIPTION "Viewer of Strainwave's messages
+ LCM's viewer with the messages of strainwaved decoded, and a plot of
+ position, setpoint, error and temperature of a joint.")
+set(CPACK_DEBIAN_SPY_PACKAGE_DEPENDS "default-jre (>= 2:1.17), liblcm-java (>= 1.3.1), libjchart2d-java")
+
+set(CPACK_DEBIAN_LCMTYPES_PACKAGE_NAME libstrainwave-lcmtypes-dev)
+set(CPACK_DEBIAN_LCMTYPES_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_LCMTYPES_DESCRIPTION "Strainwave's LCM messages for other programs
+ The message types of strainwaved: their definitions, headers for C and C++,
+ a static library for C, and a Python package.")
+set(CPACK_DEBIAN_LCMTYPES_PACKAGE_DEPENDS "liblcm-dev (>= 1.3.1)")
+set(CPACK_DEBIAN_LCMTYPES_PACKAGE_RECOMMENDS python3)
+
+include(CPack)

@@ -1,0 +1,21 @@
+// The drives of a configuration, before the loop: whose they are, and whether start-up would accept them. Not
+// real-time.
+#pragma once
+
+#include <ostream>
+#include <vector>
+
+#include "daemon/config.h"
+#include "daemon/instance_lock.h"
+
+namespace strainwave {
+
+/// Takes every drive for this process. Throws InputError when another daemon has one.
+std::vector<InstanceLock> lock_drives(const DaemonConfig& config);
+
+/// Does to the drives on buses all that start-up does, enables none, and leaves them. Writes what it found or
+/// what is wrong to `out`; returns whether start-up would accept all. Throws InputError when another daemon
+/// has one of them.
+bool check_drives(const DaemonConfig& config, std::ostream& out);
+
+}  // namespace strainwave

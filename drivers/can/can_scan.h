@@ -1,0 +1,31 @@
+// Who is on a CAN bus: every CANopen node that answers, what it is, which modes it has, and where it may show
+// a temperature. Reads only, by SDO; orders nothing. Blocking; not real-time.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "drivers/can/can_port.h"
+
+namespace strainwave {
+
+struct ScannedNode {
+  std::uint8_t node_id = 0;
+  std::uint32_t device_type = 0;
+  std::string identity;             ///< in words
+  std::string modes;                ///< of a servo drive; empty for another device
+  std::vector<std::string> mapped;  ///< objects in its TPDOs, as index:sub and bits
+  std::vector<std::string>
+      temperatures;     ///< objects that drives are known to have a temperature in, with their value
+  std::string trouble;  ///< why the rest could not be read; empty: nothing
+};
+
+/// Asks the nodes 1..127 one after the other, each for `timeout_ns`.
+std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t timeout_ns);
+
+/// Scans the interface and writes what was found. Throws InputError when it cannot be used.
+void scan_can_interface(const std::string& interface_name, std::ostream& out);
+
+}  // namespace strainwave

@@ -1,0 +1,43 @@
+// The power state machine of a drive as a table: what a statusword says, and which controlword leads on. Pure
+// functions, real-time safe. Source: CiA 402-2 (IEC 61800-7-201), tables 27 to 30.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace strainwave::cia402 {
+
+enum class PowerState : std::uint8_t {
+  kNotReady,
+  kSwitchOnDisabled,
+  kReadyToSwitchOn,
+  kSwitchedOn,
+  kOperationEnabled,
+  kQuickStopActive,
+  kFaultReaction,
+  kFault,
+};
+std::string_view to_text(PowerState state) noexcept;
+
+/// Where the drive is to be led.
+enum class Goal : std::uint8_t {
+  kDisabled,   ///< no torque, in order
+  kEnabled,    ///< torque commands take effect
+  kQuickStop,  ///< stopped as fast as the drive can, then without torque
+};
+
+inline constexpr std::uint16_t kShutdown = 0x06;
+inline constexpr std::uint16_t kSwitchOn = 0x07;
+inline constexpr std::uint16_t kEnableOperation = 0x0F;
+inline constexpr std::uint16_t kDisableVoltage = 0x00;
+inline constexpr std::uint16_t kQuickStop = 0x02;
+inline constexpr std::uint16_t kFaultReset = 0x80;
+
+/// Of a statusword (6041h). Every value has one.
+PowerState power_state_of(std::uint16_t statusword) noexcept;
+
+/// The next controlword (6040h) on the way to `goal`. A fault is never reset by it: that is an operator's
+/// order.
+std::uint16_t controlword_towards(Goal goal, PowerState state) noexcept;
+
+}  // namespace strainwave::cia402

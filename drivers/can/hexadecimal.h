@@ -1,0 +1,17 @@
+// Numbers as CANopen's documents write them: 6041h. Not real-time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace strainwave {
+
+inline std::string hexadecimal(std::uint64_t value, int digits) {
+  std::array<char, 24> text{};
+  std::snprintf(text.data(), text.size(), "%0*llXh", digits, static_cast<unsigned long long>(value));
+  return text.data();
+}
+
+}  // namespace strainwave

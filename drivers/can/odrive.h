@@ -1,0 +1,93 @@
+// ODrive's CANSimple protocol as of firmware 0.6: identifiers, frames, error bits. Pure functions, real-time
+// safe but for the texts. Decoders take untrusted frames: exact sizes, finite numbers. Source: ODrive
+// documentation, "CAN Protocol" and "ODrive.Axis.Error", firmware 0.6.10. Firmware 0.5 gives some of these
+// identifiers other meanings: check the version.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "drivers/can/can_frame.h"
+
+namespace strainwave::odrive {
+
+inline constexpr std::uint8_t kMaxNodeId = 63;
+
+enum class Command : std::uint8_t {
+  kVersion = 0x00,
+  kHeartbeat = 0x01,
+  kErrors = 0x03,
+  kReadParameter = 0x04,  ///< the documentation's RxSdo
+  kParameter = 0x05,      ///< TxSdo
+  kSetAxisState = 0x07,
+  kEstimates = 0x09,
+  kSetControllerMode = 0x0B,
+  kSetTorque = 0x0E,
+  kTemperatures = 0x15,
+  kSupply = 0x17,
+  kClearErrors = 0x18,
+};
+constexpr std::uint32_t can_id(Command command, std::uint8_t node) noexcept {
+  return static_cast<std::uint32_t>(node) << 5U | static_cast<std::uint32_t>(command);
+}
+
+enum class AxisState : std::uint8_t { kUndefined = 0, kIdle = 1, kClosedLoop = 8 };
+
+/// Bits of an axis error that mean more than "a fault of the drive".
+inline constexpr std::uint32_t kOverVoltage = 0x100;
+inline constexpr std::uint32_t kUnderVoltage = 0x200;
+inline constexpr std::uint32_t kWatchdogExpired = 0x1000000;
+inline constexpr std::uint32_t kEstopRequested = 0x2000000;
+/// "MOTOR_OVER_TEMP, WATCHDOG_TIMER_EXPIRED"; unknown bits as a number.
+std::string error_text(std::uint32_t errors);
+
+struct Version {
+  std::uint8_t protocol = 0;
+  std::uint8_t firmware_major = 0;
+  std::uint8_t firmware_minor = 0;
+  std::uint8_t firmware_revision = 0;
+};
+struct Heartbeat {
+  std::uint32_t errors = 0;
+  AxisState state = AxisState::kUndefined;  ///< other numbers are procedures (calibration, homing)
+  std::uint8_t procedure_result = 0;        ///< 0 success, 3 disarmed
+};
+/// Of the drive's encoder, in its turns.
+struct Estimates {
+  double position_turns = 0.0;
+  double velocity_turns_s = 0.0;
+};
+/// Without a value where the drive has no sensor.
+struct Temperatures {
+  std::optional<double> inverter_C;
+  std::optional<double> motor_C;
+};
+struct Supply {
+  double voltage_V = 0.0;
+  double current_A = 0.0;
+};
+
+// Nothing for a frame of another size, or with a number that is not finite (of temperatures: both).
+std::optional<Version> decode_version(const CanFrame& frame) noexcept;
+std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept;
+std::optional<Estimates> decode_estimates(const CanFrame& frame) noexcept;
+std::optional<Temperatures> decode_temperatures(const CanFrame& frame) noexcept;
+std::optional<Supply> decode_supply(const CanFrame& frame) noexcept;
+
+/// The value of a parameter that was asked for by read_parameter_frame(): a boolean or a REAL32.
+std::optional<bool> decode_parameter_bool(const CanFrame& frame, std::uint16_t endpoint) noexcept;
+std::optional<double> decode_parameter_float(const CanFrame& frame, std::uint16_t endpoint) noexcept;
+
+/// Asks for `command`'s message; a remote frame.
+CanFrame request_frame(std::uint8_t node, Command command) noexcept;
+CanFrame axis_state_frame(std::uint8_t node, AxisState state) noexcept;
+/// Torque control, input passed through.
+CanFrame torque_mode_frame(std::uint8_t node) noexcept;
+/// On the drive's side. `torque_Nm` must be finite.
+CanFrame torque_frame(std::uint8_t node, double torque_Nm) noexcept;
+CanFrame clear_errors_frame(std::uint8_t node) noexcept;
+/// `endpoint` is the number in the firmware's flat_endpoints.json.
+CanFrame read_parameter_frame(std::uint8_t node, std::uint16_t endpoint) noexcept;
+
+}  // namespace strainwave::odrive

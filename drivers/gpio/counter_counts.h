@@ -1,0 +1,55 @@
+// Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as
+// a quadrature decoder of the SoC. read() is real-time safe as far as SysfsFile is; the constructor
+// configures the counter.
+//
+// The count wraps at its ceiling: from one period to the next it moves the shorter way round. A joint must
+// therefore move less than half the ceiling in a period. Source: the kernel's
+// Documentation/driver-api/generic-counter.rst, ABI sysfs-bus-counter.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drivers/gpio/count_source.h"
+#include "drivers/gpio/sysfs_file.h"
+
+namespace strainwave {
+
+struct CounterConfig {
+  std::filesystem::path count_folder;      ///< ".../counter0/count0"
+  std::optional<std::uint64_t> ceiling;    ///< set at the start; without it what the counter has, or 2^32 - 1
+  std::string function = "quadrature x4";  ///< set where the counter has the attribute
+};
+
+/// Steps of a count between 0 and `ceiling`, accumulated.
+class CountUnwrapper {
+ public:
+  explicit CountUnwrapper(std::uint64_t ceiling) noexcept : ceiling_(ceiling) {}
+  /// Nothing when `count` is above the ceiling.
+  std::optional<std::int64_t> step(std::uint64_t count) noexcept;
+
+ private:
+  std::uint64_t ceiling_;
+  std::uint64_t last_ = 0;
+  std::int64_t total_ = 0;
+  bool begun_ = false;
+};
+
+class CounterCounts final : public CountSource {
+ public:
+  /// Throws InputError: no such counter, a value it does not take.
+  CounterCounts(const CounterConfig& config, const std::string& where);
+
+  Sample read(std::int64_t now_ns) noexcept override;
+  void clear_fault() noexcept override { implausible_ = false; }
+
+ private:
+  SysfsFile count_;
+  CountUnwrapper unwrapper_;
+  std::int64_t counts_ = 0;
+  bool implausible_ = false;
+};
+
+}  // namespace strainwave

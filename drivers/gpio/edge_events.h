@@ -1,0 +1,53 @@
+// Edges of GPIO lines of one chip, in their order and with proof that none is missing. It speaks the kernel's
+// GPIO uAPI v2 itself (linux/gpio.h): libgpiod 1.6 knows only v1, which has one queue of 16 events per line,
+// tells no order between lines and drops silently. read() and levels() are one system call each, never block
+// and are real-time safe. Source: the kernel's include/uapi/linux/gpio.h.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drivers/gpio/gpio_lines.h"
+
+namespace strainwave {
+
+struct Edge {
+  std::int64_t time_ns = 0;    ///< CLOCK_MONOTONIC, taken by the interrupt
+  std::uint32_t sequence = 0;  ///< over all lines of the request: 1, 2, ...
+  std::uint32_t line = 0;      ///< index of the line in the constructor's list
+  bool active = false;         ///< what it became
+};
+
+/// Of a line that both edges are wanted of, the kernel reads the level a little after the interrupt: a pulse
+/// shorter than that shows as two edges to the same level. A pulse whose beginning alone counts needs
+/// kActive.
+enum class EdgeKind { kBoth, kActive };
+
+class EdgeEvents {
+ public:
+  static constexpr std::size_t kReadAtOnce = 64;
+  static constexpr std::uint32_t kKernelBuffer =
+      1024;  ///< events that the kernel keeps; older ones are dropped and counted
+
+  /// Requests the lines, which must be on one chip with the same settings. Throws InputError.
+  EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const std::string& consumer,
+             const std::string& where);
+  ~EdgeEvents();
+  EdgeEvents(const EdgeEvents&) = delete;
+  EdgeEvents& operator=(const EdgeEvents&) = delete;
+
+  /// For poll().
+  int descriptor() const noexcept { return fd_; }
+  /// What has come so far, at most `edges.size()` or kReadAtOnce; -1 when the kernel refuses.
+  int read(std::span<Edge> edges) noexcept;
+  /// Bit i: line i is active now. False when the kernel refuses.
+  bool levels(std::uint32_t& active) noexcept;
+
+ private:
+  std::vector<std::uint32_t> offsets_;
+  int fd_ = -1;
+};
+
+}  // namespace strainwave

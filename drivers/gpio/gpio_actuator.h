@@ -1,0 +1,76 @@
+// A bare DC motor behind the seam: amplifier or H-bridge by PWM and digital lines, encoder by a hardware
+// counter or, slowly, by edges, temperature by a file. read(), write(), stop() and clear_fault() are
+// real-time safe as far as this side goes: each makes a few system calls (one per group of lines, one for the
+// PWM, one for the counter), none of which waits for anything but locks of the kernel's own drivers.
+//
+// What stops the joint when this process dies is wiring, not software: docs/gpio.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "drivers/actuator.h"
+#include "drivers/gpio/count_source.h"
+#include "drivers/gpio/drive_sequence.h"
+#include "drivers/gpio/gpio_lines.h"
+#include "drivers/gpio/index_capture.h"
+#include "drivers/gpio/pwm_channel.h"
+#include "drivers/gpio/torque_output.h"
+#include "drivers/temperature_file.h"
+
+namespace strainwave {
+
+struct GpioMotionConfig {
+  double count_rad = 0.0;         ///< joint's rotation per count, > 0
+  bool encoder_reversed = false;  ///< rising counts are falling position
+  double velocity_filter_s =
+      0.005;  ///< time constant of the velocity that back-EMF is compensated with, >= 0
+  double period_s = 0.001;
+};
+
+/// The parts, made by whoever knows the configuration; `index` and `thermometer` may be null.
+struct GpioParts {
+  std::unique_ptr<DigitalLines> lines;
+  std::unique_ptr<PwmChannel> pwm;
+  std::unique_ptr<CountSource> counts;
+  std::unique_ptr<EdgeEvents> index;
+  std::unique_ptr<TemperatureFile> thermometer;
+};
+
+class GpioActuator final : public Actuator {
+ public:
+  GpioActuator(GpioParts parts, const GpioMotionConfig& motion, const TorqueOutputConfig& torque,
+               const DriveSequenceConfig& sequence);
+  /// Stops; the parts then leave their outputs safe, the brake shut.
+  ~GpioActuator() override;
+
+  ActuatorReading read(std::int64_t now_ns) noexcept override;
+  void write(const ActuatorCommand& command) noexcept override;
+  void stop() noexcept override;
+  void clear_fault() noexcept override;
+
+ private:
+  void read_position(ActuatorReading& reading) noexcept;
+  void read_inputs(ActuatorReading& reading) noexcept;
+  void read_temperature(ActuatorReading& reading) noexcept;
+  ActuatorFault fault_of_inputs() const noexcept;
+  void put_out(const TorqueOutput::Output& torque, const DriveSequence::Outputs& sequence) noexcept;
+
+  GpioParts parts_;
+  GpioMotionConfig motion_;
+  TorqueOutput torque_;
+  DriveSequence sequence_;
+  IndexCapture index_;
+  TorqueOutput::Output last_output_;
+  std::uint32_t active_ = 0;  ///< inputs of this period, by role
+  std::int64_t now_ns_ = 0;
+  double position_rad_ = 0.0;
+  double velocity_rad_s_ = 0.0;
+  bool has_position_ = false;  ///< position_rad_ is that of the period before
+  bool lines_failed_ = false;
+  bool write_failed_ = false;  ///< until cleared
+  bool alive_ = false;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,36 @@
+#include "drivers/gpio/gpio_joint.h"
+
+#include <array>
+
+namespace strainwave {
+
+namespace {
+
+const std::optional<LineOptions>& line_of(const GpioJointConfig& config, LineRole role) {
+  return config.lines[static_cast<std::size_t>(role)];
+}
+
+std::unique_ptr<CountSource> make_counts(const GpioJointConfig& config) {
+  if (const auto* counter = std::get_if<CounterConfig>(&config.encoder))
+    return std::make_unique<CounterCounts>(*counter, config.where + ".encoder");
+  return std::make_unique<QuadratureCounts>(std::get<QuadratureConfig>(config.encoder), config.consumer(),
+                                            config.where + ".quadrature");
+}
+
+}  // namespace
+
+std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config) {
+  GpioParts parts;
+  parts.lines = std::make_unique<GpioLines>(config.lines, config.consumer(), config.where);
+  // Only now, with the amplifier off and the brake shut.
+  parts.counts = make_counts(config);
+  if (const auto& index = line_of(config, LineRole::kIndex))
+    parts.index = std::make_unique<EdgeEvents>(std::array{*index}, EdgeKind::kActive, config.consumer(),
+                                               config.where + ".index");
+  if (config.thermometer) parts.thermometer = std::make_unique<TemperatureFile>(*config.thermometer);
+  parts.pwm = std::make_unique<PwmChannel>(config.pwm, TorqueOutput(config.torque).idle_duty(),
+                                           config.where + ".pwm");
+  return std::make_unique<GpioActuator>(std::move(parts), config.motion, config.torque, config.sequence);
+}
+
+}  // namespace strainwave

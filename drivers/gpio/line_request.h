@@ -1,0 +1,62 @@
+// Lines of one GPIO chip, requested together with the same settings: the narrow seam to libgpiod, which has
+// two incompatible APIs. line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13);
+// pkg-config chooses one. read() and write() are one system call each and real-time safe; everything else is
+// not.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace strainwave {
+
+enum class LineBias { kAsIs, kOff, kPullUp, kPullDown };
+enum class LineDirection { kAsIs, kInput, kOutput };
+
+/// What the kernel says of a line without its being requested.
+struct LineInfo {
+  unsigned offset = 0;
+  std::string name;      ///< empty: none
+  std::string consumer;  ///< who holds it; empty: nobody, or somebody without a name
+  bool held = false;
+  bool output = false;
+  bool active_low = false;
+};
+
+/// Label of the chip at `path`, such as "gpio-0-31". Throws std::system_error.
+std::string chip_label(const std::string& path);
+/// Every line of the chip at `path`. Throws std::system_error.
+std::vector<LineInfo> list_lines(const std::string& path);
+
+class LineRequest {
+ public:
+  struct Settings {
+    std::string chip_path;
+    std::string consumer;
+    LineDirection direction = LineDirection::kInput;  ///< outputs begin inactive, in the request itself
+    LineBias bias = LineBias::kAsIs;
+    bool active_low = false;
+    std::vector<unsigned> offsets;  ///< 1 to 32
+  };
+
+  /// Throws std::system_error: EBUSY when another process holds a line.
+  explicit LineRequest(const Settings& settings);
+  LineRequest(LineRequest&&) noexcept;
+  ~LineRequest();
+  LineRequest(const LineRequest&) = delete;
+  LineRequest& operator=(const LineRequest&) = delete;
+  LineRequest& operator=(LineRequest&&) = delete;
+
+  /// Bit i: whether line i of the settings is active. False when the kernel refuses.
+  bool read(std::uint32_t& active) noexcept;
+  /// Of outputs.
+  bool write(std::uint32_t active) noexcept;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,48 @@
+// One channel of a PWM chip (sysfs). set_duty() is one system call into the kernel's PWM driver, which may
+// take a lock there, and allocates nothing; the constructor exports and configures the channel and may wait.
+// Source: the kernel's Documentation/driver-api/pwm.rst, ABI/testing/sysfs-class-pwm.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "drivers/gpio/sysfs_file.h"
+
+namespace strainwave {
+
+struct PwmConfig {
+  std::filesystem::path chip_folder;  ///< ".../pwmchip0"
+  int channel = 0;
+  double frequency_Hz = 20000.0;
+  bool inversed = false;  ///< polarity
+};
+
+class PwmChannel {
+ public:
+  /// Starts with `idle_duty` (0 to 1). Throws InputError: no such channel, a period that it cannot make.
+  PwmChannel(const PwmConfig& config, double idle_duty, const std::string& where);
+  /// Idle duty; the channel stays on, because an output that is switched off has a level of its own.
+  ~PwmChannel();
+  PwmChannel(const PwmChannel&) = delete;
+  PwmChannel& operator=(const PwmChannel&) = delete;
+
+  /// `duty` is limited to 0 to 1. False when the kernel refuses; the duty is then unknown.
+  bool set_duty(double duty) noexcept;
+  bool set_idle() noexcept { return set_duty(idle_duty_); }
+  /// The smallest step of the duty: the kernel counts nanoseconds.
+  double resolution() const noexcept { return 1.0 / static_cast<double>(period_ns_); }
+
+ private:
+  void export_channel(const PwmConfig& config, const std::string& where);
+  void configure(const PwmConfig& config, const std::string& where);
+
+  std::filesystem::path folder_;
+  std::int64_t period_ns_;
+  double idle_duty_;
+  std::int64_t duty_ns_ = -1;  ///< last written; -1: unknown
+  std::unique_ptr<SysfsFile> duty_;
+};
+
+}  // namespace strainwave

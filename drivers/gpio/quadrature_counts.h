@@ -1,0 +1,59 @@
+// The fallback without a counter in hardware: edges of the encoder's lines are counted by a thread of its
+// own. Slow joints only: docs/gpio.md says how slow. read() and clear_fault() are real-time safe; the
+// constructor starts the thread.
+#pragma once
+
+#include <atomic>
+#include <thread>
+
+#include "drivers/gpio/count_source.h"
+#include "drivers/gpio/quadrature_decoder.h"
+
+namespace strainwave {
+
+struct QuadratureConfig {
+  /// Caps above this are refused: the highest rate that tests/vm/gpio counts without a loss; docs/gpio.md
+  /// says what that means.
+  static constexpr double kHighestRate_Hz = 5000.0;
+
+  LineOptions a;
+  LineOptions b;
+  double max_rate_Hz = 1000.0;  ///< edges of both lines together; faster is a fault
+  int priority = 70;            ///< SCHED_FIFO of the thread, where the system grants it; 0: an ordinary one
+  std::int64_t (*clock_ns)() noexcept = nullptr;  ///< CLOCK_MONOTONIC; required
+};
+
+class QuadratureCounts final : public CountSource {
+ public:
+  /// A thread that has not looked for so long is dead.
+  static constexpr std::int64_t kSilence_ns = 100'000'000;
+
+  /// Throws InputError: lines missing or held, a chip without interrupts.
+  QuadratureCounts(const QuadratureConfig& config, const std::string& consumer, const std::string& where);
+  ~QuadratureCounts() override;
+
+  Sample read(std::int64_t now_ns) noexcept override;
+  /// Counting goes on from the present levels; what was missed stays missing.
+  void clear_fault() noexcept override { clear_requested_.store(true); }
+
+  QuadratureFault fault() const noexcept { return fault_.load(); }
+
+ private:
+  void run(const std::stop_token& stop);
+  void make_real_time() const;
+  void decode() noexcept;
+  void compare_levels() noexcept;
+  void begin_anew() noexcept;
+
+  QuadratureConfig config_;
+  EdgeEvents edges_;
+  QuadratureDecoder decoder_;
+  std::uint32_t last_sequence_ = 0;
+  std::atomic<std::int64_t> counts_{0};
+  std::atomic<QuadratureFault> fault_{QuadratureFault::kNone};
+  std::atomic<std::int64_t> looked_ns_;
+  std::atomic<bool> clear_requested_{false};
+  std::jthread thread_;  // last: ends first
+};
+
+}  // namespace strainwave

@@ -1,0 +1,35 @@
+// One attribute file of sysfs that is kept open: a number is read or written in one system call, without
+// allocation. read() and write() are real-time safe as far as this side goes: behind a sysfs file stands a
+// kernel driver that may take locks.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace strainwave {
+
+class SysfsFile {
+ public:
+  enum class Access { kRead, kWrite };
+  /// Throws InputError naming `where` when the file cannot be opened.
+  SysfsFile(const std::filesystem::path& path, Access access, const std::string& where);
+  ~SysfsFile();
+  SysfsFile(const SysfsFile&) = delete;
+  SysfsFile& operator=(const SysfsFile&) = delete;
+
+  /// The number that the file holds, or nothing.
+  std::optional<std::uint64_t> read() noexcept;
+  bool write(std::uint64_t number) noexcept;
+
+ private:
+  int fd_;
+};
+
+/// Whole small attributes; not real-time. Throws InputError naming `where`.
+std::string read_attribute(const std::filesystem::path& path, const std::string& where);
+void write_attribute(const std::filesystem::path& path, std::string_view text, const std::string& where);
+
+}  // namespace strainwave

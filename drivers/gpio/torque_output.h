@@ -1,0 +1,64 @@
+// From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
+// real-time safe. Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/motor.h.
+//
+//   current:  the amplifier makes a current from the duty;           T = Kt I                  I = full scale
+//   * share voltage:  the bridge makes a voltage; inductance neglected;      T = Kt (u - Ke w) / R     u =
+//   supply * share
+// Kt at the joint = motor's Kt * gear ratio * efficiency. `share` runs from -1 to 1 and becomes a duty:
+//   sign-magnitude:      duty = min + |share| (max - min), a line tells the direction, idle is min
+//   locked anti-phase:   duty = middle + share (max - min) / 2, idle is the middle
+#pragma once
+
+#include <cstdint>
+
+namespace strainwave {
+
+enum class AmplifierKind { kCurrent, kVoltage };
+enum class BridgeKind { kSignMagnitude, kLockedAntiphase };
+
+struct TorqueOutputConfig {
+  AmplifierKind amplifier = AmplifierKind::kCurrent;
+  BridgeKind bridge = BridgeKind::kSignMagnitude;
+  double torque_constant_Nm_A = 0.0;  ///< joint side, efficiency included, > 0
+  double full_scale_A = 0.0;          ///< kCurrent: at the largest duty, > 0
+  double supply_V = 0.0;              ///< kVoltage, > 0
+  double resistance_ohm = 0.0;        ///< kVoltage, > 0
+  double back_emf_Vs_rad = 0.0;       ///< kVoltage, joint side, >= 0
+  double duty_min = 0.0;              ///< 0 <= duty_min < duty_max <= 1
+  double duty_max = 1.0;
+  double slew_Nm_s = 0.0;    ///< fastest change of torque; 0: at once
+  double dead_time_s = 0.0;  ///< without torque before the direction line changes
+  double period_s = 0.001;
+  bool reversed = false;  ///< positive torque wants negative share
+};
+
+class TorqueOutput {
+ public:
+  struct Output {
+    double duty = 0.0;
+    bool negative = false;           ///< the direction line
+    double torque_applied_Nm = 0.0;  ///< what that makes
+  };
+
+  explicit TorqueOutput(const TorqueOutputConfig& config) noexcept;
+
+  /// One period.
+  Output step(double torque_Nm, double joint_velocity_rad_s) noexcept;
+  /// No torque at once, whatever the slew; the direction line stays.
+  Output idle() noexcept;
+  double idle_duty() const noexcept;
+
+ private:
+  double share_of(double torque_Nm, double joint_velocity_rad_s) const noexcept;
+  double torque_of(double share, double joint_velocity_rad_s) const noexcept;
+  double limit_slew(double torque_Nm) noexcept;
+  double limited(double duty) const noexcept;
+
+  TorqueOutputConfig config_;
+  std::int64_t dead_periods_;
+  double torque_Nm_ = 0.0;  ///< after the slew limit
+  bool negative_ = false;
+  std::int64_t waited_periods_ = 0;  ///< for a change of direction
+};
+
+}  // namespace strainwave

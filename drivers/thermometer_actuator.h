@@ -1,0 +1,37 @@
+// A drive whose temperature is measured beside it: holds another Actuator and puts the temperature of a file in the
+// place of the drive's own. read(), write(), stop() and clear_fault() are real-time safe; the constructor is not.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "drivers/actuator.h"
+#include "drivers/temperature_file.h"
+
+namespace strainwave {
+
+class ThermometerActuator final : public Actuator {
+ public:
+  /// Throws InputError when the file cannot be read.
+  ThermometerActuator(std::unique_ptr<Actuator> actuator, const TemperatureFileConfig& thermometer)
+      : actuator_(std::move(actuator)), thermometer_(thermometer) {}
+
+  ActuatorReading read(std::int64_t now_ns) noexcept override {
+    ActuatorReading reading = actuator_->read(now_ns);
+    const TemperatureFile::Sample& sample = thermometer_.newest();
+    reading.has_temperature = sample.valid;
+    reading.temperature_C = sample.temperature_C;
+    reading.temperature_age_ns = std::max<std::int64_t>(0, now_ns - sample.produced_ns);
+    return reading;
+  }
+  void write(const ActuatorCommand& command) noexcept override { actuator_->write(command); }
+  void stop() noexcept override { actuator_->stop(); }
+  void clear_fault() noexcept override { actuator_->clear_fault(); }
+
+ private:
+  std::unique_ptr<Actuator> actuator_;
+  TemperatureFile thermometer_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,230 @@
+// Homing as a state machine, on a joint that goes exactly where it is told: no control law, no friction.
+#include "daemon/realtime/homing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "drivers/simulated_inputs.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+constexpr double kDeceleration_rad_s2 = 5.0;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Obeys: goes at the speed ordered, stops with a deceleration.
+class Walker {
+ public:
+  Walker(double position_rad, const SimulatedInputsConfig& inputs)
+      : position_rad_(position_rad), inputs_(inputs) {
+    (void)inputs_.at(position_rad, position_rad);
+  }
+
+  Homing::Observation observe() {
+    return {position_rad_, falsify(inputs_.at(position_rad_, position_rad_)), velocity_rad_s_ == 0.0,
+            now_ns_};
+  }
+  void obey(const Homing::Order& order) {
+    if (order.kind == Homing::Order::Kind::kMove) {
+      target_rad_ = order.target_rad;
+      wanted_rad_s_ = std::copysign(order.speed_rad_s, target_rad_ - position_rad_);
+      fastest_rad_s_ = std::max(fastest_rad_s_, order.speed_rad_s);
+    } else if (order.kind == Homing::Order::Kind::kStop) {
+      wanted_rad_s_ = 0.0;
+    }
+    const double step = kDeceleration_rad_s2 * kPeriod_s;
+    velocity_rad_s_ += std::clamp(wanted_rad_s_ - velocity_rad_s_, -step, step);
+    position_rad_ += velocity_rad_s_ * kPeriod_s;
+    lowest_rad_ = std::min(lowest_rad_, position_rad_);
+    highest_rad_ = std::max(highest_rad_, position_rad_);
+    now_ns_ += 1'000'000;
+  }
+  /// Runs until `homing` has ended, or for `limit_s`.
+  void run(Homing& homing, double limit_s = 100.0) {
+    obey(homing.begin(observe()));
+    for (int i = 0; i < limit_s / kPeriod_s; ++i) {
+      const Homing::Phase phase = homing.phase();
+      if (phase == Homing::Phase::kDone || phase == Homing::Phase::kFailed) return;
+      obey(homing.step(observe()));
+    }
+  }
+
+  double position_rad_;
+  double lowest_rad_ = kInfinity;
+  double highest_rad_ = -kInfinity;
+  double fastest_rad_s_ = 0.0;
+  std::int64_t now_ns_ = 0;
+  std::function<JointInputs(JointInputs)> falsify = [](JointInputs inputs) { return inputs; };
+
+ private:
+  SimulatedInputs inputs_;
+  double velocity_rad_s_ = 0.0;
+  double wanted_rad_s_ = 0.0;
+  double target_rad_ = 0.0;
+};
+
+HomingConfig config_to(HomingTarget target) {
+  HomingConfig config;
+  config.target = target;
+  config.search_speed_rad_s = 0.5;
+  config.creep_speed_rad_s = 0.02;
+  config.travel_rad = 2.5;
+  config.timeout_s = 60.0;
+  return config;
+}
+
+/// Limits at -1 and 1, a home switch from 0.30 to 0.35, index pulses every 0.125 from 0.01.
+SimulatedInputsConfig inputs() {
+  return {-1.0, 1.0, 0.30, 0.35, 0.01, 0.125};
+}
+
+constexpr double kCreepPerPeriod_rad = 0.02 * kPeriod_s;
+/// The walker, unlike the joint, does not brake for the target: two periods of the search.
+constexpr double kOvershoot_rad = 2.0 * 0.5 * kPeriod_s;
+
+TEST(Homing, FindsTheEdgeOfALimitSwitchFromAnywhere) {
+  for (const double begin_rad : {-1.01, -0.99, -0.5, 0.3, 0.99}) {
+    Homing homing(config_to(HomingTarget::kNegativeLimit));
+    Walker joint(begin_rad, inputs());
+    joint.run(homing);
+    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
+    EXPECT_NEAR(homing.found_rad(), -1.0, 2.0 * kCreepPerPeriod_rad) << begin_rad;
+  }
+  Homing homing(config_to(HomingTarget::kPositiveLimit));
+  Walker joint(0.2, inputs());
+  joint.run(homing);
+  ASSERT_EQ(homing.phase(), Homing::Phase::kDone);
+  EXPECT_NEAR(homing.found_rad(), 1.0, 2.0 * kCreepPerPeriod_rad) << "whatever the direction says";
+}
+
+TEST(Homing, FindsTheSameEdgeOfAHomeSwitchFromEitherSideOfIt) {
+  // Direction negative: the upper edge, also from below, by way of the limit switch and past the switch.
+  for (const double begin_rad : {0.9, 0.36, 0.349, 0.31, 0.29, -0.5, -0.999, -1.2}) {
+    Homing homing(config_to(HomingTarget::kHomeSwitch));
+    Walker joint(begin_rad, inputs());
+    joint.run(homing);
+    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
+    EXPECT_NEAR(homing.found_rad(), 0.35, 2.0 * kCreepPerPeriod_rad) << begin_rad;
+  }
+  HomingConfig upwards = config_to(HomingTarget::kHomeSwitch);
+  upwards.direction = 1.0;
+  for (const double begin_rad : {-0.5, 0.32, 0.6}) {
+    Homing homing(upwards);
+    Walker joint(begin_rad, inputs());
+    joint.run(homing);
+    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
+    EXPECT_NEAR(homing.found_rad(), 0.30, 2.0 * kCreepPerPeriod_rad) << begin_rad;
+  }
+}
+
+TEST(Homing, FindsAHomeSwitchThatIsNarrowerThanTheWayToAStop) {
+  SimulatedInputsConfig narrow = inputs();
+  narrow.home_to_rad = narrow.home_from_rad + 0.002;  // the joint needs 0.025 to stop
+  for (const double begin_rad : {0.8, -0.2}) {
+    Homing homing(config_to(HomingTarget::kHomeSwitch));
+    Walker joint(begin_rad, narrow);
+    joint.run(homing);
+    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
+    EXPECT_NEAR(homing.found_rad(), narrow.home_to_rad, 2.0 * kCreepPerPeriod_rad) << begin_rad;
+  }
+}
+
+TEST(Homing, FindsAnIndexPulseExactlyAloneOrAfterASwitch) {
+  Homing alone(config_to(HomingTarget::kIndex));
+  Walker joint(0.2, inputs());
+  joint.run(alone);
+  ASSERT_EQ(alone.phase(), Homing::Phase::kDone);
+  EXPECT_NEAR(alone.found_rad(), 0.135, 1e-12) << "the pulse's place, not where the joint was seen after it";
+  EXPECT_LE(joint.fastest_rad_s_, 0.02);
+
+  HomingConfig config = config_to(HomingTarget::kHomeSwitch);
+  config.then_index = true;
+  for (const double begin_rad : {0.9, -0.5}) {
+    Homing homing(config);
+    Walker other(begin_rad, inputs());
+    other.run(homing);
+    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
+    EXPECT_NEAR(homing.found_rad(), 0.385, 1e-12) << "the first above the switch, from " << begin_rad;
+  }
+}
+
+TEST(Homing, NeverGoesFasterThanItsSpeedsNorFartherThanItsTravel) {
+  HomingConfig config = config_to(HomingTarget::kHomeSwitch);
+  config.travel_rad = 0.4;
+  Homing homing(config);
+  Walker joint(0.9, inputs());
+  joint.run(homing);
+  EXPECT_EQ(homing.phase(), Homing::Phase::kFailed) << "the switch is 0.55 away";
+  EXPECT_GE(joint.lowest_rad_, 0.5 - kOvershoot_rad);
+  EXPECT_LE(joint.highest_rad_, 0.9);
+  EXPECT_LE(joint.fastest_rad_s_, 0.5);
+}
+
+TEST(Homing, GivesUpAfterItsTime) {
+  HomingConfig config = config_to(HomingTarget::kHomeSwitch);
+  config.timeout_s = 0.5;
+  Homing homing(config);
+  Walker joint(0.9, inputs());
+  joint.run(homing);
+  EXPECT_EQ(homing.phase(), Homing::Phase::kFailed);
+  EXPECT_NEAR(static_cast<double>(joint.now_ns_) * 1e-9, 0.5, 0.005);
+}
+
+TEST(Homing, TurnsAtALimitSwitchOnceAndNotTwice) {
+  SimulatedInputsConfig without_home = inputs();
+  without_home.home_to_rad = -1.0;
+  Homing homing(config_to(HomingTarget::kHomeSwitch));
+  Walker joint(-0.6, without_home);
+  joint.run(homing);
+  EXPECT_EQ(homing.phase(), Homing::Phase::kFailed);
+  EXPECT_LT(joint.lowest_rad_, -0.99);
+  EXPECT_GT(joint.highest_rad_, 0.99);
+}
+
+TEST(Homing, RefusesBothLimitsAtOnceWhichIsABrokenWire) {
+  Homing homing(config_to(HomingTarget::kNegativeLimit));
+  Walker joint(0.0, inputs());
+  joint.falsify = [](JointInputs input) {
+    input.negative_limit = input.positive_limit = true;
+    return input;
+  };
+  const double begin_rad = joint.position_rad_;
+  joint.run(homing);
+  EXPECT_EQ(homing.phase(), Homing::Phase::kFailed);
+  EXPECT_EQ(joint.position_rad_, begin_rad) << "before anything moves";
+}
+
+TEST(Homing, EndsAtTheTravelWhenASwitchNeverOpensOrNeverCloses) {
+  for (const bool stuck : {true, false}) {
+    HomingConfig config = config_to(HomingTarget::kHomeSwitch);
+    config.travel_rad = 0.1;
+    config.creep_speed_rad_s = 0.1;
+    Homing homing(config);
+    Walker joint(0.0, inputs());
+    joint.falsify = [stuck](JointInputs input) {
+      input.home = stuck;
+      return input;
+    };
+    joint.run(homing);
+    EXPECT_EQ(homing.phase(), Homing::Phase::kFailed) << stuck;
+    EXPECT_LE(std::max(joint.highest_rad_, -joint.lowest_rad_), 0.1 + kOvershoot_rad) << stuck;
+  }
+}
+
+TEST(Homing, GivesNoOrdersOnceItHasEnded) {
+  Homing homing(config_to(HomingTarget::kNegativeLimit));
+  Walker joint(-0.5, inputs());
+  joint.run(homing);
+  ASSERT_EQ(homing.phase(), Homing::Phase::kDone);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(homing.step(joint.observe()).kind, Homing::Order::Kind::kGoOn);
+  homing.abort();
+  EXPECT_EQ(homing.step(joint.observe()).kind, Homing::Order::Kind::kGoOn);
+}
+
+}  // namespace
+}  // namespace strainwave

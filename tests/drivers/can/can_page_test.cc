@@ -1,0 +1,42 @@
+// docs/can.md against the code: every detail of a fault with its number and name.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "drivers/can/can_detail.h"
+
+namespace strainwave {
+namespace {
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(std::string(STRAINWAVE_SOURCE_DIR "/") + file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::map<int, std::string> matches(const std::string& text, const std::regex& pattern, std::size_t number,
+                                   std::size_t name) {
+  std::map<int, std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it)
+    found[std::stoi((*it)[number])] = (*it)[name];
+  return found;
+}
+
+TEST(CanPage, ListsEveryDetailWithItsNumberAndName) {
+  const std::string header = text_of("drivers/can/can_detail.h");
+  const std::size_t begin = header.find("enum class CanDetail");
+  const auto declared =
+      matches(header.substr(begin, header.find("};", begin) - begin), std::regex(R"((k\w+) = (\d+))"), 2, 1);
+  const auto documented = matches(text_of("docs/can.md"), std::regex(R"(\| (\d+) \| `(k\w+)` \|)"), 1, 2);
+  ASSERT_GT(declared.size(), 10U);
+  EXPECT_EQ(documented, declared);
+  for (const auto& [number, name] : declared)
+    EXPECT_NE(can_detail_text(drive_error_of(static_cast<CanDetail>(number))), "unknown detail") << name;
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,145 @@
+import java.awt.Component;
+import java.awt.Container;
+import java.awt.Point;
+import java.awt.Rectangle;
+import java.awt.Robot;
+import java.awt.Toolkit;
+import java.awt.Window;
+import java.awt.event.InputEvent;
+import java.io.File;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.function.Supplier;
+import javax.imageio.ImageIO;
+import javax.swing.JMenuItem;
+import javax.swing.JTable;
+import javax.swing.SwingUtilities;
+import strainwave.spy.JointPlot;
+
+/**
+ * Starts the viewer as strainwave-spy does, in a real X server, beside a running daemon, and uses it with mouse events: every
+ * channel must be decoded by our types, and "Plot joint" must draw the joint that moves.
+ *
+ * <p>SpyTest PICTURE.png
+ */
+final class SpyTest {
+  private static final long PATIENCE_MS = 30_000;
+  private static final Map<String, String> TYPES = new HashMap<>(Map.of(
+      "SW.elbow.STATE", "strainwave.state_v1", "SW.elbow.TEMPERATURE", "strainwave.temperature_v1", "SW.TIMING",
+      "strainwave.timing_v1"));
+
+  public static void main(String[] arguments) throws Exception {
+    lcm.spy.Spy.main(new String[0]);
+    final JTable table = await("the viewer's table", () -> find(JTable.class));
+    for (Map.Entry<String, String> expected : TYPES.entrySet())
+      await(expected.getKey() + " decoded as " + expected.getValue(), () -> row(table, expected) >= 0 ? table : null);
+
+    final Robot robot = new Robot();
+    robot.setAutoWaitForIdle(true);
+    place(SwingUtilities.getWindowAncestor(table), 0, 0, 640, 780);
+    final int stateRow = row(table, Map.entry("SW.elbow.STATE", TYPES.get("SW.elbow.STATE")));
+    click(robot, centre(table, stateRow), InputEvent.BUTTON3_DOWN_MASK);
+    final JMenuItem item = await("\"Plot joint\" in the channel's menu", () -> menuItem("Plot joint"));
+    final Point at = item.getLocationOnScreen();
+    click(robot, new Point(at.x + item.getWidth() / 2, at.y + item.getHeight() / 2), InputEvent.BUTTON1_DOWN_MASK);
+    final JointPlot plot = await("the plot's window", () -> find(JointPlot.class));
+    place(SwingUtilities.getWindowAncestor(plot), 645, 0, 780, 780);
+
+    await("200 points of every curve",
+        () -> Arrays.stream(plot.drawnPoints()).allMatch(points -> points >= 200) ? plot : null);
+    // A double click shows the fields of a channel that has no plot.
+    final int temperatureRow =
+        row(table, Map.entry("SW.elbow.TEMPERATURE", TYPES.get("SW.elbow.TEMPERATURE")));
+    robot.setAutoWaitForIdle(false);  // two clicks that are far apart are no double click
+    for (int i = 0; i < 2; ++i) click(robot, centre(table, temperatureRow), InputEvent.BUTTON1_DOWN_MASK);
+    final Window fields = await("the window of decoded fields", () -> {
+      final lcm.spy.ObjectPanel panel = find(lcm.spy.ObjectPanel.class);
+      return panel == null ? null : SwingUtilities.getWindowAncestor(panel);
+    });
+    place(fields, 0, 300, 640, 480);
+    // Some more of the motion, for the picture.
+    Thread.sleep(8_000);
+    final Rectangle screen = new Rectangle(Toolkit.getDefaultToolkit().getScreenSize());
+    ImageIO.write(robot.createScreenCapture(screen), "png", new File(arguments[0]));
+    System.out.println("drawn points: " + Arrays.toString(plot.drawnPoints()));
+    System.exit(0);
+  }
+
+  /** What `find` gives on Swing's thread, once it gives something. */
+  private static <T> T await(String what, Supplier<T> find) throws Exception {
+    final long deadline_ms = System.currentTimeMillis() + PATIENCE_MS;
+    while (System.currentTimeMillis() < deadline_ms) {
+      final List<T> found = new ArrayList<>();
+      SwingUtilities.invokeAndWait(() -> found.add(find.get()));
+      if (found.get(0) != null) {
+        System.out.println("seen: " + what);
+        return found.get(0);
+      }
+      Thread.sleep(100);
+    }
+    System.err.println("not seen: " + what);
+    System.exit(1);
+    return null;
+  }
+
+  private static int row(JTable table, Map.Entry<String, String> channel) {
+    for (int row = 0; row < table.getRowCount(); ++row) {
+      final String name = String.valueOf(table.getValueAt(row, 0));
+      final String type = String.valueOf(table.getValueAt(row, 1));
+      if (name.equals(channel.getKey()) && channel.getValue().endsWith(type) && !type.isEmpty()) return row;
+    }
+    return -1;
+  }
+
+  private static Point centre(JTable table, int row) {
+    final Rectangle cell = table.getCellRect(row, 0, false);
+    final Point corner = table.getLocationOnScreen();
+    return new Point(corner.x + cell.x + cell.width / 2, corner.y + cell.y + cell.height / 2);
+  }
+
+  private static void click(Robot robot, Point at, int button) {
+    robot.mouseMove(at.x, at.y);
+    robot.mousePress(button);
+    robot.mouseRelease(button);
+    robot.delay(30);
+  }
+
+  private static void place(Window window, int x, int y, int width, int height) throws Exception {
+    SwingUtilities.invokeAndWait(() -> {
+      window.setBounds(x, y, width, height);
+      window.validate();
+    });
+    Thread.sleep(300);
+  }
+
+  private static <T extends Component> T find(Class<T> kind) {
+    for (Window window : Window.getWindows()) {
+      final T found = window.isShowing() ? find(kind, window) : null;
+      if (found != null) return found;
+    }
+    return null;
+  }
+
+  private static <T extends Component> T find(Class<T> kind, Container inside) {
+    for (Component component : inside.getComponents()) {
+      if (kind.isInstance(component)) return kind.cast(component);
+      final T deeper = component instanceof Container ? find(kind, (Container) component) : null;
+      if (deeper != null) return deeper;
+    }
+    return null;
+  }
+
+  private static JMenuItem menuItem(String text) {
+    final Object[] path = javax.swing.MenuSelectionManager.defaultManager().getSelectedPath();
+    for (Object element : path) {
+      if (!(element instanceof Container)) continue;
+      for (Component component : ((Container) element).getComponents())
+        if (component instanceof JMenuItem && ((JMenuItem) component).getText().equals(text) && component.isShowing())
+          return (JMenuItem) component;
+    }
+    return null;
+  }
+}

@@ -1,0 +1,109 @@
+// A simulated CANopen servo drive: network management, SYNC, heartbeats, EMCY, SDO and PDO around
+// servo_drive.h. It is written from the standards alone and shares nothing with drivers/, so the two can
+// contradict each other. Time is an argument and frames go to a NodeOutput: no sockets, no clocks. It
+// misbehaves on request (command()). Source: CiA 301 (4.2.0), CiA 402-2, CiA 402-3.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tests/support/can_nodes/heartbeat_consumer.h"
+#include "tests/support/can_nodes/node.h"
+#include "tests/support/can_nodes/object_dictionary.h"
+#include "tests/support/can_nodes/pdo_table.h"
+#include "tests/support/can_nodes/sdo_server.h"
+#include "tests/support/can_nodes/servo_drive.h"
+
+namespace strainwave::can_nodes {
+
+struct Cia402NodeConfig {
+  std::uint8_t node_id = 1;
+  std::uint32_t vendor = 0x000000FB;
+  std::uint32_t product = 0x61500000;
+  std::uint32_t revision = 0x01700000;
+  std::uint32_t serial = 0x00000001;
+  std::string device_name = "Strainwave simulated servo drive";
+  std::int64_t boot_us = 50000;  ///< from power-on or reset to the boot-up message
+  ServoDriveConfig drive;
+};
+
+enum class NmtState : std::uint8_t { kBooting = 0, kStopped = 4, kOperational = 5, kPreOperational = 127 };
+
+class Cia402Node final : public Node {
+ public:
+  /// Throws InputError for an impossible drive.
+  Cia402Node(const Cia402NodeConfig& config, NodeOutput& output);
+
+  void power_on(std::int64_t now_us) override;
+  void receive(const Frame& frame, std::int64_t now_us) override;
+  /// Everything that is due by `now_us`; call it at next_deadline_us().
+  void advance(std::int64_t now_us) override;
+  std::int64_t next_deadline_us() const override;
+
+  /// One line of what to do wrong; cia402_commands.cc lists them. Returns what was wrong with the line, or
+  /// nothing.
+  std::string command(std::string_view line, std::int64_t now_us) override;
+
+  NmtState nmt() const { return nmt_; }
+  const ServoDrive& drive() const { return drive_; }
+  ObjectDictionary& dictionary() { return dictionary_; }
+  const PdoCounts& pdo_counts() const { return pdos_.counts(); }
+
+ private:
+  void add_objects();
+  void written(Key key);
+  void send(const Frame& frame);
+  void change_nmt(NmtState state);
+  void obey_nmt(const Frame& frame);
+  enum class Reset { kNode, kCommunication };
+  void reset(Reset what);
+  void leave_operation();
+  void finish_boot();
+  void on_sync();
+  void step_drive();
+  void send_synchronous();
+  void send_emergency(std::uint16_t code);
+  void on_heartbeat_lost(std::uint8_t node_id);
+  void answer_sdo(const Frame& frame);
+  void receive_pdo(const Frame& frame);
+  void note_power(PowerState from, PowerState to);
+  void note_torque();
+  std::string report() const;
+  std::int64_t sync_period_us() const;
+
+  Cia402NodeConfig config_;
+  NodeOutput& output_;
+  ObjectDictionary dictionary_;
+  HeartbeatConsumer consumer_;
+  PdoTable pdos_;
+  SdoServer sdo_;
+  ServoDrive drive_;
+
+  std::int64_t now_us_ = 0;
+  NmtState nmt_ = NmtState::kBooting;
+  std::int64_t boot_done_us_ = 0;
+  std::int64_t next_heartbeat_us_ = 0;
+  std::int64_t next_step_us_ = 0;  ///< of the drive's own clock, when no SYNC comes
+  std::optional<std::int64_t> last_sync_us_;
+  long syncs_ = 0;
+  std::int64_t longest_sync_gap_us_ = 0;
+
+  // What it does wrong.
+  bool cable_cut_ = false;
+  bool heartbeat_off_ = false;
+  long skipped_syncs_ = 0;
+  long late_syncs_ = 0;
+  std::int64_t late_us_ = 0;
+  struct Late {
+    std::int64_t due_us;
+    Frame frame;
+  };
+  std::deque<Late> late_;
+  bool notes_torque_ = false;
+  bool had_torque_ = false;
+};
+
+}  // namespace strainwave::can_nodes

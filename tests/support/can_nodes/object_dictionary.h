@@ -1,0 +1,117 @@
+// The object dictionary of a simulated CANopen node: typed objects with access rights and ranges, and the
+// abort codes that a refused access has. Source: CiA 301 (4.2.0), 7.4 and table 22.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace strainwave::can_nodes {
+
+/// The data types' own numbers, which PDO mapping and EDS files use too.
+enum class DataType : std::uint16_t {
+  kInteger8 = 0x02,
+  kInteger16 = 0x03,
+  kInteger32 = 0x04,
+  kUnsigned8 = 0x05,
+  kUnsigned16 = 0x06,
+  kUnsigned32 = 0x07,
+  kReal32 = 0x08,
+  kVisibleString = 0x09,
+};
+
+/// SDO abort codes.
+enum class Abort : std::uint32_t {
+  kNone = 0,
+  kToggleBit = 0x05030000,
+  kUnknownCommand = 0x05040001,
+  kUnsupportedAccess = 0x06010000,
+  kWriteOnly = 0x06010001,
+  kReadOnly = 0x06010002,
+  kNoObject = 0x06020000,
+  kNotMappable = 0x06040041,
+  kPdoLength = 0x06040042,
+  kLength = 0x06070010,
+  kLengthTooHigh = 0x06070012,
+  kLengthTooLow = 0x06070013,
+  kNoSubIndex = 0x06090011,
+  kInvalidValue = 0x06090030,
+  kValueTooHigh = 0x06090031,
+  kValueTooLow = 0x06090032,
+  kGeneral = 0x08000000,
+  kDeviceState = 0x08000022,
+};
+
+enum class Access : std::uint8_t { kConstant, kReadOnly, kReadWrite };
+enum class Mappable : std::uint8_t { kNo, kReceive, kTransmit, kBoth };
+
+struct Key {
+  std::uint16_t index = 0;
+  std::uint8_t sub = 0;
+  auto operator<=>(const Key&) const = default;
+};
+
+struct Object {
+  DataType type = DataType::kUnsigned32;
+  Access access = Access::kReadWrite;
+  std::int64_t value = 0;  ///< numbers; a REAL32's bits
+  Mappable mappable = Mappable::kNo;
+  std::int64_t low = std::numeric_limits<std::int64_t>::min();  ///< of what may be written
+  std::int64_t high = std::numeric_limits<std::int64_t>::max();
+  std::string text{};  ///< of a VISIBLE_STRING
+};
+
+/// Bytes of a number of this type; 0 for a string.
+std::size_t size_of(DataType type);
+
+class ObjectDictionary {
+ public:
+  /// Says whether `value` may be written now, before it is.
+  using Guard = std::function<Abort(Key, std::int64_t value)>;
+  /// Told after `key` was written from outside.
+  using Listener = std::function<void(Key)>;
+
+  void add(Key key, Object object);
+  void guard(std::uint16_t first, std::uint16_t last, Guard guard);
+  void listen(Listener listener) { listener_ = std::move(listener); }
+
+  /// From the bus, with all its checks.
+  Abort read(Key key, std::vector<std::uint8_t>& bytes) const;
+  Abort write(Key key, std::span<const std::uint8_t> bytes);
+
+  const Object* find(Key key) const;
+  /// From the device itself; the object must be there.
+  std::int64_t number(Key key) const { return objects_.at(key).value; }
+  void set(Key key, std::int64_t value) { objects_.at(key).value = value; }
+
+  /// Pretends from now on, to every reader on the bus, that the object had this value.
+  void pretend(Key key, std::int64_t value) { pretended_[key] = value; }
+  void pretend_nothing() { pretended_.clear(); }
+  /// The value that a reader on the bus gets.
+  std::int64_t shown(Key key) const;
+
+  /// Back to what was added, for the indices from `first` to `last`.
+  void restore(std::uint16_t first, std::uint16_t last);
+
+ private:
+  Abort missing(Key key) const;
+
+  struct GuardedRange {
+    std::uint16_t first;
+    std::uint16_t last;
+    Guard guard;
+  };
+
+  std::map<Key, Object> objects_;
+  std::map<Key, std::int64_t> defaults_;
+  std::map<Key, std::int64_t> pretended_;
+  std::vector<GuardedRange> guards_;
+  Listener listener_;
+};
+
+}  // namespace strainwave::can_nodes

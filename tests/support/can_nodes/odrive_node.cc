@@ -1,0 +1,308 @@
+#include "tests/support/can_nodes/odrive_node.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/support/can_nodes/text.h"
+
+namespace strainwave::can_nodes {
+
+namespace {
+
+constexpr std::uint32_t kTorqueControl = 1;
+constexpr std::uint32_t kPassthrough = 1;
+constexpr std::uint8_t kProcedureSuccess = 0;
+constexpr std::uint8_t kProcedureDisarmed = 3;
+constexpr double kVelocityShare = 0.3;
+
+JointPlantConfig plant_of(const OdriveNodeConfig& config) {
+  JointPlantConfig plant = config.plant;
+  plant.encoder.counts_per_joint_revolution = config.counts_per_joint_revolution;
+  return plant;
+}
+
+using Content = std::array<std::uint8_t, 8>;
+
+Content two_words(std::uint32_t first, std::uint32_t second) {
+  std::vector<std::uint8_t> bytes;
+  append_little_endian(bytes, first, 4);
+  append_little_endian(bytes, second, 4);
+  Content content{};
+  std::copy(bytes.begin(), bytes.end(), content.begin());
+  return content;
+}
+
+Content two_floats(double first, double second) {
+  return two_words(std::bit_cast<std::uint32_t>(static_cast<float>(first)),
+                   std::bit_cast<std::uint32_t>(static_cast<float>(second)));
+}
+
+float float_at(const Frame& frame, std::size_t offset) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(little_endian(frame.bytes().subspan(offset, 4))));
+}
+
+}  // namespace
+
+OdriveNode::OdriveNode(const OdriveNodeConfig& config, NodeOutput& output)
+    : config_(config),
+      output_(output),
+      plant_(plant_of(config)),
+      step_us_(std::llround(config.plant.period_s * 1e6)),
+      bus_V_(config.bus_V) {
+  plant_.set_ambient_temperature(config_.ambient.at(0.0));
+}
+
+void OdriveNode::power_on(std::int64_t now_us) {
+  now_us_ = now_us;
+  next_step_us_ = now_us + step_us_;
+  boot();
+}
+
+void OdriveNode::boot() {
+  booting_ = true;
+  boot_done_us_ = now_us_ + config_.boot_us;
+  set_state(OdriveState::kIdle);
+  errors_ = disarm_reason_ = 0;
+  procedure_result_ = kProcedureSuccess;
+  control_mode_ = 3;
+  input_mode_ = 1;
+  input_torque_Nm_ = 0.0;
+  watchdog_deadline_us_.reset();
+  output_.note("boot");
+}
+
+void OdriveNode::set_state(OdriveState state) {
+  arming_done_us_.reset();
+  if (state == state_) return;
+  state_ = state;
+  const JointState& joint = plant_.state();
+  output_.note(format("state %s position_rad=%.6f velocity_rad_s=%.6f",
+                      state == OdriveState::kIdle ? "idle" : "closed-loop", joint.position_rad,
+                      joint.velocity_rad_s));
+  awaiting_rest_ = state == OdriveState::kIdle;
+}
+
+void OdriveNode::disarm(std::uint32_t error) {
+  errors_ |= error;
+  output_.note(format("error %08X", error));
+  if (state_ == OdriveState::kClosedLoop) {
+    disarm_reason_ = error;
+    procedure_result_ = kProcedureDisarmed;
+    set_state(OdriveState::kIdle);
+  }
+}
+
+void OdriveNode::feed_watchdog() {
+  watchdog_deadline_us_ = now_us_ + std::llround(config_.watchdog_timeout_s * 1e6);
+}
+
+void OdriveNode::request_state(std::uint32_t state) {
+  if (state == static_cast<std::uint32_t>(OdriveState::kIdle)) {
+    procedure_result_ = kProcedureSuccess;
+    set_state(OdriveState::kIdle);
+  } else if (state == static_cast<std::uint32_t>(OdriveState::kClosedLoop)) {
+    if (state_ == OdriveState::kClosedLoop || refuses_to_arm_) return;
+    if (errors_ != 0)
+      procedure_result_ = kProcedureDisarmed;
+    else if (!arming_done_us_)
+      arming_done_us_ = now_us_ + config_.arming_us;
+  }
+}
+
+void OdriveNode::receive(const Frame& frame, std::int64_t now_us) {
+  advance(now_us);
+  if (cable_cut_ || booting_ || frame.id >> 5 != config_.node_id) return;
+  const auto command = static_cast<OdriveCommand>(frame.id & 0x1F);
+  if (frame.remote)
+    send(command);
+  else
+    obey(command, frame);
+}
+
+void OdriveNode::obey(OdriveCommand command, const Frame& frame) {
+  const auto has = [&](std::uint8_t length) { return frame.length >= length; };
+  switch (command) {
+    case OdriveCommand::kEstop:
+      disarm(kOdriveEstopRequested);
+      break;
+    case OdriveCommand::kReadOrWrite:
+      if (has(4)) answer_endpoint(frame);
+      break;
+    case OdriveCommand::kSetAxisState:
+      if (has(4)) request_state(static_cast<std::uint32_t>(little_endian(frame.bytes().first(4))));
+      break;
+    case OdriveCommand::kSetControllerMode:
+      if (!has(8)) break;
+      control_mode_ = static_cast<std::uint32_t>(little_endian(frame.bytes().first(4)));
+      input_mode_ = static_cast<std::uint32_t>(little_endian(frame.bytes().subspan(4, 4)));
+      output_.note(format("mode control=%u input=%u", control_mode_, input_mode_));
+      break;
+    case OdriveCommand::kSetInputTorque:
+      if (!has(4)) break;
+      if (const float torque_Nm = float_at(frame, 0); std::isfinite(torque_Nm))
+        input_torque_Nm_ = double{torque_Nm};
+      ++inputs_;
+      feed_watchdog();
+      break;
+    case OdriveCommand::kSetInputPosition:
+    case OdriveCommand::kSetInputVelocity:
+      feed_watchdog();
+      break;
+    case OdriveCommand::kReboot:
+      boot();
+      break;
+    case OdriveCommand::kClearErrors:
+      errors_ = 0;
+      output_.note("errors cleared");
+      break;
+    default:
+      break;
+  }
+}
+
+// Arbitrary parameters: opcode 0 reads the endpoint, 1 writes it.
+void OdriveNode::answer_endpoint(const Frame& frame) {
+  const auto endpoint = static_cast<std::uint16_t>(little_endian(frame.bytes().subspan(1, 2)));
+  const bool reads = frame.data[0] == 0;
+  const bool enabled = endpoint == config_.watchdog_enabled_endpoint;
+  if (!enabled && endpoint != config_.watchdog_timeout_endpoint) return;
+  if (!reads) {
+    if (enabled && frame.length >= 5) config_.watchdog_enabled = frame.data[4] != 0;
+    if (!enabled && frame.length == 8) config_.watchdog_timeout_s = double{float_at(frame, 4)};
+    return;
+  }
+  std::vector<std::uint8_t> bytes{0, frame.data[1], frame.data[2], 0};
+  if (enabled)
+    bytes.push_back(config_.watchdog_enabled ? 1 : 0);
+  else
+    append_little_endian(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(config_.watchdog_timeout_s)),
+                         4);
+  if (!cable_cut_) output_.send({id_of(OdriveCommand::kValue), bytes});
+}
+
+double OdriveNode::encoder_turns() const {
+  return plant_.measured_position_rad() / (2.0 * std::numbers::pi) / config_.joint_turns_per_encoder_turn;
+}
+
+std::optional<Content> OdriveNode::content_of(OdriveCommand command) const {
+  const double motor_Nm = plant_.applied_torque_Nm() / config_.joint_torque_per_drive_torque;
+  switch (command) {
+    case OdriveCommand::kGetVersion: {
+      const OdriveVersion& v = config_.version;
+      return Content{v.protocol,    v.hardware[0], v.hardware[1], v.hardware[2],
+                     v.firmware[0], v.firmware[1], v.firmware[2], 0};
+    }
+    case OdriveCommand::kHeartbeat: {
+      Content content = two_words(errors_, 0);
+      content[4] = static_cast<std::uint8_t>(state_);
+      content[5] = procedure_result_;
+      return content;
+    }
+    case OdriveCommand::kGetError:
+      return two_words(errors_, disarm_reason_);
+    case OdriveCommand::kEncoderEstimates: {
+      const double wrong = std::numeric_limits<double>::quiet_NaN();
+      return wrong_encoder_ ? two_floats(wrong, wrong) : two_floats(encoder_turns(), encoder_turns_s_);
+    }
+    case OdriveCommand::kIq:
+      return two_floats(input_torque_Nm_ / config_.torque_constant_Nm_A,
+                        motor_Nm / config_.torque_constant_Nm_A);
+    case OdriveCommand::kTemperature:
+      return two_floats(plant_.sensor_temperature_C() + 5.0, plant_.sensor_temperature_C());
+    case OdriveCommand::kBusVoltageCurrent: {
+      const double power_W = plant_.applied_torque_Nm() * plant_.state().velocity_rad_s;
+      return two_floats(bus_V_, bus_V_ > 0.0 ? power_W / bus_V_ : 0.0);
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+void OdriveNode::send(OdriveCommand command) {
+  if (command == OdriveCommand::kEncoderEstimates && skipped_encoders_ > 0) {
+    --skipped_encoders_;
+    return;
+  }
+  if (const auto content = content_of(command); content && !cable_cut_)
+    output_.send({id_of(command), *content});
+}
+
+void OdriveNode::send_cyclic() {
+  const auto cyclic = [&](OdriveCommand command, std::int64_t period_us) {
+    auto& next_us = next_cyclic_us_[command];
+    if (period_us <= 0 || now_us_ < next_us) return;
+    send(command);
+    next_us = std::max(next_us + period_us, now_us_ + period_us / 2);
+  };
+  cyclic(OdriveCommand::kHeartbeat, heartbeat_off_ ? 0 : config_.heartbeat_us);
+  cyclic(OdriveCommand::kEncoderEstimates, config_.encoder_us);
+  cyclic(OdriveCommand::kTemperature, config_.temperature_us);
+  cyclic(OdriveCommand::kBusVoltageCurrent, config_.bus_us);
+  cyclic(OdriveCommand::kGetError, config_.error_us);
+}
+
+void OdriveNode::advance(std::int64_t now_us) {
+  now_us_ = now_us;
+  while (next_step_us_ <= now_us) {
+    step();
+    next_step_us_ += step_us_;
+  }
+  if (booting_) {
+    if (now_us < boot_done_us_) return;
+    booting_ = false;
+  }
+  if (arming_done_us_ && now_us >= *arming_done_us_) {
+    procedure_result_ = kProcedureSuccess;
+    set_state(OdriveState::kClosedLoop);
+  }
+  if (config_.watchdog_enabled && watchdog_deadline_us_ && now_us >= *watchdog_deadline_us_) {
+    watchdog_deadline_us_.reset();
+    disarm(kOdriveWatchdogExpired);
+  }
+  send_cyclic();
+}
+
+std::int64_t OdriveNode::next_deadline_us() const {
+  std::int64_t next = next_step_us_;
+  if (booting_) return std::min(next, boot_done_us_);
+  if (arming_done_us_) next = std::min(next, *arming_done_us_);
+  if (config_.watchdog_enabled && watchdog_deadline_us_) next = std::min(next, *watchdog_deadline_us_);
+  return next;  // cyclic messages are sent at the drive's steps
+}
+
+void OdriveNode::step() {
+  const bool follows =
+      state_ == OdriveState::kClosedLoop && control_mode_ == kTorqueControl && input_mode_ == kPassthrough;
+  const double before_Nm = torque_Nm_;
+  torque_Nm_ = follows ? std::clamp(input_torque_Nm_, -config_.torque_limit_Nm, config_.torque_limit_Nm) *
+                             config_.joint_torque_per_drive_torque
+                       : 0.0;
+  if (notes_torque_ && (before_Nm != 0.0) != (torque_Nm_ != 0.0))
+    output_.note(torque_Nm_ != 0.0 ? "torque on" : "torque zero");
+  if (!follows) plant_.clear_pending_torque();
+  const double before_turns = encoder_turns();
+  plant_.step(torque_Nm_);
+  plant_.set_ambient_temperature(config_.ambient.at(plant_.time_s()));
+  const double turns_s = (encoder_turns() - before_turns) / plant_.config().period_s;
+  encoder_turns_s_ += kVelocityShare * (turns_s - encoder_turns_s_);
+  if (bus_V_ < config_.under_voltage_V && (errors_ & kOdriveUnderVoltage) == 0) disarm(kOdriveUnderVoltage);
+  if (plant_.sensor_temperature_C() > config_.motor_limit_C && (errors_ & kOdriveMotorOverTemperature) == 0)
+    disarm(kOdriveMotorOverTemperature);
+  if (awaiting_rest_ && plant_.state().stuck) {
+    awaiting_rest_ = false;
+    output_.note(format("at-rest position_rad=%.6f", plant_.state().position_rad));
+  }
+}
+
+std::string OdriveNode::report() const {
+  const JointState& joint = plant_.state();
+  return format("report state=%d errors=%08X disarm_reason=%08X control=%u input=%u inputs=%ld",
+                static_cast<int>(state_), errors_, disarm_reason_, control_mode_, input_mode_, inputs_) +
+         format(" position_rad=%.6f velocity_rad_s=%.6f torque_Nm=%.4f", joint.position_rad,
+                joint.velocity_rad_s, torque_Nm_);
+}
+
+}  // namespace strainwave::can_nodes

@@ -1,0 +1,102 @@
+// A simulated servo drive of the profile CiA 402 around the project's joint plant: power states, torque modes
+// (CST and TQ), reactions to faults and to a lost connection, drive units. It knows the object dictionary but
+// no network. Each step() is one control period of the drive. Source: CiA 402-2 (IEC 61800-7-201).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "sim/joint_plant.h"
+#include "sim/temperature_profile.h"
+#include "tests/support/can_nodes/object_dictionary.h"
+#include "tests/support/can_nodes/power_state.h"
+
+namespace strainwave::can_nodes {
+
+/// Error codes of CiA 301 (table 26) and CiA 402 that the drive raises by itself.
+inline constexpr std::uint16_t kErrorHeartbeat = 0x8130;
+inline constexpr std::uint16_t kErrorPdoLength = 0x8210;
+
+struct TemperatureObject {
+  Key key{0x3201, 1};
+  DataType type = DataType::kInteger16;  ///< kInteger16 or kReal32
+  double unit_C = 0.1;                   ///< of one count of an integer
+};
+
+struct ServoDriveConfig {
+  JointPlantConfig plant;  ///< its encoder is set from counts_per_joint_revolution
+  TemperatureProfile ambient;
+  double counts_per_joint_revolution = 320000;  ///< of 6064h
+  double rated_torque_Nm = 0.192;               ///< on the side that joint_torque_per_drive_torque says
+  double joint_torque_per_drive_torque =
+      50.0;  ///< gear ratio, or 1 when the drive speaks of the joint; < 0: reversed
+  double rated_current_A = 1.0;
+  double rated_torque_units_per_Nm = 1000.0;  ///< of 6076h: 1000 is the profile's, 1e6 what some drives have
+  bool has_cst = true;
+  bool has_tq = true;
+  std::int64_t self_test_us = 20000;     ///< from power-on to Switch on disabled
+  std::int64_t enable_delay_us = 10000;  ///< brake and current loop: Switched on to Operation enabled
+  std::int64_t temperature_period_us = 100000;
+  TemperatureObject temperature;
+};
+
+class ServoDrive {
+ public:
+  struct Events {
+    std::function<void(PowerState from, PowerState to)> power_changed;
+    std::function<void(std::uint16_t code)> error_raised;
+    std::function<void()> error_reset;
+    std::function<void()> at_rest;  ///< the joint stands still after power was taken from it
+  };
+
+  /// Adds its objects to `dictionary`. Throws InputError for an impossible plant.
+  ServoDrive(const ServoDriveConfig& config, ObjectDictionary& dictionary, Events events);
+
+  /// Power-on, or the profile's part of a reset: the joint stays where it is.
+  void restart();
+  /// 6040h was written.
+  void obey_controlword();
+  /// One control period.
+  void step();
+  void raise_error(std::uint16_t code);
+  /// What 6007h says, when the master is gone or takes the node out of operation.
+  void lose_connection();
+
+  PowerState power() const { return power_; }
+  const JointPlant& plant() const { return plant_; }
+  double torque_demand_Nm() const { return demand_Nm_; }
+  std::int64_t period_us() const { return period_us_; }
+  /// External torque on the joint from now on.
+  void set_load_torque_Nm(double load_torque_Nm) { load_torque_Nm_ = load_torque_Nm; }
+
+ private:
+  void add_objects();
+  void change_power(PowerState to);
+  void advance_power();
+  void react_to_fault();
+  double target_torque_Nm();
+  double braking_torque_Nm() const;
+  void show_state();
+  void show_temperature();
+  double joint_torque_per_permille() const;
+
+  ServoDriveConfig config_;
+  ObjectDictionary& dictionary_;
+  Events events_;
+  JointPlant plant_;
+  std::int64_t period_us_;
+
+  PowerState power_ = PowerState::kNotReadyToSwitchOn;
+  std::uint16_t controlword_ = 0;
+  std::int64_t in_state_us_ = 0;
+  bool enabling_ = false;
+  bool awaiting_rest_ = false;
+  bool limited_ = false;
+  double demand_Nm_ = 0.0;          ///< joint side
+  double ramped_permille_ = 0.0;    ///< of TQ
+  double velocity_counts_s_ = 0.0;  ///< as the drive estimates it
+  double load_torque_Nm_ = 0.0;
+  std::int64_t since_temperature_us_ = 0;
+};
+
+}  // namespace strainwave::can_nodes

@@ -1,0 +1,26 @@
+// Text for the nodes' records and from their commands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strainwave::can_nodes {
+
+/// As printf does it, up to 255 characters; the compiler checks the arguments against the pattern.
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+std::vector<std::string> words_of(std::string_view line);
+
+/// Whether `words` are a verb and `count` whole numbers in C's notation, which are then appended to
+/// `numbers`.
+bool numbers_of(const std::vector<std::string>& words, std::size_t count, std::vector<std::int64_t>& numbers);
+
+/// Whether `words` are a verb and one finite number.
+bool number_of(const std::vector<std::string>& words, double& number);
+
+/// Whether `words` are a verb and "on" or "off".
+bool switch_of(const std::vector<std::string>& words, bool& on);
+
+}  // namespace strainwave::can_nodes

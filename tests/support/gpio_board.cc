@@ -1,0 +1,213 @@
+// The other side of a GPIO joint's wires, for tests in the virtual machine: it reads the lines and the PWM
+// that the daemon drives, turns the motor, and moves counter, switches and encoder lines accordingly. It
+// shares no code with drivers/gpio and knows only what a wire would: gpio-sim's sysfs files and plain files
+// in the place of PWM and counter.
+//
+//   gpio_board plant LINES TREE POSITION_RAD   the joint, until SIGTERM
+//   gpio_board encoder LINES RATE_HZ SECONDS   quadrature edges on lines a and b: three quarters forward, one
+//   back; prints the count
+//                                              and the rate that came about
+//   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the
+//   duty 0
+//
+// LINES: folder with one link per line, by name, to its sim_gpioN folder. TREE: folder with pwm/, count0/ and
+// truth, the joint's position in rad.
+#include <fcntl.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numbers>
+#include <string>
+
+#include "sim/joint_plant.h"
+#include "sim/reference_plant.h"
+
+namespace {
+
+constexpr long kPeriod_ns = 1'000'000;
+constexpr double kFullScale_A = 5.0;
+constexpr double kTorqueConstant_Nm_A = 9.6;
+constexpr double kCounts_rad = 320000.0 / (2.0 * std::numbers::pi);
+/// End switches and home switch of the joint, rad.
+constexpr double kEnd_rad = 0.5;
+constexpr double kHomeFrom_rad = 0.10;
+constexpr double kHomeTo_rad = 0.15;
+constexpr double kIndexSpacing_rad = 2.0 * std::numbers::pi / 50.0;
+
+volatile sig_atomic_t ended = 0;
+void end(int) {
+  ended = 1;
+}
+
+[[noreturn]] void fail(const std::string& what) {
+  std::perror(what.c_str());
+  std::exit(2);
+}
+
+/// A small file that stays open.
+class File {
+ public:
+  File(const std::string& path, int mode) : path_(path), fd_(::open(path.c_str(), mode | O_CLOEXEC)) {
+    if (fd_ < 0) fail(path);
+  }
+  long number() {
+    char text[64] = {};
+    if (::pread(fd_, text, sizeof text - 1, 0) < 0) fail(path_);
+    return std::strtol(text, nullptr, 10);
+  }
+  void put(const std::string& text) {
+    if (::pwrite(fd_, text.data(), text.size(), 0) < 0) fail(path_);
+  }
+
+ private:
+  std::string path_;
+  int fd_;
+};
+
+/// A wire into the daemon's input.
+class Input {
+ public:
+  Input(const std::string& lines, const std::string& name) : pull_(lines + "/" + name + "/pull", O_WRONLY) {}
+  void set(bool high) {
+    if (high == high_ && set_) return;
+    pull_.put(high ? "pull-up" : "pull-down");
+    high_ = high;
+    set_ = true;
+  }
+
+ private:
+  File pull_;
+  bool high_ = false;
+  bool set_ = false;
+};
+
+/// A wire from the daemon's output.
+File output(const std::string& lines, const std::string& name) {
+  return {lines + "/" + name + "/value", O_RDONLY};
+}
+
+void advance(timespec& time, long step_ns) {
+  time.tv_nsec += step_ns;
+  while (time.tv_nsec >= 1'000'000'000) {
+    time.tv_nsec -= 1'000'000'000;
+    ++time.tv_sec;
+  }
+}
+
+long since_ns(const timespec& from) {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return (now.tv_sec - from.tv_sec) * 1'000'000'000 + now.tv_nsec - from.tv_nsec;
+}
+
+int run_plant(const std::string& lines, const std::string& tree, double position_rad) {
+  strainwave::JointPlantConfig config = strainwave::realistic_plant();
+  config.delay_samples = 0;
+  config.initial_position_rad = position_rad;
+  strainwave::JointPlant plant(config);
+  plant.set_ambient_temperature(25.0);
+  File enable = output(lines, "enable");
+  File direction = output(lines, "direction");
+  File brake = output(lines, "brake_release");
+  File duty(tree + "/pwm/pwm0/duty_cycle", O_RDONLY);
+  File period(tree + "/pwm/pwm0/period", O_RDONLY);
+  File count(tree + "/count0/count", O_WRONLY);
+  File truth(tree + "/truth", O_WRONLY);
+  Input negative(lines, "negative_limit");
+  Input positive(lines, "positive_limit");
+  Input home(lines, "home");
+  Input index(lines, "index");
+  timespec next{};
+  ::clock_gettime(CLOCK_MONOTONIC, &next);
+  double turn = std::floor(position_rad / kIndexSpacing_rad);
+  while (ended == 0) {
+    const double share =
+        static_cast<double>(duty.number()) / std::fmax(1.0, static_cast<double>(period.number()));
+    const bool driven = enable.number() != 0;
+    const double torque_Nm =
+        (direction.number() != 0 ? -1.0 : 1.0) * share * kFullScale_A * kTorqueConstant_Nm_A;
+    // A shut brake holds whatever the motor does.
+    if (brake.number() != 0) plant.step(driven ? torque_Nm : 0.0);
+    const double now_rad = plant.state().position_rad;
+    const long counts = std::lround((now_rad - position_rad) * kCounts_rad);
+    char text[24];
+    std::snprintf(text, sizeof text, "%010lu\n", static_cast<unsigned long>(counts) & 0xFFFFFFFFUL);
+    count.put(text);
+    // Contacts that open at the end of travel, one that closes at home.
+    negative.set(now_rad <= -kEnd_rad);
+    positive.set(now_rad >= kEnd_rad);
+    home.set(!(now_rad >= kHomeFrom_rad && now_rad <= kHomeTo_rad));
+    const double new_turn = std::floor(now_rad / kIndexSpacing_rad);
+    if (new_turn != turn) {
+      index.set(true);
+      index.set(false);
+    }
+    turn = new_turn;
+    std::snprintf(text, sizeof text, "%+.9f\n", now_rad);
+    truth.put(text);
+    advance(next, kPeriod_ns);
+    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
+  }
+  return 0;
+}
+
+int run_encoder(const std::string& lines, double rate_Hz, double duration_s) {
+  Input a(lines, "quadrature_a");
+  Input b(lines, "quadrature_b");
+  a.set(false);
+  b.set(false);
+  const long edges = std::lround(rate_Hz * duration_s);
+  const long step_ns = std::lround(1e9 / rate_Hz);
+  long count = 0;
+  timespec next{};
+  ::clock_gettime(CLOCK_MONOTONIC, &next);
+  const timespec begin = next;
+  for (long i = 0; i < edges && ended == 0; ++i) {
+    count += i < edges / 4 * 3 ? 1 : -1;
+    const long phase = ((count % 4) + 4) % 4;
+    a.set(phase == 1 || phase == 2);
+    b.set(phase == 2 || phase == 3);
+    advance(next, step_ns);
+    ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
+  }
+  std::printf("%ld %.0f\n", count, 1e9 * static_cast<double>(edges) / static_cast<double>(since_ns(begin)));
+  return 0;
+}
+
+int run_reaction(const std::string& lines, const std::string& tree, const std::string& name) {
+  Input input(lines, name);
+  File enable = output(lines, "enable");
+  File duty(tree + "/pwm/pwm0/duty_cycle", O_RDONLY);
+  timespec begin{};
+  ::clock_gettime(CLOCK_MONOTONIC, &begin);
+  input.set(true);
+  while (enable.number() != 0 || duty.number() != 0) {
+    const timespec pause{0, 20'000};
+    ::nanosleep(&pause, nullptr);
+    if (since_ns(begin) > 1'000'000'000) {
+      std::puts("no reaction within a second");
+      return 1;
+    }
+  }
+  std::printf("%ld\n", since_ns(begin));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ::signal(SIGTERM, end);
+  const std::string task = argc > 1 ? argv[1] : "";
+  if (task == "plant" && argc == 5) return run_plant(argv[2], argv[3], std::atof(argv[4]));
+  if (task == "encoder" && argc == 5) return run_encoder(argv[2], std::atof(argv[3]), std::atof(argv[4]));
+  if (task == "react" && argc == 5) return run_reaction(argv[2], argv[3], argv[4]);
+  std::fputs(
+      "gpio_board plant LINES TREE POSITION_RAD | encoder LINES RATE_HZ SECONDS | react LINES TREE INPUT\n",
+      stderr);
+  return 2;
+}

@@ -1,0 +1,217 @@
+"""Everything that can go wrong with a drive and its bus, provoked: what the daemon does, what the drive does, and when. The way
+back is always the same: an operator clears the fault, and enables."""
+import subprocess
+import time
+import unittest
+
+from bench import (BUS, FAULTS, JOINT, MODES, Daemon, Drive, Recording, ctl, daemon_toml, first_fault, joint_state,
+                   joint_toml, make_bus, must, now_us, remove_bus, show_and_exit, wait_until)
+
+# Of the configuration's defaults, in microseconds.
+PERIOD_US = 1000
+STATE_US = 5000
+ZERO_TORQUE_AFTER = 2
+QUICK_STOP_AFTER = 4
+HEARTBEAT_US = 50000
+MASTER_TIMEOUT_US = 150000
+STATUS_US = 10000
+
+
+def start_moving(drive):
+    """Back and forth, with torque at every instant that follows."""
+    must('enable', JOINT)
+    must('move', JOINT, '0', '--wait')
+    must('move', JOINT, '3.0')
+    wait_until(lambda: float(drive.report()['velocity_rad_s']) > 2.0, 2, 'the joint moves')
+
+
+class Failures(unittest.TestCase):
+    def setUp(self):
+        name = self.id().split('.')[-1]
+        make_bus()
+        self.drive = Drive()
+        self.daemon = Daemon(daemon_toml([joint_toml()]), name=name)
+        self.recording = Recording(name=name)
+        start_moving(self.drive)
+
+    def tearDown(self):
+        self.daemon.end()
+        self.drive.end()
+        remove_bus()
+
+    def expect_fault(self, since_us, name, within_us):
+        """The daemon's fault, its time in the states, and its line in the log."""
+        time.sleep(0.3)
+        rows = self.recording.end()
+        fault = first_fault(rows, since_us)
+        self.assertIsNotNone(fault, 'no fault at all')
+        self.assertEqual(fault[1], FAULTS[name], self.daemon.text()[-400:])
+        # The states are samples: the fault itself came up to one of their periods earlier.
+        self.assertLessEqual(fault[0] - since_us, within_us + STATE_US)
+        self.assertEqual(joint_state()['mode'], MODES['faulted'])
+
+    def expect_rest(self, since_us, within_us):
+        """The drive itself: without power, standing still, no torque."""
+        at_rest_us = self.drive.wait_for('at-rest', since_us)
+        self.assertLessEqual(at_rest_us - since_us, within_us)
+        report = self.drive.report()
+        self.assertNotEqual(report['power'], 'OperationEnabled')
+        self.assertEqual(float(report['torque_Nm']), 0.0)
+        self.assertEqual(float(report['velocity_rad_s']), 0.0)
+
+    def expect_way_back(self):
+        """Only through an operator: enabling alone is refused."""
+        self.assertNotEqual(ctl('enable', JOINT)[0], 0)
+        time.sleep(0.2)
+        self.assertNotEqual(self.drive.report()['power'], 'OperationEnabled')
+        must('clear-fault', JOINT)
+        time.sleep(0.5)
+        must('enable', JOINT)
+        must('move', JOINT, '0', '--wait')
+        must('disable', JOINT)
+
+    def test_an_emergency_stops_the_joint_at_once(self):
+        at_us = self.drive.tell('emcy 0x4210')
+        self.expect_fault(at_us, 'drive fault', 2 * PERIOD_US)
+        self.expect_rest(at_us, 300000)
+        self.assertIn('4210h', self.daemon.text())
+        self.expect_way_back()
+
+    def test_a_drive_that_vanishes_stops_itself_and_is_missed(self):
+        at_us = self.drive.tell('cut')
+        lost_us = self.drive.wait_for('heartbeat-lost', at_us)
+        self.assertLessEqual(lost_us - at_us, MASTER_TIMEOUT_US)
+        self.assertGreaterEqual(lost_us - at_us, MASTER_TIMEOUT_US - HEARTBEAT_US - PERIOD_US)
+        self.expect_fault(at_us, 'read failed', (QUICK_STOP_AFTER + 2) * PERIOD_US)
+        self.assertIsNotNone(self.drive.find('power QuickStopActive', at_us))
+        self.expect_rest(at_us, MASTER_TIMEOUT_US + 300000)
+        self.drive.tell('reconnect')
+        time.sleep(0.2)
+        self.expect_way_back()
+
+    def test_a_few_missing_positions_are_forgiven(self):
+        self.drive.tell(f'skip-tpdo {ZERO_TORQUE_AFTER}')
+        time.sleep(0.3)
+        self.assertIsNone(first_fault(self.recording.end(), 0))
+        must('disable', JOINT)
+
+    def test_missing_positions_take_the_torque_before_they_are_a_fault(self):
+        self.drive.tell('note-torque on')
+        at_us = self.drive.tell('skip-tpdo 200')
+        self.expect_fault(at_us, 'read failed', (QUICK_STOP_AFTER + 3) * PERIOD_US)
+        zero_us = self.drive.find('torque zero', at_us)
+        # One period is the command's way into the drive and the SYNC's.
+        self.assertLessEqual(zero_us - at_us, (ZERO_TORQUE_AFTER + 3) * PERIOD_US)
+        self.assertGreaterEqual(zero_us - at_us, ZERO_TORQUE_AFTER * PERIOD_US)
+        quick_stop_us = self.drive.find('power QuickStopActive', at_us)
+        self.assertLessEqual(quick_stop_us - at_us, (QUICK_STOP_AFTER + 4) * PERIOD_US)
+        self.drive.tell('note-torque off')
+        self.expect_rest(at_us, 400000)
+        self.expect_way_back()
+
+    def test_a_drive_that_restarts_is_set_up_again_on_order_only(self):
+        at_us = self.drive.tell('reboot 30')
+        self.expect_fault(at_us, 'read failed', (QUICK_STOP_AFTER + 3) * PERIOD_US)
+        self.assertIsNotNone(self.drive.find('nmt pre-operational', at_us))
+        self.assertEqual(self.drive.report()['nmt'], 'pre-operational', 'nobody starts it by himself')
+        self.expect_rest(at_us, 2000000)
+        self.expect_way_back()
+        self.assertEqual(self.drive.report()['nmt'], 'operational')
+
+    def test_a_boot_up_in_the_midst_of_operation_is_a_fault(self):
+        at_us = now_us()
+        subprocess.run(['cansend', BUS, '703#00'], check=True)
+        self.expect_fault(at_us, 'drive restarted', 10 * PERIOD_US)
+        self.expect_way_back()
+
+    def test_a_drive_without_heartbeat_is_lost(self):
+        at_us = self.drive.tell('heartbeat off')
+        self.expect_fault(at_us, 'link lost', 3 * HEARTBEAT_US + PERIOD_US)
+        self.drive.tell('heartbeat on')
+        time.sleep(0.2)
+        self.expect_way_back()
+
+    def test_another_mode_of_operation_is_a_fault(self):
+        at_us = self.drive.tell('pretend 0x6061 0 8')
+        self.expect_fault(at_us, 'write refused', STATUS_US + 2 * PERIOD_US)
+        self.assertIn('mode of operation 8', self.daemon.text())
+        self.expect_rest(at_us, 400000)
+        self.drive.tell('pretend nothing')
+        time.sleep(0.1)
+        self.expect_way_back()
+
+    def test_somebody_else_who_sends_our_orders_is_a_fault(self):
+        at_us = now_us()
+        subprocess.run(['cansend', BUS, '203#0F00E803'], check=True)
+        self.expect_fault(at_us, 'write refused', 10 * PERIOD_US)
+        self.assertIn('0203h', self.daemon.text())
+        self.expect_way_back()
+
+    def test_a_flood_of_foreign_frames_is_not_noticed(self):
+        self.drive.tell('clear')
+        subprocess.run(['cangen', BUS, '-g', '0.05', '-I', '123', '-L', '8', '-n', '4000'], check=True)
+        self.assertIsNone(first_fault(self.recording.end(), 0))
+        self.assertEqual(int(self.drive.report()['syncs_without_rpdo']), 0)
+        must('disable', JOINT)
+
+    def test_an_interface_that_goes_down_is_a_fault_and_nothing_old_is_sent_when_it_returns(self):
+        at_us = now_us()
+        subprocess.run(['ip', 'link', 'set', BUS, 'down'], check=True)
+        self.drive.wait_for('power QuickStopActive', at_us)
+        self.expect_fault(at_us, 'link lost', 10 * PERIOD_US)
+        self.expect_rest(at_us, MASTER_TIMEOUT_US + 300000)
+        self.drive.tell('clear')
+        up_us = now_us()
+        subprocess.run(['ip', 'link', 'set', BUS, 'up'], check=True)
+        time.sleep(0.3)
+        self.assertEqual(int(self.drive.report()['rpdos']), 0, 'orders from before')
+        self.assertIsNone(self.drive.find('power OperationEnabled', up_us))
+        self.expect_way_back()
+
+
+class EndAndBeginning(unittest.TestCase):
+    def setUp(self):
+        make_bus()
+        self.drive = Drive()
+        wait_until(lambda: self.drive.report()['nmt'] == 'pre-operational', 1, 'the drive has booted')
+
+    def tearDown(self):
+        self.drive.end()
+        remove_bus()
+
+    def test_a_daemon_that_is_killed_while_it_moves_leaves_a_drive_that_stops_itself(self):
+        drive = self.drive
+        daemon = Daemon(daemon_toml([joint_toml()]), name='killed')
+        start_moving(drive)
+        killed_us = daemon.kill()
+        lost_us = drive.wait_for('heartbeat-lost', killed_us)
+        self.assertLessEqual(lost_us - killed_us, MASTER_TIMEOUT_US)
+        self.assertGreaterEqual(lost_us - killed_us, MASTER_TIMEOUT_US - HEARTBEAT_US - PERIOD_US)
+        self.assertLessEqual(drive.wait_for('power QuickStopActive', killed_us) - lost_us, PERIOD_US)
+        at_rest_us = drive.wait_for('at-rest', killed_us)
+        self.assertLessEqual(at_rest_us - lost_us, 200000)
+        report = drive.report()
+        self.assertEqual((report['power'], float(report['torque_Nm'])), ('SwitchOnDisabled', 0.0))
+
+    def test_start_up_refuses_another_drive_than_the_configured_one(self):
+        self.assertIn('product', self.refusal('pretend 0x1018 2 0x99'))
+
+    def test_start_up_refuses_a_rated_torque_in_another_unit(self):
+        text = self.refusal('pretend 0x6076 0 192000')
+        self.assertIn('uNm', text)
+
+    def test_start_up_refuses_a_drive_that_does_not_keep_its_supervision(self):
+        self.assertIn('1016h', self.refusal('refuse 0x1016 1 0x06010002'))
+
+    def test_start_up_refuses_a_drive_that_is_not_there(self):
+        self.assertIn('node 3', self.refusal('cut'))
+
+    def refusal(self, line):
+        self.drive.tell(line)
+        daemon = Daemon(daemon_toml([joint_toml()]), name='refused', wait_for=None)
+        text = daemon.refusal()
+        self.assertIsNone(self.drive.find('power ReadyToSwitchOn'))
+        return text
+
+
+show_and_exit([Failures, EndAndBeginning])

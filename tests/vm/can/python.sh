@@ -1,0 +1,3 @@
+#!/bin/bash
+# Runs a test that is written in Python: python.sh NAME.py
+exec python3 -B "$1"

@@ -1,0 +1,29 @@
+#!/bin/bash
+# The fallback without a counter: no lost count in 60 s at the default cap nor in 4 s at the highest that may be configured, a
+# fault above. $1, $2: these caps in edges a second.
+. ./board.sh
+make_lines
+default=$1
+highest=$2
+
+run() { # run CAP RATE SECONDS -> counted fault true_count came_about
+  coproc PROBE { ./quadrature_probe "$1"; }
+  read -r -u "${PROBE[0]}" line
+  test "$line" = ready || { echo "$line"; return 1; }
+  read -r true_count came_about < <(chrt -f 85 ./gpio_board encoder "$LINES_FOLDER" "$2" "$3")
+  sleep 0.05
+  eval "exec ${PROBE[1]}>&-"
+  read -r -u "${PROBE[0]}" counted fault
+  wait "$PROBE_PID" || true
+  echo "$came_about edges/s for $3 s, cap $1: true count $true_count, counted $counted, fault $fault"
+}
+
+run "$default" "$default" 60
+check "60 s at the default cap without a lost count" test "$counted" = "$true_count" -a "$fault" = 0
+check "at that rate" test "$came_about" -ge $((default * 99 / 100)) -a "$true_count" = $((default * 30))
+run "$default" $((default * 12 / 10)) 2
+check "20 % above it: over-speed" test "$fault" = 3
+run "$highest" "$highest" 4
+check "4 s at the highest cap without a lost count" test "$counted" = "$true_count" -a "$fault" = 0
+check "at that rate" test "$came_about" -ge $((highest * 99 / 100)) -a "$true_count" = $((highest * 2))
+exit $failed

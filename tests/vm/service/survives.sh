@@ -1,0 +1,82 @@
+#!/bin/bash
+# The installed service under systemd: what runs as whom, and what is left after its processes were killed or stopped.
+. ./service.sh
+
+ip route delete 239.255.76.67/32 dev lo
+install_package
+must_not "nothing is enabled by the installation" systemctl -q is-enabled strainwaved
+must_not "nothing is started by the installation" pgrep strainwave
+
+echo "== start"
+must "it starts, and systemd waits until the loop meets its timing" systemctl enable --now strainwaved
+must "it is active" is_active
+must "its log says why" bash -c 'journalctl -u strainwaved -o cat | grep -q "ready: the loop meets its timing"'
+must "the route of LCM's group has a loopback source" bash -c 'ip route get 239.255.76.67 | grep -q "dev lo src 127.0.0.1"'
+must "its status names the joint's mode" bash -c 'systemctl show strainwaved -p StatusText | grep -q "elbow off"'
+must "core and gateway are not root" test "$(ps -o user= -p "$(core),$(gateway)" | sort -u)" = strainw+ -o \
+  "$(ps -o user:20= -p "$(core),$(gateway)" | sort -u)" = strainwave
+must "one thread has SCHED_FIFO 80" test "$(ps -L -o cls=,rtprio= -p "$(core)" | grep -c 'FF *80')" = 1
+must "its memory is locked" bash -c "awk '/^VmLck/ { exit !(\$2 > 1000) }' /proc/$(core)/status"
+must_not "nothing of what it asks the kernel for is refused" bash -c 'journalctl -u strainwaved -o cat | grep -qi "permission denied"'
+must "neither has a capability" bash -c "! grep -hE '^Cap(Prm|Eff|Bnd|Amb)' /proc/{$(core),$(gateway)}/status | grep -qv '0000000000000000'"
+must "the gateway has a filter of its own upon the service's" \
+  test "$(awk '/^Seccomp_filters/ { print $2 }' "/proc/$(gateway)/status")" -gt "$(awk '/^Seccomp_filters/ { print $2 }' "/proc/$(core)/status")"
+must "a process of the same user cannot read the core's memory" test "$(stat -c %U "/proc/$(core)/mem")" = root
+
+echo "== tracking through the service"
+must "the joint moves to 0.5 rad and holds" move_to 0.5
+must "without a fault" is_state fault 0
+
+echo "== the gateway is killed, then stopped"
+pid=$(core) session=$(state session_id) first=$(gateway)
+strainwavectl move elbow -1.0
+kill -9 "$first"
+must "another gateway is there within a second" wait_for 1 bash -c "pgrep -P $pid | grep -qvx $first"
+must "the core goes on" test "$(core)" = "$pid"
+must "in the same session" is_state session_id "$session"
+must "and the move is finished" wait_for 5 is_near -1.0
+second=$(gateway)
+kill -STOP "$second"
+must "a gateway that hangs is replaced" wait_for 5 bash -c "pgrep -P $pid | grep -qvx $second"
+must "the joint held all the while" wait_for 3 bash -c "strainwavectl status elbow | grep -q 'mode *2'"
+must "still in the same session" is_state session_id "$session"
+must "it is obeyed again" strainwavectl move elbow 0.2
+must "nothing was restarted by systemd" test "$(property NRestarts)" = 0
+
+echo "== the core is killed while it moves"
+strainwavectl move elbow 1.5
+kill -9 "$pid"
+must "systemd starts it again" wait_for 15 restarted_since "$pid"
+must "no gateway of the old core is left" test "$(pgrep -c -f strainwave-gateway)" = 1
+must "in a new session" bash -c "[ \"\$(strainwavectl status elbow | awk '\$1 == \"session_id\" { print \$2 }')\" != $session ]"
+must "the joint is off, and nothing moves by itself" stays_off_and_still
+must_not "an order of the old session is none of the new: it must be enabled first" strainwavectl move elbow 1.0
+must "when told to, it moves" move_to 0.1
+
+echo "== the core is stopped: the watchdog"
+pid=$(core)
+kill -STOP "$pid"
+must "systemd sees it within the watchdog's time and starts it again" wait_for 15 restarted_since "$pid"
+must "because of the watchdog" bash -c 'journalctl -u strainwaved -o cat | grep -q "Watchdog timeout"'
+must "without one more cycle of the old one" bash -c "journalctl -u strainwaved -o cat | grep -q 'status=9/KILL'"
+must "the joint is off, and nothing moves by itself" stays_off_and_still
+must "two restarts were counted" test "$(property NRestarts)" = 2
+
+echo "== too many restarts"
+systemctl reset-failed strainwaved
+for _ in 1 2 3 4; do
+  kill -9 "$(core)"
+  sleep 3
+done
+must "systemd gives up" test "$(property ActiveState)" = failed
+must_not "and nothing runs" pgrep strainwave
+systemctl reset-failed strainwaved
+
+echo "== stop"
+systemctl start strainwaved
+must "it holds" move_to 0.3
+systemctl stop strainwaved
+must "it ended in order" test "$(property Result)" = success
+must "with its joint at rest" bash -c 'journalctl -u strainwaved -o cat | tail -n 20 | grep -q "stopped: every joint is at rest"'
+must_not "nothing is left" pgrep strainwave
+finish
