@@ -5,6 +5,7 @@
 
 #include "client/command_options.h"
 #include "control/input_error.h"
+#include "manual/manual.h"
 
 namespace strainwave {
 
@@ -22,6 +23,7 @@ constexpr const char* kExitStatuses =
 
 void configure(CLI::App& app, Invocation& invocation) {
   app.set_version_flag("--version", std::string("strainwavectl ") + STRAINWAVE_VERSION);
+  add_manual_option(app, "strainwavectl");
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(kExitStatuses);

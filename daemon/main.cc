@@ -11,6 +11,7 @@
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
+#include "manual/manual.h"
 
 namespace {
 
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
   bool check_drives = false;
   app.add_flag("--check-drives", check_drives, "do to the drives all that start-up does, enable none, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
+  strainwave::add_manual_option(app, "strainwaved");
   CLI11_PARSE(app, argc, argv);
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);

@@ -7,6 +7,7 @@
 
 #include "control/input_error.h"
 #include "design/commands.h"
+#include "manual/manual.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Fit friction over temperature, design gain tables (LMI), verify and describe them.",
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   commands[1].second = strainwave::add_gains_command(app, commands[1].first);
   commands[2].second = strainwave::add_verify_command(app, commands[2].first);
   commands[3].second = strainwave::add_show_command(app, commands[3].first);
+  strainwave::add_manual_option(app, "strainwave-design");
   CLI11_PARSE(app, argc, argv);
   try {
     for (const auto& [command, action] : commands) {

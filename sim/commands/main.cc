@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "control/input_error.h"
+#include "manual/manual.h"
 #include "sim/commands/commands.h"
 
 namespace strainwave {
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   strainwave::add_bound_command(program);
   strainwave::add_robustness_command(program);
   strainwave::add_heat_command(program);
+  strainwave::add_manual_option(program, "strainwave-sim");
   try {
     program.parse(argc, argv);
     return 0;

@@ -18,12 +18,13 @@ struct Folder {
 /// shipped may include tests.
 const std::vector<Folder> kFolders{
     {"control", {}},
-    {"design", {"control", "lcmtypes"}},
-    {"sim", {"control", "drivers/actuator.h"}},
+    {"manual", {}},
+    {"design", {"control", "lcmtypes", "manual"}},
+    {"sim", {"control", "drivers/actuator.h", "manual"}},
     {"drivers", {"control"}},
     {"lcmtypes", {"control"}},
-    {"daemon", {"control", "drivers", "lcmtypes"}},
-    {"client", {"control", "lcmtypes", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
+    {"daemon", {"control", "drivers", "lcmtypes", "manual"}},
+    {"client", {"control", "lcmtypes", "manual", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
     {"bench", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
     {"tests", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
 };
@@ -51,7 +52,7 @@ const std::vector<Library> kLibraries{
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
-    {"CLI/", {"design/", "sim/", "daemon/", "client/", "tests/support/"}, false},
+    {"CLI/", {"design/", "sim/", "daemon/", "client/", "manual/", "tests/support/"}, false},
 };
 
 /// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON

@@ -44,7 +44,7 @@ as leg --prefix leg enable knee
 
 # A network that loses, delays, doubles and reorders.
 for machine in arm leg; do
-  in_machine $machine tc qdisc add dev eth0 root netem loss 15% delay 3ms 2ms duplicate 5% reorder 20%
+  in_machine $machine tc qdisc add dev eth0 root netem loss 5% delay 3ms 2ms duplicate 5% reorder 20%
 done
 for position_rad in 0.1 -0.1 0.3; do
   ctl --prefix arm move elbow $position_rad --wait
