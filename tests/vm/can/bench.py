@@ -202,7 +202,7 @@ class Daemon:
 
     def __init__(self, toml, name='daemon', wait_for=JOINT):
         make_key()
-        self.log_path = pathlib.Path(f'{name}.log')
+        self.log_path = pathlib.Path(f'{name}.lcm')
         pathlib.Path(f'{name}.toml').write_text(toml)
         self.process = subprocess.Popen(['./strainwaved', '--config', f'{name}.toml'], stdin=subprocess.DEVNULL,
                                         stdout=open(f'{name}.out', 'w'), stderr=open(self.log_path, 'w'))
@@ -244,7 +244,7 @@ class Recording:
     """strainwavectl record of the joints, from here on."""
 
     def __init__(self, *joints, name='record'):
-        self.path = pathlib.Path(f'{name}.csv')
+        self.path = pathlib.Path(f'{name}.lcm')
         self.process = subprocess.Popen(['chrt', '-f', '20', './strainwavectl', 'record', *(joints or (JOINT,)), '--out', self.path, '--overwrite'],
                                         stdout=subprocess.DEVNULL)
         wait_until(lambda: self.path.exists() and self.path.stat().st_size > 0, 3, 'the recording begins')
@@ -252,7 +252,9 @@ class Recording:
     def end(self):
         self.process.send_signal(signal.SIGINT)
         self.process.wait()
-        with open(self.path) as file:
+        table = self.path.with_suffix('.csv')
+        subprocess.run(['./strainwavectl', 'export', self.path, '--out', table, '--overwrite'], check=True, stdout=subprocess.DEVNULL)
+        with open(table) as file:
             return list(csv.DictReader(file))
 
 
