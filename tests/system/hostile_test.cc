@@ -168,14 +168,15 @@ class HostileSystem : public DaemonTest {
       text.replace(text.find(from), from.size(), to);
     };
     replace("unsigned_orders = \"allow\"", "authorized_keys = \"keys\"");
-    replace("speed_rad_s = 6", "speed_rad_s = 0.02");
+    replace("speed_rad_s = 6", "speed_rad_s = 0.05");
+    replace("position_max_rad = 3.2", "position_max_rad = 12");
     daemon_.emplace(folder_, text, start);
     TestClient client;
     ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
     ASSERT_TRUE(send(client, "TABLE", client.make_table("elbow", shipped_table())).accepted);
     ASSERT_TRUE(send(client, "COMMAND", client.make_command("elbow", Action::kEnable)).accepted);
     ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
-    ASSERT_TRUE(send(client, "SETPOINT", client.make_setpoint("elbow", 3.0)).accepted);
+    ASSERT_TRUE(send(client, "SETPOINT", client.make_setpoint("elbow", 11.0)).accepted);
     ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kTracking));
     client.pump(milliseconds(500));
     observer_.emplace(daemon_->pid());

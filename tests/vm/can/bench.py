@@ -202,7 +202,7 @@ class Daemon:
 
     def __init__(self, toml, name='daemon', wait_for=JOINT):
         make_key()
-        self.log_path = pathlib.Path(f'{name}.lcm')
+        self.log_path = pathlib.Path(f'{name}.log')
         pathlib.Path(f'{name}.toml').write_text(toml)
         self.process = subprocess.Popen(['./strainwaved', '--config', f'{name}.toml'], stdin=subprocess.DEVNULL,
                                         stdout=open(f'{name}.out', 'w'), stderr=open(self.log_path, 'w'))
