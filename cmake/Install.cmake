@@ -29,10 +29,24 @@ install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/s
 install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
 install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
 
+# strainwave_install_manual(COMPONENT PROGRAM...): man pages and completion, which the target "manual" makes.
+function(strainwave_install_manual component)
+  set(folder "${CMAKE_BINARY_DIR}/man")
+  foreach(program IN LISTS ARGN)
+    install(FILES "${folder}/${program}.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+    install(FILES "${folder}/${program}.bash" RENAME ${program}
+            DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT ${component})
+    install(FILES "${folder}/_${program}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/vendor-completions COMPONENT ${component})
+  endforeach()
+endfunction()
+strainwave_install_manual(daemon strainwaved strainwavectl)
+
 # Package strainwave-design: what needs no robot.
 install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
+strainwave_install_manual(design strainwave-sim)
 if(STRAINWAVE_BUILD_DESIGN)
   install(TARGETS strainwave-design DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
+  strainwave_install_manual(design strainwave-design)
 endif()
 install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT design)
 
