@@ -49,6 +49,7 @@ class QuadratureCounts final : public CountSource {
   EdgeEvents edges_;
   QuadratureDecoder decoder_;
   std::uint32_t last_sequence_ = 0;
+  bool levels_differed_ = false;  ///< at the last look, which no edge has followed
   std::atomic<std::int64_t> counts_{0};
   std::atomic<QuadratureFault> fault_{QuadratureFault::kNone};
   std::atomic<std::int64_t> looked_ns_;
