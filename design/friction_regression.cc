@@ -1,7 +1,7 @@
 #include "design/friction_regression.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -45,8 +45,10 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
   }
   const Eigen::Vector3d scale = X.colwise().norm().transpose();
   const Eigen::MatrixX3d scaled = X * scale.cwiseInverse().asDiagonal();
-  const Eigen::Vector3d singular = scaled.jacobiSvd().singularValues();
-  if (!(scale.minCoeff() > 0.0) || !(singular(2) * kWorstCondition > singular(0))) refuse(points, shape);
+  // Squares of the singular values, rising.
+  const Eigen::Matrix3d gram = scaled.transpose() * scaled;
+  const Eigen::Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(scale.minCoeff() > 0.0) || !(squares(0) * kWorstCondition * kWorstCondition > squares(2))) refuse(points, shape);
 
   const Eigen::Matrix3d inverse = (X.transpose() * X).ldlt().solve(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d parameters = inverse * (X.transpose() * F);
