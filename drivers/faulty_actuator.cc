@@ -4,15 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "control/units.h"
+
 namespace strainwave {
 
 namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
-
-std::int64_t nanoseconds(double duration_s) noexcept {
-  return static_cast<std::int64_t>(std::llround(duration_s * kNanosecondsPerSecond));
-}
 
 }  // namespace
 

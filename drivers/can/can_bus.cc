@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "control/input_error.h"
+#include "control/units.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::chrono::milliseconds kServeEvery{20};
 constexpr std::int64_t kTellEvery_ns = 10'000'000'000;
 
@@ -21,10 +21,6 @@ void add(std::atomic<std::int64_t>& counter, std::int64_t count = 1) noexcept {
 
 constexpr bool has(std::uint32_t troubles, CanTrouble trouble) noexcept {
   return (troubles & static_cast<std::uint32_t>(trouble)) != 0;
-}
-
-std::int64_t nanoseconds(double duration_s) noexcept {
-  return static_cast<std::int64_t>(std::llround(duration_s * kNanosecondsPerSecond));
 }
 
 }  // namespace

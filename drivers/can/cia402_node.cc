@@ -34,8 +34,8 @@ std::string drive_error_text(std::uint32_t drive_error) {
 void Node::begin_cycle(std::int64_t now_ns) noexcept {
   now_ns_ = now_ns;
   fresh_ = false;
-  const Setup setup = setup_.load(std::memory_order_acquire);
-  const bool just_ready = setup == Setup::kReady && setup_seen_ != Setup::kReady;
+  const SetUpState::State setup = setup_.now();
+  const bool just_ready = setup == SetUpState::State::kReady && !setup_.ready();
   // Frames that this period finds may still be of the time before: they are not listened to.
   if (just_ready && !settling_) {
     settling_ = true;
@@ -43,7 +43,7 @@ void Node::begin_cycle(std::int64_t now_ns) noexcept {
   }
   settling_ = false;
   if (just_ready) forget_drive();
-  setup_seen_ = setup;
+  setup_.see(setup);
 }
 
 // A drive that has just been set up starts anew for us as well.
@@ -58,7 +58,7 @@ void Node::forget_drive() noexcept {
 }
 
 void Node::receive(const CanFrame& frame) noexcept {
-  if (!ready()) return;
+  if (!setup_.ready()) return;
   if (frame.id == layout_.fast.cob_id(config_.node_id)) return receive_pdo(layout_.fast, frame);
   if (frame.id == layout_.slow.cob_id(config_.node_id)) return receive_pdo(layout_.slow, frame);
   if (frame.id == cob_id(CobId::kEmergency, config_.node_id)) {
@@ -139,7 +139,7 @@ void Node::note_bus(const NodeFault& trouble) noexcept {
 
 void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.quick_stop_after + 1);
-  if (!fresh_ && ready()) ++missed_total_;
+  if (!fresh_ && setup_.ready()) ++missed_total_;
   const NodeFault present = present_trouble();
   if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted)
     needs_set_up_ = true;
@@ -151,9 +151,9 @@ void Node::supervise() noexcept {
 // What holds as long as its cause lasts, in use or not.
 NodeFault Node::present_trouble() const noexcept {
   if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
-  if (setup_seen_ == Setup::kFailed)
+  if (setup_.failed())
     return {ActuatorFault::kDriveRestarted, drive_error_of(CanDetail::kSetupFailed)};
-  if (!ready()) return {};
+  if (!setup_.ready()) return {};
   if (restarted_.fault != ActuatorFault::kNone) return restarted_;
   if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)
     return {ActuatorFault::kLinkLost, drive_error_of(CanDetail::kHeartbeatMissing)};
@@ -221,7 +221,7 @@ Goal Node::goal() const noexcept {
 void Node::transmit(CanTransmitter& bus) noexcept {
   // A drive that said it restarted gets the order to stop, too: if it did not restart after all it still has torque, and if
   // it did it takes no PDO.
-  if (!ready()) return;
+  if (!setup_.ready()) return;
   const Goal wanted = goal();
   const std::uint16_t controlword = power_.controlword(wanted, now_ns_);
   const bool driven = wanted == Goal::kEnabled && power_.state() == PowerState::kOperationEnabled &&
@@ -240,9 +240,8 @@ void Node::transmit(CanTransmitter& bus) noexcept {
 void Node::clear_fault() noexcept {
   latched_ = {};
   if (bus_trouble_.fault != ActuatorFault::kNone) return;
-  if (needs_set_up_ || setup_seen_ == Setup::kFailed) {
-    setup_.store(Setup::kRequested, std::memory_order_release);
-    setup_seen_ = Setup::kRequested;
+  if (needs_set_up_ || setup_.failed()) {
+    setup_.request();
     has_status_ = false;
     power_.restart();
     return;

@@ -7,7 +7,6 @@
 // background thread, after clear_fault() only.
 #pragma once
 
-#include <atomic>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "drivers/can/cia402_config.h"
 #include "drivers/can/packed_temperature.h"
 #include "drivers/can/power_sequence.h"
+#include "drivers/can/set_up_state.h"
 
 namespace strainwave::cia402 {
 
@@ -52,12 +52,9 @@ class Node final : public CanNode {
   std::int64_t malformed_frames() const noexcept { return malformed_; }
 
  private:
-  enum class Setup : int { kReady, kRequested, kRunning, kFailed };
-
   void receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept;
   void receive_emergency(const canopen::Emergency& emergency) noexcept;
   void receive_heartbeat(canopen::NmtState state) noexcept;
-  bool ready() const noexcept { return setup_seen_ == Setup::kReady; }
   void forget_drive() noexcept;
   void supervise() noexcept;
   NodeFault present_trouble() const noexcept;
@@ -72,18 +69,17 @@ class Node final : public CanNode {
   PdoLayout layout_;
   std::int64_t heartbeat_timeout_ns_;
 
-  // Written by set-up while setup_ is not kReady, read by the loop while it is.
+  // Written by set-up, read by the loop while setup_ is ready.
   OperationMode mode_ = OperationMode::kCyclicTorque;
   TorqueScale torque_scale_;
   std::uint16_t initial_error_ = 0;
-  std::atomic<Setup> setup_{Setup::kRequested};
+  SetUpState setup_;
   PackedTemperature sdo_temperature_;
   // Background thread alone.
   std::int64_t temperature_due_ns_ = 0;
   bool temperature_failed_ = false;
 
   // The loop alone.
-  Setup setup_seen_ = Setup::kRequested;
   std::int64_t now_ns_ = 0;
   PowerSequence power_;
   PositionScale position_scale_;

@@ -1,9 +1,8 @@
 // The part of cia402_node.h that runs outside the loop.
 #include "drivers/can/cia402_node.h"
 
-#include <cmath>
-
 #include "control/input_error.h"
+#include "control/units.h"
 #include "drivers/can/cia402_setup.h"
 #include "drivers/can/sdo_client.h"
 
@@ -13,12 +12,7 @@ namespace {
 
 using canopen::CobId;
 
-constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::int64_t kShutDownTimeout_ns = 100'000'000;
-
-std::int64_t nanoseconds(double duration_s) noexcept {
-  return static_cast<std::int64_t>(std::llround(duration_s * kNanosecondsPerSecond));
-}
 
 PowerTimes times_of(const DriveConfig& config) noexcept {
   PowerTimes times;
@@ -73,7 +67,7 @@ std::vector<std::string> Node::set_up(CanPort& port) {
   mode_ = found.mode;
   torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
   initial_error_ = found.error_code;
-  setup_.store(Setup::kReady, std::memory_order_release);
+  setup_.end(true);
   return found.report;
 }
 
@@ -83,18 +77,17 @@ void Node::verify(CanPort& port) {
 
 std::vector<std::string> Node::serve(CanPort& port) {
   std::vector<std::string> messages;
-  Setup requested = Setup::kRequested;
-  if (setup_.compare_exchange_strong(requested, Setup::kRunning, std::memory_order_acq_rel)) {
+  if (setup_.begin()) {
     try {
       messages = set_up(port);
       messages.push_back(config_.name + ": set up again");
     } catch (const InputError& error) {
       messages.emplace_back(error.what());
-      setup_.store(Setup::kFailed, std::memory_order_release);
+      setup_.end(false);
     }
   }
   if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo &&
-      setup_.load(std::memory_order_acquire) == Setup::kReady)
+      setup_.now() == SetUpState::State::kReady)
     read_temperature(port, messages);
   return messages;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "control/input_error.h"
+#include "control/units.h"
 #include "drivers/can/can_detail.h"
 #include "drivers/can/odrive_setup.h"
 
@@ -11,13 +12,8 @@ namespace strainwave::odrive {
 
 namespace {
 
-constexpr double kNanosecondsPerSecond = 1e9;
 /// An order to change the state is repeated this often until the heartbeat shows that it was obeyed.
 constexpr std::int64_t kRepeatStateAfter_ns = 50'000'000;
-
-std::int64_t nanoseconds(double duration_s) noexcept {
-  return static_cast<std::int64_t>(std::llround(duration_s * kNanosecondsPerSecond));
-}
 
 ActuatorFault fault_of(std::uint32_t errors) noexcept {
   if ((errors & kEstopRequested) != 0) return ActuatorFault::kEmergencyStop;
@@ -84,7 +80,7 @@ std::vector<FrameTraffic> Node::traffic() const {
 std::vector<std::string> Node::set_up(CanPort& port) {
   std::vector<std::string> report = check_axis(port, config_);
   release_axis(port, config_);
-  setup_.store(Setup::kReady, std::memory_order_release);
+  setup_.end(true);
   return report;
 }
 
@@ -93,16 +89,15 @@ void Node::verify(CanPort& port) {
 }
 
 std::vector<std::string> Node::serve(CanPort& port) {
-  Setup requested = Setup::kRequested;
-  if (!setup_.compare_exchange_strong(requested, Setup::kRunning, std::memory_order_acq_rel)) return {};
+  if (!setup_.begin()) return {};
   try {
     // Orders are the loop's alone: it would take ours, from another socket, for somebody else's.
     std::vector<std::string> messages = check_axis(port, config_);
     messages.push_back(config_.name + ": set up again");
-    setup_.store(Setup::kReady, std::memory_order_release);
+    setup_.end(true);
     return messages;
   } catch (const InputError& error) {
-    setup_.store(Setup::kFailed, std::memory_order_release);
+    setup_.end(false);
     return {error.what()};
   }
 }
@@ -118,9 +113,9 @@ void Node::shut_down(CanPort& port) noexcept {
 void Node::begin_cycle(std::int64_t now_ns) noexcept {
   now_ns_ = now_ns;
   fresh_ = false;
-  const Setup setup = setup_.load(std::memory_order_acquire);
-  if (setup == Setup::kReady && setup_seen_ != Setup::kReady) forget_drive();
-  setup_seen_ = setup;
+  const SetUpState::State setup = setup_.now();
+  if (setup == SetUpState::State::kReady && !setup_.ready()) forget_drive();
+  setup_.see(setup);
 }
 
 void Node::forget_drive() noexcept {
@@ -131,7 +126,7 @@ void Node::forget_drive() noexcept {
 }
 
 void Node::receive(const CanFrame& frame) noexcept {
-  if (!ready()) return;
+  if (!setup_.ready()) return;
   const auto is = [&](Command command) { return frame.id == can_id(command, config_.node_id); };
   if (is(Command::kEstimates)) {
     if (const auto estimates = decode_estimates(frame)) {
@@ -202,8 +197,8 @@ void Node::supervise() noexcept {
 // What holds as long as its cause lasts, in use or not.
 NodeFault Node::present_trouble() const noexcept {
   if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
-  if (setup_seen_ == Setup::kFailed) return {ActuatorFault::kLinkLost, our_detail(CanDetail::kSetupFailed)};
-  if (!ready()) return {};
+  if (setup_.failed()) return {ActuatorFault::kLinkLost, our_detail(CanDetail::kSetupFailed)};
+  if (!setup_.ready()) return {};
   if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)
     return {ActuatorFault::kLinkLost, our_detail(CanDetail::kHeartbeatMissing)};
   return {};
@@ -241,7 +236,7 @@ bool Node::wants_torque() const noexcept {
 }
 
 void Node::transmit(CanTransmitter& bus) noexcept {
-  if (!ready()) return;
+  if (!setup_.ready()) return;
   lead_state(bus);
   const bool driven = wants_torque() && closed_loop() && missed_ <= config_.zero_torque_after;
   torque_sent_Nm_ =
@@ -271,14 +266,13 @@ void Node::lead_state(CanTransmitter& bus) noexcept {
 }
 
 void Node::clear_fault() noexcept {
-  const bool was_away = latched_.fault == ActuatorFault::kLinkLost || setup_seen_ == Setup::kFailed;
+  const bool was_away = latched_.fault == ActuatorFault::kLinkLost || setup_.failed();
   latched_ = {};
   clear_ordered_ = true;
   was_armed_ = false;
   if (!was_away) return;
   // Whatever answers now may be another drive, or the same one with other settings.
-  setup_seen_ = Setup::kRequested;
-  setup_.store(Setup::kRequested, std::memory_order_release);
+  setup_.request();
 }
 
 }  // namespace strainwave::odrive

@@ -7,12 +7,12 @@
 // and by having left closed loop. Its controller mode is set anew whenever it is enabled.
 #pragma once
 
-#include <atomic>
 #include <string>
 #include <vector>
 
 #include "drivers/can/can_node.h"
 #include "drivers/can/odrive_config.h"
+#include "drivers/can/set_up_state.h"
 
 namespace strainwave::odrive {
 
@@ -48,9 +48,6 @@ class Node final : public CanNode {
   std::int64_t malformed_frames() const noexcept { return malformed_; }
 
  private:
-  enum class Setup : int { kReady, kRequested, kRunning, kFailed };
-
-  bool ready() const noexcept { return setup_seen_ == Setup::kReady; }
   bool closed_loop() const noexcept { return heartbeat_.state == AxisState::kClosedLoop; }
   bool wants_torque() const noexcept;
   void forget_drive() noexcept;
@@ -63,10 +60,9 @@ class Node final : public CanNode {
   DriveConfig config_;
   std::int64_t heartbeat_timeout_ns_;
   std::int64_t arm_timeout_ns_;
-  std::atomic<Setup> setup_{Setup::kRequested};
+  SetUpState setup_;
 
   // The loop alone.
-  Setup setup_seen_ = Setup::kRequested;
   std::int64_t now_ns_ = 0;
   std::int64_t heartbeat_ns_ = 0;
   std::int64_t temperature_ns_ = 0;

@@ -2,13 +2,9 @@
 
 #include <cmath>
 
-namespace strainwave {
+#include "control/units.h"
 
-namespace {
-std::int64_t nanoseconds(double duration_s) noexcept {
-  return std::llround(duration_s * 1e9);
-}
-}  // namespace
+namespace strainwave {
 
 DriveSequence::DriveSequence(const DriveSequenceConfig& config) noexcept
     : enable_delay_ns_(nanoseconds(config.enable_delay_s)),

@@ -1,50 +1,18 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
-#include "control/input_error.h"
 #include "daemon/config.h"
+#include "tests/daemon/config_file_test.h"
 #include "tests/support/example_keys.h"
-#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
-class CanConfigTest : public ::testing::Test {
+class CanConfigTest : public ConfigFileTest {
  protected:
   CanConfigTest() { testing::write_authorized_keys(folder_); }
-  static std::string example(const std::string& name) {
-    std::ifstream file(std::string(STRAINWAVE_SOURCE_DIR "/config/") + name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-  DaemonConfig read(const std::string& text) {
-    std::ofstream(folder_ / "c.toml") << text;
-    return read_config(folder_ / "c.toml");
-  }
   std::string error_after(const std::string& name, const std::string& from, const std::string& to) {
-    std::string text = example(name);
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted: " << to;
-    return "";
+    return error_of(replaced(example(name), from, to));
   }
-  static void expect_mentions(const std::string& message, std::initializer_list<const char*> parts) {
-    for (const char* part : parts)
-      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
-  }
-  TemporaryFolder temporary_;
-  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 TEST_F(CanConfigTest, PutsJointsOnTheirBusAndKeepsOtherDaemonsOffTheirNodes) {

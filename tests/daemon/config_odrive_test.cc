@@ -1,49 +1,26 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
-#include "control/input_error.h"
 #include "daemon/config.h"
+#include "tests/daemon/config_file_test.h"
 #include "tests/support/example_keys.h"
-#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
-class OdriveConfigTest : public ::testing::Test {
+class OdriveConfigTest : public ConfigFileTest {
  protected:
   OdriveConfigTest() { testing::write_authorized_keys(folder_); }
   /// The example with `from` replaced; empty: as it is.
-  DaemonConfig read(const std::string& from = "", const std::string& to = "") {
-    std::ifstream file(STRAINWAVE_SOURCE_DIR "/config/odrive.toml");
-    std::ostringstream stream;
-    stream << file.rdbuf();
-    std::string text = stream.str();
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
-    std::ofstream(folder_ / "c.toml") << text;
-    return read_config(folder_ / "c.toml");
+  DaemonConfig read_with(const std::string& from = "", const std::string& to = "") {
+    return read(replaced(example("odrive.toml"), from, to));
   }
   std::string error_after(const std::string& from, const std::string& to) {
-    try {
-      read(from, to);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted: " << to;
-    return "";
+    return error_of(replaced(example("odrive.toml"), from, to));
   }
-
-  TemporaryFolder temporary_;
-  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 TEST_F(OdriveConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLeaves) {
-  const DaemonConfig config = read();
+  const DaemonConfig config = read_with();
   ASSERT_EQ(config.joints.size(), 1U);
   EXPECT_EQ(config.joints[0].driver_resource, "can0 node 1");
   const JointControllerConfig& controller = config.joints[0].loop.controller;
@@ -60,7 +37,7 @@ TEST_F(OdriveConfigTest, WantsABusOfItsOwn) {
 }
 
 TEST_F(OdriveConfigTest, TakesItsOwnNodeNumbersOnly) {
-  EXPECT_NO_THROW(read("node_id = 1\nprotocol", "node_id = 0\nprotocol"));
+  EXPECT_NO_THROW(read_with("node_id = 1\nprotocol", "node_id = 0\nprotocol"));
   EXPECT_NE(error_after("node_id = 1\nprotocol", "node_id = 64\nprotocol").find("0 to 63"), std::string::npos);
 }
 
@@ -78,7 +55,7 @@ TEST_F(OdriveConfigTest, RefusesKeysOfTheOtherProtocol) {
 TEST_F(OdriveConfigTest, WantsBothEndpointsOfTheWatchdogOrNone) {
   EXPECT_NE(error_after("timeout_endpoint = 191", "").find("timeout_endpoint"), std::string::npos);
   EXPECT_NO_THROW(
-      read("[joint.can.watchdog]\nenabled_endpoint = 190         # check 1\ntimeout_endpoint = 191\n", ""));
+      read_with("[joint.can.watchdog]\nenabled_endpoint = 190         # check 1\ntimeout_endpoint = 191\n", ""));
 }
 
 }  // namespace

@@ -1,14 +1,10 @@
 #include "daemon/config.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "control/input_error.h"
+#include "tests/daemon/config_file_test.h"
 #include "tests/support/example_keys.h"
-#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -37,31 +33,12 @@ torque_Nm = 34
 ambient_temperature_C = "sine:15,25,1"
 )";
 
-class ConfigTest : public ::testing::Test {
+class ConfigTest : public ConfigFileTest {
  protected:
-  DaemonConfig read(const std::string& text) {
-    std::ofstream(folder_ / "c.toml") << text;
-    return read_config(folder_ / "c.toml");
-  }
   /// The message for kSound with `from` replaced by `to`.
   std::string error_after(const std::string& from, const std::string& to) {
-    std::string text = kSound;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos);
-    text.replace(at, from.size(), to);
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted: " << to;
-    return "";
+    return error_of(replaced(kSound, from, to));
   }
-  static void expect_mentions(const std::string& message, std::initializer_list<const char*> parts) {
-    for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
-  }
-  TemporaryFolder temporary_;
-  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 TEST_F(ConfigTest, ReadsASoundFile) {

@@ -1,36 +1,21 @@
 // [joint.gpio], [joint.homing] and [joint.thermometer]: the example is sound, and what cannot be is refused
 // by name.
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "control/input_error.h"
 #include "daemon/config.h"
+#include "tests/daemon/config_file_test.h"
 #include "tests/support/example_keys.h"
-#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
-class GpioConfig : public ::testing::Test {
+class GpioConfig : public ConfigFileTest {
  protected:
-  GpioConfig() {
-    std::ifstream file(STRAINWAVE_SOURCE_DIR "/config/gpio.toml");
-    std::ostringstream text;
-    text << file.rdbuf();
-    example_ = text.str();
-    testing::write_authorized_keys(folder_.path());
-  }
-  DaemonConfig read(const std::string& text) {
-    std::ofstream(folder_.path() / "gpio.toml") << text;
-    return read_config(folder_.path() / "gpio.toml");
-  }
+  GpioConfig() { testing::write_authorized_keys(folder_); }
   std::string replaced(const std::string& from, const std::string& to) const {
-    std::string text = example_;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+    return ConfigFileTest::replaced(example_, from, to);
   }
   /// Without the table [name] and all that belongs to it.
   std::string without(const std::string& name) const {
@@ -39,23 +24,11 @@ class GpioConfig : public ::testing::Test {
     const std::size_t end = example_.find("\n[", begin);
     return example_.substr(0, begin) + (end == std::string::npos ? "" : example_.substr(end + 1));
   }
-  std::string error_of(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted";
-    return "";
-  }
   void expect_refused(const std::string& text, std::initializer_list<const char*> parts) {
-    const std::string message = error_of(text);
-    for (const char* part : parts)
-      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+    expect_mentions(error_of(text), parts);
   }
 
-  TemporaryFolder folder_;
-  std::string example_;
+  std::string example_ = example("gpio.toml");
 };
 
 TEST_F(GpioConfig, OfTheExampleIsSoundAndTellsTheControllerWhatTheDatasheetSays) {

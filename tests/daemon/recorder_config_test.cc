@@ -1,19 +1,15 @@
 // The keys of groups, the flight recorder, injected faults and the temperature's period.
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "control/input_error.h"
 #include "daemon/config.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/daemon/config_file_test.h"
 
 namespace strainwave {
 namespace {
 
-class RecorderConfigTest : public ::testing::Test {
+class RecorderConfigTest : public ConfigFileTest {
  protected:
   void SetUp() override { ::unsetenv("STATE_DIRECTORY"); }
   void TearDown() override { ::unsetenv("STATE_DIRECTORY"); }
@@ -26,21 +22,9 @@ class RecorderConfigTest : public ::testing::Test {
            "following_error_rad = 0.1, torque_Nm = 34 }\n" +
            keys + tables;
   }
-  DaemonConfig read(const std::string& text) {
-    std::ofstream(folder_ / "c.toml") << "[security]\nunsigned_orders = \"allow\"\n" << text;
-    return read_config(folder_ / "c.toml");
-  }
-  std::string error(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& refusal) {
-      return refusal.what();
-    }
-    ADD_FAILURE() << "accepted: " << text;
-    return "";
-  }
-  TemporaryFolder temporary_;
-  const std::filesystem::path folder_ = temporary_.path();
+  static std::string simulated(const std::string& text) { return "[security]\nunsigned_orders = \"allow\"\n" + text; }
+  DaemonConfig read(const std::string& text) { return ConfigFileTest::read(simulated(text)); }
+  std::string error(const std::string& text) { return error_of(simulated(text)); }
 };
 
 TEST_F(RecorderConfigTest, NumbersGroupsByTheirNames) {

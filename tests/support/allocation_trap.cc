@@ -35,13 +35,6 @@ void count_into(std::atomic<std::int64_t>& counter) noexcept {
 
 extern "C" {
 
-// The C library's own names for what is replaced here.
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void __libc_free(void* block);
-
 void* malloc(std::size_t size) {
   count_into(allocation_count);
   return __libc_malloc(size);

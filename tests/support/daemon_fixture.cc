@@ -185,6 +185,15 @@ gain_table_v1 TestClient::make_table(const std::string& joint, const GainTable& 
   return message;
 }
 
+inject_v1 TestClient::make_injection(const std::string& joint, std::int32_t kind, double for_s, double amount) {
+  inject_v1 message{};
+  fill_envelope(joint, message);
+  message.kind = kind;
+  message.for_s = for_s;
+  message.amount = amount;
+  return message;
+}
+
 Answer TestClient::command(const std::string& joint, Action action) {
   return send_and_wait(joint, "COMMAND", make_command(joint, action));
 }

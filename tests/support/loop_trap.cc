@@ -12,14 +12,7 @@
 
 #include <cstdlib>
 
-extern "C" {
-// The C library's own allocator, by the names under which it can be reached when its public ones are taken.
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void __libc_free(void* block);
-}
+#include "tests/support/c_library_allocator.h"
 
 namespace {
 

@@ -1,7 +1,6 @@
 // Faults injected into the running daemon over LCM, and the flight records that they leave.
 #include <filesystem>
 #include <fstream>
-#include <strainwave/inject_v1.hpp>
 #include <thread>
 
 #include "drivers/injected_fault.h"
@@ -25,16 +24,8 @@ class DaemonInjection : public DaemonTest {
     ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
   }
   Answer inject(InjectedFault kind, double for_s, double amount) {
-    // A setpoint of the client's own lends session, sender and a rising sequence.
-    const setpoint_v1 envelope = client_->make_setpoint("elbow", 0.0);
-    inject_v1 message{};
-    message.session_id = envelope.session_id;
-    message.sender_id = envelope.sender_id;
-    message.sequence = envelope.sequence;
-    message.kind = static_cast<std::int32_t>(kind);
-    message.for_s = for_s;
-    message.amount = amount;
-    return client_->send_and_wait("elbow", "INJECT", message);
+    return client_->send_and_wait(
+        "elbow", "INJECT", client_->make_injection("elbow", static_cast<std::int32_t>(kind), for_s, amount));
   }
   std::vector<std::filesystem::path> records() const {
     std::vector<std::filesystem::path> paths;

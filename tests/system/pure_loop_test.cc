@@ -10,7 +10,6 @@
 
 #include <fstream>
 #include <set>
-#include <strainwave/inject_v1.hpp>
 
 #include "drivers/injected_fault.h"
 #include "tests/support/daemon_fixture.h"
@@ -55,14 +54,8 @@ class PureLoop : public DaemonTest {
   }
 
   Answer inject(InjectedFault kind, double for_s) {
-    const setpoint_v1 envelope = client_.make_setpoint("elbow", 0.0);
-    inject_v1 message{};
-    message.session_id = envelope.session_id;
-    message.sender_id = envelope.sender_id;
-    message.sequence = envelope.sequence;
-    message.kind = static_cast<std::int32_t>(kind);
-    message.for_s = for_s;
-    return client_.send_and_wait("elbow", "INJECT", message);
+    return client_.send_and_wait(
+        "elbow", "INJECT", client_.make_injection("elbow", static_cast<std::int32_t>(kind), for_s, 0.0));
   }
 
   void stream(double start_rad, int setpoints) {
