@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "sim/joint_plant.h"
-#include "sim/loop_controllers.h"
-#include "sim/reference_plant.h"
+#include "sim/joint/joint_plant.h"
+#include "sim/studies/loop_controllers.h"
+#include "sim/joint/reference_plant.h"
 
 namespace strainwave {
 namespace {

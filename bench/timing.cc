@@ -17,7 +17,7 @@
 #include <thread>
 
 #include "control/gain_table_json.h"
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/simulated_actuator.h"
 

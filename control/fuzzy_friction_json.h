@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "control/fuzzy_friction.h"
-#include "control/strict_json.h"
+#include "base/strict_json.h"
 
 namespace strainwave {
 

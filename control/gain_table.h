@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "control/fixed_string.h"
+#include "base/fixed_string.h"
 #include "control/fuzzy_friction.h"
 
 namespace strainwave {

@@ -1,6 +1,6 @@
 #include "daemon/drive_check.h"
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

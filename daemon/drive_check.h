@@ -5,7 +5,7 @@
 #include <ostream>
 #include <vector>
 
-#include "daemon/config.h"
+#include "daemon/config/config.h"
 #include "daemon/instance_lock.h"
 
 namespace strainwave {

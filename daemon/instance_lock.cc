@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

@@ -6,12 +6,12 @@
 #include <exception>
 #include <iostream>
 
-#include "control/input_error.h"
-#include "daemon/config.h"
+#include "base/input_error.h"
+#include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
-#include "manual/manual.h"
+#include "base/manual/manual.h"
 
 namespace {
 

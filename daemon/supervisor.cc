@@ -16,9 +16,9 @@
 #include <thread>
 
 #include "control/gain_table_json.h"
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "daemon/drive_check.h"
-#include "daemon/table_admission.h"
+#include "daemon/admission/table_admission.h"
 
 namespace strainwave {
 

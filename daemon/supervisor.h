@@ -8,17 +8,17 @@
 #include <memory>
 #include <vector>
 
-#include "daemon/admission.h"
-#include "daemon/answers.h"
-#include "daemon/config.h"
-#include "daemon/gateway_process.h"
+#include "daemon/admission/admission.h"
+#include "daemon/admission/answers.h"
+#include "daemon/config/config.h"
+#include "daemon/gateway/gateway_process.h"
 #include "daemon/instance_lock.h"
 #include "daemon/log.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "daemon/service_notifier.h"
-#include "daemon/shared_memory.h"
-#include "daemon/table_book.h"
-#include "daemon/token_bucket.h"
+#include "daemon/gateway/shared_memory.h"
+#include "daemon/admission/table_book.h"
+#include "daemon/admission/token_bucket.h"
 
 namespace strainwave {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "control/input_error.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/text_file.h"
 #include "design/csv.h"
 #include "design/sha256.h"
 

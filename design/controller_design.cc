@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "control/ts_plant.h"
 #include "design/controller_lmi.h"
 

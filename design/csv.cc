@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "control/input_error.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/text_file.h"
 
 namespace strainwave {
 

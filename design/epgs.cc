@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

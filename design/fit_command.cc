@@ -3,8 +3,8 @@
 #include <memory>
 #include <thread>
 
-#include "control/input_error.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/text_file.h"
 #include "design/catalogue.h"
 #include "design/commands.h"
 #include "design/estimation.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "control/input_error.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/text_file.h"
 #include "design/friction_file.h"
 #include "design/friction_fit.h"
 #include "design/friction_log.h"

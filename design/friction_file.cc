@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "control/fuzzy_friction_json.h"
-#include "control/input_error.h"
-#include "control/strict_json.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/strict_json.h"
+#include "base/text_file.h"
 #include "control/units.h"
 #include "design/csv.h"
 #include "design/friction_fit.h"

@@ -6,7 +6,7 @@
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/state_v1.hpp>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/vocabulary.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "design/student.h"
 
 namespace strainwave {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "control/gain_table_json.h"
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"

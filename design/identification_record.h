@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "control/strict_json.h"
+#include "base/strict_json.h"
 #include "design/friction_regression.h"
 #include "design/friction_update.h"
 

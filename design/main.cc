@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "design/commands.h"
-#include "manual/manual.h"
+#include "base/manual/manual.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Fit friction over temperature, design gain tables (LMI), verify and describe them.",

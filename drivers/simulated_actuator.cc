@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "control/input_error.h"
-#include "sim/reference_plant.h"
+#include "base/input_error.h"
+#include "sim/joint/reference_plant.h"
 
 namespace strainwave {
 

@@ -1,5 +1,5 @@
 // The simulated joint behind the seam: a drive with an enable delay, an encoder and a slow temperature sensor
-// around sim/joint_plant.h. Each write() advances the plant by one period; nothing here reads a clock, so the
+// around sim/joint/joint_plant.h. Each write() advances the plant by one period; nothing here reads a clock, so the
 // same calls give the same motion. read(), write(), stop() and clear_fault() are real-time safe; the
 // constructor is not.
 //
@@ -11,8 +11,8 @@
 
 #include "drivers/actuator.h"
 #include "drivers/simulated_inputs.h"
-#include "sim/joint_plant.h"
-#include "sim/temperature_profile.h"
+#include "sim/joint/joint_plant.h"
+#include "sim/joint/temperature_profile.h"
 
 namespace strainwave {
 

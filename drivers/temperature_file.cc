@@ -15,7 +15,7 @@
 #include <string>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

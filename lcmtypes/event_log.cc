@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "lcmtypes/channels.h"
 
 namespace strainwave {

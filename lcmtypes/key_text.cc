@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

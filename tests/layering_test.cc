@@ -25,28 +25,28 @@ TEST(Layering, HoldsInTheWholeTree) {
 TEST(Layering, FollowsTheArrows) {
   EXPECT_TRUE(allowed("control/friction.cc", "#include \"control/friction.h\""));
   EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/gain_table.h\""));
-  EXPECT_TRUE(allowed("sim/joint_plant.h", "#include \"drivers/actuator.h\""));
-  EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint_plant.h\""));
+  EXPECT_TRUE(allowed("sim/joint/joint_plant.h", "#include \"drivers/actuator.h\""));
+  EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
-  EXPECT_TRUE(allowed("client/client.h", "#include \"lcmtypes/channels.h\""));
-  EXPECT_TRUE(allowed("client/can_commands.cc", "#include \"drivers/can/can_scan.h\""));
+  EXPECT_TRUE(allowed("client/link/client.h", "#include \"lcmtypes/channels.h\""));
+  EXPECT_TRUE(allowed("client/commands/can_commands.cc", "#include \"drivers/can/can_scan.h\""));
   EXPECT_TRUE(allowed("tests/design/lmi_test.cc", "#include \"design/lmi.h\""));
   EXPECT_TRUE(allowed("bench/loop.cc", "#include \"daemon/realtime/joint_loop.h\""));
 }
 
 TEST(Layering, RefusesEveryArrowThatIsNotThere) {
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"design/lmi.h\""));
-  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"sim/joint_plant.h\""));
-  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/client.h\""));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"sim/joint/joint_plant.h\""));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/link/client.h\""));
   EXPECT_FALSE(allowed("control/friction.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("control/friction.cc", "#include \"design/lmi.h\""));
-  EXPECT_FALSE(allowed("sim/joint_plant.cc", "#include \"drivers/simulated_actuator.h\""));
-  EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint_plant.h\""));
-  EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config.h\""));
-  EXPECT_FALSE(allowed("client/client.cc", "#include \"daemon/config.h\""));
-  EXPECT_FALSE(allowed("client/client.cc", "#include \"sim/joint_plant.h\""));
-  EXPECT_FALSE(allowed("client/client.cc", "#include \"drivers/can/can_bus.h\""));
-  EXPECT_FALSE(allowed("design/lmi.cc", "#include \"sim/joint_plant.h\""));
+  EXPECT_FALSE(allowed("sim/joint/joint_plant.cc", "#include \"drivers/simulated_actuator.h\""));
+  EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint/joint_plant.h\""));
+  EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config/config.h\""));
+  EXPECT_FALSE(allowed("client/link/client.cc", "#include \"daemon/config/config.h\""));
+  EXPECT_FALSE(allowed("client/link/client.cc", "#include \"sim/joint/joint_plant.h\""));
+  EXPECT_FALSE(allowed("client/link/client.cc", "#include \"drivers/can/can_bus.h\""));
+  EXPECT_FALSE(allowed("design/lmi.cc", "#include \"sim/joint/joint_plant.h\""));
 }
 
 TEST(Layering, LetsNothingThatIsShippedIncludeTests) {
@@ -108,7 +108,7 @@ class SourceTree : public ::testing::Test {
 
 TEST_F(SourceTree, WithAWrongLineIsReportedWithFileAndLine) {
   write("daemon/realtime/loop.cc", "#include <array>\n#include \"design/lmi.h\"\n");
-  write("daemon/config.cc", "#include \"control/units.h\"\n");
+  write("daemon/config/config.cc", "#include \"control/units.h\"\n");
   const std::vector<std::string> defects = find_include_defects(root_);
   ASSERT_EQ(defects.size(), 1U);
   EXPECT_EQ(defects[0], "daemon/realtime/loop.cc:2: daemon must not include design/lmi.h");

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <strainwave/command_v1.hpp>
 
-#include "client/text.h"
+#include "client/text/text.h"
 
 namespace strainwave {
 

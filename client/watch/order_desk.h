@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "client/client.h"
+#include "client/link/client.h"
 
 namespace strainwave {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "client/exit_status.h"
+#include "client/link/exit_status.h"
 
 namespace strainwave {
 

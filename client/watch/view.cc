@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "client/text.h"
+#include "client/text/text.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {

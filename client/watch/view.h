@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "client/state_view.h"
+#include "client/link/state_view.h"
 #include "client/watch/screen.h"
 
 namespace strainwave {

@@ -1,7 +1,7 @@
 // The full-screen watch: listens, draws, obeys keys. Not real-time.
 #pragma once
 
-#include "client/commands.h"
+#include "client/commands/commands.h"
 
 namespace strainwave {
 

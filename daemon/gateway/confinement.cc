@@ -16,7 +16,7 @@
 #include <memory>
 #include <system_error>
 
-#include "daemon/sanitized.h"
+#include "daemon/gateway/sanitized.h"
 
 namespace strainwave {
 

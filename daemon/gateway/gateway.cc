@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "daemon/utime.h"
+#include "base/utime.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/wire.h"
 

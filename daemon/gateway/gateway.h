@@ -6,7 +6,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <string>
 
-#include "daemon/shared_memory.h"
+#include "daemon/gateway/shared_memory.h"
 
 namespace strainwave {
 

@@ -8,7 +8,7 @@
 
 #include "daemon/gateway/confinement.h"
 #include "daemon/gateway/gateway.h"
-#include "daemon/gateway_process.h"
+#include "daemon/gateway/gateway_process.h"
 
 namespace {
 

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "control/joint_controller.h"
-#include "daemon/mode_machine.h"
+#include "daemon/realtime/mode_machine.h"
 #include "daemon/realtime/flight_recorder.h"
 #include "daemon/realtime/homing.h"
 #include "daemon/realtime/orders.h"
 #include "daemon/realtime/position_check.h"
 #include "daemon/realtime/temperature_check.h"
-#include "daemon/shared_memory.h"
+#include "daemon/gateway/shared_memory.h"
 #include "drivers/actuator.h"
 #include "drivers/faulty_actuator.h"
 

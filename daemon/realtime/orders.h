@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "daemon/realtime/spsc_queue.h"
+#include "base/spsc_queue.h"
 #include "drivers/injected_fault.h"
 #include "lcmtypes/vocabulary.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
 #include "drivers/thermometer_actuator.h"

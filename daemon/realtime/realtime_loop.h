@@ -11,13 +11,13 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/config.h"
+#include "daemon/config/config.h"
 #include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/overrun_watch.h"
 #include "daemon/realtime/periodic_clock.h"
-#include "daemon/shared_memory.h"
+#include "daemon/gateway/shared_memory.h"
 
 namespace strainwave {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

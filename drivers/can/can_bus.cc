@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "control/units.h"
 
 namespace strainwave {

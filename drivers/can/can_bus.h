@@ -27,7 +27,7 @@
 #include "drivers/can/can_detail.h"
 #include "drivers/can/can_node.h"
 #include "drivers/can/can_port.h"
-#include "drivers/can/canopen.h"
+#include "drivers/can/canopen/canopen.h"
 #include "drivers/fieldbus.h"
 
 namespace strainwave {

@@ -1,7 +1,7 @@
 #include "drivers/can/can_detail.h"
 
-#include "drivers/can/canopen.h"
-#include "drivers/can/cia402_state.h"
+#include "drivers/can/canopen/canopen.h"
+#include "drivers/can/cia402/cia402_state.h"
 #include "drivers/can/hexadecimal.h"
 
 namespace strainwave {

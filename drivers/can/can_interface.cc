@@ -16,7 +16,7 @@
 #include <functional>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

@@ -13,7 +13,7 @@
 #include <ctime>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

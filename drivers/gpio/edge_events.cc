@@ -11,7 +11,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

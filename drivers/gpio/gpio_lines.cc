@@ -6,7 +6,7 @@
 #include <set>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

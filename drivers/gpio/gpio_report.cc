@@ -3,7 +3,7 @@
 #include <iomanip>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "drivers/gpio/gpio_joint.h"
 #include "drivers/gpio/kernel_view.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <thread>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

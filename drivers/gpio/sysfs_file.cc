@@ -8,7 +8,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

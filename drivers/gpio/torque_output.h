@@ -1,5 +1,5 @@
 // From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
-// real-time safe. Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/motor.h.
+// real-time safe. Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/joint/motor.h.
 //
 //   current:  the amplifier makes a current from the duty;           T = Kt I                  I = full scale
 //   * share voltage:  the bridge makes a voltage; inductance neglected;      T = Kt (u - Ke w) / R     u =

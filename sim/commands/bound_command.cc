@@ -4,9 +4,9 @@
 
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
-#include "sim/scenarios.h"
-#include "sim/text_table.h"
-#include "sim/time_optimal.h"
+#include "sim/studies/scenarios.h"
+#include "sim/studies/text_table.h"
+#include "sim/studies/time_optimal.h"
 
 namespace strainwave {
 

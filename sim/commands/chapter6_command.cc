@@ -3,11 +3,11 @@
 #include <iostream>
 #include <memory>
 
-#include "control/text_file.h"
-#include "sim/chapter6_figures.h"
+#include "base/text_file.h"
+#include "sim/studies/chapter6_figures.h"
 #include "sim/commands/commands.h"
-#include "sim/html_page.h"
-#include "sim/performance_tables.h"
+#include "sim/studies/html_page.h"
+#include "sim/studies/performance_tables.h"
 
 namespace strainwave {
 

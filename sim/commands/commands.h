@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/closed_loop.h"
-#include "sim/contenders.h"
+#include "sim/studies/closed_loop.h"
+#include "sim/studies/contenders.h"
 
 namespace CLI {
 class App;

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "sim/commands/commands.h"
-#include "sim/plant_file.h"
+#include "sim/joint/plant_file.h"
 
 namespace strainwave {
 

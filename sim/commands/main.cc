@@ -4,8 +4,8 @@
 #include <iostream>
 #include <system_error>
 
-#include "control/input_error.h"
-#include "manual/manual.h"
+#include "base/input_error.h"
+#include "base/manual/manual.h"
 #include "sim/commands/commands.h"
 
 namespace strainwave {

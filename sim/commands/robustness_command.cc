@@ -5,8 +5,8 @@
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/commands/study_output.h"
-#include "sim/plant_file.h"
-#include "sim/robustness.h"
+#include "sim/joint/plant_file.h"
+#include "sim/studies/robustness.h"
 
 namespace strainwave {
 

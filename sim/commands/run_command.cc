@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "control/gain_table_json.h"
-#include "control/text_file.h"
+#include "base/text_file.h"
 #include "sim/commands/commands.h"
-#include "sim/text_table.h"
-#include "sim/time_optimal.h"
+#include "sim/studies/text_table.h"
+#include "sim/studies/time_optimal.h"
 
 namespace strainwave {
 

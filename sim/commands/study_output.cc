@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "control/text_file.h"
-#include "sim/html_page.h"
+#include "base/text_file.h"
+#include "sim/studies/html_page.h"
 
 namespace strainwave {
 

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "sim/figure.h"
-#include "sim/text_table.h"
+#include "sim/studies/figure.h"
+#include "sim/studies/text_table.h"
 
 namespace strainwave {
 

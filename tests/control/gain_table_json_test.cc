@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "control/input_error.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/text_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

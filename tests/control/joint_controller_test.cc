@@ -8,7 +8,7 @@
 
 #include "control/gain_table_json.h"
 #include "control/units.h"
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/support/allocation_trap.h"
 
 namespace strainwave {

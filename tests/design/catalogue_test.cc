@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "design/csv.h"
 
 namespace strainwave {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 namespace {

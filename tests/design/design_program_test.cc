@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "control/gain_table_json.h"
-#include "control/text_file.h"
+#include "base/text_file.h"
 
 namespace strainwave {
 namespace {

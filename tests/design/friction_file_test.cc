@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "control/input_error.h"
-#include "control/text_file.h"
+#include "base/input_error.h"
+#include "base/text_file.h"
 #include "control/units.h"
 
 namespace strainwave {

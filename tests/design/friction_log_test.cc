@@ -7,7 +7,7 @@
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/state_v1.hpp>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "lcmtypes/vocabulary.h"
 #include "tests/support/event_log_file.h"
 #include "tests/support/temporary_folder.h"

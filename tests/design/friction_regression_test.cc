@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "control/text_file.h"
+#include "base/text_file.h"
 #include "design/friction_file.h"
 
 namespace strainwave {

@@ -9,7 +9,7 @@
 #include <functional>
 #include <thread>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "tests/support/allocation_trap.h"
 #include "tests/support/temporary_folder.h"
 

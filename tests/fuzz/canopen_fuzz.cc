@@ -1,10 +1,10 @@
 // Heartbeats, emergencies, error frames and their texts: a decoder takes exactly the standard's sizes and
 // nothing else.
-#include "drivers/can/canopen.h"
+#include "drivers/can/canopen/canopen.h"
 
 #include "drivers/can/can_detail.h"
 #include "drivers/can/can_socket.h"
-#include "drivers/can/cia402_state.h"
+#include "drivers/can/cia402/cia402_state.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // A CiA 402 drive that was set up in order and then sends anything.
-#include "drivers/can/cia402_node.h"
+#include "drivers/can/cia402/cia402_node.h"
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/fuzz/node_cycles.h"
 #include "tests/support/can_nodes/cia402_node.h"
 #include "tests/support/virtual_can.h"

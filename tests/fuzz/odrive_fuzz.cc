@@ -1,9 +1,9 @@
 // ODrive's frames: what a decoder lets through has the right size and finite numbers.
-#include "drivers/can/odrive.h"
+#include "drivers/can/odrive/odrive.h"
 
 #include <cmath>
 
-#include "drivers/can/odrive_node.h"
+#include "drivers/can/odrive/odrive_node.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

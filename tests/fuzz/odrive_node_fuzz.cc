@@ -1,7 +1,7 @@
 // An ODrive axis that was set up in order and then sends anything.
-#include "drivers/can/odrive_node.h"
+#include "drivers/can/odrive/odrive_node.h"
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/fuzz/node_cycles.h"
 #include "tests/support/can_nodes/odrive_node.h"
 #include "tests/support/virtual_can.h"

@@ -1,7 +1,7 @@
 // Whatever answers a drive gives, an SDO transfer ends within bounds and only sends well-formed requests.
 #include <vector>
 
-#include "drivers/can/canopen_sdo.h"
+#include "drivers/can/canopen/canopen_sdo.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace strainwave::fuzz {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "tests/support/event_log_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -24,8 +24,8 @@
 #include <numbers>
 #include <string>
 
-#include "sim/joint_plant.h"
-#include "sim/reference_plant.h"
+#include "sim/joint/joint_plant.h"
+#include "sim/joint/reference_plant.h"
 
 namespace {
 

@@ -17,16 +17,16 @@ struct Folder {
 /// The arrows. A folder may always include itself; nothing that is
 /// shipped may include tests.
 const std::vector<Folder> kFolders{
-    {"control", {}},
-    {"manual", {}},
-    {"design", {"control", "lcmtypes", "manual"}},
-    {"sim", {"control", "drivers/actuator.h", "manual"}},
-    {"drivers", {"control"}},
-    {"lcmtypes", {"control"}},
-    {"daemon", {"control", "drivers", "lcmtypes", "manual"}},
-    {"client", {"control", "lcmtypes", "manual", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
-    {"bench", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
-    {"tests", {"control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
+    {"base", {}},
+    {"control", {"base"}},
+    {"design", {"base", "control", "lcmtypes"}},
+    {"sim", {"base", "control", "drivers/actuator.h"}},
+    {"drivers", {"base", "control"}},
+    {"lcmtypes", {"base", "control"}},
+    {"daemon", {"base", "control", "drivers", "lcmtypes"}},
+    {"client", {"base", "control", "lcmtypes", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
+    {"bench", {"base", "control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
+    {"tests", {"base", "control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
 };
 
 /// The adapter that puts the simulated plant behind the drivers' seam: the only driver that may see sim/.
@@ -44,7 +44,7 @@ const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"lcm/", {"daemon/gateway/", "client/", "tests/"}},
     {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
-    {"toml++/", {"daemon/", "sim/", "tests/"}},
+    {"toml++/", {"base/toml_section", "sim/joint/plant_file.cc", "tests/"}},
     {"seccomp", {"daemon/gateway/"}},
     {"gpiod", {"drivers/gpio/line_request_v"}},
     {"linux/gpio", {"drivers/gpio/edge_events.cc"}},
@@ -52,7 +52,7 @@ const std::vector<Library> kLibraries{
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
-    {"CLI/", {"design/", "sim/", "daemon/", "client/", "manual/", "tests/support/"}, false},
+    {"CLI/", {"design/", "sim/", "daemon/", "client/", "base/manual/", "tests/support/"}, false},
 };
 
 /// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON

@@ -9,7 +9,7 @@
 
 namespace strainwave::testing {
 
-/// What is wrong with `line`, a line of the source file `file` (path from the root, e.g. "daemon/config.cc");
+/// What is wrong with `line`, a line of the source file `file` (path from the root, e.g. "daemon/config/config.cc");
 /// empty when nothing is, or when it is no #include line.
 std::string find_include_defect(std::string_view file, std::string_view line);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "control/gain_table_json.h"
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 
 namespace strainwave::testing {
 

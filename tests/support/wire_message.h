@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "daemon/shared_memory.h"
+#include "daemon/gateway/shared_memory.h"
 #include "lcmtypes/signing.h"
 #include "lcmtypes/wire.h"
 

@@ -17,7 +17,7 @@
 #include <functional>
 #include <thread>
 
-#include "daemon/shared_memory.h"
+#include "daemon/gateway/shared_memory.h"
 #include "lcmtypes/key_text.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/daemon_fixture.h"

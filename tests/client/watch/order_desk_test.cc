@@ -4,9 +4,9 @@
 
 #include <strainwave/command_v1.hpp>
 
-#include "client/key_file.h"
-#include "control/input_error.h"
-#include "tests/client/fake_daemon.h"
+#include "client/link/key_file.h"
+#include "base/input_error.h"
+#include "tests/client/link/fake_daemon.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

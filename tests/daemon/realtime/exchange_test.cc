@@ -6,9 +6,9 @@
 #include <memory>
 #include <thread>
 
-#include "daemon/realtime/broadcast_ring.h"
+#include "base/broadcast_ring.h"
 #include "daemon/realtime/histogram.h"
-#include "daemon/realtime/spsc_queue.h"
+#include "base/spsc_queue.h"
 
 namespace strainwave {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 
 namespace strainwave {
 namespace {

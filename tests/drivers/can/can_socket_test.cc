@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "control/input_error.h"
-#include "sim/reference_plant.h"
+#include "base/input_error.h"
+#include "sim/joint/reference_plant.h"
 
 namespace strainwave::testing {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/can/cia402_node.h"
+#include "drivers/can/cia402/cia402_node.h"
 #include "tests/support/can_nodes/cia402_node.h"
 #include "tests/support/virtual_can.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "drivers/gpio/counter_counts.h"
 #include "drivers/gpio/pwm_channel.h"
 #include "tests/support/temporary_folder.h"

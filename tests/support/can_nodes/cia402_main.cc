@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/support/can_nodes/cia402_node.h"
 #include "tests/support/can_nodes/node_program.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/support/can_nodes/node_bench.h"
 
 namespace strainwave::can_nodes {

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/support/can_nodes/node_program.h"
 #include "tests/support/can_nodes/odrive_node.h"
 

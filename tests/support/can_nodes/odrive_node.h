@@ -11,8 +11,8 @@
 #include <map>
 #include <optional>
 
-#include "sim/joint_plant.h"
-#include "sim/temperature_profile.h"
+#include "sim/joint/joint_plant.h"
+#include "sim/joint/temperature_profile.h"
 #include "tests/support/can_nodes/node.h"
 
 namespace strainwave::can_nodes {

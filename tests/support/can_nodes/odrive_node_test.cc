@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "sim/reference_plant.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/support/can_nodes/node_bench.h"
 
 namespace strainwave::can_nodes {

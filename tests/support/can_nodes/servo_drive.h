@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "sim/joint_plant.h"
-#include "sim/temperature_profile.h"
+#include "sim/joint/joint_plant.h"
+#include "sim/joint/temperature_profile.h"
 #include "tests/support/can_nodes/object_dictionary.h"
 #include "tests/support/can_nodes/power_state.h"
 

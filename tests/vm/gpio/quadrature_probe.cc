@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "control/input_error.h"
+#include "base/input_error.h"
 #include "drivers/gpio/quadrature_counts.h"
 
 namespace {

@@ -1,0 +1,138 @@
+#include "base/strict_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+
+namespace strainwave {
+
+using nlohmann::ordered_json;
+
+ordered_json parse_strict_json(std::string_view text, const std::string& source) {
+  // nlohmann keeps the last of repeated keys without a word; the events of its parser show every one.
+  std::vector<std::set<std::string>> open_objects;
+  const auto refuse_repeated_keys = [&](int, ordered_json::parse_event_t event, ordered_json& parsed) {
+    if (event == ordered_json::parse_event_t::object_start) open_objects.emplace_back();
+    if (event == ordered_json::parse_event_t::object_end) open_objects.pop_back();
+    if (event == ordered_json::parse_event_t::key) {
+      const auto& key = parsed.get_ref<const std::string&>();
+      if (!open_objects.back().insert(key).second)
+        throw InputError(source + ": key \"" + key + "\" occurs twice");
+    }
+    return true;
+  };
+  try {
+    return ordered_json::parse(text, refuse_repeated_keys);
+  } catch (const ordered_json::exception& error) {
+    throw InputError(source + ": not valid JSON: " + error.what());
+  }
+}
+
+StrictObject::StrictObject(const ordered_json& value, const std::string& source, const std::string& path)
+    : value_(&value), source_(source), path_(path) {
+  if (!value.is_object())
+    throw InputError(source + ": " + (path.empty() ? "the file" : path) + ": must be a JSON object");
+}
+
+bool StrictObject::has(const std::string& key) const {
+  return value_->contains(key);
+}
+
+std::string StrictObject::where(const std::string& key) const {
+  return source_ + ": " + (path_.empty() ? "" : path_ + ".") + key;
+}
+
+void StrictObject::complain(const std::string& key, const std::string& allowed) const {
+  throw InputError(where(key) + " = " + value_->at(key).dump().substr(0, 60) + ": must be " + allowed);
+}
+
+const ordered_json& StrictObject::get(const std::string& key) {
+  if (!has(key)) throw InputError(where(key) + ": is missing");
+  read_.insert(key);
+  return value_->at(key);
+}
+
+double StrictObject::number(const std::string& key) {
+  const ordered_json& value = get(key);
+  if (!value.is_number()) complain(key, "a number");
+  return value.get<double>();
+}
+
+long long StrictObject::integer(const std::string& key) {
+  const ordered_json& value = get(key);
+  if (!value.is_number_integer()) complain(key, "a whole number");
+  return value.get<long long>();
+}
+
+bool StrictObject::boolean(const std::string& key) {
+  const ordered_json& value = get(key);
+  if (!value.is_boolean()) complain(key, "true or false");
+  return value.get<bool>();
+}
+
+std::string StrictObject::text(const std::string& key, std::size_t max_bytes) {
+  const ordered_json& value = get(key);
+  if (!value.is_string()) complain(key, "a text");
+  std::string result = value.get<std::string>();
+  if (result.size() > max_bytes) complain(key, "a text of at most " + std::to_string(max_bytes) + " bytes");
+  return result;
+}
+
+StrictObject StrictObject::object(const std::string& key) {
+  return {get(key), source_, (path_.empty() ? "" : path_ + ".") + key};
+}
+
+std::vector<StrictObject> StrictObject::objects(const std::string& key, std::size_t min, std::size_t max) {
+  const ordered_json& value = get(key);
+  const std::string count =
+      min == max ? std::to_string(min) : std::to_string(min) + " to " + std::to_string(max);
+  if (!value.is_array() || value.size() < min || value.size() > max)
+    complain(key, "a list of " + count + " objects");
+  std::vector<StrictObject> result;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    result.emplace_back(value[i], source_,
+                        (path_.empty() ? "" : path_ + ".") + key + "[" + std::to_string(i) + "]");
+  }
+  return result;
+}
+
+std::vector<double> StrictObject::numbers(const std::string& key) {
+  const ordered_json& value = get(key);
+  if (!value.is_array()) complain(key, "a list of numbers");
+  std::vector<double> result;
+  for (const ordered_json& entry : value) {
+    if (!entry.is_number()) complain(key, "a list of numbers");
+    result.push_back(entry.get<double>());
+  }
+  return result;
+}
+
+std::vector<double> StrictObject::numbers(const std::string& key, std::size_t size) {
+  std::vector<double> result = numbers(key);
+  if (result.size() != size) complain(key, "a list of " + std::to_string(size) + " numbers");
+  return result;
+}
+
+std::vector<double> StrictObject::matrix(const std::string& key, std::size_t rows, std::size_t columns) {
+  const ordered_json& value = get(key);
+  const std::string allowed =
+      std::to_string(rows) + " lists (the rows) of " + std::to_string(columns) + " numbers";
+  if (!value.is_array() || value.size() != rows) complain(key, allowed);
+  std::vector<double> result;
+  for (const ordered_json& row : value) {
+    if (!row.is_array() || row.size() != columns) complain(key, allowed);
+    for (const ordered_json& entry : row) {
+      if (!entry.is_number()) complain(key, allowed);
+      result.push_back(entry.get<double>());
+    }
+  }
+  return result;
+}
+
+void StrictObject::finish() const {
+  for (const auto& [key, value] : value_->items()) {
+    if (!read_.contains(key)) throw InputError(where(key) + ": unknown key");
+  }
+}
+
+}  // namespace strainwave

@@ -1,0 +1,98 @@
+#include "base/text_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "base/input_error.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int error) {
+  throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(error));
+}
+
+// A temporary file beside the target (rename must not cross file systems), removed unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::filesystem::path& target)
+      : target_(target), name_(target.string() + ".XXXXXX"), descriptor_(::mkstemp(name_.data())) {
+    if (descriptor_ < 0) fail(target_, "cannot create a file beside it", errno);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!renamed_) ::unlink(name_.c_str());
+  }
+
+  void write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(target_, "cannot write", errno);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  void become_target() {
+    // mkstemp makes a private file; a table is for everyone to read, as far as the umask allows.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0)
+      fail(target_, "cannot write", errno);
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "cannot replace", errno);
+    renamed_ = true;
+    sync_folder();
+  }
+
+ private:
+  // The rename itself lives in the folder. Some file systems refuse this; the data are safe either way.
+  void sync_folder() const {
+    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+  }
+
+  std::filesystem::path target_;
+  std::string name_;
+  int descriptor_;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+std::string read_text_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path.string() + ": is a directory, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path, "cannot read", errno);
+  if (std::filesystem::is_regular_file(path, error) &&
+      std::filesystem::file_size(path, error) > kMaxFileBytes) {
+    throw InputError(path.string() + ": is larger than 16 MiB: not a file of this program");
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) fail(path, "cannot read", errno);
+  return std::move(text).str();
+}
+
+void write_text_file(const std::filesystem::path& path, std::string_view text) {
+  TemporaryFile file(path);
+  file.write(text);
+  file.become_target();
+}
+
+}  // namespace strainwave

@@ -1,0 +1,19 @@
+// can-scan and can-check: drives on CAN without a running daemon.
+#include "client/commands/commands.h"
+#include "client/link/exit_status.h"
+#include "client/commands/sibling_program.h"
+#include "drivers/can/can_scan.h"
+
+namespace strainwave {
+
+void can_scan(const Output& output, const std::string& interface_name) {
+  scan_can_interface(interface_name, output.stream);
+}
+
+void can_check(const Output& output, const std::filesystem::path& config) {
+  output.stream.flush();
+  if (run_sibling("strainwaved", {"--config", config.string(), "--check-drives"}) != 0)
+    throw ClientError(ExitStatus::kFile, config.string() + ": start-up would refuse it, see above");
+}
+
+}  // namespace strainwave

@@ -1,0 +1,159 @@
+// What strainwavectl can do, one function per command. Each returns when it is done and throws ClientError
+// (or InputError for a file's content) when it is not. None knows the command line. Not real-time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/link/client.h"
+#include "drivers/injected_fault.h"
+#include "lcmtypes/key_text.h"
+
+namespace strainwave {
+
+/// Where a command writes what it found; errors travel as exceptions.
+struct Output {
+  std::ostream& stream;
+  bool terminal = false;  ///< a person looks at it
+};
+
+/// All joints as a table, or every field of one.
+struct StatusArguments {
+  std::optional<std::string> joint;
+  bool json = false;
+};
+void show_status(Client& client, const Output& output, const StatusArguments& arguments);
+
+/// The daemon's timing totals: real time or not, overruns, worst cases, refused messages.
+void show_timing(Client& client, const Output& output);
+
+/// Joints over time: on a terminal a full screen that also takes keys (client/watch/), otherwise (or plain) a
+/// line for each joint at each interval.
+struct WatchArguments {
+  std::vector<std::string> joints;  ///< empty: all that are heard
+  double interval_s = 0.2;
+  std::optional<double> duration_s;  ///< nothing: until interrupted
+  bool plain = false;
+};
+void watch(Client& client, const Output& output, const WatchArguments& arguments);
+
+/// Writes every message of the prefix, or of `joints` and the daemon as a whole, to an LCM event log.
+struct RecordArguments {
+  std::vector<std::string> joints;  ///< empty: all of the prefix
+  std::filesystem::path file;
+  std::optional<double> duration_s;  ///< nothing: until interrupted
+  bool overwrite = false;
+};
+void record(Client& client, const Output& output, const RecordArguments& arguments);
+
+/// Decodes an LCM event log: a folder with one CSV file per channel, or one .csv with the states of all
+/// joints, see state_csv.h.
+struct ExportArguments {
+  std::filesystem::path log;
+  std::filesystem::path out;
+  bool overwrite = false;
+};
+void export_log(const Output& output, const ExportArguments& arguments);
+
+/// Sends the setpoints that a log holds for `joint` once more, in their own time, as new orders: signed with
+/// the key that must be given, for the session of now. A pause after a stream becomes a hold. An interrupt or
+/// a refusal holds the joint.
+struct PlayArguments {
+  std::filesystem::path log;
+  std::string joint;
+};
+void play(Client& client, const Output& output, const PlayArguments& arguments);
+
+/// Moves `joint` at steady speeds, each in both directions, and records everything for strainwave-design fit
+/// --log. Limits are checked before anything moves; an interrupt, a fault, another order or too much torque
+/// ends it in a hold, and so does the end of this program, because the setpoints are a stream.
+struct IdentifyArguments {
+  std::string joint;
+  std::filesystem::path file;
+  std::optional<std::pair<double, double>>
+      range_rad;  ///< nothing: 1 rad to either side, within the joint's limits
+  double slowest_rad_s = 0.025;
+  double fastest_rad_s = 0.0;           ///< 0: 80 % of the joint's limit
+  int speeds = 12;                      ///< evenly spaced by ratio
+  double steady_s = 4.0;                ///< longest time at one speed in one direction
+  std::optional<double> max_torque_Nm;  ///< nothing: the joint's limit
+  bool overwrite = false;
+  bool dry_run = false;  ///< check and print the plan, move nothing
+};
+void identify(Client& client, const Output& output, const IdentifyArguments& arguments);
+
+/// Draws a flight record (docs/flight-recorder.md) with gnuplot.
+struct PlotRecordArguments {
+  std::filesystem::path file;
+  std::optional<std::filesystem::path> out;  ///< nothing: beside the file
+  std::optional<double> around_s;            ///< nothing: the whole record
+};
+void plot_record(const Output& output, const PlotRecordArguments& arguments);
+
+/// Orders to one joint. enable() and disable() return once the joint holds or is off.
+void enable(Client& client, const Output& output, const std::string& joint);
+void disable(Client& client, const Output& output, const std::string& joint);
+void hold(Client& client, const Output& output, const std::string& joint);
+void clear_fault(Client& client, const Output& output, const std::string& joint);
+/// Returns once the joint holds, homed.
+void home(Client& client, const Output& output, const std::string& joint);
+
+/// Moves to `position_rad`; with `wait`, returns once the joint holds there.
+struct MoveArguments {
+  std::string joint;
+  double position_rad = 0.0;
+  bool wait = false;
+  double speed_limit_rad_s = 0.0;  ///< 0: as fast as the joint may
+};
+void move(Client& client, const Output& output, const MoveArguments& arguments);
+
+/// Offers a gain table to one joint, or to every joint of the prefix. A refusal by one does not keep it from
+/// the others.
+struct LoadTableArguments {
+  std::optional<std::string> joint;
+  std::filesystem::path file;
+};
+void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
+
+/// Uses the previous gain table again; an engineer's order, as loading one is.
+void revert_table(Client& client, const Output& output, const std::string& joint);
+
+/// Injects a fault into a simulated drive, or ends all of them (kNone).
+struct InjectArguments {
+  std::string joint;
+  InjectedFault kind = InjectedFault::kNone;
+  double amount = 0.0;
+  double for_s = 0.0;  ///< 0: until ended
+};
+void inject(Client& client, const Output& output, const InjectArguments& arguments);
+/// Throws ClientError (usage) that names what is allowed: no such kind, amount missing, needless or out of
+/// range.
+InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
+                                double for_s);
+
+/// Prints every digital line of a daemon's configuration, its level and who holds it, without touching outputs. Throws when one
+/// cannot be used. strainwaved does the work; it need not run.
+void gpio_check(const Output& output, const std::filesystem::path& config);
+
+/// Makes a key pair: the secret key in `out`, its public line in `out`.pub. Neither may exist.
+struct KeygenArguments {
+  std::filesystem::path out;
+  Role role = Role::kOperator;
+  std::optional<std::string> comment;  ///< nothing: user@host
+};
+void keygen(const Output& output, const KeygenArguments& arguments);
+
+/// Who answers on a CAN bus; reads only.
+void can_scan(const Output& output, const std::string& interface_name);
+/// Runs the daemon's own start-up of the drives of `config`, without enabling any.
+void can_check(const Output& output, const std::filesystem::path& config);
+
+/// Throws ClientError (refused) with the reason unless `answer` accepts what `what` names.
+void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
+                      const std::string& hint = "");
+
+}  // namespace strainwave

@@ -1,0 +1,137 @@
+// export: an LCM event log into CSV. Needs neither LCM nor a daemon.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <map>
+
+#include "client/commands/commands.h"
+#include "client/link/exit_status.h"
+#include "client/text/message_csv.h"
+#include "client/text/state_csv.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/event_log.h"
+#include "lcmtypes/wire.h"
+
+namespace strainwave {
+
+namespace {
+
+std::ofstream create(const std::filesystem::path& path, bool overwrite) {
+  if (!overwrite && std::filesystem::exists(path))
+    throw ClientError(ExitStatus::kFile, path.string() + " exists: choose another name, or say --overwrite");
+  std::ofstream file(path);
+  if (!file)
+    throw ClientError(ExitStatus::kFile,
+                      path.string() + " cannot be written: does its folder exist, is it yours?");
+  return file;
+}
+
+void require_complete(std::ofstream& file, const std::filesystem::path& path) {
+  if (!file.flush())
+    throw ClientError(ExitStatus::kFile, path.string() + " is incomplete: writing failed; is the disk full?");
+}
+
+/// The states of all joints in one file, as the joint's name and the message's fields.
+class StateExport {
+ public:
+  StateExport(const std::filesystem::path& path, bool overwrite)
+      : path_(path), file_(create(path, overwrite)) {
+    file_ << csv_header() << '\n';
+  }
+  bool take(const ChannelName& name, const LogEvent& event) {
+    const auto state =
+        name.kind == channel_kind::kState ? decode_exactly<state_v1>(event.data) : std::nullopt;
+    if (state) file_ << csv_row(name.joint, *state) << '\n';
+    if (state) ++counts_[name.joint];
+    return state.has_value();
+  }
+  void finish(const Output& output) {
+    require_complete(file_, path_);
+    for (const auto& [joint, count] : counts_)
+      output.stream << fmt::format("{}: {} states in {}\n", joint, count, path_.string());
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+  std::map<std::string, long> counts_;
+};
+
+/// One file per channel: when the message was received, then its fields.
+class ChannelExport {
+ public:
+  ChannelExport(const std::filesystem::path& folder, bool overwrite)
+      : folder_(folder), overwrite_(overwrite) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw ClientError(ExitStatus::kFile, folder.string() + " cannot be made: " + error.message());
+  }
+  bool take(const ChannelName& name, const LogEvent& event) {
+    if (name.kind == channel_kind::kState) return write<state_v1>(event);
+    if (name.kind == channel_kind::kTemperature) return write<temperature_v1>(event);
+    if (name.kind == channel_kind::kLimits) return write<limits_v1>(event);
+    if (name.kind == channel_kind::kTiming) return write<timing_v1>(event);
+    if (name.kind == channel_kind::kSetpoint) return write<setpoint_v1>(event);
+    if (name.kind == channel_kind::kCommand) return write<command_v1>(event);
+    if (name.kind == channel_kind::kInject) return write<inject_v1>(event);
+    if (name.kind == channel_kind::kAck) return write<ack_v1>(event);
+    return false;
+  }
+  void finish(const Output& output) {
+    for (auto& [channel, file] : files_) {
+      require_complete(file.stream, file.path);
+      output.stream << fmt::format("{}: {} messages in {}\n", channel, file.count, file.path.string());
+    }
+  }
+
+ private:
+  struct File {
+    std::filesystem::path path;
+    std::ofstream stream;
+    long count = 0;
+  };
+  template <typename Message>
+  bool write(const LogEvent& event) {
+    const auto message = decode_exactly<Message>(event.data);
+    if (!message) return false;
+    auto found = files_.find(event.channel);
+    if (found == files_.end()) {
+      // parse_channel() has seen to it that the name is a plain file name.
+      const std::filesystem::path path = folder_ / (event.channel + ".csv");
+      found = files_.emplace(event.channel, File{path, create(path, overwrite_)}).first;
+      found->second.stream << "received_us" << csv_columns<Message>() << '\n';
+    }
+    found->second.stream << event.received_us << csv_values(*message) << '\n';
+    ++found->second.count;
+    return true;
+  }
+
+  std::filesystem::path folder_;
+  bool overwrite_;
+  std::map<std::string, File> files_;
+};
+
+template <typename Export>
+void export_into(Export into, const Output& output, const std::filesystem::path& log) {
+  EventLogReader reader(log);
+  long others = 0;
+  for (LogEvent event; reader.next(event);) {
+    const auto name = parse_channel(event.channel);
+    if (!name || !into.take(*name, event)) ++others;
+  }
+  into.finish(output);
+  if (others > 0) output.stream << fmt::format("{} other messages were left out\n", others);
+  if (reader.truncated()) output.stream << "the log's last message is cut off\n";
+}
+
+}  // namespace
+
+void export_log(const Output& output, const ExportArguments& arguments) {
+  const EventLogReader readable(arguments.log);  // before anything is created
+  if (arguments.out.extension() == ".csv")
+    export_into(StateExport(arguments.out, arguments.overwrite), output, arguments.log);
+  else
+    export_into(ChannelExport(arguments.out, arguments.overwrite), output, arguments.log);
+}
+
+}  // namespace strainwave

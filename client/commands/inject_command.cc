@@ -1,0 +1,62 @@
+// inject: an artificial fault in a simulated drive, to see what the daemon makes of it. The daemon refuses it
+// for any other drive.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <strainwave/inject_v1.hpp>
+
+#include "client/commands/commands.h"
+#include "client/link/exit_status.h"
+
+namespace strainwave {
+
+namespace {
+
+std::string allowed_kinds() {
+  std::string names;
+  for (std::int32_t number = 0; number < kInjectedFaultCount; ++number)
+    names += (number == 0 ? "" : ", ") + std::string(to_text(static_cast<InjectedFault>(number)));
+  return names;
+}
+
+}  // namespace
+
+InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
+                                double for_s) {
+  const auto fault = injected_fault_of(std::string_view(kind));
+  if (!fault)
+    throw ClientError(
+        ExitStatus::kUsage,
+        fmt::format("inject: '{}' is no fault that can be injected; there are: {}", kind, allowed_kinds()));
+  const AmountRange range = amount_range(*fault);
+  const bool takes_amount = range.min < range.max;
+  if (!takes_amount && amount != 0.0)
+    throw ClientError(ExitStatus::kUsage, fmt::format("inject: {} takes no --amount", kind));
+  if (!(amount >= range.min && amount <= range.max))
+    throw ClientError(ExitStatus::kUsage,
+                      fmt::format("inject: {}: --amount {} is out of range, {} to {} {} allowed", kind,
+                                  amount, range.min, range.max, amount_unit(*fault)));
+  if (takes_amount && amount == 0.0)
+    throw ClientError(ExitStatus::kUsage, fmt::format("inject: {} needs --amount, {} to {} {}", kind,
+                                                      range.min, range.max, amount_unit(*fault)));
+  return {joint, *fault, amount, for_s};
+}
+
+void inject(Client& client, const Output& output, const InjectArguments& arguments) {
+  inject_v1 message{};
+  message.kind = static_cast<std::int32_t>(arguments.kind);
+  message.for_s = arguments.for_s;
+  message.amount = arguments.amount;
+  const std::string name(to_text(arguments.kind));
+  const Answer answer = client.request(arguments.joint, channel_kind::kInject, message);
+  require_accepted(answer, arguments.joint, "injecting " + name);
+  if (arguments.kind == InjectedFault::kNone)
+    output.stream << arguments.joint << ": every injected fault ended\n";
+  else if (arguments.for_s > 0.0)
+    output.stream << fmt::format("{}: {} for {} s\n", arguments.joint, name, arguments.for_s);
+  else
+    output.stream << fmt::format("{}: {}; to end it: strainwavectl inject {} none\n", arguments.joint, name,
+                                 arguments.joint);
+}
+
+}  // namespace strainwave

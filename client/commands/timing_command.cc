@@ -1,0 +1,72 @@
+// timing: the daemon's own account of its loop.
+#include <fmt/format.h>
+
+#include <optional>
+#include <strainwave/timing_v1.hpp>
+
+#include "client/commands/commands.h"
+#include "client/link/exit_status.h"
+
+namespace strainwave {
+
+namespace {
+
+/// Keeps the first timing message of one daemon.
+class TimingListener {
+ public:
+  TimingListener(Connection& connection, const std::string& prefix)
+      : subscription_(connection.subscribe(channel_pattern_of(prefix), &TimingListener::on_timing, this)) {}
+  const std::optional<timing_v1>& timing() const noexcept { return timing_; }
+
+ private:
+  /// LCM takes a regular expression, where a dot means any character.
+  static std::string channel_pattern_of(const std::string& prefix) {
+    return prefix + "\\." + std::string(channel_kind::kTiming);
+  }
+  void on_timing(const lcm::ReceiveBuffer* buffer, const std::string&) {
+    if (!timing_) timing_ = decode_exactly<timing_v1>(payload(*buffer));
+  }
+
+  std::optional<timing_v1> timing_;
+  Subscription subscription_;
+};
+
+std::string describe(const timing_v1& timing) {
+  std::string text = fmt::format(
+      "real time                {}\n"
+      "period                   {} s, {} joints\n"
+      "cycles                   {}\n"
+      "overruns                 {}\n"
+      "wake-up latency, worst   {:.1f} us\n"
+      "execution time, worst    {:.1f} us\n"
+      "page faults in the loop  {}\n"
+      "state records dropped    {}\n",
+      timing.real_time == 1 ? "yes (SCHED_FIFO, locked memory)" : "no (refused by the system)",
+      timing.period_s, timing.joint_count, timing.cycles, timing.overruns,
+      static_cast<double>(timing.wakeup_latency_max_ns) * 1e-3,
+      static_cast<double>(timing.execution_time_max_ns) * 1e-3, timing.page_faults,
+      timing.state_records_dropped);
+  for (int reason = 1; reason < kReasonCount; ++reason) {
+    if (timing.rejects[reason] == 0) continue;
+    text += fmt::format("refused messages         {} ({})\n", timing.rejects[reason],
+                        to_text(static_cast<Reason>(reason)));
+  }
+  return text;
+}
+
+}  // namespace
+
+void show_timing(Client& client, const Output& output) {
+  const std::string& prefix = client.options().prefix;
+  const TimingListener listener(client.connection(), prefix);
+  if (!client.wait_until([&] { return listener.timing().has_value(); },
+                         Deadline(client.options().timeout_s))) {
+    throw ClientError(
+        ExitStatus::kNoAnswer,
+        fmt::format("no timing message on {} in {} s: it comes once a second while strainwaved runs",
+                    timing_channel(prefix), client.options().timeout_s));
+  }
+  output.stream << describe(*listener.timing());
+}
+
+}  // namespace strainwave

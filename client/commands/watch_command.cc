@@ -1,0 +1,61 @@
+// watch: joints over time, as a full screen or as lines.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "client/commands/commands.h"
+#include "client/link/exit_status.h"
+#include "client/text/text.h"
+#include "client/watch/watch_screen.h"
+
+namespace strainwave {
+
+namespace {
+
+std::vector<JointName> chosen(const Client& client, const std::vector<std::string>& joints) {
+  std::vector<JointName> names = client.heard();
+  std::erase_if(names, [&](const JointName& name) {
+    return !joints.empty() && std::ranges::find(joints, name.joint) == joints.end();
+  });
+  return names;
+}
+
+/// Waits one interval. False: interrupted, which is how a watch normally ends.
+bool wait_interval(Client& client, const Deadline& interval) {
+  try {
+    client.wait_until([] { return false; }, interval);
+    return true;
+  } catch (const ClientError& error) {
+    if (error.status() == ExitStatus::kInterrupted) return false;
+    throw;
+  }
+}
+
+void watch_lines(Client& client, const Output& output, const WatchArguments& arguments) {
+  const std::optional<Deadline> end =
+      arguments.duration_s ? std::optional<Deadline>(*arguments.duration_s) : std::nullopt;
+  output.stream << state_header() << '\n';
+  do {
+    const std::vector<JointName> names = chosen(client, arguments.joints);
+    for (const JointName& name : names) {
+      const JointView& view = *client.states().find(name.prefix, name.joint);
+      output.stream << state_row(display_name(name, names), view, seconds_between(view.received, now()))
+                    << '\n';
+    }
+    output.stream.flush();
+  } while (wait_interval(client, Deadline(arguments.interval_s)) && !(end && end->passed()) &&
+           output.stream.good());
+}
+
+}  // namespace
+
+void watch(Client& client, const Output& output, const WatchArguments& arguments) {
+  for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
+  if (arguments.joints.empty()) client.wait_for_heard();
+  if (output.terminal && !arguments.plain)
+    watch_screen(client, arguments);
+  else
+    watch_lines(client, output, arguments);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,117 @@
+#include "client/link/client.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "client/link/exit_status.h"
+#include "client/link/interrupt.h"
+#include "client/text/text.h"
+
+namespace strainwave {
+
+namespace {
+
+// All joints of a daemon are published together; at the slowest sensible rate the next round comes within
+// this time.
+constexpr double kOtherJoints_s = 0.3;
+
+Answer to_answer(const ack_v1& ack) {
+  const std::string text(std::begin(ack.text), std::end(ack.text));
+  return {ack.accepted == 1, static_cast<Reason>(ack.reason), printable(text)};
+}
+
+}  // namespace
+
+Client::Client(Connection& connection, const ClientOptions& options)
+    : connection_(connection),
+      options_(options),
+      states_(connection),
+      sender_(options.key_file),
+      acknowledgements_(
+          connection.subscribe(channel_pattern(options.prefix, channel_kind::kAck), &Client::on_ack, this)) {}
+
+const JointView& Client::wait_for_joint(const std::string& joint) {
+  if (!wait_until([&] { return find(joint) != nullptr; }, Deadline(options_.timeout_s)))
+    explain_silence(joint);
+  return *find(joint);
+}
+
+std::vector<std::string> Client::wait_for_joints() {
+  if (!wait_until([&] { return !states_.joints(options_.prefix).empty(); }, Deadline(options_.timeout_s))) {
+    explain_silence("");
+  }
+  wait_until([] { return false; }, Deadline(kOtherJoints_s));
+  return states_.joints(options_.prefix);
+}
+
+std::vector<JointName> Client::heard() const {
+  std::vector<JointName> names;
+  for (const std::string& prefix : states_.prefixes()) {
+    if (!options_.all_prefixes && prefix != options_.prefix) continue;
+    for (const std::string& joint : states_.joints(prefix)) names.push_back({prefix, joint});
+  }
+  return names;
+}
+
+std::vector<JointName> Client::wait_for_heard() {
+  if (!wait_until([&] { return !heard().empty(); }, Deadline(options_.timeout_s))) explain_silence("");
+  wait_until([] { return false; }, Deadline(kOtherJoints_s));
+  return heard();
+}
+
+Answer Client::exchange(const std::string& joint, const SealedMessage& order) {
+  awaited_ = &order;
+  requested_ = order.sequence;
+  awaited_channel_ = channel(options_.prefix, joint, channel_kind::kAck);
+  ack_.reset();
+  for (int transmission = 0; transmission <= kRepetitions && !ack_; ++transmission) {
+    connection_.publish(order.channel, order.bytes);
+    wait_until([&] { return ack_.has_value(); }, Deadline(options_.timeout_s / (1 + kRepetitions)));
+  }
+  awaited_ = nullptr;
+  if (ack_) return to_answer(*ack_);
+  if (find(joint) == nullptr) explain_silence(joint);
+  throw ClientError(
+      ExitStatus::kNoAnswer,
+      fmt::format(
+          "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
+          "not "
+          "answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
+          joint, options_.timeout_s, 1 + kRepetitions, joint));
+}
+
+void Client::handle(int timeout_ms) {
+  connection_.handle(timeout_ms);
+  if (interrupted()) throw ClientError(ExitStatus::kInterrupted, "interrupted");
+}
+
+void Client::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  const auto ack = decode_exactly<ack_v1>(payload(*buffer));
+  if (!ack || ack->sender_id != sender_.sender_id()) return;
+  if (awaited_ != nullptr && channel == awaited_channel_ && ack->sequence == awaited_->sequence) {
+    if (!ack_) ack_ = ack;
+  } else if (ack->sequence > requested_ && ack->accepted != 1) {
+    refusal_ = to_answer(*ack);
+  }
+}
+
+void Client::explain_silence(const std::string& joint) const {
+  const auto& prefix = options_.prefix;
+  const std::vector<std::string> joints = states_.joints(prefix);
+  if (!joints.empty()) {
+    throw ClientError(ExitStatus::kNoAnswer, fmt::format("no joint '{}' on prefix {}; its joints are: {}",
+                                                         joint, prefix, fmt::join(joints, ", ")));
+  }
+  std::string message =
+      fmt::format("no daemon on prefix {} in {} s ({}).", prefix, options_.timeout_s, connection_.url());
+  if (const std::vector<std::string> prefixes = states_.prefixes(); !prefixes.empty()) {
+    message +=
+        fmt::format(" Daemons are heard on: {} (choose one with --prefix).", fmt::join(prefixes, ", "));
+  } else {
+    message +=
+        " Is strainwaved running, and are its lcm_url and prefix the same as --lcm-url and --prefix here?";
+  }
+  throw ClientError(ExitStatus::kNoAnswer, message);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,57 @@
+#include "client/link/event_log_writer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "client/link/exit_status.h"
+#include "lcmtypes/channels.h"
+
+namespace strainwave {
+
+namespace {
+
+/// Names hold nothing that means something else in a regular expression.
+std::string pattern(const std::string& prefix, const std::vector<std::string>& joints) {
+  if (joints.empty()) return prefix + "\\..*";
+  return fmt::format("{}\\.(({})\\..*|{})", prefix, fmt::join(joints, "|"), channel_kind::kTiming);
+}
+
+lcm_eventlog_t* create(const std::filesystem::path& file, bool overwrite) {
+  if (!overwrite && std::filesystem::exists(file))
+    throw ClientError(ExitStatus::kFile, file.string() + " exists: choose another name, or say --overwrite");
+  lcm_eventlog_t* const log = ::lcm_eventlog_create(file.c_str(), "w");
+  if (log == nullptr)
+    throw ClientError(ExitStatus::kFile,
+                      file.string() + " cannot be written: does its folder exist, is it yours?");
+  return log;
+}
+
+}  // namespace
+
+EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix,
+                               const std::vector<std::string>& joints, const std::filesystem::path& file,
+                               bool overwrite)
+    : name_(file.string()),
+      log_(create(file, overwrite), &::lcm_eventlog_destroy),
+      subscription_(connection.subscribe(pattern(prefix, joints), &EventLogWriter::on_message, this)) {}
+
+void EventLogWriter::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+  if (!good_ || channel.size() > kMaxChannelLength) return;
+  std::string name = channel;  // liblcm wants it writable
+  lcm_eventlog_event_t event{};
+  event.timestamp = buffer->recv_utime;
+  event.channellen = static_cast<std::int32_t>(name.size());
+  event.datalen = static_cast<std::int32_t>(buffer->data_size);
+  event.channel = name.data();
+  event.data = buffer->data;
+  good_ = ::lcm_eventlog_write_event(log_.get(), &event) == 0;
+  if (good_) ++counts_[channel];
+}
+
+void EventLogWriter::finish() {
+  good_ = good_ && std::fflush(log_->f) == 0;
+  if (!good_)
+    throw ClientError(ExitStatus::kFile, name_ + " is incomplete: writing failed; is the disk full?");
+}
+
+}  // namespace strainwave

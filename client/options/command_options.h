@@ -1,0 +1,44 @@
+// The commands of strainwavectl as options of CLI11, one function per family, and what they share. Each adds
+// its commands to the command line; a command that was chosen leaves in the Invocation what is to be done.
+// Not real-time.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "client/commands/commands.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace strainwave {
+
+/// What the command line asks for.
+struct Invocation {
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  ClientOptions options;
+  std::function<void(Client&, const Output&)> command;
+  std::function<void(const Output&)> local_command;  ///< instead of `command`: needs neither LCM nor a daemon
+};
+
+/// Options for all commands, then the families in the order of the help.
+void add_common_options(CLI::App& app, Invocation& invocation);
+void add_observing_commands(CLI::App& app, Invocation& invocation);  ///< status, timing, watch
+void add_order_commands(CLI::App& app, Invocation& invocation);      ///< enable ... load-table
+void add_identify_command(CLI::App& app, Invocation& invocation);
+void add_log_commands(CLI::App& app, Invocation& invocation);  ///< record, export, play, plot-record
+void add_key_commands(CLI::App& app, Invocation& invocation);  ///< keygen
+void add_hardware_commands(CLI::App& app, Invocation& invocation);  ///< can-scan, can-check, gpio-check
+
+// Options that several commands have. The value is checked before the command runs.
+CLI::Option* add_joint(CLI::App& command, std::string& joint);
+CLI::Option* add_joints(CLI::App& command, std::vector<std::string>& joints, const std::string& help);
+CLI::Option* add_seconds(CLI::App& command, const std::string& name, double& value, const std::string& help);
+/// A finite number above 0 with its unit's name in `type`.
+CLI::Option* add_positive(CLI::App& command, const std::string& name, double& value, const std::string& type,
+                          const std::string& help);
+
+}  // namespace strainwave

@@ -1,0 +1,130 @@
+#include "client/text/flight_record.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include "base/input_error.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::string_view kFirstLine = "# strainwave-flight-record 1";
+constexpr std::array<std::string_view, 8> kNeeded{"time_s",
+                                                  "mode",
+                                                  "setpoint_position_rad",
+                                                  "joint_position_rad",
+                                                  "torque_commanded_Nm",
+                                                  "torque_applied_Nm",
+                                                  "temperature_C",
+                                                  "temperature_measured_C"};
+
+void read_head_line(const std::string& line, FlightRecordInfo& info) {
+  const std::size_t colon = line.find(": ");
+  if (colon != std::string::npos) info.head[line.substr(2, colon - 2)] = line.substr(colon + 2);
+}
+
+void read_columns(const std::string& line, FlightRecordInfo& info) {
+  std::istringstream names(line);
+  int number = 0;
+  for (std::string name; std::getline(names, name, ',');) info.columns[name] = ++number;
+}
+
+constexpr const char* kSettings = R"(set terminal pngcairo size 1100,1400 font 'sans,11' noenhanced
+set datafile separator ','
+set datafile commentschars '#'
+set datafile missing 'nan'
+set style line 1 linecolor rgb '#1f5f99' linewidth 1.4
+set style line 2 linecolor rgb '#f0a050' linewidth 3.5
+set grid
+set key autotitle columnhead above right horizontal samplen 2
+set lmargin 14
+set rmargin 3
+set autoscale xfix
+set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '#c00000' linewidth 1.4 dashtype 2 front
+)";
+
+/// In gnuplot's single quotes only the single quote itself is special.
+std::string gnuplot_text(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+  return result + "'";
+}
+
+/// For a title: no mark-up, and nothing that a terminal would obey.
+std::string printable(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) >= ' ') result += c;
+  return gnuplot_text(result);
+}
+
+std::string mode_names() {
+  std::string tics;
+  for (int mode = 0; mode <= static_cast<int>(Mode::kHoming); ++mode)
+    tics += fmt::format("{}'{}' {}", mode == 0 ? "" : ", ", to_text(static_cast<Mode>(mode)), mode);
+  return tics;
+}
+
+}  // namespace
+
+FlightRecordInfo read_flight_record(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError(file.string() + " cannot be read: is the name right, is it yours to read?");
+  if (!std::getline(stream, line) || line != kFirstLine)
+    throw InputError(file.string() + " is not a flight record of format 1: its first line is not '" +
+                     std::string(kFirstLine) + "'");
+  FlightRecordInfo info;
+  while (std::getline(stream, line) && line.starts_with("# ")) read_head_line(line, info);
+  read_columns(line, info);
+  for (const std::string_view name : kNeeded)
+    if (!info.columns.contains(std::string(name)))
+      throw InputError(file.string() + " has no column " + std::string(name) + ": it is incomplete");
+  return info;
+}
+
+std::string plot_script(const FlightRecordInfo& info, const std::filesystem::path& file,
+                        const std::filesystem::path& png, std::optional<double> around_s) {
+  const auto column = [&](const char* name) { return info.columns.at(name); };
+  const auto head = [&](const char* key) {
+    const auto found = info.head.find(key);
+    return found == info.head.end() ? std::string("?") : found->second;
+  };
+  const auto curve = [&](const char* name, const char* title, int style) {
+    return fmt::format("FILE using {}:{} with lines linestyle {} title '{}'", column("time_s"), column(name),
+                       style, title);
+  };
+  std::string script =
+      fmt::format("set output {}\nFILE = {}\n", gnuplot_text(png.string()), gnuplot_text(file.string())) +
+      kSettings;
+  if (around_s) script += fmt::format("set xrange [{}:{}]\n", -*around_s, *around_s);
+  script += fmt::format("set multiplot layout 5,1 title {} font 'sans,14'\n",
+                        printable(head("joint") + ": fault " + head("fault") + ", " + head("fault_utc") +
+                                  " (cycle " + head("fault_cycle") + ")"));
+  script += "set ylabel 'position in rad'\nplot " + curve("setpoint_position_rad", "setpoint", 2) + ", " +
+            curve("joint_position_rad", "measured", 1) + "\n";
+  script += fmt::format(
+      "set ylabel 'error in rad'\nplot FILE using {}:(${} - ${}) with lines linestyle 1 title 'setpoint - "
+      "measured'\n",
+      column("time_s"), column("setpoint_position_rad"), column("joint_position_rad"));
+  script += "set ylabel 'torque in N.m'\nplot " + curve("torque_commanded_Nm", "commanded", 2) + ", " +
+            curve("torque_applied_Nm", "applied", 1) + "\n";
+  script += "set ylabel 'temperature in degC'\nplot " + curve("temperature_measured_C", "measured", 2) +
+            ", " + curve("temperature_C", "used", 1) + "\n";
+  script += fmt::format(
+      "set ylabel 'mode'\nset ytics ({})\nset yrange [-0.5:5.5]\nset xlabel 'time after the fault in s'\n"
+      "plot FILE using {}:{} with steps linestyle 1 title 'mode', NaN with lines linecolor rgb '#c00000' "
+      "linewidth 1.4 "
+      "dashtype 2 title 'fault'\n",
+      mode_names(), column("time_s"), column("mode"));
+  return script + "unset multiplot\n";
+}
+
+}  // namespace strainwave

@@ -1,0 +1,41 @@
+#include "client/text/state_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "client/text/state_fields.h"
+#include "client/text/text.h"
+
+namespace strainwave {
+
+namespace {
+
+nlohmann::ordered_json joint_json(const JointName& whose, const JointView& view) {
+  const double age_s = seconds_between(view.received, now());
+  nlohmann::ordered_json json{{"prefix", whose.prefix}, {"joint", whose.joint}, {"age_s", age_s}};
+  visit_state_fields(view.state, [&](const char* name, const auto& value) {
+    if constexpr (requires { value.size(); }) {
+      json[name] = std::vector<double>(value.begin(), value.end());
+    } else {
+      json[name] = value;
+    }
+  });
+  json["mode_text"] = to_text(static_cast<Mode>(view.state.mode));
+  json["fault_text"] = to_text(static_cast<Fault>(view.state.fault));
+  json["gains_in_use_text"] = to_text(static_cast<GainsInUse>(view.state.gains_in_use));
+  json["temperature_status_text"] = to_text(static_cast<TemperatureStatus>(view.state.temperature_status));
+  json["notes"] = state_notes(view, age_s);
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const StateView& states, const std::vector<JointName>& joints) {
+  nlohmann::ordered_json json{{"joints", nlohmann::ordered_json::array()}};
+  for (const JointName& name : joints) {
+    if (const JointView* view = states.find(name.prefix, name.joint))
+      json["joints"].push_back(joint_json(name, *view));
+  }
+  return json.dump(2);
+}
+
+}  // namespace strainwave

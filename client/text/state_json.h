@@ -1,0 +1,15 @@
+// States as JSON for scripts: fields under their own names, codes also in words. Not real-time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/link/client.h"
+
+namespace strainwave {
+
+/// {"joints": [{"prefix": ..., "joint": ..., "age_s": ..., <fields>, "mode_text": ..., "fault_text": ...,
+/// "notes": ...}]}. A value that is not finite becomes null. Joints that were not heard are left out.
+std::string to_json(const StateView& states, const std::vector<JointName>& joints);
+
+}  // namespace strainwave

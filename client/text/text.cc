@@ -1,0 +1,142 @@
+#include "client/text/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "client/link/exit_status.h"
+#include "client/text/state_fields.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kSilence_s = 1.0;  // a daemon publishes at least this often at any sensible rate
+
+constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
+                              Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
+                              Notice::kNotHomed,        Notice::kAtLimitSwitch};
+
+bool is_degree_mark(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  return text == "d" || text.starts_with("deg") || text == "\xC2\xB0";
+}
+
+/// What a number of the state means, for the fields that are codes; else empty.
+std::string meaning(std::string_view field, const state_v1& state) {
+  if (field == "mode") return std::string(to_text(static_cast<Mode>(state.mode)));
+  if (field == "fault") return std::string(to_text(static_cast<Fault>(state.fault)));
+  if (field == "gains_in_use") return std::string(to_text(static_cast<GainsInUse>(state.gains_in_use)));
+  if (field == "temperature_status") {
+    return std::string(to_text(static_cast<TemperatureStatus>(state.temperature_status)));
+  }
+  if (field == "notices") {
+    std::vector<std::string_view> texts;
+    for (const Notice notice : kNotices) {
+      if ((state.notices & static_cast<std::int32_t>(notice)) != 0) texts.push_back(to_text(notice));
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+  return "";
+}
+
+}  // namespace
+
+double parse_position_rad(std::string_view text) {
+  std::string_view number = text;
+  if (number.starts_with('+')) number.remove_prefix(1);  // from_chars takes no plus sign
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  const std::string_view rest(end, static_cast<std::size_t>(number.data() + number.size() - end));
+  if (error == std::errc() && rest.empty() && std::isfinite(value)) return value;
+  if (error == std::errc() && is_degree_mark(rest) && std::isfinite(value)) {
+    throw ClientError(ExitStatus::kUsage,
+                      fmt::format("positions are in rad, not in degrees: {} is {:.6g} rad", text,
+                                  value * std::numbers::pi / 180.0));
+  }
+  throw ClientError(
+      ExitStatus::kUsage,
+      fmt::format("'{}' is not a position: give a finite number in rad, such as 0.1 or -1.5e-3", text));
+}
+
+std::string printable(std::string_view text) {
+  text = text.substr(0, text.find('\0'));
+  std::string safe;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto before = static_cast<unsigned char>(i > 0 ? text[i - 1] : '\0');
+    const bool control =
+        byte < 0x20 || byte == 0x7F || (before == 0xC2 && byte < 0xA0);  // U+0080..U+009F in UTF-8
+    safe += control ? '?' : text[i];
+  }
+  return safe;
+}
+
+std::string clipped(std::string_view line, std::size_t columns) {
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool continuation = (static_cast<unsigned char>(line[i]) & 0xC0U) == 0x80U;
+    if (!continuation && ++seen > columns) return std::string(line.substr(0, i));
+  }
+  return std::string(line);
+}
+
+std::string display_name(const JointName& name, const std::vector<JointName>& names) {
+  const bool several = std::any_of(names.begin(), names.end(),
+                                   [&](const JointName& other) { return other.prefix != name.prefix; });
+  return several ? name.prefix + "." + name.joint : name.joint;
+}
+
+std::string state_header() {
+  return fmt::format("{:<12} {:<9} {:>13} {:>14} {:>10} {:>9} {:>13}  {:<16}  {}", "joint", "mode",
+                     "setpoint_rad", "position_rad", "error_rad", "torque_Nm", "temperature_C", "gains",
+                     "notes");
+}
+
+std::string state_row(const std::string& joint, const JointView& view, double age_s) {
+  const state_v1& state = view.state;
+  return fmt::format("{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>+13.1f}  {:<16}  {}", joint,
+                     to_text(static_cast<Mode>(state.mode)), state.setpoint_position_rad,
+                     state.joint_position_rad, state.joint_position_rad - state.setpoint_position_rad,
+                     state.torque_commanded_Nm, state.temperature_C,
+                     to_text(static_cast<GainsInUse>(state.gains_in_use)), state_notes(view, age_s));
+}
+
+std::string state_notes(const JointView& view, double age_s) {
+  const state_v1& state = view.state;
+  std::vector<std::string> notes;
+  if (age_s > kSilence_s) notes.push_back(fmt::format("no message for {:.1f} s", age_s));
+  if (view.two_daemons) notes.emplace_back("two daemons use these channels");
+  if (state.fault != 0) notes.push_back(fmt::format("fault {}: {}", state.fault, meaning("fault", state)));
+  if (state.notices != 0) notes.push_back(meaning("notices", state));
+  if (state.temperature_status != 0) notes.push_back("temperature " + meaning("temperature_status", state));
+  if (state.rule_count == 0) notes.emplace_back("no table");
+  return fmt::format("{}", fmt::join(notes, "; "));
+}
+
+std::string state_details(const std::string& joint, const JointView& view, double age_s) {
+  std::string text = fmt::format("{:<24} {}\n{:<24} {:.3f}\n", "joint", joint, "age_s", age_s);
+  visit_state_fields(view.state, [&](std::string_view name, const auto& value) {
+    if constexpr (requires { value.size(); }) {
+      const auto in_use = static_cast<std::size_t>(std::clamp<std::int32_t>(view.state.rule_count, 0, 16));
+      text += fmt::format("{:<24} {:.4f}\n", name, fmt::join(value.first(in_use), " "));
+    } else {
+      const std::string words = meaning(name, view.state);
+      text += fmt::format("{:<24} {}{}\n", name, value, words.empty() ? "" : " (" + words + ")");
+    }
+  });
+  if (const std::string notes = state_notes(view, age_s); !notes.empty()) {
+    text += fmt::format("{:<24} {}\n", "notes", notes);
+  }
+  return text;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,41 @@
+// Text in and out: positions as people type them, states as lines for a terminal. No network, no clock. Not
+// real-time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/link/client.h"
+#include "client/link/state_view.h"
+
+namespace strainwave {
+
+/// A position in rad: a plain finite decimal number and nothing else. Throws ClientError (usage) that names
+/// what was typed; for an angle with a degree mark it says the same angle in rad.
+double parse_position_rad(std::string_view text);
+
+/// `text` up to its first zero byte, without anything that could command a terminal.
+std::string printable(std::string_view text);
+
+/// At most `columns` characters of `line`; bytes of UTF-8 continuation count for nothing.
+std::string clipped(std::string_view line, std::size_t columns);
+
+/// "elbow", or "SW.elbow" when `names` has joints of several daemons.
+std::string display_name(const JointName& name, const std::vector<JointName>& names);
+
+/// Column titles of state_row().
+std::string state_header();
+
+/// One joint in one line: what is wanted, what is, and why not. `age_s`: since the state was received.
+std::string state_row(const std::string& joint, const JointView& view, double age_s);
+
+/// What an operator should know beyond the numbers: fault, limits in force, silence, two daemons; empty when
+/// all is well.
+std::string state_notes(const JointView& view, double age_s);
+
+/// Every field of the state with its meaning, one per line.
+std::string state_details(const std::string& joint, const JointView& view, double age_s);
+
+}  // namespace strainwave

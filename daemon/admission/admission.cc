@@ -1,0 +1,241 @@
+#include "daemon/admission/admission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <sstream>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/inject_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+
+#include "daemon/admission/table_admission.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/gain_table_message.h"
+#include "lcmtypes/wire.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kMaxValidFor_s = 3600.0;
+constexpr double kMaxInjection_s = 3600.0;
+
+std::span<const std::uint8_t> payload(const WireMessage& message) {
+  return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
+}
+
+Verdict refuse(const Requester& requester, Reason reason, const std::string& text) {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kRefuse;
+  verdict.reason = reason;
+  verdict.text = text;
+  verdict.requester = requester;
+  return verdict;
+}
+
+Verdict discard(Reason reason) {
+  Verdict verdict;
+  verdict.reason = reason;
+  return verdict;
+}
+
+Verdict pass(const Requester& requester, OrderKind kind) {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kOrder;
+  verdict.requester = requester;
+  verdict.order.kind = kind;
+  return verdict;
+}
+
+std::optional<OrderKind> order_of(Action action) {
+  switch (action) {
+    case Action::kEnable: return OrderKind::kEnable;
+    case Action::kDisable: return OrderKind::kDisable;
+    case Action::kHold: return OrderKind::kHold;
+    case Action::kClearFault: return OrderKind::kClearFault;
+    case Action::kRevertTable: return OrderKind::kUseTable;
+    case Action::kHome: return OrderKind::kHome;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints,
+                     SecurityPolicy security)
+    : prefix_(std::move(prefix)),
+      session_id_(session_id),
+      joints_(std::move(joints)),
+      security_(std::move(security)),
+      sequences_(security_.keys.size()) {}
+
+Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  const auto name = parse_channel(message.channel.view());
+  Verdict verdict = discard(Reason::kMalformed);
+  if (name && name->prefix == prefix_ && message.size <= message.bytes.size()) {
+    const auto joint = std::find_if(joints_.begin(), joints_.end(),
+                                    [&](const JointAdmission& candidate) { return candidate.name == name->joint; });
+    verdict = joint == joints_.end()
+                  ? discard(Reason::kUnknownJoint)
+                  : judge(name->kind, static_cast<std::size_t>(joint - joints_.begin()), message);
+  }
+  if (verdict.kind != Verdict::Kind::kOrder) count_reject(verdict.reason);
+  return verdict;
+}
+
+Verdict Admission::judge(std::string_view kind, std::size_t joint, const WireMessage& message) {
+  if (kind == channel_kind::kSetpoint) return judge_setpoint(joint, message);
+  if (kind == channel_kind::kCommand) return judge_command(joint, message);
+  if (kind == channel_kind::kTable) return judge_table_message(joint, message);
+  if (kind == channel_kind::kInject) return judge_injection(joint, message);
+  return discard(Reason::kMalformed);
+}
+
+std::optional<Verdict> Admission::check_envelope(const WireMessage& message, const Envelope& envelope,
+                                                 Requester& requester) {
+  if (envelope.session_id != session_id_)
+    return refuse(requester, Reason::kWrongSession,
+                  "the message is meant for session " + std::to_string(envelope.session_id) +
+                      ", this daemon's is another: read session_id from the STATE channel and send again");
+  if (is_unsigned(payload(message))) {
+    if (!security_.unsigned_allowed)
+      return refuse(requester, Reason::kUnsigned,
+                    "this daemon obeys signed orders only: strainwavectl --key FILE, see strainwavectl keygen --help");
+    return check_sequence(unsigned_sequences_, requester);
+  }
+  const auto key = security_.keys.find(key_id_of(payload(message)));
+  if (!key)
+    return refuse(requester, Reason::kBadSignature,
+                  "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
+                  "and start the daemon again");
+  if (!verifications_.available(now_ns_))
+    return refuse(requester, Reason::kBusy, "too many forged or repeated orders at once: try again");
+  auto verdict = check_signed(message, *key, envelope.needed, requester);
+  if (verdict) verifications_.take();
+  return verdict;
+}
+
+std::optional<Verdict> Admission::check_signed(const WireMessage& message, std::size_t key, Role needed,
+                                               Requester& requester) {
+  const AuthorizedKey& signer = security_.keys[key];
+  if (!verify(message.channel.view(), signer.key, payload(message)))
+    return refuse(requester, Reason::kBadSignature,
+                  "the signature is not that of this message on this channel by the key it names");
+  if (signer.role < needed)
+    return refuse(requester, Reason::kRoleNotAllowed,
+                  "the key of " + signer.comment + " has the role " + std::string(to_text(signer.role)) +
+                      ", this order needs " + std::string(to_text(needed)));
+  return check_sequence(sequences_[key], requester);
+}
+
+std::optional<Verdict> Admission::check_sequence(SequenceMemory& memory, Requester& requester) {
+  const auto judgement = memory.judge(requester.sender_id, requester.sequence);
+  if (judgement == SequenceMemory::Judgement::kNew) {
+    requester.authentic = true;
+    return std::nullopt;
+  }
+  Verdict verdict = refuse(requester, Reason::kOldSequence,
+                           "sequence " + std::to_string(requester.sequence) +
+                               " does not rise above the sender's last, or above those of earlier senders with this key: "
+                               "use microseconds since the epoch, from a clock that is right");
+  if (judgement == SequenceMemory::Judgement::kRepeat) verdict.kind = Verdict::Kind::kRepeat;
+  return verdict;
+}
+
+Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message) {
+  const auto setpoint = decode_exactly<setpoint_v1>(payload(message));
+  if (!setpoint) return discard(Reason::kMalformed);
+  Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
+  if (auto verdict = check_envelope(message, {setpoint->session_id, Role::kOperator}, requester))
+    return std::move(*verdict);
+  if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
+      !std::isfinite(setpoint->speed_limit_rad_s))
+    return refuse(requester, Reason::kNotFinite, "position_rad, valid_for_s and speed_limit_rad_s must be finite numbers");
+  const JointAdmission& limits = joints_[joint];
+  std::ostringstream text;
+  if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
+    text << "position_rad = " << setpoint->position_rad << ": from " << limits.position_min_rad << " to "
+         << limits.position_max_rad << " is allowed (joint.limits of " << limits.name << ")";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s) {
+    text << "valid_for_s = " << setpoint->valid_for_s << ": from 0 (a move) to " << kMaxValidFor_s << " is allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
+    text << "speed_limit_rad_s = " << setpoint->speed_limit_rad_s << ": from 0 (no limit of its own) to "
+         << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_rad_s of " << limits.name << ")";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  Verdict verdict = pass(requester, OrderKind::kSetpoint);
+  verdict.order.position_rad = setpoint->position_rad;
+  verdict.order.valid_for_s = setpoint->valid_for_s;
+  verdict.order.speed_limit_rad_s = setpoint->speed_limit_rad_s;
+  return verdict;
+}
+
+Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) {
+  const auto command = decode_exactly<command_v1>(payload(message));
+  if (!command) return discard(Reason::kMalformed);
+  Requester requester{joint, command->sender_id, command->sequence};
+  const auto action = static_cast<Action>(command->action);
+  // Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are.
+  if (action == Action::kDisable) return pass(requester, OrderKind::kDisable);
+  const Role needed = action == Action::kRevertTable ? Role::kEngineer : Role::kOperator;
+  if (auto verdict = check_envelope(message, {command->session_id, needed}, requester))
+    return std::move(*verdict);
+  const auto kind = order_of(action);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction, "action = " + std::to_string(command->action) + ": see docs/messages.md");
+  Verdict verdict = pass(requester, *kind);
+  verdict.revert_table = action == Action::kRevertTable;
+  return verdict;
+}
+
+Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& message) {
+  const auto table_message = decode_exactly<gain_table_v1>(payload(message));
+  if (!table_message) return discard(Reason::kMalformed);
+  Requester requester{joint, table_message->sender_id, table_message->sequence};
+  if (auto verdict = check_envelope(message, {table_message->session_id, Role::kEngineer}, requester))
+    return std::move(*verdict);
+  auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
+  const TableVerdict judged = judge_table(*table, joints_[joint].plant, joints_[joint].torque_limit_Nm);
+  if (judged.reason != Reason::kAccepted) return refuse(requester, judged.reason, judged.text);
+  Verdict verdict = pass(requester, OrderKind::kUseTable);
+  verdict.text = judged.text;
+  verdict.table = std::move(table);
+  return verdict;
+}
+
+Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message) {
+  const auto inject = decode_exactly<inject_v1>(payload(message));
+  if (!inject) return discard(Reason::kMalformed);
+  Requester requester{joint, inject->sender_id, inject->sequence};
+  if (auto verdict = check_envelope(message, {inject->session_id, Role::kEngineer}, requester))
+    return std::move(*verdict);
+  if (!joints_[joint].takes_injected_faults)
+    return refuse(requester, Reason::kNotSimulated, joints_[joint].name + " has a real drive: faults are not injected there");
+  if (!std::isfinite(inject->for_s) || !std::isfinite(inject->amount))
+    return refuse(requester, Reason::kNotFinite, "for_s and amount must be finite numbers");
+  const auto kind = injected_fault_of(inject->kind);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction, "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
+  const AmountRange range = amount_range(*kind);
+  std::ostringstream text;
+  if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {
+    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s << " is allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (inject->amount < range.min || inject->amount > range.max) {
+    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max << " is allowed for "
+         << to_text(*kind);
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  Verdict verdict = pass(requester, OrderKind::kInject);
+  verdict.order.injection = {*kind, 0.0, inject->for_s, inject->amount};
+  return verdict;
+}
+
+}  // namespace strainwave

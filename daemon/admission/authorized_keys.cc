@@ -1,0 +1,113 @@
+#include "daemon/admission/authorized_keys.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <system_error>
+
+#include "base/input_error.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::size_t kMaxFileBytes = 256 * 1024;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(errno));
+}
+
+// Whoever can write the file, or put another in its place, decides who moves the machine.
+void check_protection(const std::filesystem::path& path, const struct stat& status,
+                      const std::string& remedy) {
+  if (status.st_uid != 0 && status.st_uid != ::geteuid())
+    throw InputError(path.string() + ": is owned by user " + std::to_string(status.st_uid) +
+                     ": root or the user that runs strainwaved must own it");
+  const bool sticky_folder = S_ISDIR(status.st_mode) && (status.st_mode & S_ISVTX) != 0;
+  if ((status.st_mode & S_IWOTH) != 0 && !sticky_folder)
+    throw InputError(path.string() + ": everyone may write it: " + remedy);
+}
+
+std::string read_protected(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  struct stat status {};
+  if (::stat(folder.c_str(), &status) != 0) fail(folder, "security.authorized_keys cannot be read");
+  check_protection(folder, status, "chmod o-w " + folder.string());
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) fail(path, "security.authorized_keys cannot be read");
+  std::string text;
+  try {
+    if (::fstat(descriptor, &status) != 0) fail(path, "security.authorized_keys cannot be read");
+    if (!S_ISREG(status.st_mode))
+      throw InputError(path.string() + ": security.authorized_keys is not a file");
+    check_protection(path, status, "chmod o-w " + path.string());
+    std::array<char, 4096> part{};
+    ssize_t size = 0;
+    while ((size = ::read(descriptor, part.data(), part.size())) > 0 && text.size() <= kMaxFileBytes)
+      text.append(part.data(), static_cast<std::size_t>(size));
+    if (size < 0) fail(path, "security.authorized_keys cannot be read");
+    if (text.size() > kMaxFileBytes)
+      throw InputError(path.string() + ": is larger than 256 KiB: no list of keys");
+  } catch (const InputError&) {
+    ::close(descriptor);
+    throw;
+  }
+  ::close(descriptor);
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::size_t> AuthorizedKeys::find(const KeyId& id) const noexcept {
+  const auto found =
+      std::find_if(keys_.begin(), keys_.end(), [&](const AuthorizedKey& key) { return key.key.id() == id; });
+  return found == keys_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - keys_.begin()));
+}
+
+std::filesystem::path credential_or_file(const std::filesystem::path& path) {
+  const char* folder = std::getenv("CREDENTIALS_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
+  if (folder == nullptr || *folder == '\0') return path;
+  std::error_code unreadable;
+  const std::filesystem::path credential = std::filesystem::path(folder) / path.filename();
+  return std::filesystem::exists(credential, unreadable) ? credential : path;
+}
+
+AuthorizedKeys read_authorized_keys(const std::filesystem::path& path) {
+  const std::string text = read_protected(path);
+  std::vector<AuthorizedKey> keys;
+  std::map<KeyId, std::size_t> first_line;
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    begin = end + 1;
+    const std::string where = path.string() + ":" + std::to_string(++number) + ": ";
+    const std::size_t content = line.find_first_not_of(" \t");
+    if (content == std::string_view::npos || line[content] == '#') continue;
+    try {
+      keys.push_back(parse_public_line(line));
+    } catch (const InputError& error) {
+      throw InputError(where + error.what());
+    }
+    const auto [first, is_new] = first_line.try_emplace(keys.back().key.id(), number);
+    if (!is_new)
+      throw InputError(where + "the key of line " + std::to_string(first->second) +
+                       " again: a key has one role, delete one line");
+    if (keys.size() > AuthorizedKeys::kMaxKeys)
+      throw InputError(where + "more than " + std::to_string(AuthorizedKeys::kMaxKeys) + " keys");
+  }
+  if (keys.empty())
+    throw InputError(path.string() +
+                     ": has no key, so nobody could give an order: make one with strainwavectl keygen "
+                     "and put the line of its .pub file here");
+  return AuthorizedKeys(std::move(keys));
+}
+
+}  // namespace strainwave

@@ -1,0 +1,46 @@
+// [[can_bus]] and [joint.can] of the configuration: drives on CAN buses. Not real-time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "daemon/config/config.h"
+#include "base/toml_section.h"
+#include "drivers/can/can_bus.h"
+
+namespace strainwave {
+
+/// The buses of a configuration file and the drives on them.
+class CanConfig {
+ public:
+  /// Reads every [[can_bus]]; there may be none. Throws InputError.
+  CanConfig(TomlSection& root, double period_s);
+
+  /// Reads [joint.can]: puts the drive on its bus, and sets what depends on the driver. Throws InputError.
+  void read_joint(TomlSection& section, JointConfig& joint);
+
+  /// After all joints: what makes the buses. Throws InputError for a bus without joints, or one that would be
+  /// too full.
+  std::vector<BusConfig> buses() const;
+
+ private:
+  using NodeFactory = std::function<std::unique_ptr<CanNode>()>;
+  struct Bus {
+    std::string name;
+    TomlSection section;
+    CanBusConfig config;
+    bool drive_makes_sync = false;  ///< sync = "drive"
+    std::vector<int> node_ids;      ///< of the drives so far
+    std::vector<NodeFactory> make_nodes;
+    bool has_sync_drive = false;
+  };
+  Bus& find_bus(TomlSection& section);
+  void read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint);
+
+  double period_s_;
+  std::vector<Bus> buses_;
+};
+
+}  // namespace strainwave

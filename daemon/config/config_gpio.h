@@ -1,0 +1,17 @@
+// The keys of [joint.gpio]: a bare motor behind amplifier, encoder and digital lines. Not real-time.
+// docs/gpio.md explains them.
+#pragma once
+
+#include "daemon/config/config.h"
+#include "daemon/config/config_homing.h"
+#include "base/toml_section.h"
+
+namespace strainwave {
+
+/// Reads the section and sets what depends on the driver: make_actuator, describe_lines, and the encoder and
+/// motor data of the controller. `where` is the section's path in messages. What the joint can be homed by.
+/// Throws InputError.
+HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s,
+                              JointConfig& joint);
+
+}  // namespace strainwave

@@ -1,0 +1,70 @@
+#include "daemon/config/config_homing.h"
+
+#include <algorithm>
+
+namespace strainwave {
+
+namespace {
+
+/// Shares of the joint's speed limit, where the configuration does not say.
+constexpr double kSearchShare = 0.05;
+constexpr double kCreepShare = 0.1;  // of the search speed
+
+HomingTarget target_of(TomlSection& section, const HomingInputs& available) {
+  const std::string to =
+      section.choice_or("to", "none", {"none", "home", "negative_limit", "positive_limit", "index"});
+  const auto require = [&](bool there, const char* what) {
+    if (!there)
+      section.fail("to", std::string("something that this joint's driver has is allowed; it has no ") + what);
+  };
+  if (to == "home") {
+    require(available.home, "home switch");
+    return HomingTarget::kHomeSwitch;
+  }
+  if (to == "negative_limit") {
+    require(available.negative_limit, "negative limit switch");
+    return HomingTarget::kNegativeLimit;
+  }
+  if (to == "positive_limit") {
+    require(available.positive_limit, "positive limit switch");
+    return HomingTarget::kPositiveLimit;
+  }
+  if (to == "index") {
+    require(available.index, "index input");
+    return HomingTarget::kIndex;
+  }
+  return HomingTarget::kNone;
+}
+
+}  // namespace
+
+void read_homing(TomlSection section, const HomingInputs& available, JointConfig& joint) {
+  HomingConfig& homing = joint.loop.homing;
+  const JointLimits& limits = joint.loop.limits;
+  const double speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
+  homing.target = target_of(section, available);
+  homing.required = section.boolean_or("required", homing.required);
+  if (homing.required && homing.target == HomingTarget::kNone)
+    section.fail("required", "false is allowed while joint.homing.to names nothing to look for");
+  homing.then_index = section.boolean_or("then_index", homing.then_index);
+  if (homing.then_index && (!available.index || homing.target == HomingTarget::kIndex))
+    section.fail("then_index", "true needs a driver with an index input, and a switch as joint.homing.to");
+  homing.direction =
+      section.choice_or("direction", "negative", {"negative", "positive"}) == "negative" ? -1.0 : 1.0;
+  const Range within_limits{limits.position_min_rad - limits.position_margin_rad,
+                            limits.position_max_rad + limits.position_margin_rad};
+  homing.home_position_rad =
+      section.number_or("position_rad", std::clamp(0.0, within_limits.min, within_limits.max), within_limits);
+  homing.search_speed_rad_s =
+      section.number_or("search_rad_s", kSearchShare * speed_rad_s, {1e-6, speed_rad_s});
+  homing.creep_speed_rad_s = section.number_or("creep_rad_s", kCreepShare * homing.search_speed_rad_s,
+                                               {1e-6, homing.search_speed_rad_s});
+  homing.travel_rad =
+      section.number_or("travel_rad", 1.1 * (within_limits.max - within_limits.min), {1e-6, 1e4});
+  // There and back at the search speed, and as long again for what is done at the creep speed.
+  homing.timeout_s = section.number_or(
+      "timeout_s", std::min(3600.0, 4.0 * homing.travel_rad / homing.search_speed_rad_s), {0.01, 3600.0});
+  section.refuse_unknown_keys();
+}
+
+}  // namespace strainwave

@@ -1,0 +1,21 @@
+// [joint.homing] of the configuration, see docs/configuration.md. Not real-time.
+#pragma once
+
+#include "daemon/config/config.h"
+#include "base/toml_section.h"
+
+namespace strainwave {
+
+/// What a driver can look for.
+struct HomingInputs {
+  bool home = false;
+  bool negative_limit = false;
+  bool positive_limit = false;
+  bool index = false;
+};
+
+/// Reads the section into `joint`, whose limits are known. Throws InputError, also when the driver lacks what
+/// is looked for.
+void read_homing(TomlSection section, const HomingInputs& available, JointConfig& joint);
+
+}  // namespace strainwave

@@ -1,0 +1,14 @@
+// The keys of [joint.can] with protocol = "odrive". Not real-time.
+#pragma once
+
+#include "daemon/config/config.h"
+#include "base/toml_section.h"
+#include "drivers/can/odrive/odrive_config.h"
+
+namespace strainwave {
+
+/// Reads the drive, and sets what depends on it: the controller's encoder, delay and motor, the texts of its
+/// errors. Throws InputError.
+odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period_s, JointConfig& joint);
+
+}  // namespace strainwave

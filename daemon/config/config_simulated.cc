@@ -1,0 +1,106 @@
+#include "daemon/config/config_simulated.h"
+
+#include <numbers>
+
+#include "base/input_error.h"
+#include "daemon/realtime/periodic_clock.h"
+#include "drivers/faulty_actuator.h"
+#include "drivers/simulated_actuator.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kDefaultTemperatureNoise_C = 0.02;
+
+TemperatureProfile read_profile(TomlSection& section) {
+  const std::string text = section.text_or("ambient_temperature_C", "constant:25");
+  try {
+    return TemperatureProfile::parse(text);
+  } catch (const InputError& error) {
+    section.fail("ambient_temperature_C", error.what());
+  }
+}
+
+std::vector<std::string> injectable_faults() {
+  std::vector<std::string> names;
+  for (std::int32_t kind = 1; kind < kInjectedFaultCount; ++kind)
+    names.emplace_back(to_text(static_cast<InjectedFault>(kind)));
+  return names;
+}
+
+// [[joint.simulated.fault]]: faults that the drive has at set times.
+std::vector<Injection> read_faults(TomlSection& section) {
+  std::vector<Injection> faults;
+  if (!section.has("fault")) return faults;
+  for (TomlSection& fault : section.sections("fault")) {
+    Injection injection;
+    injection.kind = *injected_fault_of(fault.choice("kind", injectable_faults()));
+    injection.at_s = fault.number_or("at_s", 0.0, {0.0, 1e6});
+    injection.for_s = fault.number_or("for_s", 0.0, {0.0, 1e6});
+    const AmountRange range = amount_range(injection.kind);
+    if (range.min < range.max) injection.amount = fault.number("amount", {range.min, range.max});
+    fault.refuse_unknown_keys();
+    faults.push_back(injection);
+  }
+  return faults;
+}
+
+// Switches and index; what the joint has none of stays away.
+HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInputsConfig& inputs) {
+  constexpr Range kPosition{-1e3, 1e3};
+  HomingInputs available;
+  available.negative_limit = section.has("negative_limit_rad");
+  if (available.negative_limit) inputs.negative_limit_rad = section.number("negative_limit_rad", kPosition);
+  available.positive_limit = section.has("positive_limit_rad");
+  if (available.positive_limit) inputs.positive_limit_rad = section.number("positive_limit_rad", kPosition);
+  available.home = section.has("home_from_rad") || section.has("home_to_rad");
+  if (available.home) {
+    inputs.home_from_rad = section.number("home_from_rad", kPosition);
+    inputs.home_to_rad = section.number("home_to_rad", {inputs.home_from_rad, kPosition.max});
+  }
+  available.index = section.has("index_rad");
+  if (available.index) {
+    inputs.index_rad = section.number("index_rad", kPosition);
+    inputs.index_spacing_rad = 2.0 * std::numbers::pi / gear_ratio;
+  }
+  return available;
+}
+
+}  // namespace
+
+HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint) {
+  const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
+  SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
+  config.plant.period_s = period_s;
+  config.plant.joint.inertia_kgm2 = section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
+  const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});
+  for (FrictionParameters* part : {&config.plant.joint.friction.asymptote, &config.plant.joint.friction.amplitude}) {
+    part->static_Nm *= friction_scale;
+    part->coulomb_Nm *= friction_scale;
+    part->viscous_Nms_rad *= friction_scale;
+  }
+  config.plant.substeps = static_cast<int>(section.integer_or("substeps", config.plant.substeps, 1, 1000));
+  config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
+  config.incremental = section.boolean_or("incremental", config.incremental);
+  const HomingInputs available = read_inputs(section, joint.plant.gear_ratio, config.inputs);
+  config.ambient = read_profile(section);
+  config.load_torque_Nm = section.number_or("load_torque_Nm", 0.0, {-1e3, 1e3});
+  config.enable_delay_s = section.number_or("enable_delay_s", config.enable_delay_s, {0.0, 10.0});
+  config.temperature_period_s = section.number_or("temperature_period_s", config.temperature_period_s, {0.0, 60.0});
+  config.temperature_noise_C = section.number_or("temperature_noise_C", kDefaultTemperatureNoise_C, {0.0, 10.0});
+  config.seed = static_cast<std::uint64_t>(section.integer_or("seed", 1, 0, INT64_MAX));
+
+  JointControllerConfig& controller = joint.loop.controller;
+  controller.encoder_resolution_rad = config.plant.encoder.resolution_rad();
+  controller.delay_samples = config.plant.delay_samples;
+  controller.motor = {config.plant.motor.peak_Nm, config.plant.motor.stall_Nm, config.plant.motor.slope_Nms_rad};
+  const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
+  joint.takes_injected_faults = true;
+  joint.make_actuator = [config, faults] {
+    return std::make_unique<FaultyActuator>(std::make_unique<SimulatedActuator>(config), faults);
+  };
+  return available;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,14 @@
+// The keys of [joint.simulated]: the simulated joint behind the drivers' seam. Not real-time.
+#pragma once
+
+#include "daemon/config/config.h"
+#include "daemon/config/config_homing.h"
+#include "base/toml_section.h"
+
+namespace strainwave {
+
+/// Reads the section and sets what depends on the driver: make_actuator and the encoder, delay and motor data of the
+/// controller. What the joint can be homed by. Throws InputError.
+HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint);
+
+}  // namespace strainwave

@@ -1,0 +1,94 @@
+// What the core and the gateway share, and who may write it.
+//
+// Two anonymous memory files: `outbound`, written by the core and mapped read-only by the gateway (the kernel enforces
+// it), and `inbound`, written by the gateway. The core treats every byte of `inbound` as hostile: it copies first and
+// looks at its own copy. Plain data only. Writing a state record is real-time safe.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <strainwave/state_v1.hpp>
+
+#include "base/fixed_string.h"
+#include "base/broadcast_ring.h"
+
+namespace strainwave {
+
+inline constexpr std::size_t kMaxJoints = 64;
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303033;  // "SWMEM003"
+
+/// One joint in one cycle, from the real-time thread.
+struct StateRecord {
+  state_v1 state;
+  double temperature_measured_C = 0.0;
+  double temperature_age_s = -1.0;
+  std::int64_t joint_index = 0;
+};
+
+/// A message in wire form with its channel: an acknowledgement on its way out, or a command on its way in.
+struct WireMessage {
+  static constexpr std::size_t kMaxBytes = 8120;
+  FixedString<64> channel;
+  std::uint64_t size = 0;
+  std::array<std::uint8_t, kMaxBytes> bytes{};
+};
+
+/// Written by the core only. joint_count and the names are set before the gateway starts.
+struct OutboundMemory {
+  static constexpr std::size_t kStateRecords = 8192;
+  static constexpr std::size_t kMessages = 256;
+
+  std::uint64_t magic = kSharedMemoryMagic;
+  FixedString<32> prefix;
+  FixedString<256> lcm_url;
+  std::int64_t session_id = 0;
+  std::int64_t core_pid = 0;
+  std::int64_t gateway_uid = -1;  ///< whom the gateway becomes; -1: it stays who it is
+  std::int64_t gateway_gid = -1;
+  std::uint64_t joint_count = 0;
+  std::array<FixedString<32>, kMaxJoints> joint_names{};
+  BroadcastRing<StateRecord, kStateRecords> states;
+  BroadcastRing<WireMessage, kMessages> messages;
+  std::atomic<std::uint64_t> inbound_taken{0};  ///< how many inbound messages the core has taken
+};
+
+/// Written by the gateway only.
+struct InboundMemory {
+  static constexpr std::size_t kMessages = 128;
+
+  std::atomic<std::uint64_t> ready{0};     ///< 1 once LCM works
+  std::atomic<std::uint64_t> turns{0};     ///< rises while the gateway lives
+  std::atomic<std::uint64_t> written{0};   ///< how many messages were put in
+  std::atomic<std::uint64_t> overflow{0};  ///< messages lost because the core was slow
+  std::atomic<std::uint64_t> state_records_dropped{0};
+  std::atomic<std::uint64_t> foreign_states{0};  ///< STATE messages on our channels from another session
+  std::array<WireMessage, kMessages> messages{};
+};
+
+/// An anonymous memory file, mapped. Throws std::system_error. Not real-time.
+class MemoryFile {
+ public:
+  /// A new file of `size` bytes, mapped writable; with `seal_writes` nobody else can map it writable afterwards.
+  static MemoryFile create(const char* name, std::size_t size, bool seal_writes);
+  /// An existing one, mapped read-only or writable. Refuses a file smaller than `size`.
+  static MemoryFile open(int descriptor, std::size_t size, bool writable);
+
+  MemoryFile(MemoryFile&& other) noexcept;
+  MemoryFile& operator=(MemoryFile&&) = delete;
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile();
+
+  void* address() const noexcept { return address_; }
+  int descriptor() const noexcept { return descriptor_; }
+
+ private:
+  MemoryFile(int descriptor, void* address, std::size_t size) noexcept
+      : descriptor_(descriptor), address_(address), size_(size) {}
+  int descriptor_;
+  void* address_;
+  std::size_t size_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,75 @@
+// Blocking SDO and network management with one node: for start-up, background threads and tools, never for
+// the loop. Source: CiA 301 v4.2.0, sections 7.2.4 and 7.3.2.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/input_error.h"
+#include "drivers/can/can_port.h"
+#include "drivers/can/canopen/canopen.h"
+#include "drivers/can/canopen/canopen_pdo.h"
+#include "drivers/can/canopen/canopen_sdo.h"
+
+namespace strainwave::canopen {
+
+/// A transfer that failed: aborted by the drive, or not answered. what() names node, entry and reason.
+class SdoError : public InputError {
+ public:
+  SdoError(const std::string& message, std::uint32_t code) : InputError(message), code_(code) {}
+  std::uint32_t code() const noexcept { return code_; }
+  /// Whether the drive said that it has no such entry.
+  bool no_such_entry() const noexcept;
+
+ private:
+  std::uint32_t code_;
+};
+
+class SdoClient {
+ public:
+  /// `port` must hear the node's SDO answers and, for reset_communication(), its heartbeat. `who` begins
+  /// every message ("elbow").
+  SdoClient(CanPort& port, std::uint8_t node, std::string who, std::int64_t timeout_ns = kDefaultTimeout_ns);
+
+  std::vector<std::uint8_t> upload(Entry entry);
+  /// A number of exactly `bytes` bytes; throws SdoError for another length.
+  std::uint64_t upload_number(Entry entry, std::size_t bytes);
+  /// The same, or nothing when the drive has no such entry.
+  std::optional<std::uint64_t> upload_if_there(Entry entry, std::size_t bytes);
+  /// Text without trailing zeros; characters that cannot be printed become '?'.
+  std::string upload_text(Entry entry);
+
+  void download(Entry entry, std::uint64_t value, std::size_t bytes);
+  /// Writes and reads back; throws InputError when the drive kept another value.
+  void write_verified(const SdoWrite& write);
+
+  void send_nmt(NmtCommand command);
+  /// Resets the node's communication and waits for its boot-up message; false when none came.
+  bool reset_communication(std::int64_t timeout_ns);
+
+  CanPort& port() noexcept { return port_; }
+  std::uint8_t node() const noexcept { return node_; }
+  const std::string& who() const noexcept { return who_; }
+
+  static constexpr std::int64_t kDefaultTimeout_ns = 500'000'000;
+
+ private:
+  void run(SdoTransfer& transfer);
+  /// The next frame with this identifier, or nothing at `deadline_ns`. Throws InputError when the link ends.
+  std::optional<CanFrame> next_frame(std::uint32_t id, std::int64_t deadline_ns);
+  void forget_arrived();
+  void send(const CanFrame& frame);
+  std::string failure(const SdoTransfer& transfer, const char* doing) const;
+
+  CanPort& port_;
+  std::uint8_t node_;
+  std::string who_;
+  std::int64_t timeout_ns_;
+  std::vector<ReceivedFrame> arrived_;  ///< not looked at yet, from the front
+  std::size_t next_ = 0;
+};
+
+}  // namespace strainwave::canopen

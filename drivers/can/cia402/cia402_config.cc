@@ -1,0 +1,89 @@
+#include "drivers/can/cia402/cia402_config.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace strainwave::cia402 {
+
+namespace {
+
+using canopen::MappedObject;
+using canopen::Pdo;
+using canopen::PdoDirection;
+
+constexpr MappedObject kControlword{{0x6040, 0}, 2};
+constexpr MappedObject kStatusword{{0x6041, 0}, 2};
+constexpr MappedObject kModeDisplay{{0x6061, 0}, 1};
+constexpr MappedObject kPosition{{0x6064, 0}, 4};
+constexpr MappedObject kVelocity{{0x606C, 0}, 4};
+constexpr MappedObject kTargetTorque{{0x6071, 0}, 2};
+constexpr MappedObject kTorque{{0x6077, 0}, 2};
+
+constexpr std::uint8_t kEverySync = 1;
+constexpr int kMaxSyncDivider = 240;
+
+/// Puts `object` into `pdo` if there is room for it.
+PdoLayout::Field map(Pdo& pdo, const MappedObject& object) {
+  const std::size_t offset = pdo.bytes();
+  if (offset + object.bytes > kMaxCanBytes) return {};
+  pdo.objects.push_back(object);
+  return {pdo.number, offset, object.bytes};
+}
+
+std::uint8_t sync_divider(const DriveConfig& config) {
+  double period_s = config.status_period_s;
+  if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo &&
+      !config.uses_drive_velocity())
+    period_s = std::min(period_s, config.temperature->period_s);
+  return static_cast<std::uint8_t>(
+      std::clamp(std::lround(period_s / config.period_s), 1L, long{kMaxSyncDivider}));
+}
+
+}  // namespace
+
+double temperature_C(const TemperatureObject& object, std::uint64_t raw) noexcept {
+  double value = 0.0;
+  switch (object.type) {
+    case NumberType::kInt8:
+      value = static_cast<std::int8_t>(raw);
+      break;
+    case NumberType::kUint8:
+      value = static_cast<std::uint8_t>(raw);
+      break;
+    case NumberType::kInt16:
+      value = static_cast<std::int16_t>(raw);
+      break;
+    case NumberType::kUint16:
+      value = static_cast<std::uint16_t>(raw);
+      break;
+    case NumberType::kInt32:
+      value = static_cast<std::int32_t>(raw);
+      break;
+    case NumberType::kUint32:
+      value = static_cast<std::uint32_t>(raw);
+      break;
+    case NumberType::kReal32:
+      value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
+      break;
+  }
+  return value * object.scale_C + object.offset_C;
+}
+
+PdoLayout pdo_layout(const DriveConfig& config) {
+  PdoLayout layout;
+  layout.command = {PdoDirection::kReceive, 1, kEverySync, {kControlword, kTargetTorque}};
+  layout.fast = {PdoDirection::kTransmit, 1, kEverySync, {}};
+  layout.slow = {PdoDirection::kTransmit, 2, sync_divider(config), {}};
+  layout.position = map(layout.fast, kPosition);
+  if (config.uses_drive_velocity()) layout.velocity = map(layout.fast, kVelocity);
+  Pdo& status = config.uses_drive_velocity() ? layout.slow : layout.fast;
+  layout.statusword = map(status, kStatusword);
+  layout.torque = map(status, kTorque);
+  if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo)
+    layout.temperature = map(layout.slow, {config.temperature->entry, bytes_of(config.temperature->type)});
+  layout.mode = map(layout.slow, kModeDisplay);
+  return layout;
+}
+
+}  // namespace strainwave::cia402

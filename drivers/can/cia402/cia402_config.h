@@ -1,0 +1,116 @@
+// What the configuration says of a CiA 402 drive, and what its set-up finds. Plain data.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/can/canopen/canopen_pdo.h"
+#include "drivers/can/cia402/cia402_units.h"
+
+namespace strainwave::cia402 {
+
+/// Mode of operation (6060h), in the order of preference.
+enum class OperationMode : std::int8_t {
+  kCyclicTorque = 10,  ///< CST
+  kTorque = 4,         ///< TQ, torque profile
+};
+
+/// 6007h: what the drive does when our heartbeat stays away.
+enum class AbortConnection : std::int16_t { kFault = 1, kDisableVoltage = 2, kQuickStop = 3 };
+
+/// Number types that a temperature may have in the drive's object dictionary.
+enum class NumberType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kReal32 };
+constexpr std::uint8_t bytes_of(NumberType type) noexcept {
+  switch (type) {
+    case NumberType::kInt8:
+    case NumberType::kUint8:
+      return 1;
+    case NumberType::kInt16:
+    case NumberType::kUint16:
+      return 2;
+    case NumberType::kInt32:
+    case NumberType::kUint32:
+    case NumberType::kReal32:
+      return 4;
+  }
+  return 4;
+}
+
+/// A temperature in the drive's object dictionary: degC = raw * scale + offset_C.
+struct TemperatureObject {
+  enum class Way : std::uint8_t { kPdo, kSdo };
+  canopen::Entry entry;
+  NumberType type = NumberType::kInt16;
+  double scale_C = 1.0;  ///< of one unit
+  double offset_C = 0.0;
+  Way way = Way::kSdo;
+  double period_s = 1.0;  ///< how often it is read or sent
+};
+
+/// degC of the little-endian number `raw`.
+double temperature_C(const TemperatureObject& object, std::uint64_t raw) noexcept;
+
+/// What start-up insists on; empty: not compared.
+struct Identity {
+  std::optional<std::uint32_t> vendor_id;
+  std::optional<std::uint32_t> product_code;
+  std::optional<std::uint32_t> revision_number;
+  std::optional<std::uint32_t> serial_number;
+};
+
+struct DriveConfig {
+  std::string name;          ///< of the joint
+  std::uint8_t node_id = 1;  ///< 1..127
+  std::uint8_t our_node_id = 127;
+  Identity identity;
+  UnitConfig units;
+  double torque_limit_Nm = 0.0;  ///< at the joint; written to 6072h
+  double rated_current_A = 0.0;  ///< of a drive that has no 6075h; 0: not given
+  double period_s = 0.001;
+  bool produces_sync = false;       ///< this drive is the bus's SYNC producer
+  bool daemon_sends_sync = true;    ///< we are
+  double drive_heartbeat_s = 0.05;  ///< 1017h
+  double drive_heartbeat_timeout_s = 0.15;
+  double our_heartbeat_timeout_s = 0.15;  ///< 1016h
+  AbortConnection abort_connection = AbortConnection::kQuickStop;
+  std::optional<std::int16_t> quick_stop_option;  ///< 605Ah; unset: as the drive is set
+  int zero_torque_after = 2;                      ///< periods without a position
+  int quick_stop_after = 4;                       ///< more of them: fault
+  double quick_stop_timeout_s = 1.0;              ///< then the voltage is taken off
+  double step_timeout_s = 0.5;                    ///< of each step of enabling
+  double boot_timeout_s = 5.0;                    ///< from the reset of its communication
+  double status_period_s = 0.01;                  ///< of the slow TPDO
+  std::optional<TemperatureObject> temperature;
+
+  bool uses_drive_velocity() const noexcept { return units.velocity_rad_s_per_unit != 0.0; }
+};
+
+/// Where the fields of the drive's PDOs lie.
+struct PdoLayout {
+  struct Field {
+    int pdo = 0;             ///< 1 or 2; 0: nowhere
+    std::size_t offset = 0;  ///< in bytes
+    std::size_t bytes = 0;
+  };
+  canopen::Pdo command;  ///< RPDO1: controlword, target torque
+  canopen::Pdo fast;     ///< TPDO1, with every SYNC
+  canopen::Pdo slow;     ///< TPDO2, with every nth; without objects when it is not needed
+  Field position, velocity, statusword, torque, mode, temperature;
+};
+
+/// TPDO1 has position, statusword and torque, or position and velocity when the drive's velocity is used;
+/// TPDO2 the rest.
+PdoLayout pdo_layout(const DriveConfig& config);
+
+/// What set-up found.
+struct Found {
+  OperationMode mode = OperationMode::kCyclicTorque;
+  double rated_torque_Nm = 0.0;  ///< at the joint
+  std::uint16_t statusword = 0;
+  std::uint16_t error_code = 0;     ///< 603Fh when the drive is in fault
+  std::vector<std::string> report;  ///< for the log
+};
+
+}  // namespace strainwave::cia402

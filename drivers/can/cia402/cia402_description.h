@@ -1,0 +1,30 @@
+// What a drive says of itself: device type, identity, modes, name. Reads only, by SDO; not real-time. Source:
+// CiA 301, objects 1000h, 1008h, 1018h; CiA 402-2, object 6502h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drivers/can/canopen/sdo_client.h"
+
+namespace strainwave::cia402 {
+
+/// What a drive says of itself; nothing is written.
+struct Description {
+  std::uint32_t device_type = 0;
+  std::uint32_t vendor_id = 0;
+  std::uint32_t product_code = 0;
+  std::uint32_t revision_number = 0;
+  std::uint32_t serial_number = 0;
+  std::uint32_t supported_modes = 0;  ///< 6502h; 0 when it is no servo drive
+  std::string device_name;            ///< 1008h, if it has one
+};
+Description describe(canopen::SdoClient& client);
+/// Whether the device profile is CiA 402.
+bool is_servo_drive(const Description& description) noexcept;
+/// "vendor 000000FBh, product ...".
+std::string to_text(const Description& description);
+/// The modes of 6502h by name: "PP PV TQ CSP".
+std::string modes_text(std::uint32_t supported_modes);
+
+}  // namespace strainwave::cia402

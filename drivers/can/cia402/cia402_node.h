@@ -1,0 +1,110 @@
+// One CiA 402 drive in the loop: its frames in, its state, its torque out, and every way in which it can
+// fail. The constructor takes a checked configuration; set_up() and serve() block and run outside the loop;
+// everything from begin_cycle() on is real-time safe.
+//
+// Faults are latched while the drive is in use. While it is not, they are told as long as their cause lasts,
+// so that enabling shows them. A drive that has restarted or was out of sight is set up again by the
+// background thread, after clear_fault() only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers/can/can_detail.h"
+#include "drivers/can/can_node.h"
+#include "drivers/can/canopen/canopen.h"
+#include "drivers/can/cia402/cia402_config.h"
+#include "drivers/can/packed_temperature.h"
+#include "drivers/can/cia402/power_sequence.h"
+#include "drivers/can/set_up_state.h"
+
+namespace strainwave::cia402 {
+
+/// ActuatorReading::drive_error of these drives in words.
+std::string drive_error_text(std::uint32_t drive_error);
+
+class Node final : public CanNode {
+ public:
+  explicit Node(const DriveConfig& config);
+
+  const std::string& name() const noexcept override { return config_.name; }
+  std::vector<std::uint32_t> receive_ids() const override;
+  std::vector<std::uint32_t> transmit_ids() const override;
+  std::vector<std::uint32_t> setup_ids() const override;
+  std::vector<FrameTraffic> traffic() const override;
+  std::vector<std::string> set_up(CanPort& port) override;
+  void verify(CanPort& port) override;
+  std::vector<std::string> serve(CanPort& port) override;
+  void shut_down(CanPort& port) noexcept override;
+
+  void begin_cycle(std::int64_t now_ns) noexcept override;
+  void receive(const CanFrame& frame) noexcept override;
+  void note_bus(const NodeFault& trouble) noexcept override;
+  void transmit(CanTransmitter& bus) noexcept override;
+
+  ActuatorReading read(std::int64_t now_ns) noexcept override;
+  void write(const ActuatorCommand& command) noexcept override;
+  void stop() noexcept override { stop_ordered_ = true; }
+  void clear_fault() noexcept override;
+
+  /// Counts since the start, for tests.
+  std::int64_t missed_positions() const noexcept { return missed_total_; }
+  std::int64_t malformed_frames() const noexcept { return malformed_; }
+
+ private:
+  void receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept;
+  void receive_emergency(const canopen::Emergency& emergency) noexcept;
+  void receive_heartbeat(canopen::NmtState state) noexcept;
+  void forget_drive() noexcept;
+  void supervise() noexcept;
+  NodeFault present_trouble() const noexcept;
+  NodeFault power_trouble() const noexcept;
+  void latch(const NodeFault& fault) noexcept;
+  Goal goal() const noexcept;
+  DriveState drive_state() const noexcept;
+  void fill_temperature(ActuatorReading& reading) const noexcept;
+  void read_temperature(CanPort& port, std::vector<std::string>& messages);
+
+  DriveConfig config_;
+  PdoLayout layout_;
+  std::int64_t heartbeat_timeout_ns_;
+
+  // Written by set-up, read by the loop while setup_ is ready.
+  OperationMode mode_ = OperationMode::kCyclicTorque;
+  TorqueScale torque_scale_;
+  std::uint16_t initial_error_ = 0;
+  SetUpState setup_;
+  PackedTemperature sdo_temperature_;
+  // Background thread alone.
+  std::int64_t temperature_due_ns_ = 0;
+  bool temperature_failed_ = false;
+
+  // The loop alone.
+  std::int64_t now_ns_ = 0;
+  PowerSequence power_;
+  PositionScale position_scale_;
+  double position_rad_ = 0.0;
+  double velocity_rad_s_ = 0.0;
+  double torque_applied_Nm_ = 0.0;
+  double pdo_temperature_C_ = 0.0;
+  std::int64_t pdo_temperature_ns_ = 0;
+  std::int64_t heartbeat_ns_ = 0;
+  std::int64_t missed_total_ = 0;
+  std::int64_t malformed_ = 0;
+  int missed_ = 0;
+  std::uint32_t emergency_ = 0;  ///< the last one, until the drive takes it back
+  NodeFault restarted_;          ///< boot-up or another network state; ends by a new set-up
+  NodeFault bus_trouble_;
+  NodeFault latched_;
+  ActuatorCommand command_;
+  bool fresh_ = false;
+  bool has_status_ = false;
+  bool has_pdo_temperature_ = false;
+  bool wrong_mode_ = false;
+  std::uint8_t shown_mode_ = 0;
+  bool stop_ordered_ = false;
+  bool needs_set_up_ = false;  ///< before it can be used again
+  bool settling_ = false;      ///< the first period after a set-up
+};
+
+}  // namespace strainwave::cia402

@@ -1,0 +1,121 @@
+// The part of cia402_node.h that runs outside the loop.
+#include "drivers/can/cia402/cia402_node.h"
+
+#include "base/input_error.h"
+#include "control/units.h"
+#include "drivers/can/cia402/cia402_setup.h"
+#include "drivers/can/canopen/sdo_client.h"
+
+namespace strainwave::cia402 {
+
+namespace {
+
+using canopen::CobId;
+
+constexpr std::int64_t kShutDownTimeout_ns = 100'000'000;
+
+PowerTimes times_of(const DriveConfig& config) noexcept {
+  PowerTimes times;
+  times.step_ns = nanoseconds(config.step_timeout_s);
+  times.quick_stop_ns = nanoseconds(config.quick_stop_timeout_s);
+  return times;
+}
+
+}  // namespace
+
+Node::Node(const DriveConfig& config)
+    : config_(config),
+      layout_(pdo_layout(config)),
+      heartbeat_timeout_ns_(nanoseconds(config.drive_heartbeat_timeout_s)),
+      power_(times_of(config)),
+      position_scale_(config.units) {}
+
+std::vector<std::uint32_t> Node::receive_ids() const {
+  std::vector<std::uint32_t> ids{layout_.fast.cob_id(config_.node_id),
+                                 cob_id(CobId::kEmergency, config_.node_id),
+                                 cob_id(CobId::kHeartbeat, config_.node_id)};
+  if (!layout_.slow.objects.empty()) ids.push_back(layout_.slow.cob_id(config_.node_id));
+  return ids;
+}
+
+std::vector<std::uint32_t> Node::transmit_ids() const {
+  return {layout_.command.cob_id(config_.node_id)};
+}
+
+std::vector<std::uint32_t> Node::setup_ids() const {
+  return {cob_id(CobId::kSdoAnswer, config_.node_id), cob_id(CobId::kHeartbeat, config_.node_id)};
+}
+
+std::vector<FrameTraffic> Node::traffic() const {
+  const double rate_Hz = 1.0 / config_.period_s;
+  const auto bytes = [](const canopen::Pdo& pdo) { return static_cast<int>(pdo.bytes()); };
+  std::vector<FrameTraffic> traffic{{"RPDO1 of " + config_.name, bytes(layout_.command), rate_Hz},
+                                    {"TPDO1 of " + config_.name, bytes(layout_.fast), rate_Hz},
+                                    {"heartbeat of " + config_.name, 1, 1.0 / config_.drive_heartbeat_s}};
+  if (!layout_.slow.objects.empty())
+    traffic.push_back(
+        {"TPDO2 of " + config_.name, bytes(layout_.slow), rate_Hz / layout_.slow.transmission_type});
+  if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo)
+    traffic.push_back({"temperature SDO of " + config_.name, static_cast<int>(kMaxCanBytes),
+                       2.0 / config_.temperature->period_s});
+  return traffic;
+}
+
+std::vector<std::string> Node::set_up(CanPort& port) {
+  canopen::SdoClient client(port, config_.node_id, config_.name);
+  const Found found = set_up_drive(client, config_, layout_);
+  mode_ = found.mode;
+  torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
+  initial_error_ = found.error_code;
+  setup_.end(true);
+  return found.report;
+}
+
+void Node::verify(CanPort& port) {
+  verify_drive(port, config_, layout_);
+}
+
+std::vector<std::string> Node::serve(CanPort& port) {
+  std::vector<std::string> messages;
+  if (setup_.begin()) {
+    try {
+      messages = set_up(port);
+      messages.push_back(config_.name + ": set up again");
+    } catch (const InputError& error) {
+      messages.emplace_back(error.what());
+      setup_.end(false);
+    }
+  }
+  if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo &&
+      setup_.now() == SetUpState::State::kReady)
+    read_temperature(port, messages);
+  return messages;
+}
+
+void Node::read_temperature(CanPort& port, std::vector<std::string>& messages) {
+  const std::int64_t now_ns = port.now_ns();
+  if (now_ns < temperature_due_ns_) return;
+  const TemperatureObject& object = *config_.temperature;
+  temperature_due_ns_ = now_ns + nanoseconds(object.period_s);
+  try {
+    canopen::SdoClient client(port, config_.node_id, config_.name);
+    sdo_temperature_.put(temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))),
+                         now_ns);
+    if (temperature_failed_) messages.push_back(config_.name + ": the temperature can be read again");
+    temperature_failed_ = false;
+  } catch (const InputError& error) {
+    if (!temperature_failed_) messages.emplace_back(error.what());
+    temperature_failed_ = true;
+  }
+}
+
+void Node::shut_down(CanPort& port) noexcept {
+  try {
+    canopen::SdoClient client(port, config_.node_id, config_.name, kShutDownTimeout_ns);
+    release_drive(client);
+  } catch (const std::exception&) {
+    // A drive that cannot be reached is disabled by its own supervision of our heartbeat.
+  }
+}
+
+}  // namespace strainwave::cia402

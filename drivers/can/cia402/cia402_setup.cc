@@ -1,0 +1,282 @@
+#include "drivers/can/cia402/cia402_setup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "drivers/can/cia402/cia402_description.h"
+#include "drivers/can/cia402/cia402_state.h"
+#include "drivers/can/hexadecimal.h"
+
+namespace strainwave::cia402 {
+
+namespace {
+
+using canopen::Entry;
+using canopen::NmtCommand;
+using canopen::PdoDirection;
+using canopen::SdoClient;
+using canopen::SdoWrite;
+
+// Communication profile, CiA 301.
+constexpr Entry kSyncIdentifier{0x1005, 0};
+constexpr Entry kSyncPeriod_us{0x1006, 0};
+constexpr Entry kEmergencyIdentifier{0x1014, 0};
+constexpr Entry kConsumerHeartbeat{0x1016, 1};
+constexpr Entry kProducerHeartbeat_ms{0x1017, 0};
+// Drive profile, CiA 402.
+constexpr Entry kAbortConnection{0x6007, 0};
+constexpr Entry kErrorCode{0x603F, 0};
+constexpr Entry kControlword{0x6040, 0};
+constexpr Entry kStatusword{0x6041, 0};
+constexpr Entry kQuickStopOption{0x605A, 0};
+constexpr Entry kMode{0x6060, 0};
+constexpr Entry kModeDisplay{0x6061, 0};
+constexpr Entry kTargetTorque{0x6071, 0};
+constexpr Entry kMaxTorque{0x6072, 0};
+constexpr Entry kRatedCurrent_mA{0x6075, 0};
+constexpr Entry kRatedTorque{0x6076, 0};
+constexpr Entry kInterpolationMantissa{0x60C2, 1};
+constexpr Entry kInterpolationExponent{0x60C2, 2};
+
+constexpr std::uint32_t kSyncProducerBit = 1U << 30U;
+constexpr std::uint32_t kTorqueModeBit = 1U << 3U;
+constexpr std::uint32_t kCyclicTorqueModeBit = 1U << 9U;
+constexpr int kPdosOfADrive = 4;
+
+constexpr std::int64_t kPoll_ns = 5'000'000;
+constexpr std::int64_t kModeWait_ns = 1'000'000'000;
+constexpr std::int64_t kDisableWait_ns = 500'000'000;
+/// SYNCs until a drive must have sent both of its TPDOs.
+constexpr int kVerifySyncs = 2 * 240;
+
+std::uint32_t number(SdoClient& client, Entry entry, std::size_t bytes = 4) {
+  return static_cast<std::uint32_t>(client.upload_number(entry, bytes));
+}
+
+/// Milliseconds of seconds, milliamperes of amperes.
+std::uint32_t thousandths(double value) {
+  return static_cast<std::uint32_t>(std::lround(value * 1e3));
+}
+
+[[noreturn]] void refuse(const SdoClient& client, const std::string& what) {
+  throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
+}
+
+void reset_communication(SdoClient& client, const DriveConfig& config) {
+  if (!client.reset_communication(std::llround(config.boot_timeout_s * 1e9)))
+    refuse(client, "no boot-up message within " + std::to_string(config.boot_timeout_s) +
+                       " s of the reset of its communication: check supply, node_id, bit rate and wiring; "
+                       "`strainwavectl can-scan` shows who answers");
+}
+
+void check_identity(SdoClient& client, const Identity& wanted, const Description& found) {
+  const auto compare = [&](const char* key, std::optional<std::uint32_t> want, std::uint32_t have) {
+    if (want && *want != have)
+      refuse(client, std::string(key) + " = " + hexadecimal(*want, 8) + " is wanted, the drive has " +
+                         hexadecimal(have, 8) + ": it is another drive than the configuration means (" +
+                         to_text(found) + ")");
+  };
+  compare("vendor_id", wanted.vendor_id, found.vendor_id);
+  compare("product_code", wanted.product_code, found.product_code);
+  compare("revision_number", wanted.revision_number, found.revision_number);
+  compare("serial_number", wanted.serial_number, found.serial_number);
+}
+
+OperationMode choose_mode(SdoClient& client, std::uint32_t supported) {
+  if ((supported & kCyclicTorqueModeBit) != 0) return OperationMode::kCyclicTorque;
+  if ((supported & kTorqueModeBit) != 0) return OperationMode::kTorque;
+  refuse(client, "supports neither cyclic synchronous torque (mode 10) nor torque (mode 4): 6502h = " +
+                     hexadecimal(supported, 8) + " (" + modes_text(supported) +
+                     "); it cannot be driven by torque");
+}
+
+void configure_pdos(SdoClient& client, const PdoLayout& layout) {
+  for (const canopen::Pdo* pdo : {&layout.command, &layout.fast, &layout.slow}) {
+    const std::uint32_t old_identifier = number(client, pdo->communication(1));
+    for (const SdoWrite& write : canopen::pdo_configuration(*pdo, client.node(), old_identifier))
+      client.write_verified(write);
+  }
+}
+
+// Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it.
+void switch_off_other_pdos(SdoClient& client) {
+  for (const auto& [direction, first_unused] :
+       {std::pair{PdoDirection::kReceive, 2}, std::pair{PdoDirection::kTransmit, 3}}) {
+    for (int pdo = first_unused; pdo <= kPdosOfADrive; ++pdo) {
+      const Entry identifier = canopen::pdo_switched_off(direction, pdo, 0).entry;
+      const auto old_identifier = client.upload_if_there(identifier, 4);
+      if (!old_identifier || (*old_identifier & canopen::kPdoInvalid) != 0) continue;
+      client.write_verified(
+          canopen::pdo_switched_off(direction, pdo, static_cast<std::uint32_t>(*old_identifier)));
+    }
+  }
+}
+
+// The drive must notice when we are gone, and must do something about it: nothing else protects then.
+void configure_supervision(SdoClient& client, const DriveConfig& config) {
+  const std::uint32_t consumer =
+      static_cast<std::uint32_t>(config.our_node_id) << 16U | thousandths(config.our_heartbeat_timeout_s);
+  client.write_verified({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
+  client.write_verified(
+      {kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
+  client.write_verified({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2, ~0U,
+                         "reaction to a lost connection"});
+  if (config.quick_stop_option)
+    client.write_verified({kQuickStopOption, static_cast<std::uint16_t>(*config.quick_stop_option), 2, ~0U,
+                           "reaction to a quick stop"});
+  const std::uint32_t wanted = canopen::cob_id(canopen::CobId::kEmergency, client.node());
+  const auto emergency = client.upload_if_there(kEmergencyIdentifier, 4);
+  if (emergency && *emergency != wanted)
+    client.write_verified({kEmergencyIdentifier, wanted, 4, ~0U, "identifier of emergency messages"});
+}
+
+/// A period as a number of one byte and a power of ten of seconds.
+void configure_period(SdoClient& client, const DriveConfig& config) {
+  const auto period_us = static_cast<std::uint32_t>(std::lround(config.period_s * 1e6));
+  if (client.upload_if_there(kSyncPeriod_us, 4))
+    client.write_verified({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
+  if (config.produces_sync) {
+    const std::uint32_t sync = canopen::cob_id(canopen::CobId::kSync);
+    client.write_verified({kSyncIdentifier, sync | kSyncProducerBit, 4, ~0U, "production of SYNC"});
+  }
+  if (!client.upload_if_there(kInterpolationMantissa, 1)) return;
+  std::uint32_t mantissa = period_us;
+  int exponent = -6;
+  for (; mantissa % 10 == 0 && exponent < 0; ++exponent) mantissa /= 10;
+  if (mantissa > UINT8_MAX)
+    refuse(client, "a period of " + std::to_string(period_us) +
+                       " us cannot be written to 60C2h: choose a rounder period_s");
+  client.write_verified({kInterpolationMantissa, mantissa, 1, ~0U, "interpolation period"});
+  client.write_verified({kInterpolationExponent, static_cast<std::uint8_t>(exponent), 1, ~0U,
+                         "unit of the interpolation period"});
+}
+
+double configure_torque(SdoClient& client, const DriveConfig& config) {
+  const auto current_mA = client.upload_if_there(kRatedCurrent_mA, 4);
+  if (!current_mA && config.rated_current_A <= 0.0)
+    refuse(client,
+           "has no rated current (6075h) to check the unit of its torque with: give motor.rated_current_A");
+  const RatedValues rated{number(client, kRatedTorque), current_mA ? static_cast<std::uint32_t>(*current_mA)
+                                                                   : thousandths(config.rated_current_A)};
+  const double rated_Nm =
+      rated_joint_torque_Nm(rated, config.units, client.who() + ": node " + std::to_string(client.node()));
+  const TorqueScale scale(rated_Nm, config.units.direction, config.torque_limit_Nm);
+  if (scale.limit_per_mille() == 0)
+    refuse(client, "torque_Nm = " + std::to_string(config.torque_limit_Nm) +
+                       " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
+                       " N.m at the joint, which is the drive's step");
+  client.write_verified({kMaxTorque, scale.limit_per_mille(), 2, ~0U, "torque limit"});
+  return rated_Nm;
+}
+
+void set_mode(SdoClient& client, OperationMode mode) {
+  const auto wanted = static_cast<std::uint8_t>(mode);
+  client.download(kMode, wanted, 1);
+  const std::int64_t deadline_ns = client.port().now_ns() + kModeWait_ns;
+  std::uint32_t shown = number(client, kModeDisplay, 1);
+  while (shown != wanted && client.port().now_ns() < deadline_ns) {
+    (void)client.port().wait(kPoll_ns);
+    shown = number(client, kModeDisplay, 1);
+  }
+  if (shown != wanted)
+    refuse(client, "mode of operation " + std::to_string(wanted) + " was ordered, 6061h still shows " +
+                       std::to_string(static_cast<std::int8_t>(shown)));
+}
+
+/// No torque, whatever the drive did before: another daemon may have died with it enabled.
+void take_torque_off(SdoClient& client) {
+  client.download(kTargetTorque, 0, 2);
+  client.download(kControlword, kDisableVoltage, 2);
+  const std::int64_t deadline_ns = client.port().now_ns() + kDisableWait_ns;
+  const auto has_torque = [&] {
+    const PowerState state = power_state_of(static_cast<std::uint16_t>(number(client, kStatusword, 2)));
+    return state == PowerState::kOperationEnabled || state == PowerState::kQuickStopActive ||
+           state == PowerState::kFaultReaction;
+  };
+  while (has_torque()) {
+    if (client.port().now_ns() >= deadline_ns)
+      refuse(client, "does not leave operation when the voltage is ordered off");
+    (void)client.port().wait(kPoll_ns);
+  }
+}
+
+void report_found(Found& found, const Description& description, const DriveConfig& config) {
+  std::ostringstream text;
+  text << config.name << ": node " << static_cast<int>(config.node_id) << ", " << to_text(description)
+       << ", mode " << static_cast<int>(found.mode)
+       << (found.mode == OperationMode::kCyclicTorque ? " (CST)" : " (TQ)") << ", rated "
+       << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm << " N.m";
+  found.report.push_back(text.str());
+  if (power_state_of(found.statusword) == PowerState::kFault)
+    found.report.push_back(config.name + ": the drive is in fault, " +
+                           canopen::drive_error_text(found.error_code) +
+                           "; enable shows it, clear-fault resets it");
+}
+
+}  // namespace
+
+Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout& layout) {
+  Found found;
+  reset_communication(client, config);
+  const Description description = describe(client);
+  if (!is_servo_drive(description))
+    refuse(client, "is no CiA 402 drive: device type 1000h = " + hexadecimal(description.device_type, 8) +
+                       ", the profile must be 0192h");
+  check_identity(client, config.identity, description);
+  found.mode = choose_mode(client, description.supported_modes);
+  take_torque_off(client);
+  configure_pdos(client, layout);
+  switch_off_other_pdos(client);
+  configure_supervision(client, config);
+  found.rated_torque_Nm = configure_torque(client, config);
+  configure_period(client, config);
+  set_mode(client, found.mode);
+  found.statusword = static_cast<std::uint16_t>(number(client, kStatusword, 2));
+  if (power_state_of(found.statusword) == PowerState::kFault)
+    found.error_code = static_cast<std::uint16_t>(client.upload_if_there(kErrorCode, 2).value_or(0));
+  report_found(found, description, config);
+  client.send_nmt(NmtCommand::kStart);
+  return found;
+}
+
+void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
+  const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
+  const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s * 1e9));
+  bool fast_seen = false;
+  bool slow_seen = layout.slow.objects.empty();
+  std::vector<ReceivedFrame> frames(16);
+  for (int sync = 0; sync < kVerifySyncs && !(fast_seen && slow_seen); ++sync) {
+    if (config.daemon_sends_sync) (void)port.send(canopen::sync_frame());
+    const std::int64_t deadline_ns = port.now_ns() + period_ns;
+    do {
+      const ReceiveResult result = port.receive(frames);
+      if (result.link != CanLink::kUp) throw InputError(who + "the CAN interface went down");
+      for (std::size_t i = 0; i < result.count; ++i) {
+        const CanFrame& frame = frames[i].frame;
+        for (const auto& [pdo, seen] :
+             {std::pair{&layout.fast, &fast_seen}, std::pair{&layout.slow, &slow_seen}}) {
+          if (frame.id != pdo->cob_id(config.node_id) || pdo->objects.empty()) continue;
+          if (frame.size != pdo->bytes())
+            throw InputError(who + "TPDO" + std::to_string(pdo->number) + " has " +
+                             std::to_string(frame.size) + " bytes instead of the " +
+                             std::to_string(pdo->bytes()) + " that were mapped");
+          *seen = true;
+        }
+      }
+      if (result.count == 0) (void)port.wait(deadline_ns - port.now_ns());
+    } while (port.now_ns() < deadline_ns);
+  }
+  if (fast_seen && slow_seen) return;
+  throw InputError(
+      who + "no TPDO" + (fast_seen ? "2" : "1") + " came in " + std::to_string(kVerifySyncs) + " periods: " +
+      (config.daemon_sends_sync ? "the drive does not answer our SYNC" : "is the SYNC producer running?"));
+}
+
+void release_drive(SdoClient& client) {
+  take_torque_off(client);
+  client.download(kConsumerHeartbeat, 0, 4);
+  client.send_nmt(NmtCommand::kEnterPreOperational);
+}
+
+}  // namespace strainwave::cia402

@@ -1,0 +1,96 @@
+#include "drivers/can/cia402/cia402_units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "base/input_error.h"
+
+namespace strainwave::cia402 {
+
+namespace {
+
+/// Between rms and peak amperes lie 1.41; gear losses and rounding add a little.
+constexpr double kTolerance = 1.6;
+constexpr double kMillinewtonmetre_Nm = 1e-3;
+constexpr double kMicronewtonmetre_Nm = 1e-6;
+constexpr double kPerMille = 1000.0;
+
+bool fits(double a, double b) {
+  return a > 0.0 && b > 0.0 && a < b * kTolerance && b < a * kTolerance;
+}
+
+double rated_motor_Nm(const RatedValues& rated, double unit_Nm, bool at_joint, double gear_ratio) {
+  return rated.torque * unit_Nm / (at_joint ? gear_ratio : 1.0);
+}
+
+std::string setting(double unit_Nm, bool at_joint) {
+  return std::string("rated_torque_unit = \"") + (unit_Nm == kMillinewtonmetre_Nm ? "mNm" : "uNm") +
+         "\" with torque_side = \"" + (at_joint ? "joint" : "motor") + "\"";
+}
+
+/// The settings that agree with the current, for the message.
+std::string fitting_settings(const RatedValues& rated, const UnitConfig& units, double expected_Nm) {
+  std::string text;
+  for (const double unit_Nm : {kMillinewtonmetre_Nm, kMicronewtonmetre_Nm})
+    for (const bool at_joint : {false, true})
+      if (fits(rated_motor_Nm(rated, unit_Nm, at_joint, units.gear_ratio), expected_Nm))
+        text += (text.empty() ? "" : ", or ") + setting(unit_Nm, at_joint);
+  return text;
+}
+
+}  // namespace
+
+double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, const std::string& where) {
+  const double motor_Nm =
+      rated_motor_Nm(rated, units.rated_torque_unit_Nm, units.torque_at_joint, units.gear_ratio);
+  const double expected_Nm = rated.current_mA * 1e-3 * units.torque_constant_Nm_A;
+  if (fits(motor_Nm, expected_Nm)) return motor_Nm * units.gear_ratio;
+  std::ostringstream text;
+  text << where << ": rated torque 6076h = " << rated.torque << " is " << motor_Nm << " N.m at the motor by "
+       << setting(units.rated_torque_unit_Nm, units.torque_at_joint)
+       << ", but rated current 6075h = " << rated.current_mA
+       << " mA times torque_constant_Nm_A = " << units.torque_constant_Nm_A << " is " << expected_Nm
+       << " N.m: ";
+  const std::string fitting = fitting_settings(rated, units, expected_Nm);
+  if (fitting.empty())
+    text << "no unit makes them agree; check 6075h and 6076h against the motor's data sheet, and the torque "
+            "constant";
+  else
+    text << fitting << " would agree; check which it is before any torque is applied";
+  throw InputError(text.str());
+}
+
+TorqueScale::TorqueScale(double rated_Nm, int direction, double limit_Nm)
+    : unit_Nm_(direction * rated_Nm / kPerMille) {
+  const double limit = std::floor(limit_Nm / rated_Nm * kPerMille + 1e-9);
+  limit_ = static_cast<std::uint16_t>(std::clamp(limit, 0.0, static_cast<double>(INT16_MAX)));
+}
+
+std::int16_t TorqueScale::per_mille(double joint_torque_Nm) const noexcept {
+  const double wanted = joint_torque_Nm / unit_Nm_;
+  if (!std::isfinite(wanted)) return 0;
+  const double limit = limit_;
+  return static_cast<std::int16_t>(std::lround(std::clamp(wanted, -limit, limit)));
+}
+
+PositionScale::PositionScale(const UnitConfig& units)
+    : rad_per_count_(units.direction * 2.0 * std::numbers::pi / units.counts_per_output_revolution),
+      offset_rad_(units.position_offset_rad),
+      velocity_rad_s_per_unit_(units.direction * units.velocity_rad_s_per_unit) {}
+
+double PositionScale::position_rad(std::int32_t counts) noexcept {
+  if (!started_) {
+    total_counts_ = counts;
+    started_ = true;
+  } else {
+    // Modulo 2^32: right whichever way the counter wrapped.
+    total_counts_ += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) -
+                                               static_cast<std::uint32_t>(last_counts_));
+  }
+  last_counts_ = counts;
+  return rad_per_count_ * static_cast<double>(total_counts_) + offset_rad_;
+}
+
+}  // namespace strainwave::cia402

@@ -1,0 +1,278 @@
+#include "drivers/can/odrive/odrive_node.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/input_error.h"
+#include "control/units.h"
+#include "drivers/can/can_detail.h"
+#include "drivers/can/odrive/odrive_setup.h"
+
+namespace strainwave::odrive {
+
+namespace {
+
+/// An order to change the state is repeated this often until the heartbeat shows that it was obeyed.
+constexpr std::int64_t kRepeatStateAfter_ns = 50'000'000;
+
+ActuatorFault fault_of(std::uint32_t errors) noexcept {
+  if ((errors & kEstopRequested) != 0) return ActuatorFault::kEmergencyStop;
+  if ((errors & (kOverVoltage | kUnderVoltage)) != 0) return ActuatorFault::kPowerLost;
+  return ActuatorFault::kDriveFault;
+}
+
+constexpr std::uint32_t our_detail(CanDetail detail, std::uint32_t value = 0) noexcept {
+  return kOurDetail | drive_error_of(detail, value);
+}
+
+}  // namespace
+
+std::string drive_error_text(std::uint32_t drive_error) {
+  if ((drive_error & kOurDetail) == 0) return error_text(drive_error);
+  const std::uint32_t detail = drive_error & ~kOurDetail;
+  switch (detail_of(detail)) {
+    case CanDetail::kEnableStep:
+      return "the axis did not reach closed loop; it is in state " + std::to_string(detail_value_of(detail));
+    case CanDetail::kLeftOperation:
+      return "the axis left closed loop by itself, for state " + std::to_string(detail_value_of(detail));
+    default:
+      return can_detail_text(detail);
+  }
+}
+
+Node::Node(const DriveConfig& config)
+    : config_(config),
+      heartbeat_timeout_ns_(nanoseconds(config.heartbeat_timeout_s)),
+      arm_timeout_ns_(nanoseconds(config.arm_timeout_s)) {}
+
+std::vector<std::uint32_t> Node::receive_ids() const {
+  std::vector<std::uint32_t> ids;
+  for (const Command command : {Command::kHeartbeat, Command::kEstimates, Command::kTemperatures})
+    ids.push_back(can_id(command, config_.node_id));
+  return ids;
+}
+
+std::vector<std::uint32_t> Node::transmit_ids() const {
+  std::vector<std::uint32_t> ids;
+  for (const Command command :
+       {Command::kSetTorque, Command::kSetAxisState, Command::kSetControllerMode, Command::kClearErrors})
+    ids.push_back(can_id(command, config_.node_id));
+  return ids;
+}
+
+std::vector<std::uint32_t> Node::setup_ids() const {
+  std::vector<std::uint32_t> ids = receive_ids();
+  for (const Command command : {Command::kVersion, Command::kParameter})
+    ids.push_back(can_id(command, config_.node_id));
+  return ids;
+}
+
+std::vector<FrameTraffic> Node::traffic() const {
+  const double rate_Hz = 1.0 / config_.period_s;
+  std::vector<FrameTraffic> traffic{{"torque of " + config_.name, 4, rate_Hz},
+                                    {"encoder of " + config_.name, 8, rate_Hz},
+                                    {"heartbeat of " + config_.name, 8, 1.0 / config_.heartbeat_period_s}};
+  if (config_.temperature != TemperatureSource::kNone)
+    traffic.push_back({"temperature of " + config_.name, 8, 1.0 / config_.temperature_period_s});
+  return traffic;
+}
+
+std::vector<std::string> Node::set_up(CanPort& port) {
+  std::vector<std::string> report = check_axis(port, config_);
+  release_axis(port, config_);
+  setup_.end(true);
+  return report;
+}
+
+void Node::verify(CanPort& port) {
+  verify_axis(port, config_);
+}
+
+std::vector<std::string> Node::serve(CanPort& port) {
+  if (!setup_.begin()) return {};
+  try {
+    // Orders are the loop's alone: it would take ours, from another socket, for somebody else's.
+    std::vector<std::string> messages = check_axis(port, config_);
+    messages.push_back(config_.name + ": set up again");
+    setup_.end(true);
+    return messages;
+  } catch (const InputError& error) {
+    setup_.end(false);
+    return {error.what()};
+  }
+}
+
+void Node::shut_down(CanPort& port) noexcept {
+  try {
+    release_axis(port, config_);
+  } catch (const std::exception&) {
+    // A drive that cannot be reached is stopped by its watchdog.
+  }
+}
+
+void Node::begin_cycle(std::int64_t now_ns) noexcept {
+  now_ns_ = now_ns;
+  fresh_ = false;
+  const SetUpState::State setup = setup_.now();
+  if (setup == SetUpState::State::kReady && !setup_.ready()) forget_drive();
+  setup_.see(setup);
+}
+
+void Node::forget_drive() noexcept {
+  heartbeat_ = {};
+  heartbeat_ns_ = now_ns_;
+  missed_ = 0;
+  has_heartbeat_ = has_temperature_ = was_armed_ = stop_ordered_ = false;
+}
+
+void Node::receive(const CanFrame& frame) noexcept {
+  if (!setup_.ready()) return;
+  const auto is = [&](Command command) { return frame.id == can_id(command, config_.node_id); };
+  if (is(Command::kEstimates)) {
+    if (const auto estimates = decode_estimates(frame)) {
+      position_rad_ = joint_position_rad(config_.units, estimates->position_turns);
+      velocity_rad_s_ = joint_rad(config_.units, estimates->velocity_turns_s);
+      fresh_ = true;
+      return;
+    }
+  } else if (is(Command::kHeartbeat)) {
+    if (const auto heartbeat = decode_heartbeat(frame)) {
+      heartbeat_ = *heartbeat;
+      heartbeat_ns_ = now_ns_;
+      has_heartbeat_ = true;
+      return;
+    }
+  } else if (const auto temperatures = decode_temperatures(frame)) {
+    const auto temperature_C = joint_temperature_C(config_.temperature, *temperatures);
+    if (!temperature_C) return;
+    temperature_C_ = *temperature_C;
+    temperature_ns_ = now_ns_;
+    has_temperature_ = true;
+    return;
+  }
+  ++malformed_;
+}
+
+void Node::note_bus(const NodeFault& trouble) noexcept {
+  bus_trouble_ = trouble;
+  // The bus's details and the drive's error bits share one number.
+  if (trouble.fault != ActuatorFault::kNone) bus_trouble_.drive_error |= kOurDetail;
+}
+
+ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
+  supervise();
+  const NodeFault present = present_trouble();
+  const NodeFault& shown = latched_.fault != ActuatorFault::kNone ? latched_ : present;
+  ActuatorReading reading;
+  reading.joint_position_rad = position_rad_;
+  reading.joint_velocity_rad_s = velocity_rad_s_;
+  reading.has_position = fresh_;
+  reading.torque_applied_Nm = closed_loop() ? torque_sent_Nm_ : 0.0;
+  reading.has_temperature = has_temperature_;
+  reading.temperature_C = temperature_C_;
+  reading.temperature_age_ns = now_ns_ - temperature_ns_;
+  if (shown.fault != ActuatorFault::kNone && command_.enable)
+    reading.drive_state = DriveState::kFault;
+  else if (command_.enable)
+    reading.drive_state =
+        closed_loop() && fresh_ && !stop_ordered_ ? DriveState::kEnabled : DriveState::kEnabling;
+  else
+    reading.drive_state = closed_loop() ? DriveState::kEnabled : DriveState::kDisabled;
+  reading.fault = shown.fault;
+  reading.drive_error = shown.fault != ActuatorFault::kNone ? shown.drive_error : heartbeat_.errors;
+  return reading;
+}
+
+void Node::supervise() noexcept {
+  missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.fault_after + 1);
+  if (!command_.enable) return;
+  // Nobody fed the idle drive before this loop began; being enabled is the operator's order to go on from
+  // there.
+  if (heartbeat_.errors == kWatchdogExpired && !was_armed_ && !closed_loop()) clear_ordered_ = true;
+  latch(present_trouble());
+  latch(use_trouble());
+  was_armed_ = was_armed_ || closed_loop();
+}
+
+// What holds as long as its cause lasts, in use or not.
+NodeFault Node::present_trouble() const noexcept {
+  if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
+  if (setup_.failed()) return {ActuatorFault::kLinkLost, our_detail(CanDetail::kSetupFailed)};
+  if (!setup_.ready()) return {};
+  if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)
+    return {ActuatorFault::kLinkLost, our_detail(CanDetail::kHeartbeatMissing)};
+  return {};
+}
+
+// What is a fault only of a drive that is in use.
+NodeFault Node::use_trouble() const noexcept {
+  const auto state = static_cast<std::uint32_t>(heartbeat_.state);
+  if (heartbeat_.errors != 0 && !clear_ordered_) return {fault_of(heartbeat_.errors), heartbeat_.errors};
+  if (missed_ > config_.fault_after)
+    return {ActuatorFault::kReadFailed, our_detail(CanDetail::kPositionMissing)};
+  if (was_armed_ && !closed_loop())
+    return {ActuatorFault::kDriveFault, our_detail(CanDetail::kLeftOperation, state)};
+  if (!was_armed_ && enabling_since_ns_ != 0 && now_ns_ - enabling_since_ns_ > arm_timeout_ns_)
+    return {ActuatorFault::kDriveFault, our_detail(CanDetail::kEnableStep, state)};
+  return {};
+}
+
+void Node::latch(const NodeFault& fault) noexcept {
+  if (latched_.fault == ActuatorFault::kNone) latched_ = fault;
+}
+
+void Node::write(const ActuatorCommand& command) noexcept {
+  if (command.enable && !command_.enable) {
+    enabling_since_ns_ = now_ns_;
+    was_armed_ = false;
+  }
+  command_ = command;
+  if (command_.enable && !std::isfinite(command_.torque_Nm))
+    latch({ActuatorFault::kWriteRefused, our_detail(CanDetail::kNone)});
+}
+
+bool Node::wants_torque() const noexcept {
+  return command_.enable && !stop_ordered_ && latched_.fault == ActuatorFault::kNone;
+}
+
+void Node::transmit(CanTransmitter& bus) noexcept {
+  if (!setup_.ready()) return;
+  lead_state(bus);
+  const bool driven = wants_torque() && closed_loop() && missed_ <= config_.zero_torque_after;
+  torque_sent_Nm_ =
+      driven ? std::clamp(command_.torque_Nm, -config_.torque_limit_Nm, config_.torque_limit_Nm) : 0.0;
+  // Sent in every period, enabled or not: it feeds the drive's watchdog.
+  (void)bus.send(torque_frame(config_.node_id,
+                              drive_torque_Nm(config_.units, config_.torque_limit_Nm, torque_sent_Nm_)));
+}
+
+// Closed loop while torque is wanted, idle otherwise; at most one order in a while, since the heartbeat
+// answers slowly.
+void Node::lead_state(CanTransmitter& bus) noexcept {
+  if (clear_ordered_ && bus.send(clear_errors_frame(config_.node_id))) {
+    clear_ordered_ = false;
+    heartbeat_.errors = 0;  // the next heartbeat tells those that stay
+  }
+  if (stop_ordered_ && has_heartbeat_ && heartbeat_ns_ == now_ns_ && !closed_loop()) stop_ordered_ = false;
+  const bool wanted = wants_torque();
+  if (has_heartbeat_ && closed_loop() == wanted) return;
+  if (wanted && was_armed_) return;  // it left by itself, which is a fault
+  // Taking the torque off does not wait.
+  const bool urgent = !wanted && torque_sent_Nm_ != 0.0;
+  if (!urgent && now_ns_ - state_sent_ns_ < kRepeatStateAfter_ns) return;
+  state_sent_ns_ = now_ns_;
+  if (wanted) (void)bus.send(torque_mode_frame(config_.node_id));
+  (void)bus.send(axis_state_frame(config_.node_id, wanted ? AxisState::kClosedLoop : AxisState::kIdle));
+}
+
+void Node::clear_fault() noexcept {
+  const bool was_away = latched_.fault == ActuatorFault::kLinkLost || setup_.failed();
+  latched_ = {};
+  clear_ordered_ = true;
+  was_armed_ = false;
+  if (!was_away) return;
+  // Whatever answers now may be another drive, or the same one with other settings.
+  setup_.request();
+}
+
+}  // namespace strainwave::odrive

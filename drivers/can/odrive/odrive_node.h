@@ -1,0 +1,89 @@
+// One ODrive axis in the loop, by CANSimple: its frames in, its state, its torque out, and every way in which
+// it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in
+// cia402_node.h.
+//
+// CANSimple has no SYNC and no supervision of the host but the drive's watchdog, which each torque frame
+// feeds. It has no boot-up message either: a drive that restarted shows itself by heartbeats that stay away
+// and by having left closed loop. Its controller mode is set anew whenever it is enabled.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers/can/can_node.h"
+#include "drivers/can/odrive/odrive_config.h"
+#include "drivers/can/set_up_state.h"
+
+namespace strainwave::odrive {
+
+/// ActuatorReading::drive_error of these drives: an axis error as the drive sends it, or with the highest bit
+/// a detail of can_detail.h.
+inline constexpr std::uint32_t kOurDetail = 1U << 31U;
+std::string drive_error_text(std::uint32_t drive_error);
+
+class Node final : public CanNode {
+ public:
+  explicit Node(const DriveConfig& config);
+
+  const std::string& name() const noexcept override { return config_.name; }
+  std::vector<std::uint32_t> receive_ids() const override;
+  std::vector<std::uint32_t> transmit_ids() const override;
+  std::vector<std::uint32_t> setup_ids() const override;
+  std::vector<FrameTraffic> traffic() const override;
+  std::vector<std::string> set_up(CanPort& port) override;
+  void verify(CanPort& port) override;
+  std::vector<std::string> serve(CanPort& port) override;
+  void shut_down(CanPort& port) noexcept override;
+
+  void begin_cycle(std::int64_t now_ns) noexcept override;
+  void receive(const CanFrame& frame) noexcept override;
+  void note_bus(const NodeFault& trouble) noexcept override;
+  void transmit(CanTransmitter& bus) noexcept override;
+
+  ActuatorReading read(std::int64_t now_ns) noexcept override;
+  void write(const ActuatorCommand& command) noexcept override;
+  void stop() noexcept override { stop_ordered_ = true; }
+  void clear_fault() noexcept override;
+
+  std::int64_t malformed_frames() const noexcept { return malformed_; }
+
+ private:
+  bool closed_loop() const noexcept { return heartbeat_.state == AxisState::kClosedLoop; }
+  bool wants_torque() const noexcept;
+  void forget_drive() noexcept;
+  void supervise() noexcept;
+  NodeFault present_trouble() const noexcept;
+  NodeFault use_trouble() const noexcept;
+  void latch(const NodeFault& fault) noexcept;
+  void lead_state(CanTransmitter& bus) noexcept;
+
+  DriveConfig config_;
+  std::int64_t heartbeat_timeout_ns_;
+  std::int64_t arm_timeout_ns_;
+  SetUpState setup_;
+
+  // The loop alone.
+  std::int64_t now_ns_ = 0;
+  std::int64_t heartbeat_ns_ = 0;
+  std::int64_t temperature_ns_ = 0;
+  std::int64_t enabling_since_ns_ = 0;
+  std::int64_t state_sent_ns_ = 0;
+  std::int64_t malformed_ = 0;
+  Heartbeat heartbeat_;
+  double position_rad_ = 0.0;
+  double velocity_rad_s_ = 0.0;
+  double temperature_C_ = 0.0;
+  double torque_sent_Nm_ = 0.0;
+  int missed_ = 0;
+  NodeFault bus_trouble_;
+  NodeFault latched_;
+  ActuatorCommand command_;
+  bool fresh_ = false;
+  bool has_heartbeat_ = false;
+  bool has_temperature_ = false;
+  bool was_armed_ = false;  ///< closed loop was reached since it was asked for
+  bool stop_ordered_ = false;
+  bool clear_ordered_ = false;
+};
+
+}  // namespace strainwave::odrive

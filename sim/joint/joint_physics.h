@@ -1,0 +1,57 @@
+// The joint as a mechanical system: one inertia, friction with true stiction, a motor with limits. This is
+// the plant of every closed-loop test and it is not the controller's model: friction is the Stribeck curve
+// itself. Joint side, SI. Real-time safe: advance() allocates nothing and throws nothing.
+//
+//   w != 0:  J dw/dt = Tm(w) - load - F(w, T),   d(theta)/dt = w        F: control/friction.h, Zhao (2006),
+//   (2-1)..(2-10) w  = 0:  stuck while |Tm(0) - load| <= Fs(T), else the joint breaks away in the direction
+//   of Tm(0) - load
+//
+// Between events: classical Runge-Kutta of order 4 with friction continued smoothly through w = 0. For
+// constant torque the velocity obeys a scalar autonomous equation, so it is monotone: a step holds at most
+// one change of sign. The change is the root of the step's cubic dense output, found to rounding; there the
+// joint is at rest, and only then it stays stuck or breaks away for the remaining time. The sign is never
+// smoothed.
+#pragma once
+
+#include "control/friction.h"
+#include "sim/joint/motor.h"
+
+namespace strainwave {
+
+/// What does not change during a run.
+struct JointParameters {
+  double inertia_kgm2 = 0.0;           ///< J > 0, motor and load seen at the joint
+  StribeckShape stribeck;              ///< shape over velocity
+  ExponentialTemperatureLaw friction;  ///< size over temperature
+};
+
+/// Where the joint is. stuck implies velocity_rad_s == 0.
+struct JointState {
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  bool stuck = true;
+};
+
+/// What acts on the joint during one period; all constant over it.
+struct JointInput {
+  double torque_Nm = 0.0;       ///< commanded motor torque
+  double load_torque_Nm = 0.0;  ///< external torque; positive opposes positive motor torque
+  FrictionParameters friction;  ///< at this period's temperature
+  TorqueEnvelope motor;         ///< what the motor can deliver
+};
+
+/// Advances `state` by `duration_s` in `substeps` >= 1 equal steps.
+void advance(JointState& state, const JointParameters& joint, const JointInput& input, double duration_s,
+             int substeps) noexcept;
+
+/// Acceleration in rad/s^2 of a joint that moves in `direction` (+1 or -1) at `velocity_rad_s`. Friction is
+/// continued smoothly to velocities of the other sign, and is Fs at rest.
+double moving_acceleration_rad_s2(const JointParameters& joint, const JointInput& input, double direction,
+                                  double velocity_rad_s) noexcept;
+
+/// Kinetic energy in J.
+constexpr double kinetic_energy(const JointParameters& joint, const JointState& state) noexcept {
+  return 0.5 * joint.inertia_kgm2 * state.velocity_rad_s * state.velocity_rad_s;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,143 @@
+#include "sim/joint/time_profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/input_error.h"
+#include "base/csv.h"
+
+namespace strainwave {
+
+namespace {
+
+double checked(double value, const ProfileQuantity& quantity, const std::string& where) {
+  if (!(value >= quantity.min && value <= quantity.max))
+    throw InputError(
+        where, quantity.key, std::to_string(value),
+        "must be in [" + std::to_string(quantity.min) + ", " + std::to_string(quantity.max) + "]");
+  return value;
+}
+
+void require(bool valid, const ProfileQuantity& quantity, const char* key, double value,
+             const char* allowed) {
+  if (!valid) throw InputError("profile of " + quantity.key, key, std::to_string(value), allowed);
+}
+
+std::string place(const ProfileQuantity& quantity) {
+  return "profile of " + quantity.key;
+}
+
+}  // namespace
+
+TimeProfile TimeProfile::constant(double value, const ProfileQuantity& quantity) {
+  TimeProfile profile;
+  profile.base_ = checked(value, quantity, place(quantity));
+  return profile;
+}
+
+TimeProfile TimeProfile::steps(double start, double rise, double interval_s, double count,
+                               const ProfileQuantity& quantity) {
+  require(std::isfinite(interval_s) && interval_s > 0.0, quantity, "interval_s", interval_s,
+          "must be finite and > 0");
+  require(std::isfinite(count) && count >= 1.0 && count == std::floor(count), quantity, "count", count,
+          "must be a whole number >= 1");
+  TimeProfile profile;
+  profile.kind_ = Kind::kSteps;
+  profile.base_ = checked(start, quantity, place(quantity));
+  profile.change_ = rise;
+  profile.rate_ = interval_s;
+  profile.count_ = count;
+  checked(start + rise * count, quantity, place(quantity));
+  return profile;
+}
+
+TimeProfile TimeProfile::square(double first, double second, double interval_s,
+                                const ProfileQuantity& quantity) {
+  require(std::isfinite(interval_s) && interval_s > 0.0, quantity, "interval_s", interval_s,
+          "must be finite and > 0");
+  TimeProfile profile;
+  profile.kind_ = Kind::kSquare;
+  profile.base_ = checked(first, quantity, place(quantity));
+  profile.change_ = checked(second, quantity, place(quantity)) - first;
+  profile.rate_ = interval_s;
+  return profile;
+}
+
+TimeProfile TimeProfile::sine(double mean, double amplitude, double angular_frequency_rad_s,
+                              const ProfileQuantity& quantity) {
+  require(std::isfinite(angular_frequency_rad_s), quantity, "angular_frequency_rad_s",
+          angular_frequency_rad_s, "must be finite");
+  TimeProfile profile;
+  profile.kind_ = Kind::kSine;
+  profile.base_ = mean;
+  profile.change_ = amplitude;
+  profile.rate_ = angular_frequency_rad_s;
+  checked(mean - std::abs(amplitude), quantity, place(quantity));
+  checked(mean + std::abs(amplitude), quantity, place(quantity));
+  return profile;
+}
+
+TimeProfile TimeProfile::from_csv(const std::filesystem::path& path, bool hold,
+                                  const ProfileQuantity& quantity) {
+  TimeProfile profile;
+  profile.kind_ = hold ? Kind::kHold : Kind::kLines;
+  for (const CsvRow& row : read_csv(path, {"time_s", quantity.key})) {
+    const std::string where = path.string() + ":" + std::to_string(row.line);
+    if (!profile.points_.empty() && row.values[0] <= profile.points_.back().time_s)
+      throw InputError(where, "time_s", std::to_string(row.values[0]),
+                       "must be greater than in the row before");
+    profile.points_.push_back({row.values[0], checked(row.values[1], quantity, where)});
+  }
+  return profile;
+}
+
+TimeProfile TimeProfile::parse(std::string_view text, const ProfileQuantity& quantity) {
+  const auto colon = text.find(':');
+  const std::string_view kind = text.substr(0, colon);
+  const std::string_view rest = colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
+  if ((kind == "csv" || kind == "hold") && !rest.empty()) return from_csv(rest, kind == "hold", quantity);
+  const auto fields = split(rest, ',');
+  const auto number = [&](std::size_t i) {
+    return parse_number(fields[i], place(quantity), std::string(text));
+  };
+  if (kind == "constant" && fields.size() == 1) return constant(number(0), quantity);
+  if (kind == "steps" && fields.size() == 4)
+    return steps(number(0), number(1), number(2), number(3), quantity);
+  if (kind == "square" && fields.size() == 3) return square(number(0), number(1), number(2), quantity);
+  if (kind == "sine" && fields.size() == 3) return sine(number(0), number(1), number(2), quantity);
+  throw InputError(place(quantity), "text", "'" + std::string(text) + "'",
+                   "must be constant:VALUE, steps:START,RISE,INTERVAL_S,COUNT, "
+                   "square:FIRST,SECOND,INTERVAL_S, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or "
+                   "hold:FILE");
+}
+
+double TimeProfile::at(double time_s) const noexcept {
+  // A period that does not divide the interval exactly must not step one sample late.
+  constexpr double kRounding = 1e-9;
+  switch (kind_) {
+    case Kind::kSteps:
+      return base_ + change_ * std::clamp(std::floor(time_s / rate_ + kRounding), 0.0, count_);
+    case Kind::kSquare:
+      return base_ + change_ * std::fmod(std::floor(std::max(0.0, time_s) / rate_ + kRounding), 2.0);
+    case Kind::kSine:
+      return base_ + change_ * std::sin(rate_ * time_s);
+    case Kind::kLines:
+    case Kind::kHold:
+      return interpolate(time_s);
+    case Kind::kConstant:
+      break;
+  }
+  return base_;
+}
+
+double TimeProfile::interpolate(double time_s) const noexcept {
+  const auto after = std::upper_bound(points_.begin(), points_.end(), time_s,
+                                      [](double time, const Point& point) { return time < point.time_s; });
+  if (after == points_.begin()) return points_.front().value;
+  const Point& before = *(after - 1);
+  if (after == points_.end() || kind_ == Kind::kHold) return before.value;
+  const double fraction = (time_s - before.time_s) / (after->time_s - before.time_s);
+  return before.value + fraction * (after->value - before.value);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,114 @@
+#include "sim/studies/contenders.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/gain_table_json.h"
+#include "base/input_error.h"
+
+namespace strainwave {
+
+namespace {
+
+void require_period(const GainTable& table, const JointPlantConfig& plant) {
+  if (std::abs(table.plant.period_s - plant.period_s) > 1e-9 * plant.period_s)
+    throw InputError("gain table " + std::string(table.name.view()), "period_s",
+                     std::to_string(table.plant.period_s),
+                     "must be the plant's period, " + std::to_string(plant.period_s));
+}
+
+// Faster than the joint can ever be: what the motor can do is then the only limit of the reference.
+constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
+
+// A plant without a torque limit (the source's ideal setting) may be given what it takes; a plan needs some number, and
+// 300 times the real actuator's peak is none in effect.
+constexpr double kNoTorqueLimit_Nm = 1e4;
+
+double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {
+  return std::isfinite(plant.motor.peak_Nm) ? std::min(plant.motor.peak_Nm, table.torque_limit_Nm) : kNoTorqueLimit_Nm;
+}
+
+JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
+                                      const ExtendedFeatures& features) {
+  JointControllerConfig config;
+  config.period_s = plant.period_s;
+  config.encoder_resolution_rad = plant.encoder.resolution_rad();
+  config.delay_samples = plant.delay_samples;
+  config.torque_limit_Nm = table.torque_limit_Nm;
+  config.motor = {config.torque_limit_Nm, plant.motor.stall_Nm, plant.motor.slope_Nms_rad};
+  config.motion = kNoMotionLimits;
+  config.use_observer = features.observer;
+  config.use_shaping = features.shaping;
+  config.use_rest = features.rest;
+  return config;
+}
+
+}  // namespace
+
+Contender plain_contender(const std::string& name, const GainTable& table) {
+  return {name, [table](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
+            require_period(table, plant);
+            return std::make_unique<FeedbackLoopController>(table.primary, table.friction, table.plant,
+                                                            plant.motor.peak_Nm);
+          }};
+}
+
+Contender extended_contender(const std::string& name, const GainTable& table,
+                             const ExtendedFeatures& features) {
+  return {name, [table, features](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
+            require_period(table, plant);
+            GainTable limited = table;
+            limited.torque_limit_Nm = torque_limit_Nm(plant, table);
+            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, features), limited);
+          }};
+}
+
+Contender pid_contender() {
+  return {"PID", [](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
+            return std::make_unique<PidLoopController>(PidGains{}, plant.period_s);
+          }};
+}
+
+ExtendedLoopController::ExtendedLoopController(const JointControllerConfig& config,
+                                               const GainTable& table) noexcept
+    : config_(config), table_(table), controller_(config) {
+  controller_.load(table_);
+}
+
+double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
+  if (!started_) controller_.start(sample.joint_position_rad);
+  if (!started_ || controller_.target_rad() != sample.setpoint_position_rad)
+    controller_.set_target(sample.setpoint_position_rad);
+  started_ = true;
+  JointMeasurement measurement;
+  measurement.joint_position_rad = sample.joint_position_rad;
+  measurement.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(0.0);
+  measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
+  measurement.temperature_C = sample.temperature_C;
+  measurement.temperature_valid = std::isfinite(sample.temperature_C);
+  return controller_.step(measurement).output.torque_Nm;
+}
+
+void ExtendedLoopController::reset() noexcept {
+  controller_ = JointController(config_);
+  controller_.load(table_);
+  started_ = false;
+}
+
+std::vector<GainTable> read_controller_tables(const std::filesystem::path& directory) {
+  std::vector<GainTable> tables;
+  for (const char* file : {"c1.json", "c2.json", "c3.json", "c4.json"})
+    tables.push_back(read_gain_table(directory / file));
+  return tables;
+}
+
+std::vector<Contender> chapter6_contenders(const std::vector<GainTable>& tables) {
+  std::vector<Contender> contenders;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    contenders.push_back(plain_contender("C" + std::to_string(i + 1), tables[i]));
+  contenders.push_back(pid_contender());
+  contenders.push_back(extended_contender("C4+", tables.back()));
+  return contenders;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,61 @@
+// Who takes part in a comparison: the source's PID, the plain table controllers C1..C4, and C4 as the daemon
+// runs it (observer, reference shaping, rest). Offline.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/gain_table.h"
+#include "control/joint_controller.h"
+#include "sim/studies/closed_loop.h"
+#include "sim/studies/loop_controllers.h"
+
+namespace strainwave {
+
+/// A named way to make a controller for a plant.
+struct Contender {
+  std::string name;
+  std::function<std::unique_ptr<LoopController>(const JointPlantConfig&)> make;
+};
+
+/// C1..C4 of `table`'s primary gains: the bare control law of control/scheduled_controller.h, setpoints as
+/// steps, limited by the plant's peak torque. Throws InputError when a run's period is not the table's.
+Contender plain_contender(const std::string& name, const GainTable& table);
+
+/// Which features of control/joint_controller.h are on.
+struct ExtendedFeatures {
+  bool observer = true;
+  bool shaping = true;
+  bool rest = true;
+};
+
+/// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
+Contender extended_contender(const std::string& name, const GainTable& table,
+                             const ExtendedFeatures& features = {});
+
+Contender pid_contender();
+
+/// Runs the daemon's joint controller in the simulated loop. torque_Nm() is real-time safe.
+class ExtendedLoopController final : public LoopController {
+ public:
+  ExtendedLoopController(const JointControllerConfig& config, const GainTable& table) noexcept;
+  double torque_Nm(const LoopSample& sample) noexcept override;
+  void reset() noexcept override;
+
+ private:
+  JointControllerConfig config_;
+  GainTable table_;
+  JointController controller_;
+  bool started_ = false;
+};
+
+/// c1.json .. c4.json of `directory`, in that order. Throws InputError.
+std::vector<GainTable> read_controller_tables(const std::filesystem::path& directory);
+
+/// PID, C1..C4 and "C4+" (the extended C4) from read_controller_tables()' result.
+std::vector<Contender> chapter6_contenders(const std::vector<GainTable>& tables);
+
+}  // namespace strainwave

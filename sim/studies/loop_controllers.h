@@ -1,0 +1,73 @@
+// The controllers of chapter 6 as the closed loop runs them: a gain table's controller and the source's PID.
+// torque_Nm() is real-time safe.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "control/scheduled_controller.h"
+#include "sim/studies/closed_loop.h"
+
+namespace strainwave {
+
+/// Backward difference of the measured position, as the source takes velocity from the encoder; 0 at the
+/// first sample.
+class BackwardDifference {
+ public:
+  explicit BackwardDifference(double period_s) noexcept : period_s_(period_s) {}
+  double step(double position_rad) noexcept {
+    const double velocity_rad_s = last_ ? (position_rad - *last_) / period_s_ : 0.0;
+    last_ = position_rad;
+    return velocity_rad_s;
+  }
+  void reset() noexcept { last_.reset(); }
+
+ private:
+  double period_s_;
+  std::optional<double> last_;
+};
+
+/// C1..C4: scheduled (or temperature-free) state feedback, exactly as control/ has it. Velocity is the exact
+/// one where the plant offers it, otherwise the backward difference.
+class FeedbackLoopController final : public LoopController {
+ public:
+  /// `gains` is the table's primary or fallback set; `torque_limit_Nm` may be infinite.
+  FeedbackLoopController(const FeedbackGains& gains, const FuzzyFriction& friction,
+                         const PlantIdentity& plant, double torque_limit_Nm) noexcept
+      : controller_(gains, friction, plant), difference_(plant.period_s), torque_limit_Nm_(torque_limit_Nm) {}
+
+  double torque_Nm(const LoopSample& sample) noexcept override;
+  void reset() noexcept override;
+
+ private:
+  ScheduledController controller_;
+  BackwardDifference difference_;
+  double torque_limit_Nm_;
+  double temperature_C_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last layer-1 evaluation
+};
+
+/// Gains of the source's PID on e = setpoint - position.
+struct PidGains {
+  double proportional_Nm_rad = 430.1;
+  double integral_Nm_rads = 1430.1;
+  double derivative_Nms_rad = 7.95;
+};
+
+/// The source's PID: P e + I sum ts e + D (e_k - e_(k-1)) / ts, no anti-windup. Before the first sample the
+/// error is taken as that of the first sample.
+class PidLoopController final : public LoopController {
+ public:
+  PidLoopController(const PidGains& gains, double period_s) noexcept
+      : gains_(gains), period_s_(period_s), derivative_(period_s) {}
+
+  double torque_Nm(const LoopSample& sample) noexcept override;
+  void reset() noexcept override;
+
+ private:
+  PidGains gains_;
+  double period_s_;
+  BackwardDifference derivative_;
+  double integral_rads_ = 0.0;
+};
+
+}  // namespace strainwave

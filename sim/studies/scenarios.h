@@ -1,0 +1,36 @@
+// The scenarios of Zhao (2006), chapter 6, with what the source leaves open fixed (docs/theory.md): which
+// setpoints, which temperature, for how long, on which plant. Offline.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "sim/studies/closed_loop.h"
+
+namespace strainwave {
+
+/// Staircase: Tables 8 and 9, temperature 15 + 25 sin(t). Ramp: Tables 10 and 11, -10 degC and 5 more each
+/// second.
+enum class Scenario { kStaircase, kRamp };
+inline constexpr std::array kScenarios = {Scenario::kStaircase, Scenario::kRamp};
+
+/// Ideal: exact state, no torque limit (the source's). Limited: exact state, peak torque. Realistic: the
+/// datasheet.
+enum class Setting { kIdeal, kLimited, kRealistic };
+inline constexpr std::array kSettings = {Setting::kIdeal, Setting::kLimited, Setting::kRealistic};
+
+/// Lower end of each of the four ranges in rad; the ramp's setpoint.
+inline constexpr std::array kRangeStart_rad = {0.001, 0.01, 0.1, 1.0};
+inline constexpr int kRangeCount = 4;
+
+std::string_view name(Scenario scenario);
+std::string_view name(Setting setting);
+
+/// The reference joint in this setting.
+JointPlantConfig setting_plant(Setting setting);
+
+/// Staircase: starts at the range's lower end, rises by twice that every second, five steps of 1 s. Ramp:
+/// constant setpoint at the lower end for 12 s. `range` in 0..kRangeCount-1.
+ClosedLoopConfig scenario_config(Scenario scenario, int range, const JointPlantConfig& plant);
+
+}  // namespace strainwave

@@ -1,0 +1,53 @@
+#include "base/text_file.h"
+
+#include <gtest/gtest.h>
+
+#include "base/input_error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+namespace {
+
+class TextFile : public ::testing::Test {
+ protected:
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+};
+
+TEST_F(TextFile, ReadsBackWhatWasWritten) {
+  const std::string text("line\n\0with zero\n", 16);
+  write_text_file(folder_ / "a", text);
+  EXPECT_EQ(read_text_file(folder_ / "a"), text);
+  write_text_file(folder_ / "a", "short");
+  EXPECT_EQ(read_text_file(folder_ / "a"), "short");
+}
+
+TEST_F(TextFile, LeavesNoTemporaryFiles) {
+  write_text_file(folder_ / "a", "text");
+  EXPECT_THROW(write_text_file(folder_ / "missing" / "a", "text"), InputError);
+  EXPECT_EQ(
+      std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
+}
+
+TEST_F(TextFile, AFailedReplacementKeepsTheOldFileAndCleansUp) {
+  // A folder that is not empty cannot be replaced by a file.
+  std::filesystem::create_directories(folder_ / "target" / "inner");
+  EXPECT_THROW(write_text_file(folder_ / "target", "text"), InputError);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "target" / "inner"));
+  EXPECT_EQ(
+      std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
+}
+
+TEST_F(TextFile, MissingFilesAndFoldersAreNamed) {
+  for (const auto& path : {folder_ / "none", folder_}) {
+    try {
+      read_text_file(path);
+      FAIL() << path;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strainwave

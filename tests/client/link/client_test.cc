@@ -1,0 +1,122 @@
+#include "client/link/client.h"
+
+#include <gtest/gtest.h>
+
+#include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+
+#include "client/link/exit_status.h"
+#include "tests/client/link/fake_daemon.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kShort_s = 0.2;
+
+class ClientTest : public testing::Test {
+ protected:
+  Answer order(const std::string& joint) {
+    return client.request(joint, channel_kind::kSetpoint, setpoint_v1{});
+  }
+
+  std::string failure(const std::string& joint) {
+    try {
+      order(joint);
+    } catch (const ClientError& error) {
+      EXPECT_EQ(error.status(), ExitStatus::kNoAnswer);
+      return error.what();
+    }
+    return "";
+  }
+
+  Connection connection{"memq://"};
+  FakeDaemon daemon{connection, "SW", "elbow"};
+  Client client{connection, {"SW", kShort_s}};
+};
+
+TEST_F(ClientTest, LearnsTheSessionFromTheStateAndQuotesIt) {
+  daemon.state.session_id = 4711;
+  daemon.publish_state();
+  EXPECT_TRUE(order("elbow").accepted);
+  ASSERT_EQ(daemon.heard().size(), 1U);
+  EXPECT_EQ(daemon.heard()[0].channel, "SW.elbow.SETPOINT");
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->session_id, 4711);
+}
+
+TEST_F(ClientTest, PassesOnAReasonAndItsText) {
+  daemon.publish_state();
+  daemon.reason = Reason::kOutOfRange;
+  daemon.text = "position_rad = 9: allowed -1 to 1\x1b";
+  const Answer answer = order("elbow");
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.reason, Reason::kOutOfRange);
+  EXPECT_EQ(answer.text, "position_rad = 9: allowed -1 to 1?");
+}
+
+TEST_F(ClientTest, RepeatsTheIdenticalMessageUntilItIsAnswered) {
+  daemon.publish_state();
+  daemon.drop = Client::kRepetitions;
+  EXPECT_TRUE(order("elbow").accepted);
+  ASSERT_EQ(daemon.heard().size(), 1U + Client::kRepetitions);
+  for (const auto& heard : daemon.heard()) EXPECT_EQ(heard.bytes, daemon.heard()[0].bytes);
+}
+
+TEST_F(ClientTest, GivesUpAfterItsRepetitionsAndSaysThatTheOutcomeIsUnknown) {
+  daemon.publish_state();
+  daemon.drop = 100;
+  EXPECT_NE(failure("elbow").find("not known"), std::string::npos);
+  EXPECT_EQ(daemon.heard().size(), 1U + Client::kRepetitions);
+}
+
+TEST_F(ClientTest, DoesNotTakeAnAnswerToAnotherMessageForItsOwn) {
+  daemon.publish_state();
+  daemon.sequence_error = 1;
+  EXPECT_NE(failure("elbow").find("no acknowledgement"), std::string::npos);
+}
+
+TEST_F(ClientTest, DoesNotTakeAnAnswerOnAnotherJointsChannelForItsOwn) {
+  FakeDaemon wrist(connection, "SW", "wrist");
+  wrist.answers_as = "elbow";
+  wrist.publish_state();
+  EXPECT_NE(failure("wrist").find("no acknowledgement"), std::string::npos);
+}
+
+TEST_F(ClientTest, UsesANewSequenceForEveryOrder) {
+  daemon.publish_state();
+  order("elbow");
+  order("elbow");
+  EXPECT_GT(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->sequence,
+            decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->sequence);
+}
+
+TEST_F(ClientTest, SaysThatNoDaemonIsThere) {
+  const std::string message = failure("elbow");
+  EXPECT_NE(message.find("no daemon on prefix SW"), std::string::npos) << message;
+  EXPECT_TRUE(daemon.heard().empty());
+}
+
+TEST_F(ClientTest, NamesThePrefixesThatAreHeardInstead) {
+  FakeDaemon(connection, "LAB", "elbow").publish_state();
+  EXPECT_NE(failure("elbow").find("heard on: LAB"), std::string::npos);
+}
+
+TEST_F(ClientTest, NamesTheJointsThatAreHeardInstead) {
+  daemon.publish_state();
+  EXPECT_NE(failure("elbwo").find("no joint 'elbwo' on prefix SW; its joints are: elbow"), std::string::npos);
+}
+
+TEST_F(ClientTest, ListsAllJointsOfItsPrefixOnly) {
+  daemon.publish_state();
+  FakeDaemon(connection, "SW", "wrist").publish_state();
+  FakeDaemon(connection, "LAB", "hip").publish_state();
+  EXPECT_EQ(client.wait_for_joints(), (std::vector<std::string>{"elbow", "wrist"}));
+}
+
+TEST_F(ClientTest, SendsAnUnseenOrderWithoutWaitingForAState) {
+  EXPECT_TRUE(client.request_unseen("elbow", channel_kind::kCommand, command_v1{}).accepted);
+  ASSERT_EQ(daemon.heard().size(), 1U);
+  EXPECT_EQ(decode_exactly<command_v1>(daemon.heard()[0].bytes)->session_id, 0);
+}
+
+}  // namespace
+}  // namespace strainwave

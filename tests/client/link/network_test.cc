@@ -1,0 +1,149 @@
+// The client over a real LCM network: a daemon in a thread of its own, the command line as a user types it.
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "client/options/command_line.h"
+#include "client/link/multicast_check.h"
+#include "lcmtypes/event_log.h"
+#include "lcmtypes/wire.h"
+#include "tests/client/link/fake_daemon.h"
+
+namespace strainwave {
+namespace {
+
+/// A port of this process's own, so that tests may run side by side.
+std::string own_url() {
+  return "udpm://239.255.76.67:" + std::to_string(20000 + ::getpid() % 20000) + "?ttl=0";
+}
+
+/// A joint that obeys everything and publishes its state all the time.
+class RunningDaemon {
+ public:
+  explicit RunningDaemon(const std::string& url) : connection_(url), daemon_(connection_, "SW", "elbow") {
+    daemon_.state.mode = static_cast<std::int32_t>(Mode::kHolding);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~RunningDaemon() {
+    stop_ = true;
+    thread_.join();
+  }
+  FakeDaemon& daemon() noexcept { return daemon_; }  ///< to be set up before the first order only
+
+ private:
+  void run() {
+    while (!stop_) {
+      while (connection_.handle(1)) {
+      }
+      daemon_.publish_state();
+    }
+  }
+
+  Connection connection_;
+  FakeDaemon daemon_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+struct Result {
+  ExitStatus status;
+  std::string out;
+  std::string err;
+};
+
+Result run(const std::string& url, std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), {"strainwavectl", "--lcm-url", url.c_str(), "--timeout_s", "5"});
+  std::ostringstream out;
+  std::ostringstream err;
+  const ExitStatus status =
+      run_command_line(static_cast<int>(arguments.size()), arguments.data(), out, err, false);
+  return {status, out.str(), err.str()};
+}
+
+TEST(ClientOverMulticast, GetsOrdersDoneAndShowsTheirEffect) {
+  const std::string url = own_url();
+  const RunningDaemon daemon(url);
+  EXPECT_EQ(run(url, {"enable", "elbow"}).status, ExitStatus::kDone);
+  const Result moved = run(url, {"move", "elbow", "-0.125", "--wait"});
+  EXPECT_EQ(moved.status, ExitStatus::kDone) << moved.err;
+  const Result status = run(url, {"status", "elbow", "--json"});
+  EXPECT_NE(status.out.find("\"target_position_rad\": -0.125"), std::string::npos) << status.out;
+}
+
+TEST(ClientOverMulticast, RecordsWhatItReceives) {
+  const std::string url = own_url();
+  const RunningDaemon daemon(url);
+  const auto file =
+      std::filesystem::path(testing::TempDir()) / ("network_record_" + std::to_string(::getpid()) + ".lcm");
+  const Result result = run(url, {"record", "elbow", "--out", file.c_str(), "--duration_s", "0.3"});
+  EXPECT_EQ(result.status, ExitStatus::kDone) << result.err;
+  EventLogReader reader(file);
+  int states = 0;
+  for (LogEvent event; reader.next(event);) states += event.channel == "SW.elbow.STATE" ? 1 : 0;
+  EXPECT_GT(states, 0);
+  std::filesystem::remove(file);
+}
+
+TEST(ClientOverMulticast, SurvivesMessagesThatAreNone) {
+  const std::string url = own_url();
+  const RunningDaemon daemon(url);
+  Connection attacker(url);
+  std::atomic<bool> stop{false};
+  std::thread noise([&] {
+    const std::vector<std::uint8_t> junk(37, 0xFF);
+    std::vector<std::uint8_t> long_state = encode(state_v1{});
+    long_state.push_back(0);
+    while (!stop) {
+      for (const char* channel : {"SW.elbow.STATE", "SW.elbow.ACK", "SW..STATE", "SW.TIMING"}) {
+        attacker.publish(channel, junk);
+        attacker.publish(channel, long_state);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  const Result result = run(url, {"enable", "elbow"});
+  stop = true;
+  noise.join();
+  EXPECT_EQ(result.status, ExitStatus::kDone) << result.err;
+}
+
+TEST(ClientOverMulticast, HearsNoDaemonOnAnotherPort) {
+  const std::string url = own_url();
+  std::ostringstream out;
+  std::ostringstream err;
+  const std::vector<const char*> arguments{"strainwavectl", "--lcm-url", url.c_str(),
+                                           "--timeout_s",   "0.2",       "status"};
+  EXPECT_EQ(run_command_line(static_cast<int>(arguments.size()), arguments.data(), out, err, false),
+            ExitStatus::kNoAnswer);
+  EXPECT_NE(err.str().find("no daemon on prefix SW"), std::string::npos) << err.str();
+}
+
+// A child process enters a network namespace without any route; there it must be told how to add one.
+TEST(ClientWithoutMulticast, SaysHowToAddTheRoute) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  constexpr int kNotPermitted = 99;
+  if (child == 0) {
+    if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) ::_exit(kNotPermitted);
+    const std::string problem = find_multicast_problem("udpm://239.255.76.67:7667?ttl=0").value_or("");
+    const bool helpful = problem.find("ip route add 239.255.76.67/32 dev lo") != std::string::npos;
+    const bool status_5 =
+        run("udpm://239.255.76.67:7667?ttl=0", {"status"}).status == ExitStatus::kLcmUnavailable;
+    ::_exit(helpful && status_5 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == kNotPermitted) GTEST_SKIP() << "this system does not permit network namespaces";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,138 @@
+#include "client/text/text.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "client/link/exit_status.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+namespace {
+
+std::string refusal(std::string_view text) {
+  try {
+    parse_position_rad(text);
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.status(), ExitStatus::kUsage);
+    return error.what();
+  }
+  return "";
+}
+
+JointView healthy() {
+  JointView view;
+  view.state.mode = static_cast<std::int32_t>(Mode::kHolding);
+  view.state.rule_count = 5;
+  return view;
+}
+
+TEST(Position, IsReadAsAPlainDecimalNumber) {
+  EXPECT_EQ(parse_position_rad("0.1"), 0.1);
+  EXPECT_EQ(parse_position_rad("+0.1"), 0.1);
+  EXPECT_EQ(parse_position_rad("-1.5e-3"), -1.5e-3);
+  EXPECT_EQ(parse_position_rad("-.5"), -0.5);
+  EXPECT_EQ(parse_position_rad("7"), 7.0);
+}
+
+TEST(Position, InDegreesIsAnsweredWithTheSameAngleInRad) {
+  for (const char* text : {"90deg", "90 deg", "90 degrees", "90d", "90\xC2\xB0"}) {
+    EXPECT_NE(refusal(text).find("1.5708 rad"), std::string::npos) << text << ": " << refusal(text);
+  }
+}
+
+TEST(Position, ThatIsNoNumberIsRefusedByName) {
+  for (const char* text :
+       {"", " ", "abc", "nan", "inf", "-inf", "1e999", "1,5", "0x10", "1 2", "--1", "++1", "1rad"}) {
+    EXPECT_NE(refusal(text).find(std::string("'") + text + "'"), std::string::npos) << text;
+  }
+}
+
+TEST(Printable, KeepsTextAndDropsWhatCommandsATerminal) {
+  EXPECT_EQ(printable("position 2 rad: allowed -1 to 1"), "position 2 rad: allowed -1 to 1");
+  EXPECT_EQ(printable("a\x1b[2Jb\r\nc\x7f"), "a?[2Jb??c?");
+  EXPECT_EQ(printable("5 \xC2\xB0"
+                      "C"),
+            "5 \xC2\xB0"
+            "C");
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "2J")
+                .find('\x9B'),
+            std::string::npos);
+}
+
+TEST(Printable, StopsAtTheFirstZeroByte) {
+  EXPECT_EQ(printable(std::string("ab\0cd", 5)), "ab");
+}
+
+TEST(Clipped, NeverCutsACharacterInTwo) {
+  EXPECT_EQ(clipped("abcdef", 3), "abc");
+  EXPECT_EQ(clipped("ab", 3), "ab");
+  EXPECT_EQ(clipped("a\xC2\xB0"
+                    "bc",
+                    2),
+            "a\xC2\xB0");
+  EXPECT_EQ(clipped("abc", 0), "");
+}
+
+TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
+  JointView view = healthy();
+  view.state.setpoint_position_rad = 0.1;
+  view.state.joint_position_rad = 0.100002;
+  view.state.torque_commanded_Nm = -3.25;
+  view.state.temperature_C = -10.0;
+  view.state.gains_in_use = 1;
+  const std::string row = state_row("elbow", view, 0.0);
+  for (const char* part :
+       {"elbow", "holding", "+0.100000", "+0.100002", "+2.0e-06", "-3.250", "-10.0", "scheduled"}) {
+    EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
+  }
+}
+
+TEST(StateRow, StandsUnderItsHeader) {
+  const std::string header = state_header();
+  const std::string row = state_row("elbow", healthy(), 0.0);
+  EXPECT_EQ(header.find("gains"), row.find("none"));
+  EXPECT_EQ(header.find("mode"), row.find("holding"));
+}
+
+TEST(StateNotes, AreEmptyWhenAllIsWell) {
+  EXPECT_EQ(state_notes(healthy(), 0.01), "");
+}
+
+TEST(StateNotes, NameFaultLimitsSilenceAndASecondDaemon) {
+  JointView view = healthy();
+  view.state.fault = static_cast<std::int32_t>(Fault::kFollowingError);
+  view.state.notices =
+      static_cast<std::int32_t>(Notice::kTorqueLimited) | static_cast<std::int32_t>(Notice::kFallbackGains);
+  view.state.temperature_status = static_cast<std::int32_t>(TemperatureStatus::kTooOld);
+  view.state.rule_count = 0;
+  view.two_daemons = true;
+  const std::string notes = state_notes(view, 2.5);
+  for (const char* part : {"fault 14: following error", "torque limited", "temperature-free gains", "too old",
+                           "no message for 2.5 s", "two daemons", "no table"}) {
+    EXPECT_NE(notes.find(part), std::string::npos) << part << " in " << notes;
+  }
+}
+
+TEST(StateDetails, NameEveryCodeInWords) {
+  JointView view = healthy();
+  view.state.fault = static_cast<std::int32_t>(Fault::kSpeedLimit);
+  const std::string details = state_details("elbow", view, 0.0);
+  EXPECT_NE(details.find("2 (holding)"), std::string::npos) << details;
+  EXPECT_NE(details.find("13 (speed limit)"), std::string::npos) << details;
+}
+
+TEST(StateDetails, SurviveNumbersThatMeanNothing) {
+  JointView view = healthy();
+  view.state.mode = 4711;
+  view.state.fault = -1;
+  view.state.rule_count = 1'000'000;
+  view.state.notices = -1;
+  EXPECT_NE(state_details("elbow", view, 0.0).find("4711 (unknown)"), std::string::npos);
+  view.state.rule_count = -5;
+  EXPECT_FALSE(state_details("elbow", view, 0.0).empty());
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,165 @@
+// Who may order what, and what somebody without a key can do to those who have one.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+
+#include "daemon/admission/admission.h"
+#include "lcmtypes/wire.h"
+#include "tests/support/wire_message.h"
+
+namespace strainwave {
+namespace {
+
+constexpr std::int64_t kSession = 4711;
+constexpr const char* kSetpoint = "SW.elbow.SETPOINT";
+constexpr const char* kCommand = "SW.elbow.COMMAND";
+constexpr const char* kTable = "SW.elbow.TABLE";
+
+class SignedAdmission : public ::testing::Test {
+ protected:
+  SignedAdmission()
+      : operator_(SecretKey::generate()),
+        engineer_(SecretKey::generate()),
+        stranger_(SecretKey::generate()),
+        admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}, {"wrist", {}, -1.0, 1.0, 34.0}},
+                   {AuthorizedKeys({{operator_.public_key(), Role::kOperator, "Otto"},
+                                    {engineer_.public_key(), Role::kEngineer, "Emma"}}),
+                    false}) {}
+
+  template <typename Message>
+  static Message filled(std::int64_t sender_id, std::int64_t sequence) {
+    Message message{};
+    message.session_id = kSession;
+    message.sender_id = sender_id;
+    message.sequence = sequence;
+    return message;
+  }
+  static command_v1 command(Action action, std::int64_t sender_id, std::int64_t sequence) {
+    auto message = filled<command_v1>(sender_id, sequence);
+    message.action = static_cast<std::int32_t>(action);
+    return message;
+  }
+  Verdict consider(const WireMessage& message) { return admission_.consider(message, now_ns_ += 1'000'000); }
+  std::int64_t rejects(Reason reason) const { return admission_.rejects()[static_cast<std::size_t>(reason)]; }
+
+  SecretKey operator_;
+  SecretKey engineer_;
+  SecretKey stranger_;
+  Admission admission_;
+  std::int64_t now_ns_ = 0;
+};
+
+TEST_F(SignedAdmission, ObeysAnOperatorsSetpointsAndCommands) {
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kCommand, command(Action::kEnable, 1, 2), &operator_)).kind, Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, TellsWhoOrderedForTheAnswer) {
+  EXPECT_TRUE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), nullptr)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kCommand, command(Action::kDisable, 1, 3), nullptr)).requester.authentic);
+}
+
+TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &operator_)).reason, Reason::kRoleNotAllowed);
+  const Verdict revert = consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &operator_));
+  EXPECT_EQ(revert.reason, Reason::kRoleNotAllowed);
+  EXPECT_NE(revert.text.find("Otto"), std::string::npos);
+  EXPECT_NE(revert.text.find("needs engineer"), std::string::npos);
+  // The empty table passes the role and fails on its own account.
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &engineer_)).reason, Reason::kTableDefect);
+  EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, LetsEverybodyStop) {
+  auto stop = command(Action::kDisable, 9, -1);
+  stop.session_id = 0;
+  const std::array<const SecretKey*, 3> keys{nullptr, &operator_, &stranger_};
+  for (const SecretKey* key : keys)
+    EXPECT_EQ(consider(wire(kCommand, stop, key)).order.kind, OrderKind::kDisable);
+  WireMessage bent = wire(kCommand, stop, &operator_);
+  bent.bytes[bent.size - 1] ^= 1;
+  EXPECT_EQ(consider(bent).kind, Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, RefusesAnOrderThatWasSignedForAnotherJoint) {
+  WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  message.channel = FixedString<64>("SW.wrist.SETPOINT");
+  EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
+}
+
+TEST_F(SignedAdmission, ASignatureWithoutAKeyIdIsNotTakenForNoSignature) {
+  WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  std::fill_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(message.size - kSealBytes), sizeof(KeyId), 0);
+  EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
+}
+
+TEST_F(SignedAdmission, AForgeryDoesNotUseUpASequenceNumber) {
+  const auto order = filled<setpoint_v1>(1, 5);
+  WireMessage forged = wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &operator_);
+  forged.bytes[forged.size - 1] ^= 1;
+  EXPECT_EQ(consider(forged).reason, Reason::kBadSignature);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), nullptr)).reason, Reason::kUnsigned);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &stranger_)).reason, Reason::kBadSignature);
+  EXPECT_EQ(consider(wire(kSetpoint, order, &operator_)).kind, Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, SequencesOfOneKeySayNothingAboutAnotherKeys) {
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 50), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 50), &operator_)).reason, Reason::kOldSequence);
+}
+
+TEST_F(SignedAdmission, ARoleThatIsNotEnoughUsesUpNothing) {
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 100), &operator_)).reason, Reason::kRoleNotAllowed);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSenders) {
+  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v1>(1, 1000), &operator_);
+  ASSERT_EQ(consider(recorded).kind, Verdict::Kind::kOrder);
+  for (std::int64_t sender = 2; sender < 1000; ++sender)
+    ASSERT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(sender, 1000 + sender), &operator_)).kind,
+              Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(recorded).reason, Reason::kOldSequence);
+}
+
+TEST_F(SignedAdmission, ChecksASignatureThatIsThereEvenWhereNoneIsNeeded) {
+  Admission open("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}}, {{}, true});
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), nullptr), 0).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_), 0).reason, Reason::kBadSignature);
+}
+
+TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
+  WireMessage forged = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  forged.bytes[forged.size - 1] ^= 1;
+  constexpr int kForgeries = 20'000;
+  constexpr double kSeconds = 2.0;
+  for (int i = 0; i < kForgeries; ++i)
+    admission_.consider(forged, static_cast<std::int64_t>(kSeconds * 1e9 / kForgeries * i));
+  const double verified = static_cast<double>(rejects(Reason::kBadSignature));
+  EXPECT_NEAR(verified, Admission::kWastedVerificationsPer_s * kSeconds + Admission::kWastedVerificationsAtOnce, 2.0);
+  EXPECT_EQ(rejects(Reason::kBadSignature) + rejects(Reason::kBusy), kForgeries);
+  // A millisecond later the owner of the key is heard again, and a stop was at all times.
+  EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_), 2'001'000'000).kind,
+            Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, CountsReplaysAgainstTheSameBoundButNotGoodOrders) {
+  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  constexpr int kOrders = 1000;
+  for (int i = 1; i <= kOrders; ++i)
+    ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, i), &operator_), 0).kind,
+              Verdict::Kind::kOrder);
+  for (int i = 0; i < kOrders; ++i) admission_.consider(recorded, 0);
+  EXPECT_EQ(rejects(Reason::kOldSequence), static_cast<std::int64_t>(Admission::kWastedVerificationsAtOnce));
+  EXPECT_EQ(rejects(Reason::kOldSequence) + rejects(Reason::kBusy), kOrders);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,144 @@
+#include "daemon/admission/admission.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+
+#include "lcmtypes/wire.h"
+#include "tests/support/wire_message.h"
+
+namespace strainwave {
+namespace {
+
+constexpr std::int64_t kSession = 4711;
+
+class AdmissionTest : public ::testing::Test {
+ protected:
+  AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}, {"wrist", {}, -2.0, 2.0, 34.0, 6.0}},
+                              {{}, /*unsigned_allowed=*/true}) {}
+
+  setpoint_v1 setpoint(double position_rad) {
+    setpoint_v1 message{};
+    message.session_id = kSession;
+    message.sender_id = 1;
+    message.sequence = ++sequence_;
+    message.position_rad = position_rad;
+    message.acknowledge = 1;
+    return message;
+  }
+  command_v1 command(Action action) {
+    command_v1 message{};
+    message.session_id = kSession;
+    message.sender_id = 1;
+    message.sequence = ++sequence_;
+    message.action = static_cast<std::int32_t>(action);
+    return message;
+  }
+  Verdict consider(const WireMessage& message) { return admission_.consider(message, 0); }
+  std::int64_t rejects(Reason reason) const { return admission_.rejects()[static_cast<std::size_t>(reason)]; }
+
+  Admission admission_;
+  std::int64_t sequence_ = 0;
+};
+
+TEST_F(AdmissionTest, PassesASoundSetpointToItsJoint) {
+  const Verdict verdict = consider(wire("SW.wrist.SETPOINT", setpoint(1.5)));
+  ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(verdict.requester.joint, 1U);
+  EXPECT_EQ(verdict.order.kind, OrderKind::kSetpoint);
+  EXPECT_EQ(verdict.order.position_rad, 1.5);
+}
+
+TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
+  setpoint_v1 message = setpoint(0.5);
+  message.speed_limit_rad_s = 6.0;
+  const Verdict passed = consider(wire("SW.elbow.SETPOINT", message));
+  ASSERT_EQ(passed.kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(passed.order.speed_limit_rad_s, 6.0);
+  for (const double speed : {-1e-9, 6.001, 1e300}) {
+    message = setpoint(0.5);
+    message.speed_limit_rad_s = speed;
+    const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
+    EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
+    EXPECT_EQ(verdict.reason, Reason::kOutOfRange);
+    EXPECT_NE(verdict.text.find("joint.limits.speed_rad_s"), std::string::npos) << verdict.text;
+  }
+  message = setpoint(0.5);
+  message.speed_limit_rad_s = std::nan("");
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kNotFinite);
+}
+
+TEST_F(AdmissionTest, JudgesTheRangeByTheJointThatIsMeant) {
+  const Verdict verdict = consider(wire("SW.elbow.SETPOINT", setpoint(1.5)));
+  EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
+  EXPECT_EQ(verdict.reason, Reason::kOutOfRange);
+  EXPECT_NE(verdict.text.find("1.5"), std::string::npos);
+  EXPECT_NE(verdict.text.find("from -1 to 1"), std::string::npos);
+}
+
+TEST_F(AdmissionTest, DiscardsEveryTruncationAndEveryLongerMessage) {
+  const WireMessage sound = wire("SW.elbow.SETPOINT", setpoint(0.5));
+  std::int64_t expected = 0;
+  for (std::uint64_t size = 0; size <= sound.size + 16; ++size) {
+    if (size == sound.size) continue;
+    WireMessage bent = sound;
+    bent.size = size;
+    EXPECT_EQ(consider(bent).kind, Verdict::Kind::kDiscard);
+    EXPECT_EQ(rejects(Reason::kMalformed), ++expected);
+  }
+}
+
+TEST_F(AdmissionTest, NeverReadsBeyondTheSlotWhateverSizeItIsTold) {
+  WireMessage message = wire("SW.elbow.SETPOINT", setpoint(0.5));
+  message.size = ~std::uint64_t{0};
+  EXPECT_EQ(consider(message).kind, Verdict::Kind::kDiscard);
+}
+
+TEST_F(AdmissionTest, DiscardsAMessageOfAnotherType) {
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", command(Action::kHold))).kind, Verdict::Kind::kDiscard);
+}
+
+TEST_F(AdmissionTest, DiscardsOtherPrefixesUnknownJointsAndKinds) {
+  EXPECT_EQ(consider(wire("XX.elbow.SETPOINT", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(wire("SW.knee.SETPOINT", setpoint(0.5))).reason, Reason::kUnknownJoint);
+  EXPECT_EQ(consider(wire("SW.elbow.STATE", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
+  EXPECT_EQ(consider(wire("nonsense", setpoint(0.5))).kind, Verdict::Kind::kDiscard);
+}
+
+TEST_F(AdmissionTest, RefusesAnotherSession) {
+  setpoint_v1 message = setpoint(0.5);
+  message.session_id = kSession + 1;
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kWrongSession);
+}
+
+TEST_F(AdmissionTest, RepeatsAResentOrderAndRefusesAnOlderOne) {
+  const setpoint_v1 first = setpoint(0.1);
+  const setpoint_v1 second = setpoint(0.2);
+  consider(wire("SW.elbow.SETPOINT", first));
+  consider(wire("SW.elbow.SETPOINT", second));
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", second)).kind, Verdict::Kind::kRepeat);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", first)).reason, Reason::kOldSequence);
+}
+
+TEST_F(AdmissionTest, PassesADisableWhateverItsSessionAndSequence) {
+  command_v1 message = command(Action::kDisable);
+  message.session_id = 0;
+  message.sequence = -5;
+  for (int i = 0; i < 3; ++i) {
+    const Verdict verdict = consider(wire("SW.elbow.COMMAND", message));
+    ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
+    EXPECT_EQ(verdict.order.kind, OrderKind::kDisable);
+  }
+}
+
+TEST_F(AdmissionTest, RefusesUnknownActionsAndNumbersThatAreNone) {
+  command_v1 message = command(Action::kHold);
+  message.action = 77;
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", message)).reason, Reason::kUnknownAction);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", setpoint(std::nan("")))).reason, Reason::kNotFinite);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,62 @@
+#include "daemon/admission/table_admission.h"
+
+#include <gtest/gtest.h>
+
+#include "control/gain_table_json.h"
+
+namespace strainwave {
+namespace {
+
+class TableAdmission : public ::testing::Test {
+ protected:
+  GainTable table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
+  PlantIdentity joint_ = table_.plant;
+  double torque_limit_Nm_ = table_.torque_limit_Nm;
+
+  Reason judge() const { return judge_table(table_, joint_, torque_limit_Nm_).reason; }
+};
+
+TEST_F(TableAdmission, AcceptsTheTableForItsOwnJoint) { EXPECT_EQ(judge(), Reason::kAccepted); }
+
+TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosAndModels) {
+  joint_.period_s *= 1.001;
+  EXPECT_EQ(judge(), Reason::kTablePeriod);
+  joint_ = table_.plant;
+  joint_.inertia_kgm2 *= 1.001;
+  EXPECT_EQ(judge(), Reason::kTableIdentity);
+  joint_ = table_.plant;
+  joint_.gear_ratio = 100.0;
+  EXPECT_EQ(judge(), Reason::kTableIdentity);
+  joint_ = table_.plant;
+  joint_.joint_model = FixedString<32>("another");
+  EXPECT_EQ(judge(), Reason::kTableIdentity);
+}
+
+TEST_F(TableAdmission, RefusesATableThatAsksForMoreTorqueThanTheJointAllows) {
+  torque_limit_Nm_ = table_.torque_limit_Nm * 0.9;
+  EXPECT_EQ(judge(), Reason::kTableDefect);
+}
+
+TEST_F(TableAdmission, RefusesEverySingleGainWhoseSignIsTurned) {
+  const GainTable sound = table_;
+  for (int rule = 0; rule < sound.primary.rule_count; ++rule) {
+    table_ = sound;
+    auto& gain = table_.primary.F[static_cast<std::size_t>(rule)];
+    gain[1] = -gain[1];
+    EXPECT_EQ(judge(), Reason::kTableNotCertified) << "rule " << rule;
+  }
+  table_ = sound;
+  table_.fallback.F[0][2] = -table_.fallback.F[0][2];
+  EXPECT_EQ(judge(), Reason::kTableNotCertified);
+}
+
+TEST_F(TableAdmission, TheDigestNamesTheContent) {
+  const std::int64_t digest = table_digest(table_);
+  EXPECT_NE(digest, 0);
+  EXPECT_EQ(table_digest(table_), digest);
+  table_.primary.F[3][0] *= 1.0 + 1e-15;
+  EXPECT_NE(table_digest(table_), digest);
+}
+
+}  // namespace
+}  // namespace strainwave

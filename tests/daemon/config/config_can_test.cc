@@ -1,0 +1,100 @@
+#include <numbers>
+
+#include "daemon/config/config.h"
+#include "tests/daemon/config/config_file_test.h"
+#include "tests/support/example_keys.h"
+
+namespace strainwave {
+namespace {
+
+class CanConfigTest : public ConfigFileTest {
+ protected:
+  CanConfigTest() { testing::write_authorized_keys(folder_); }
+  std::string error_after(const std::string& name, const std::string& from, const std::string& to) {
+    return error_of(replaced(example(name), from, to));
+  }
+};
+
+TEST_F(CanConfigTest, PutsJointsOnTheirBusAndKeepsOtherDaemonsOffTheirNodes) {
+  const DaemonConfig config = read(example("elmo.toml"));
+  ASSERT_EQ(config.buses.size(), 1U);
+  EXPECT_EQ(config.buses[0].name, "arm");
+  ASSERT_EQ(config.joints.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(config.joints[i].bus, 0);
+    EXPECT_EQ(config.joints[i].bus_slot, i);
+    EXPECT_EQ(config.joints[i].driver_resource, "can0 node " + std::to_string(i + 1));
+    ASSERT_NE(config.joints[i].drive_error_text, nullptr);
+  }
+}
+
+TEST_F(CanConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLeaves) {
+  const JointControllerConfig controller = read(example("epos4.toml")).joints[0].loop.controller;
+  EXPECT_NEAR(controller.encoder_resolution_rad, 2 * std::numbers::pi / 320000, 1e-15);
+  EXPECT_EQ(controller.delay_samples, 1);
+  EXPECT_NEAR(controller.motor.stall_torque_Nm, 9.6 * 48 / 4.8, 1e-9);
+  EXPECT_NEAR(controller.motor.torque_per_speed_Nms_rad, 9.6 * 9.6 / 4.8, 1e-9);
+}
+
+TEST_F(CanConfigTest, RefusesNodesThatCollide) {
+  expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 1"),
+                  {"joint[1].can.node_id", "of its own"});
+  expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 127"), {"node_id", "our_node_id"});
+  expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 128"), {"node_id", "1 to 127"});
+  expect_mentions(error_after("elmo.toml", "node_id = 2\n", ""), {"node_id", "required"});
+}
+
+TEST_F(CanConfigTest, RefusesABusThatNobodyNamedOrUses) {
+  expect_mentions(error_after("epos4.toml", "bus = \"arm\"", "bus = \"leg\""),
+                  {"can.bus", "leg", "[[can_bus]]"});
+  const std::string other = "[[can_bus]]\nname = \"leg\"\ninterface = \"can1\"\n\n[[can_bus]]";
+  expect_mentions(error_after("epos4.toml", "[[can_bus]]", other), {"can_bus[0].name", "at least one joint"});
+  const std::string same = "[[can_bus]]\nname = \"leg\"\ninterface = \"can0\"\n\n[[can_bus]]";
+  expect_mentions(error_after("epos4.toml", "[[can_bus]]", same), {"interface of its own"});
+}
+
+TEST_F(CanConfigTest, RefusesABusThatWouldBeTooFull) {
+  expect_mentions(error_after("elmo.toml", "bit_rate = 1000000", "bit_rate = 250000"),
+                  {"arm:", "% of 250000 bit/s", "load_limit", "RPDO1 of elbow"});
+}
+
+TEST_F(CanConfigTest, WantsUnitAndSideOfTorqueSaid) {
+  expect_mentions(error_after("epos4.toml", "rated_torque_unit = \"uNm\"", ""),
+                  {"rated_torque_unit", "required"});
+  expect_mentions(error_after("epos4.toml", "torque_side = \"motor\"", ""), {"torque_side", "required"});
+  expect_mentions(error_after("epos4.toml", "\"uNm\"", "\"Nm\""), {"rated_torque_unit", "mNm", "uNm"});
+}
+
+TEST_F(CanConfigTest, TakesOneTemperaturePerJoint) {
+  const std::string sensor = "[joint.thermometer]\nfile = \"/dev/null\"\n\n[joint.can]";
+  expect_mentions(error_after("epos4.toml", "[joint.can]", sensor), {"joint[0].thermometer", "one temperature"});
+  std::string text = example("epos4.toml");
+  text.replace(text.find("[joint.can]"), 11, sensor);
+  text.resize(text.find("[joint.can.temperature]"));
+  EXPECT_TRUE(read(text).joints[0].thermometer.has_value());
+}
+
+TEST_F(CanConfigTest, LetsOneDriveMakeTheSyncWhenTheBusSaysSo) {
+  expect_mentions(
+      error_after("epos4.toml", "protocol = \"cia402\"", "protocol = \"cia402\"\nproduces_sync = true"),
+      {"produces_sync", "sync = \"drive\""});
+  expect_mentions(error_after("epos4.toml", "bit_rate = 1000000\n", "sync = \"drive\"\n"),
+                  {"can_bus[0].sync", "produces_sync"});
+  std::string text = example("epos4.toml");
+  text.replace(text.find("bit_rate = 1000000\n"), 19, "sync = \"drive\"\n");
+  text.replace(text.find("protocol = \"cia402\""), 19, "protocol = \"cia402\"\nproduces_sync = true");
+  EXPECT_NO_THROW(read(text));
+}
+
+TEST_F(CanConfigTest, SaysWhatIsWrongWithTheInterfaceBeforeAnythingIsSent) {
+  const DaemonConfig config = read(example("epos4.toml"));
+  try {
+    (void)config.buses[0].make_bus();
+    GTEST_SKIP() << "this machine has a can0 with the example's drive";
+  } catch (const InputError& error) {
+    expect_mentions(error.what(), {"can0", "no such interface"});
+  }
+}
+
+}  // namespace
+}  // namespace strainwave

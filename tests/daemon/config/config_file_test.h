@@ -1,0 +1,56 @@
+// What tests of the configuration share: a text becomes a file in a folder of the test's own, and is read as the daemon reads it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+#include <string>
+
+#include "base/input_error.h"
+#include "daemon/config/config.h"
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+
+class ConfigFileTest : public ::testing::Test {
+ protected:
+  /// An example of config/, whole.
+  static std::string example(const std::string& name) {
+    std::ifstream file(std::string(STRAINWAVE_SOURCE_DIR "/config/") + name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// `text` with the first `from`, which must be there, replaced.
+  static std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+  }
+  DaemonConfig read(const std::string& text) {
+    std::ofstream(folder_ / "c.toml") << text;
+    return read_config(folder_ / "c.toml");
+  }
+  /// Why `text` is refused.
+  std::string error_of(const std::string& text) {
+    try {
+      ConfigFileTest::read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "accepted: " << text;
+    return "";
+  }
+  static void expect_mentions(const std::string& message, std::initializer_list<const char*> parts) {
+    for (const char* part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+  }
+
+  TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+};
+
+}  // namespace strainwave

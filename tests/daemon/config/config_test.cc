@@ -1,0 +1,138 @@
+#include "daemon/config/config.h"
+
+#include <fstream>
+#include <string>
+
+#include "tests/daemon/config/config_file_test.h"
+#include "tests/support/example_keys.h"
+
+namespace strainwave {
+namespace {
+
+constexpr const char* kSound = R"([daemon]
+period_s = 0.001
+prefix = "LAB"
+
+[security]
+unsigned_orders = "allow"
+
+[[joint]]
+name = "elbow"
+joint_model = "rhs17-6006"
+inertia_kgm2 = 0.089
+gear_ratio = 50
+driver = "simulated"
+[joint.limits]
+position_min_rad = -3.2
+position_max_rad = 3.2
+speed_rad_s = 6.0
+acceleration_rad_s2 = 150
+following_error_rad = 0.1
+torque_Nm = 34
+[joint.simulated]
+ambient_temperature_C = "sine:15,25,1"
+)";
+
+class ConfigTest : public ConfigFileTest {
+ protected:
+  /// The message for kSound with `from` replaced by `to`.
+  std::string error_after(const std::string& from, const std::string& to) {
+    return error_of(replaced(kSound, from, to));
+  }
+};
+
+TEST_F(ConfigTest, ReadsASoundFile) {
+  const DaemonConfig config = read(kSound);
+  EXPECT_EQ(config.prefix, "LAB");
+  ASSERT_EQ(config.joints.size(), 1U);
+  EXPECT_EQ(config.joints[0].plant.inertia_kgm2, 0.089);
+  EXPECT_NE(config.joints[0].make_actuator(), nullptr);
+  EXPECT_EQ(admission_of(config)[0].position_max_rad, 3.2);
+}
+
+TEST_F(ConfigTest, NamesFileLineKeyAndTheUnitThatWasForgotten) {
+  expect_mentions(error_after("period_s", "period"), {"c.toml:2", "daemon.period", "did you mean period_s"});
+}
+
+TEST_F(ConfigTest, NamesKeyValueAndRangeOfAnImpossibleValue) {
+  expect_mentions(error_after("inertia_kgm2 = 0.089", "inertia_kgm2 = -1"), {"joint[0].inertia_kgm2 = -1", "from"});
+  expect_mentions(error_after("torque_Nm = 34", "torque_Nm = nan"), {"torque_Nm = nan"});
+  expect_mentions(error_after("speed_rad_s = 6.0", "speed_rad_s = \"fast\""), {"speed_rad_s", "fast", "a number"});
+}
+
+TEST_F(ConfigTest, NamesAMissingKey) {
+  expect_mentions(error_after("gear_ratio = 50\n", ""), {"joint[0].gear_ratio is missing"});
+}
+
+TEST_F(ConfigTest, SuggestsTheNearestKeyForAMisspelledOne) {
+  expect_mentions(error_after("following_error_rad", "folowing_error_rad"), {"following_error_rad is missing"});
+  expect_mentions(error_after("driver = \"simulated\"", "driver = \"simulated\"\ndrivr = 1"), {"drivr", "did you mean driver"});
+}
+
+TEST_F(ConfigTest, ListsTheDriversWhenOneIsUnknown) {
+  expect_mentions(error_after("\"simulated\"", "\"warp\""), {"driver", "warp", "simulated"});
+}
+
+TEST_F(ConfigTest, RefusesLimitsThatCross) {
+  expect_mentions(error_after("position_max_rad = 3.2", "position_max_rad = -4"), {"position_max_rad", "above position_min_rad"});
+}
+
+TEST_F(ConfigTest, RefusesTwoJointsOfTheSameName) {
+  std::string text = kSound;
+  text += std::string(kSound).substr(std::string(kSound).find("[[joint]]"));
+  EXPECT_THROW(read(text), InputError);
+}
+
+TEST_F(ConfigTest, RefusesABadTemperatureProfileWithTheProfilesOwnReason) {
+  expect_mentions(error_after("sine:15,25,1", "sine:15"), {"ambient_temperature_C", "sine"});
+}
+
+TEST_F(ConfigTest, NamesTheLineOfMalformedToml) {
+  expect_mentions(error_after("prefix = \"LAB\"", "prefix = LAB"), {"c.toml:3", "not valid TOML"});
+}
+
+TEST_F(ConfigTest, NamesAFileThatCannotBeRead) {
+  try {
+    read_config(folder_ / "absent.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    expect_mentions(error.what(), {"absent.toml", "cannot be read"});
+  }
+}
+
+TEST_F(ConfigTest, ObeysNobodyWithoutKeysUnlessToldTo) {
+  expect_mentions(error_after("unsigned_orders = \"allow\"", ""),
+                  {"security.authorized_keys is missing", "keygen", "unsigned_orders"});
+  expect_mentions(error_after("\"allow\"", "\"maybe\""), {"security.unsigned_orders", "maybe", "refuse"});
+}
+
+TEST_F(ConfigTest, ReadsTheKeysBesideTheConfiguration) {
+  const PublicKey key = SecretKey::generate().public_key();
+  std::ofstream(folder_ / "keys") << to_line(AuthorizedKey{key, Role::kEngineer, "Emma"}) << '\n';
+  std::string text = kSound;
+  text.replace(text.find("unsigned_orders = \"allow\""), 25, "authorized_keys = \"keys\"");
+  const DaemonConfig config = read(text);
+  EXPECT_FALSE(config.security.unsigned_allowed);
+  EXPECT_EQ(config.security.keys[0].key, key);
+}
+
+TEST_F(ConfigTest, RefusesAGatewayUserWhoIsNoneOrRoot) {
+  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"nobody-such\""), {"daemon.gateway_user", "no such user"});
+  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"root\""), {"daemon.gateway_user", "without privileges"});
+}
+
+TEST_F(ConfigTest, EveryShippedExampleIsSound) {
+  int found = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/config")) {
+    if (entry.path().extension() != ".toml") continue;
+    // A copy, beside which the keys lie that a real joint needs.
+    std::filesystem::copy_file(entry.path(), folder_ / entry.path().filename());
+    testing::write_authorized_keys(folder_);
+    EXPECT_NO_THROW(read_config(folder_ / entry.path().filename())) << entry.path();
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,183 @@
+// What start-up does to a drive, what it insists on, and how it says what is wrong.
+#include <gtest/gtest.h>
+
+#include "drivers/can/cia402/cia402_setup.h"
+#include "tests/drivers/can/drive_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+std::int64_t entry(DriveBench& bench, std::uint16_t index, std::uint8_t sub_index = 0) {
+  return bench.node().dictionary().number({index, sub_index});
+}
+
+void expect_mentions(const std::string& text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+}
+
+TEST(Cia402Setup, WritesWhatTheDriveMustKnow) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.quick_stop_option = 1;
+  DriveBench bench({drive});
+  bench.start();
+  EXPECT_EQ(entry(bench, 0x1016, 1), 127 << 16 | 150) << "it supervises our heartbeat";
+  EXPECT_EQ(entry(bench, 0x1017), 50);
+  EXPECT_EQ(entry(bench, 0x6007), 3) << "quick stop when we vanish";
+  EXPECT_EQ(entry(bench, 0x605A), 1);
+  EXPECT_EQ(entry(bench, 0x6060), 10);
+  EXPECT_EQ(entry(bench, 0x6072), 2083) << "20 of 9.6 N.m, rounded down";
+  EXPECT_EQ(entry(bench, 0x60C2, 1), 1);
+  EXPECT_EQ(entry(bench, 0x60C2, 2), -3) << "one millisecond";
+  EXPECT_EQ(entry(bench, 0x1600, 1), 0x60400010);
+  EXPECT_EQ(entry(bench, 0x1600, 2), 0x60710010);
+  EXPECT_EQ(entry(bench, 0x1A00, 1), 0x60640020);
+  EXPECT_EQ(entry(bench, 0x1A00, 2), 0x60410010);
+  EXPECT_EQ(entry(bench, 0x1A00, 3), 0x60770010);
+  EXPECT_EQ(entry(bench, 0x1A01, 1), 0x32010110) << "the temperature";
+  EXPECT_EQ(entry(bench, 0x1802, 1) >> 31 & 1, 1) << "nobody wants TPDO3";
+}
+
+TEST(Cia402Setup, TellsWhatItFound) {
+  DriveBench bench({bench_drive(3)});
+  bench.start();
+  const std::vector<std::string> messages = bench.bus().take_messages();
+  ASSERT_EQ(messages.size(), 2U);
+  expect_mentions(messages[1], {"joint3", "node 3", "vendor 000000FBh", "mode 10 (CST)", "rated 9.6 N.m"});
+  EXPECT_TRUE(bench.bus().take_messages().empty()) << "once";
+}
+
+TEST(Cia402Setup, FallsBackToTorqueProfileAndRefusesADriveWithout) {
+  BenchDrive drive = bench_drive(3);
+  drive.node.drive.has_cst = false;
+  DriveBench fallback({drive});
+  fallback.start();
+  EXPECT_EQ(entry(fallback, 0x6060), 4);
+  EXPECT_TRUE(fallback.enable());
+  drive.node.drive.has_tq = false;
+  expect_mentions(DriveBench({drive}).start_refusal(), {"node 3", "6502h", "mode 10", "mode 4"});
+}
+
+TEST(Cia402Setup, RefusesAnotherDriveThanTheConfigurationMeans) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.identity.vendor_id = 0x0000009A;
+  expect_mentions(DriveBench({drive}).start_refusal(),
+                  {"vendor_id = 0000009Ah", "000000FBh", "another drive"});
+  drive = bench_drive(3);
+  drive.config.identity.serial_number = 7;
+  expect_mentions(DriveBench({drive}).start_refusal(), {"serial_number = 00000007h", "00000001h"});
+}
+
+TEST(Cia402Setup, RefusesADeviceOfAnotherProfile) {
+  DriveBench bench({bench_drive(3)});
+  bench.tell_node("pretend 0x1000 0 0x00030191");
+  expect_mentions(bench.start_refusal(), {"1000h = 00030191h", "0192h"});
+}
+
+TEST(Cia402Setup, RefusesTorqueInTheWrongUnit) {
+  BenchDrive drive = bench_drive(3);
+  drive.node.drive.rated_torque_units_per_Nm = 1e6;
+  expect_mentions(DriveBench({drive}).start_refusal(),
+                  {"6076h", "rated_torque_unit = \"uNm\"", "would agree"});
+}
+
+TEST(Cia402Setup, RefusesADriveThatKeepsAnotherValueThanItWasGiven) {
+  for (const char* lie : {"pretend 0x1016 1 0", "pretend 0x6007 0 0", "pretend 0x6072 0 999",
+                          "pretend 0x1A00 1 0", "pretend 0x6061 0 8"}) {
+    DriveBench bench({bench_drive(3)});
+    bench.tell_node(lie);
+    const std::string text = bench.start_refusal();
+    EXPECT_NE(text.find(std::string(lie).substr(10, 4)), std::string::npos) << lie << ": " << text;
+  }
+}
+
+TEST(Cia402Setup, GivesTheDrivesReasonForARefusedObject) {
+  DriveBench bench({bench_drive(3)});
+  bench.tell_node("refuse 0x6007 0 0x06020000");
+  expect_mentions(bench.start_refusal(), {"6007h:00", "no such object", "06020000h"});
+}
+
+TEST(Cia402Setup, NamesEveryDriveThatFails) {
+  BenchDrive absent = bench_drive(4);
+  absent.config.node_id = 5;
+  absent.config.boot_timeout_s = 0.2;
+  BenchDrive wrong = bench_drive(3);
+  wrong.config.identity.product_code = 1;
+  expect_mentions(DriveBench({absent, wrong}).start_refusal(),
+                  {"node 5", "no boot-up", "node 3", "product_code"});
+}
+
+TEST(Cia402Setup, LeavesADisabledDriveWhateverItWasDoing) {
+  DriveBench bench({bench_drive(3)});
+  bench.start();
+  ASSERT_TRUE(bench.enable());
+  bench.run(50, {10.0, true});
+  bench.start();  // a second daemon; the first one's bus ends without any order in between
+  bench.run(5, {0.0, false});
+  EXPECT_EQ(bench.node().drive().power(), can_nodes::PowerState::kSwitchOnDisabled);
+  EXPECT_EQ(bench.reading().drive_state, DriveState::kDisabled);
+}
+
+TEST(Cia402Setup, ShowsAFaultThatTheDriveAlreadyHas) {
+  DriveBench bench({bench_drive(3)});
+  bench.can().run_to(bench.can().now_ns() + 200'000'000);
+  bench.tell_node("emcy 0x4310");
+  bench.can().run_to(bench.can().now_ns() + 200'000'000);
+  bench.start();
+  expect_mentions(bench.bus().take_messages().back(), {"in fault", "4310h", "clear-fault"});
+  bench.run(5, {0.0, false});
+  EXPECT_EQ(bench.reading().fault, ActuatorFault::kNone) << "nobody uses it yet";
+  EXPECT_EQ(bench.periods_until_fault(3, {0.0, true}), 2);
+  EXPECT_EQ(bench.reading().drive_error & 0xFFFF, 0x4310U);
+  bench.clear();
+  EXPECT_TRUE(bench.enable());
+}
+
+TEST(Cia402Setup, MakesOneDriveTheSyncProducerWhenAsked) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.produces_sync = true;
+  drive.config.daemon_sends_sync = false;
+  DriveBench bench({drive});
+  bench.bus_config().sync = SyncProducer::kOther;
+  // The simulated drive produces none; the order to do so is what is tested.
+  bench.tell_node("refuse 0x1005 0 0x06090030");
+  expect_mentions(bench.start_refusal(), {"1005h:00", "value not allowed"});
+  EXPECT_EQ(entry(bench, 0x1006), 1000);
+}
+
+TEST(Cia402Setup, ReadsATemperatureBySdoInTheBackground) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.temperature->way = cia402::TemperatureObject::Way::kSdo;
+  drive.config.temperature->period_s = 1.0;
+  DriveBench bench({drive});
+  bench.start();
+  bench.run(5, {0.0, false});
+  EXPECT_FALSE(bench.reading().has_temperature);
+  bench.bus().serve();
+  bench.run(100, {0.0, false});
+  EXPECT_TRUE(bench.reading().has_temperature);
+  EXPECT_NEAR(bench.reading().temperature_C, 25.0, 0.1);
+  EXPECT_NEAR(static_cast<double>(bench.reading().temperature_age_ns), 100e6, 2e6);
+  const std::int64_t since_ns = bench.can().now_ns();
+  bench.bus().serve();
+  EXPECT_TRUE(bench.frames(0x603, since_ns).empty()) << "not before its period";
+}
+
+TEST(Cia402Setup, SaysOnceThatTheTemperatureCannotBeRead) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.temperature->way = cia402::TemperatureObject::Way::kSdo;
+  drive.config.temperature->period_s = 0.1;
+  DriveBench bench({drive});
+  bench.start();
+  bench.bus().take_messages();
+  bench.tell_node("refuse 0x3201 1 0x08000024");
+  for (int i = 0; i < 3; ++i) {
+    bench.bus().serve();
+    bench.run(150, {0.0, false});
+  }
+  const std::vector<std::string> messages = bench.bus().take_messages();
+  ASSERT_EQ(messages.size(), 1U);
+  expect_mentions(messages[0], {"3201h:01", "no data"});
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,155 @@
+#include "drivers/can/cia402/cia402_units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/input_error.h"
+#include "drivers/can/bus_load.h"
+#include "drivers/can/cia402/cia402_config.h"
+#include "drivers/can/packed_temperature.h"
+
+namespace strainwave::cia402 {
+namespace {
+
+UnitConfig motor_units() {
+  UnitConfig units;
+  units.counts_per_output_revolution = 320000;
+  units.gear_ratio = 50;
+  units.torque_constant_Nm_A = 0.192;
+  return units;
+}
+
+std::string refusal(const RatedValues& rated, const UnitConfig& units) {
+  try {
+    rated_joint_torque_Nm(rated, units, "elbow");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RatedTorque, IsTakenToTheJoint) {
+  EXPECT_NEAR(rated_joint_torque_Nm({192, 1000}, motor_units(), "elbow"), 9.6, 1e-12);
+  UnitConfig units = motor_units();
+  units.torque_at_joint = true;
+  EXPECT_NEAR(rated_joint_torque_Nm({9600, 1000}, units, "elbow"), 9.6, 1e-12);
+  units = motor_units();
+  units.rated_torque_unit_Nm = 1e-6;
+  EXPECT_NEAR(rated_joint_torque_Nm({192000, 1000}, units, "elbow"), 9.6, 1e-12);
+}
+
+TEST(RatedTorque, InTheOtherUnitIsRefusedWithTheUnitThatWouldFit) {
+  const std::string text = refusal({192000, 1000}, motor_units());
+  EXPECT_NE(text.find("rated_torque_unit = \"uNm\""), std::string::npos) << text;
+  EXPECT_NE(text.find("would agree"), std::string::npos) << text;
+  UnitConfig units = motor_units();
+  units.rated_torque_unit_Nm = 1e-6;
+  EXPECT_NE(refusal({192, 1000}, units).find("rated_torque_unit = \"mNm\""), std::string::npos);
+}
+
+TEST(RatedTorque, OnTheOtherSideOfTheGearIsRefusedWithTheSideThatWouldFit) {
+  EXPECT_NE(refusal({9600, 1000}, motor_units()).find("torque_side = \"joint\""), std::string::npos);
+}
+
+TEST(RatedTorque, ThatNothingExplainsIsRefused) {
+  EXPECT_NE(refusal({19, 1000}, motor_units()).find("no unit makes them agree"), std::string::npos);
+  EXPECT_NE(refusal({0, 0}, motor_units()), "");
+  EXPECT_NE(refusal({0, 1000}, motor_units()), "");
+}
+
+TEST(RatedTorque, AllowsForPeakAndRmsAmperes) {
+  EXPECT_EQ(refusal({192, 1414}, motor_units()), "");
+  EXPECT_EQ(refusal({192, 707}, motor_units()), "");
+  EXPECT_NE(refusal({192, 2000}, motor_units()), "");
+}
+
+TEST(TorqueScale, RoundsToThousandthsOfRatedTorqueWithTheDrivesSign) {
+  const TorqueScale forward(9.6, 1, 20.0);
+  const TorqueScale reversed(9.6, -1, 20.0);
+  EXPECT_EQ(forward.per_mille(9.6), 1000);
+  EXPECT_EQ(reversed.per_mille(9.6), -1000);
+  EXPECT_EQ(forward.per_mille(0.0049), 1);
+  EXPECT_EQ(forward.per_mille(0.0047), 0);
+  EXPECT_NEAR(reversed.torque_Nm(-500), 4.8, 1e-12);
+}
+
+TEST(TorqueScale, NeverExceedsItsLimitNorSendsWhatIsNoNumber) {
+  const TorqueScale scale(9.6, 1, 20.0);
+  EXPECT_EQ(scale.limit_per_mille(), 2083);
+  EXPECT_LE(scale.torque_Nm(static_cast<std::int16_t>(scale.limit_per_mille())), 20.0);
+  EXPECT_EQ(scale.per_mille(1e6), 2083);
+  EXPECT_EQ(scale.per_mille(-1e300), -2083);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(scale.per_mille(bad), 0);
+  EXPECT_EQ(TorqueScale(1e-3, 1, 1e6).limit_per_mille(), INT16_MAX) << "6071h holds no more";
+}
+
+TEST(PositionScale, CountsOnWhenTheCounterWraps) {
+  PositionScale scale(motor_units());
+  const double start_rad = scale.position_rad(INT32_MAX - 10);
+  EXPECT_NEAR(scale.position_rad(INT32_MIN + 9) - start_rad, 20 * 2 * std::numbers::pi / 320000, 1e-9);
+  EXPECT_NEAR(scale.position_rad(INT32_MAX - 10), start_rad, 1e-9) << "and back";
+}
+
+TEST(PositionScale, TurnsWithTheJointAndFromItsZero) {
+  UnitConfig units = motor_units();
+  units.direction = -1;
+  units.position_offset_rad = 0.5;
+  PositionScale scale(units);
+  EXPECT_NEAR(scale.position_rad(80000), 0.5 - std::numbers::pi / 2, 1e-12);
+}
+
+TEST(TemperatureObject, IsReadWithItsTypeScaleAndOffset) {
+  TemperatureObject object;
+  object.scale_C = 0.1;
+  EXPECT_NEAR(temperature_C(object, 0xFF9C), -10.0, 1e-12) << "INT16, a tenth of a degree";
+  object.type = NumberType::kReal32;
+  object.scale_C = 1.0;
+  EXPECT_NEAR(temperature_C(object, 0x41CC0000), 25.5, 1e-6);
+  object.type = NumberType::kUint8;
+  object.offset_C = -40.0;
+  EXPECT_NEAR(temperature_C(object, 65), 25.0, 1e-12);
+}
+
+TEST(PackedTemperature, ArrivesWholeWithItsAge) {
+  PackedTemperature cell;
+  double temperature_C = 0.0;
+  std::int64_t age_ns = 0;
+  EXPECT_FALSE(cell.get(0, temperature_C, age_ns));
+  const std::int64_t wrap_ns = (std::int64_t{1} << 32) * 1'000'000;
+  for (const std::int64_t time_ns : {std::int64_t{5'000'000'000}, wrap_ns - 1'000'000}) {
+    cell.put(-12.5, time_ns);
+    ASSERT_TRUE(cell.get(time_ns + 2'000'000'000, temperature_C, age_ns));
+    EXPECT_EQ(temperature_C, -12.5);
+    EXPECT_EQ(age_ns, 2'000'000'000);
+  }
+  cell.get(wrap_ns - 50'000'000, temperature_C, age_ns);
+  EXPECT_EQ(age_ns, 0) << "a cycle that began before the value came";
+}
+
+// The longest frame, stuffed as badly as it can be: after five equal bits a sixth, and every four from there.
+TEST(BusLoad, HasTheWorstStuffingOfTheLiterature) {
+  EXPECT_EQ(worst_case_frame_bits(8), 135);
+  EXPECT_EQ(worst_case_frame_bits(4), 95);
+  EXPECT_EQ(worst_case_frame_bits(0), 55);
+}
+
+TEST(BusLoad, AddsUpAndIsRefusedAboveItsLimit) {
+  const std::vector<FrameTraffic> joint{{"SYNC", 0, 1000.0}, {"RPDO1", 4, 1000.0}, {"TPDO1", 8, 1000.0}};
+  EXPECT_NEAR(bus_load(joint, 1e6), 0.285, 1e-12);
+  EXPECT_NO_THROW(require_bus_load("can0", joint, 1e6, 0.3));
+  try {
+    require_bus_load("can0", joint, 500e3, 0.5);
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("57.0 %"), std::string::npos) << text;
+    EXPECT_NE(text.find("load_limit = 0.50"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace strainwave::cia402
