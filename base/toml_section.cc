@@ -77,14 +77,17 @@ const toml::node& TomlSection::require(std::string_view key) {
 }
 
 double TomlSection::checked(std::string_view key, const toml::node& node, Range allowed) const {
-  const std::string range = "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) + " is allowed";
+  const std::string range =
+      "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) + " is allowed";
   const auto value = node.value<double>();
   if (!node.is_number() || !value || !std::isfinite(*value) || *value < allowed.min || *value > allowed.max)
     fail(key, range);
   return *value;
 }
 
-double TomlSection::number(std::string_view key, Range allowed) { return checked(key, require(key), allowed); }
+double TomlSection::number(std::string_view key, Range allowed) {
+  return checked(key, require(key), allowed);
+}
 
 double TomlSection::number_or(std::string_view key, double fallback, Range allowed) {
   const toml::node* node = find(key);
@@ -96,7 +99,8 @@ std::int64_t TomlSection::integer(std::string_view key, std::int64_t min, std::i
   return integer_or(key, min, min, max);
 }
 
-std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t fallback, std::int64_t min, std::int64_t max) {
+std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t fallback, std::int64_t min,
+                                     std::int64_t max) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
@@ -124,11 +128,13 @@ std::string TomlSection::text_or(std::string_view key, std::string fallback) {
 
 std::string TomlSection::choice(std::string_view key, const std::vector<std::string>& allowed) {
   std::string value = text(key);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) fail(key, "allowed are " + join(allowed));
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+    fail(key, "allowed are " + join(allowed));
   return value;
 }
 
-std::string TomlSection::choice_or(std::string_view key, std::string fallback, const std::vector<std::string>& allowed) {
+std::string TomlSection::choice_or(std::string_view key, std::string fallback,
+                                   const std::vector<std::string>& allowed) {
   return find(key) == nullptr ? fallback : choice(key, allowed);
 }
 

@@ -2,10 +2,10 @@
 // an error. Not real-time.
 #pragma once
 
+#include <toml++/toml.h>
 #include <set>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
 
 namespace strainwave {

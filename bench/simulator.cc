@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "sim/joint/joint_plant.h"
-#include "sim/studies/loop_controllers.h"
 #include "sim/joint/reference_plant.h"
+#include "sim/studies/loop_controllers.h"
 
 namespace strainwave {
 namespace {
@@ -22,7 +22,8 @@ void physics_substep(benchmark::State& bench) {
   const double speed_rad_s = static_cast<double>(bench.range(0)) * 1e-3;
   input.torque_Nm = 10.0;
   for (auto _ : bench) {
-    if (std::abs(state.velocity_rad_s) > speed_rad_s) input.torque_Nm = -std::copysign(10.0, state.velocity_rad_s);
+    if (std::abs(state.velocity_rad_s) > speed_rad_s)
+      input.torque_Nm = -std::copysign(10.0, state.velocity_rad_s);
     advance(state, joint, input, 1e-4, kSubsteps);
     benchmark::DoNotOptimize(state);
   }

@@ -16,8 +16,8 @@
 #include <string>
 #include <thread>
 
-#include "control/gain_table_json.h"
 #include "base/input_error.h"
+#include "control/gain_table_json.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/simulated_actuator.h"
 
@@ -71,8 +71,7 @@ Slice run_ours(double seconds, int joints, const GainTable& table) {
   if (!loop.real_time_refusal().empty()) throw InputError(loop.real_time_refusal());
   // The first order is taken with the first reading; enabling must come a cycle later.
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  for (std::size_t i = 0; i < loop.joint_count(); ++i)
-    loop.joint(i).orders().push(order(OrderKind::kEnable));
+  for (std::size_t i = 0; i < loop.joint_count(); ++i) loop.joint(i).orders().push(order(OrderKind::kEnable));
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   const Slice slice{loop.statistics().wakeup_latency.counts(), loop.statistics().wakeup_latency.max_ns()};
   loop.request_stop();

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "control/fuzzy_friction.h"
 #include "base/strict_json.h"
+#include "control/fuzzy_friction.h"
 
 namespace strainwave {
 

@@ -49,7 +49,9 @@ constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_visco
 }
 
 /// A duration as the loop counts time, rounded to the nearest.
-inline std::int64_t nanoseconds(double duration_s) noexcept { return std::llround(duration_s * 1e9); }
+inline std::int64_t nanoseconds(double duration_s) noexcept {
+  return std::llround(duration_s * 1e9);
+}
 
 /// -1, 0 or 1.
 constexpr double sign(double value) {

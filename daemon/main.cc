@@ -7,11 +7,11 @@
 #include <iostream>
 
 #include "base/input_error.h"
+#include "base/manual/manual.h"
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
 #include "daemon/supervisor.h"
-#include "base/manual/manual.h"
 
 namespace {
 
@@ -37,9 +37,11 @@ int main(int argc, char** argv) {
   app.add_option("--config", config_path, "configuration file (TOML)")->required();
   app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
   bool check_lines = false;
-  app.add_flag("--check-lines", check_lines, "show every digital line of the joints and who holds it, and end");
+  app.add_flag("--check-lines", check_lines,
+               "show every digital line of the joints and who holds it, and end");
   bool check_drives = false;
-  app.add_flag("--check-drives", check_drives, "do to the drives all that start-up does, enable none, and end");
+  app.add_flag("--check-drives", check_drives,
+               "do to the drives all that start-up does, enable none, and end");
   app.set_version_flag("--version", STRAINWAVE_VERSION);
   strainwave::add_manual_option(app, "strainwaved");
   CLI11_PARSE(app, argc, argv);
@@ -49,7 +51,8 @@ int main(int argc, char** argv) {
   try {
     const strainwave::DaemonConfig config = strainwave::read_config(config_path);
     if (check_only) {
-      std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix << '\n';
+      std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix
+                << '\n';
       return 0;
     }
     if (check_lines) return show_lines(config);

@@ -15,10 +15,10 @@
 #include <system_error>
 #include <thread>
 
-#include "control/gain_table_json.h"
 #include "base/input_error.h"
-#include "daemon/drive_check.h"
+#include "control/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
+#include "daemon/drive_check.h"
 
 namespace strainwave {
 
@@ -73,18 +73,28 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
 std::string advice(const Reply& reply) {
   const std::string mode = "the joint is " + std::string(to_text(reply.mode));
   switch (reply.reason) {
-    case Reason::kNoTable: return mode + ": load a gain table first";
-    case Reason::kFaulted: return mode + ": see its fault, remove the cause, clear the fault";
-    case Reason::kMoving: return mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kNoTable:
+      return mode + ": load a gain table first";
+    case Reason::kFaulted:
+      return mode + ": see its fault, remove the cause, clear the fault";
+    case Reason::kMoving:
+      return mode + ": hold or disable it first, a table is taken over only at standstill";
     case Reason::kStreamExpired:
-      return mode + ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
-    case Reason::kNotHomed: return mode + ", and its position is not known: strainwavectl home first";
-    case Reason::kAtLimitSwitch: return mode + " at a limit switch: only a move away from it is possible";
-    case Reason::kNoHoming: return mode + ", and joint.homing says of no switch or index that it is home";
-    case Reason::kDriveNotReady: return mode + ", and its drive gives no position: check supply and connection";
+      return mode +
+             ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
+    case Reason::kNotHomed:
+      return mode + ", and its position is not known: strainwavectl home first";
+    case Reason::kAtLimitSwitch:
+      return mode + " at a limit switch: only a move away from it is possible";
+    case Reason::kNoHoming:
+      return mode + ", and joint.homing says of no switch or index that it is home";
+    case Reason::kDriveNotReady:
+      return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:
-      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled" : ": this order does nothing in this mode");
-    default: return mode;
+      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled"
+                                              : ": this order does nothing in this mode");
+    default:
+      return mode;
   }
 }
 
@@ -97,7 +107,8 @@ std::string drive_words(const JointConfig& joint, const LoopEvent& event) {
 std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
   std::vector<FlightRecordWriter::Source> sources;
   for (std::size_t i = 0; i < config.joints.size() && config.recorder.enabled(); ++i)
-    sources.push_back({config.joints[i].name, std::string(config.joints[i].plant.joint_model.view()), loop.recorder(i)});
+    sources.push_back(
+        {config.joints[i].name, std::string(config.joints[i].plant.joint_model.view()), loop.recorder(i)});
   return sources;
 }
 
@@ -157,10 +168,12 @@ void Supervisor::load_initial_tables() {
     if (joint.table.empty()) continue;
     Verdict verdict;
     verdict.table = std::make_unique<GainTable>(read_gain_table(joint.table));
-    const TableVerdict judged = judge_table(*verdict.table, joint.plant, joint.loop.controller.torque_limit_Nm);
+    const TableVerdict judged =
+        judge_table(*verdict.table, joint.plant, joint.loop.controller.torque_limit_Nm);
     if (judged.reason != Reason::kAccepted)
       throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
-    spdlog::info("{}: table {} from {}, {}", joint.name, verdict.table->name.view(), joint.table.string(), judged.text);
+    spdlog::info("{}: table {} from {}, {}", joint.name, verdict.table->name.view(), joint.table.string(),
+                 judged.text);
     verdict.requester.joint = i;
     verdict.order.kind = OrderKind::kUseTable;
     if (!prepare_table(verdict) || !loop_.joint(i).orders().push(verdict.order))
@@ -175,8 +188,9 @@ void Supervisor::start_gateway() {
   while (inbound_.ready.load(std::memory_order_acquire) == 0) {
     const std::int64_t now_ns = monotonic_now_ns();
     if (const auto end = gateway_.take_end(now_ns))
-      throw InputError("the gateway ended with " + *end +
-                       (gateway_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
+      throw InputError(
+          "the gateway ended with " + *end +
+          (gateway_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
     if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -189,7 +203,7 @@ void Supervisor::run() {
   flight_records_.start();
   log_buses();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
-                                                               : "as user " + config_.gateway_user.name);
+                                                                : "as user " + config_.gateway_user.name);
   loop_.start();
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
@@ -248,14 +262,16 @@ void Supervisor::take_messages(std::int64_t now_ns) {
 
 void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
   switch (verdict.kind) {
-    case Verdict::Kind::kDiscard: return log_refusal(verdict, now_ns);
+    case Verdict::Kind::kDiscard:
+      return log_refusal(verdict, now_ns);
     case Verdict::Kind::kRepeat:
       if (stranger_answers_.try_take(now_ns)) answers_.repeat(verdict.requester);
       return;
     case Verdict::Kind::kRefuse:
       log_refusal(verdict, now_ns);
       return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
-    case Verdict::Kind::kOrder: break;
+    case Verdict::Kind::kOrder:
+      break;
   }
   const bool is_table = verdict.order.kind == OrderKind::kUseTable;
   if (is_table && !prepare_table(verdict)) {
@@ -267,7 +283,8 @@ void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
   if (!loop_.joint(verdict.requester.joint).orders().push(verdict.order)) {
     if (is_table) books_[verdict.requester.joint].end(false);
     admission_.count_reject(Reason::kBusy);
-    return answer(verdict.requester, Reason::kBusy, "too many orders at once: send fewer, or wait for answers", now_ns);
+    return answer(verdict.requester, Reason::kBusy,
+                  "too many orders at once: send fewer, or wait for answers", now_ns);
   }
   pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, is_table};
 }
@@ -309,7 +326,8 @@ void Supervisor::take_replies(std::int64_t now_ns) {
       ++it;
       continue;
     }
-    answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
+    answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state",
+           now_ns);
     if (it->second.is_table) {
       // The loop may still take it: its slot stays reserved until it says so, silently.
       it->second.deadline_ns = INT64_MAX;
@@ -328,7 +346,8 @@ void Supervisor::take_events() {
     if (event.to == Mode::kFaulted) {
       const std::string_view key = configuration_key(event.fault);
       spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
-                    to_text(event.fault), drive_words(config_.joints[static_cast<std::size_t>(event.joint)], event),
+                    to_text(event.fault),
+                    drive_words(config_.joints[static_cast<std::size_t>(event.joint)], event),
                     key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
     } else
       spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
@@ -351,7 +370,8 @@ void Supervisor::take_states(std::int64_t now_ns) {
 }
 
 void Supervisor::watch_gateway(std::int64_t now_ns) {
-  if (const auto end = gateway_.take_end(now_ns)) spdlog::error("the gateway ended with {}: starting it again", *end);
+  if (const auto end = gateway_.take_end(now_ns))
+    spdlog::error("the gateway ended with {}: starting it again", *end);
   if (!stopping_ && gateway_.start_due(now_ns)) {
     try {
       gateway_.start(now_ns);
@@ -362,7 +382,8 @@ void Supervisor::watch_gateway(std::int64_t now_ns) {
   end_hung_gateway(now_ns);
   const std::uint64_t foreign = inbound_.foreign_states.load(std::memory_order_relaxed);
   if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
-    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix", config_.prefix);
+    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix",
+                  config_.prefix);
   foreign_states_seen_ = foreign;
 }
 
@@ -391,8 +412,8 @@ void Supervisor::publish_timing(std::int64_t now_ns) {
 void Supervisor::tell_systemd(std::int64_t now_ns) {
   const bool was_ready = service_.ready();
   const LoopStatistics& statistics = loop_.statistics();
-  service_.update(statistics.cycles.load(std::memory_order_acquire), statistics.overruns.load(std::memory_order_acquire),
-                  now_ns);
+  service_.update(statistics.cycles.load(std::memory_order_acquire),
+                  statistics.overruns.load(std::memory_order_acquire), now_ns);
   if (service_.ready() && !was_ready) spdlog::info("ready: the loop meets its timing");
   if (now_ns < status_due_ns_ || state_cursor_ == 0) return;
   status_due_ns_ = now_ns + kStatusEvery_ns;
@@ -410,7 +431,8 @@ void Supervisor::log_refusal(const Verdict& verdict, std::int64_t now_ns) {
   if (verdict.kind == Verdict::Kind::kDiscard)
     spdlog::warn("message on {} discarded: {}", incoming_->channel.view(), to_text(verdict.reason));
   else
-    spdlog::warn("{}: refused: {}: {}", config_.joints[verdict.requester.joint].name, to_text(verdict.reason), verdict.text);
+    spdlog::warn("{}: refused: {}: {}", config_.joints[verdict.requester.joint].name, to_text(verdict.reason),
+                 verdict.text);
 }
 
 }  // namespace strainwave

@@ -10,15 +10,15 @@
 
 #include "daemon/admission/admission.h"
 #include "daemon/admission/answers.h"
+#include "daemon/admission/table_book.h"
+#include "daemon/admission/token_bucket.h"
 #include "daemon/config/config.h"
 #include "daemon/gateway/gateway_process.h"
+#include "daemon/gateway/shared_memory.h"
 #include "daemon/instance_lock.h"
 #include "daemon/log.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "daemon/service_notifier.h"
-#include "daemon/gateway/shared_memory.h"
-#include "daemon/admission/table_book.h"
-#include "daemon/admission/token_bucket.h"
 
 namespace strainwave {
 
@@ -36,7 +36,7 @@ class Supervisor {
  private:
   struct Pending {
     Requester requester;
-    std::string text;         ///< to send with the acceptance
+    std::string text;  ///< to send with the acceptance
     std::int64_t deadline_ns;
     bool is_table;
   };

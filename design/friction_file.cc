@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "control/fuzzy_friction_json.h"
 #include "base/input_error.h"
 #include "base/strict_json.h"
 #include "base/text_file.h"
+#include "control/fuzzy_friction_json.h"
 #include "control/units.h"
 #include "design/csv.h"
 #include "design/friction_fit.h"

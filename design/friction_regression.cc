@@ -47,8 +47,10 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
   const Eigen::MatrixX3d scaled = X * scale.cwiseInverse().asDiagonal();
   // Squares of the singular values, rising.
   const Eigen::Matrix3d gram = scaled.transpose() * scaled;
-  const Eigen::Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!(scale.minCoeff() > 0.0) || !(squares(0) * kWorstCondition * kWorstCondition > squares(2))) refuse(points, shape);
+  const Eigen::Vector3d squares =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(scale.minCoeff() > 0.0) || !(squares(0) * kWorstCondition * kWorstCondition > squares(2)))
+    refuse(points, shape);
 
   const Eigen::Matrix3d inverse = (X.transpose() * X).ldlt().solve(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d parameters = inverse * (X.transpose() * F);

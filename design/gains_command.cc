@@ -3,8 +3,8 @@
 #include <ctime>
 #include <memory>
 
-#include "control/gain_table_json.h"
 #include "base/input_error.h"
+#include "control/gain_table_json.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"

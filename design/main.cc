@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/input_error.h"
-#include "design/commands.h"
 #include "base/manual/manual.h"
+#include "design/commands.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Fit friction over temperature, design gain tables (LMI), verify and describe them.",

@@ -20,15 +20,15 @@ enum class DriveState : std::int32_t {
 /// Trouble as the driver sees it. Numbers are fixed; docs/faults.md has the cause, effect and remedy of each.
 enum class ActuatorFault : std::int32_t {
   kNone = 0,
-  kReadFailed = 1,     ///< no fresh position for longer than the driver tolerates
-  kWriteRefused = 2,   ///< the drive did not take the torque command
-  kDriveFault = 3,     ///< the drive reports its own fault
-  kPowerLost = 4,      ///< supply absent or out of range
-  kImplausible = 5,    ///< the reading contradicts itself (stuck, jumped, not finite)
-  kLinkLost = 6,       ///< bus or device gone
-  kEmergencyStop = 7,  ///< the e-stop input is active
-  kDriveRestarted = 8, ///< the drive has restarted by itself and forgotten its settings
-  kBusError = 9,       ///< the bus's controller counts too many errors
+  kReadFailed = 1,      ///< no fresh position for longer than the driver tolerates
+  kWriteRefused = 2,    ///< the drive did not take the torque command
+  kDriveFault = 3,      ///< the drive reports its own fault
+  kPowerLost = 4,       ///< supply absent or out of range
+  kImplausible = 5,     ///< the reading contradicts itself (stuck, jumped, not finite)
+  kLinkLost = 6,        ///< bus or device gone
+  kEmergencyStop = 7,   ///< the e-stop input is active
+  kDriveRestarted = 8,  ///< the drive has restarted by itself and forgotten its settings
+  kBusError = 9,        ///< the bus's controller counts too many errors
 };
 
 /// Digital inputs at the joint; true: active, whatever the wiring's polarity. What a drive does not have stays false.
@@ -36,22 +36,22 @@ struct JointInputs {
   bool negative_limit = false;  ///< end of travel in the direction of falling position
   bool positive_limit = false;
   bool home = false;
-  std::int64_t index_count = 0;      ///< pulses of the encoder's index since the start
-  double index_position_rad = 0.0;   ///< where the last one was, counted as joint_position_rad
+  std::int64_t index_count = 0;     ///< pulses of the encoder's index since the start
+  double index_position_rad = 0.0;  ///< where the last one was, counted as joint_position_rad
 };
 
 /// One period's measurements.
 struct ActuatorReading {
-  double joint_position_rad = 0.0;     ///< accumulated, not wrapped
-  double joint_velocity_rad_s = 0.0;   ///< valid only when has_velocity
-  double torque_applied_Nm = 0.0;      ///< what the drive says it applied last period
-  double temperature_C = 0.0;          ///< latest known value; valid only when has_temperature
-  std::int64_t temperature_age_ns = 0; ///< since the sensor produced it
+  double joint_position_rad = 0.0;      ///< accumulated, not wrapped
+  double joint_velocity_rad_s = 0.0;    ///< valid only when has_velocity
+  double torque_applied_Nm = 0.0;       ///< what the drive says it applied last period
+  double temperature_C = 0.0;           ///< latest known value; valid only when has_temperature
+  std::int64_t temperature_age_ns = 0;  ///< since the sensor produced it
   DriveState drive_state = DriveState::kDisabled;
   ActuatorFault fault = ActuatorFault::kNone;
-  JointInputs inputs;                  ///< of this period, even without a fresh position
-  std::uint32_t drive_error = 0;       ///< why, in the driver's own numbers; 0: nothing to say
-  bool has_position = false;           ///< false: no fresh sample this period, the value is the last one
+  JointInputs inputs;             ///< of this period, even without a fresh position
+  std::uint32_t drive_error = 0;  ///< why, in the driver's own numbers; 0: nothing to say
+  bool has_position = false;      ///< false: no fresh sample this period, the value is the last one
   bool has_velocity = false;
   bool has_temperature = false;
 };

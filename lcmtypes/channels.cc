@@ -6,7 +6,8 @@ namespace strainwave {
 
 namespace {
 constexpr std::size_t kMaxNameLength = 24;
-constexpr std::string_view kNameCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+constexpr std::string_view kNameCharacters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
 }  // namespace
 
 bool is_valid_name(std::string_view name) {

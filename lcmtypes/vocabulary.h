@@ -11,7 +11,15 @@
 namespace strainwave {
 
 /// state_v1.mode
-enum class Mode : std::int32_t { kOff = 0, kStarting = 1, kHolding = 2, kTracking = 3, kStopping = 4, kFaulted = 5, kHoming = 6 };
+enum class Mode : std::int32_t {
+  kOff = 0,
+  kStarting = 1,
+  kHolding = 2,
+  kTracking = 3,
+  kStopping = 4,
+  kFaulted = 5,
+  kHoming = 6
+};
 
 /// state_v1.fault: latched, the joint is stopped.
 enum class Fault : std::int32_t {
@@ -85,10 +93,24 @@ enum class Reason : std::int32_t {
 inline constexpr int kReasonCount = 32;
 
 /// command_v1.action
-enum class Action : std::int32_t { kEnable = 1, kDisable = 2, kHold = 3, kClearFault = 4, kRevertTable = 5, kHome = 6 };
+enum class Action : std::int32_t {
+  kEnable = 1,
+  kDisable = 2,
+  kHold = 3,
+  kClearFault = 4,
+  kRevertTable = 5,
+  kHome = 6
+};
 
 /// state_v1.temperature_status
-enum class TemperatureStatus : std::int32_t { kValid = 0, kNeverSeen = 1, kTooOld = 2, kOutOfRange = 3, kTooFast = 4, kNotChanging = 5 };
+enum class TemperatureStatus : std::int32_t {
+  kValid = 0,
+  kNeverSeen = 1,
+  kTooOld = 2,
+  kOutOfRange = 3,
+  kTooFast = 4,
+  kNotChanging = 5
+};
 
 /// One or two words each, lower case; "unknown" for a number without a meaning.
 std::string_view to_text(Mode mode) noexcept;

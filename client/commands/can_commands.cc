@@ -1,7 +1,7 @@
 // can-scan and can-check: drives on CAN without a running daemon.
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
 #include "client/commands/sibling_program.h"
+#include "client/link/exit_status.h"
 #include "drivers/can/can_scan.h"
 
 namespace strainwave {

@@ -1,7 +1,7 @@
 // gpio-check: what the daemon itself says of the lines of a configuration.
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
 #include "client/commands/sibling_program.h"
+#include "client/link/exit_status.h"
 
 namespace strainwave {
 

@@ -5,10 +5,10 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "client/commands/commands.h"
-#include "client/link/event_log_writer.h"
-#include "client/link/exit_status.h"
 #include "client/commands/guarded_motion.h"
 #include "client/commands/identify_plan.h"
+#include "client/link/event_log_writer.h"
+#include "client/link/exit_status.h"
 #include "client/link/limits_listener.h"
 
 namespace strainwave {

@@ -42,9 +42,10 @@ ClientError faulted(const std::string& joint, const JointView& view) {
 
 /// A motion that is waited for.
 struct Motion {
-  Mode mode;                                                 ///< while it lasts
-  std::string purpose;                                       ///< in words, after "did not"
-  std::function<bool(const JointView&)> replaced = nullptr;  ///< by another order of this kind; null: cannot be
+  Mode mode;            ///< while it lasts
+  std::string purpose;  ///< in words, after "did not"
+  std::function<bool(const JointView&)> replaced =
+      nullptr;  ///< by another order of this kind; null: cannot be
 };
 
 /// What ends the wait before the joint is there, in words; empty while it is on its way.
@@ -146,8 +147,9 @@ void home(Client& client, const Output& output, const std::string& joint) {
     wait_until_holding(client, joint, {Mode::kHoming, "find home"});
   } catch (const ClientError& error) {
     if (error.status() != ExitStatus::kInterrupted) throw;
-    throw ClientError(error.status(),
-                      fmt::format("stopped waiting; {0} goes on homing. To stop it: strainwavectl hold {0}", joint));
+    throw ClientError(
+        error.status(),
+        fmt::format("stopped waiting; {0} goes on homing. To stop it: strainwavectl hold {0}", joint));
   }
   const state_v1& state = client.find(joint)->state;
   if ((state.notices & static_cast<std::int32_t>(Notice::kNotHomed)) != 0)
@@ -173,9 +175,10 @@ void move(Client& client, const Output& output, const MoveArguments& arguments) 
     return;
   }
   try {
-    wait_until_holding(client, joint,
-                       {Mode::kTracking, fmt::format("arrive at {} rad", position_rad),
-                        [&](const JointView& view) { return view.state.target_position_rad != position_rad; }});
+    wait_until_holding(
+        client, joint,
+        {Mode::kTracking, fmt::format("arrive at {} rad", position_rad),
+         [&](const JointView& view) { return view.state.target_position_rad != position_rad; }});
   } catch (const ClientError& error) {
     if (error.status() != ExitStatus::kInterrupted) throw;
     throw ClientError(error.status(),

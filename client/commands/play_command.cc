@@ -5,8 +5,8 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
 #include "client/commands/guarded_motion.h"
+#include "client/link/exit_status.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/wire.h"
 

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "client/options/command_options.h"
 #include "base/input_error.h"
 #include "base/manual/manual.h"
+#include "client/options/command_options.h"
 
 namespace strainwave {
 

@@ -29,9 +29,10 @@ void add_hardware_commands(CLI::App& app, Invocation& invocation) {
   scan->callback([&invocation, interface_name] {
     invocation.local_command = [interface_name](const Output& output) { can_scan(output, *interface_name); };
   });
-  add_check(app, invocation, "can-check", "do to the drives all that start-up does, enable none (no daemon)", can_check);
-  add_check(app, invocation, "gpio-check", "digital lines of a configuration: level and who holds them (no daemon)",
-            gpio_check);
+  add_check(app, invocation, "can-check", "do to the drives all that start-up does, enable none (no daemon)",
+            can_check);
+  add_check(app, invocation, "gpio-check",
+            "digital lines of a configuration: level and who holds them (no daemon)", gpio_check);
 }
 
 }  // namespace strainwave

@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "client/options/command_options.h"
 #include "client/link/exit_status.h"
+#include "client/options/command_options.h"
 #include "client/text/text.h"
 
 namespace strainwave {
@@ -68,18 +68,24 @@ void add_load_table(CLI::App& app, Invocation& invocation) {
 }
 
 void add_inject(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("inject", "give a simulated drive a fault, for tests (none: end them)");
+  CLI::App* command =
+      app.add_subcommand("inject", "give a simulated drive a fault, for tests (none: end them)");
   auto joint = std::make_shared<std::string>();
   auto kind = std::make_shared<std::string>();
   auto amount = std::make_shared<double>(0.0);
   auto for_s = std::make_shared<double>(0.0);
   add_joint(*command, *joint)->required();
-  command->add_option("FAULT", *kind, "sensor_nan, power_lost, ...: see docs/faults.md")->required()->type_name("");
-  command->add_option("--amount", *amount, "how much, for the faults that have an amount")->type_name("NUMBER");
+  command->add_option("FAULT", *kind, "sensor_nan, power_lost, ...: see docs/faults.md")
+      ->required()
+      ->type_name("");
+  command->add_option("--amount", *amount, "how much, for the faults that have an amount")
+      ->type_name("NUMBER");
   add_seconds(*command, "--for_s", *for_s, "how long; otherwise until ended");
   command->callback([&invocation, joint, kind, amount, for_s] {
     const InjectArguments arguments = parse_injection(*joint, *kind, *amount, *for_s);
-    invocation.command = [arguments](Client& client, const Output& output) { inject(client, output, arguments); };
+    invocation.command = [arguments](Client& client, const Output& output) {
+      inject(client, output, arguments);
+    };
   });
 }
 

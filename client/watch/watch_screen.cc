@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <map>
 
+#include "base/input_error.h"
 #include "client/link/exit_status.h"
 #include "client/link/limits_listener.h"
 #include "client/watch/order_desk.h"
 #include "client/watch/terminal.h"
 #include "client/watch/view.h"
-#include "base/input_error.h"
 
 namespace strainwave {
 

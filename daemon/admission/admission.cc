@@ -50,12 +50,18 @@ Verdict pass(const Requester& requester, OrderKind kind) {
 
 std::optional<OrderKind> order_of(Action action) {
   switch (action) {
-    case Action::kEnable: return OrderKind::kEnable;
-    case Action::kDisable: return OrderKind::kDisable;
-    case Action::kHold: return OrderKind::kHold;
-    case Action::kClearFault: return OrderKind::kClearFault;
-    case Action::kRevertTable: return OrderKind::kUseTable;
-    case Action::kHome: return OrderKind::kHome;
+    case Action::kEnable:
+      return OrderKind::kEnable;
+    case Action::kDisable:
+      return OrderKind::kDisable;
+    case Action::kHold:
+      return OrderKind::kHold;
+    case Action::kClearFault:
+      return OrderKind::kClearFault;
+    case Action::kRevertTable:
+      return OrderKind::kUseTable;
+    case Action::kHome:
+      return OrderKind::kHome;
   }
   return std::nullopt;
 }
@@ -75,8 +81,9 @@ Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
   const auto name = parse_channel(message.channel.view());
   Verdict verdict = discard(Reason::kMalformed);
   if (name && name->prefix == prefix_ && message.size <= message.bytes.size()) {
-    const auto joint = std::find_if(joints_.begin(), joints_.end(),
-                                    [&](const JointAdmission& candidate) { return candidate.name == name->joint; });
+    const auto joint = std::find_if(joints_.begin(), joints_.end(), [&](const JointAdmission& candidate) {
+      return candidate.name == name->joint;
+    });
     verdict = joint == joints_.end()
                   ? discard(Reason::kUnknownJoint)
                   : judge(name->kind, static_cast<std::size_t>(joint - joints_.begin()), message);
@@ -101,15 +108,17 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
                       ", this daemon's is another: read session_id from the STATE channel and send again");
   if (is_unsigned(payload(message))) {
     if (!security_.unsigned_allowed)
-      return refuse(requester, Reason::kUnsigned,
-                    "this daemon obeys signed orders only: strainwavectl --key FILE, see strainwavectl keygen --help");
+      return refuse(
+          requester, Reason::kUnsigned,
+          "this daemon obeys signed orders only: strainwavectl --key FILE, see strainwavectl keygen --help");
     return check_sequence(unsigned_sequences_, requester);
   }
   const auto key = security_.keys.find(key_id_of(payload(message)));
   if (!key)
-    return refuse(requester, Reason::kBadSignature,
-                  "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
-                  "and start the daemon again");
+    return refuse(
+        requester, Reason::kBadSignature,
+        "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
+        "and start the daemon again");
   if (!verifications_.available(now_ns_))
     return refuse(requester, Reason::kBusy, "too many forged or repeated orders at once: try again");
   auto verdict = check_signed(message, *key, envelope.needed, requester);
@@ -136,10 +145,11 @@ std::optional<Verdict> Admission::check_sequence(SequenceMemory& memory, Request
     requester.authentic = true;
     return std::nullopt;
   }
-  Verdict verdict = refuse(requester, Reason::kOldSequence,
-                           "sequence " + std::to_string(requester.sequence) +
-                               " does not rise above the sender's last, or above those of earlier senders with this key: "
-                               "use microseconds since the epoch, from a clock that is right");
+  Verdict verdict =
+      refuse(requester, Reason::kOldSequence,
+             "sequence " + std::to_string(requester.sequence) +
+                 " does not rise above the sender's last, or above those of earlier senders with this key: "
+                 "use microseconds since the epoch, from a clock that is right");
   if (judgement == SequenceMemory::Judgement::kRepeat) verdict.kind = Verdict::Kind::kRepeat;
   return verdict;
 }
@@ -152,7 +162,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
     return std::move(*verdict);
   if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
       !std::isfinite(setpoint->speed_limit_rad_s))
-    return refuse(requester, Reason::kNotFinite, "position_rad, valid_for_s and speed_limit_rad_s must be finite numbers");
+    return refuse(requester, Reason::kNotFinite,
+                  "position_rad, valid_for_s and speed_limit_rad_s must be finite numbers");
   const JointAdmission& limits = joints_[joint];
   std::ostringstream text;
   if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
@@ -161,7 +172,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s) {
-    text << "valid_for_s = " << setpoint->valid_for_s << ": from 0 (a move) to " << kMaxValidFor_s << " is allowed";
+    text << "valid_for_s = " << setpoint->valid_for_s << ": from 0 (a move) to " << kMaxValidFor_s
+         << " is allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
@@ -188,7 +200,8 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
     return std::move(*verdict);
   const auto kind = order_of(action);
   if (!kind)
-    return refuse(requester, Reason::kUnknownAction, "action = " + std::to_string(command->action) + ": see docs/messages.md");
+    return refuse(requester, Reason::kUnknownAction,
+                  "action = " + std::to_string(command->action) + ": see docs/messages.md");
   Verdict verdict = pass(requester, *kind);
   verdict.revert_table = action == Action::kRevertTable;
   return verdict;
@@ -216,21 +229,24 @@ Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message
   if (auto verdict = check_envelope(message, {inject->session_id, Role::kEngineer}, requester))
     return std::move(*verdict);
   if (!joints_[joint].takes_injected_faults)
-    return refuse(requester, Reason::kNotSimulated, joints_[joint].name + " has a real drive: faults are not injected there");
+    return refuse(requester, Reason::kNotSimulated,
+                  joints_[joint].name + " has a real drive: faults are not injected there");
   if (!std::isfinite(inject->for_s) || !std::isfinite(inject->amount))
     return refuse(requester, Reason::kNotFinite, "for_s and amount must be finite numbers");
   const auto kind = injected_fault_of(inject->kind);
   if (!kind)
-    return refuse(requester, Reason::kUnknownAction, "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
+    return refuse(requester, Reason::kUnknownAction,
+                  "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
   const AmountRange range = amount_range(*kind);
   std::ostringstream text;
   if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {
-    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s << " is allowed";
+    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s
+         << " is allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (inject->amount < range.min || inject->amount > range.max) {
-    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max << " is allowed for "
-         << to_text(*kind);
+    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max
+         << " is allowed for " << to_text(*kind);
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   Verdict verdict = pass(requester, OrderKind::kInject);

@@ -16,10 +16,10 @@
 
 #include "control/gain_table.h"
 #include "daemon/admission/authorized_keys.h"
-#include "daemon/realtime/orders.h"
 #include "daemon/admission/sequence_memory.h"
-#include "daemon/gateway/shared_memory.h"
 #include "daemon/admission/token_bucket.h"
+#include "daemon/gateway/shared_memory.h"
+#include "daemon/realtime/orders.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {

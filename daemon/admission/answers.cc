@@ -66,7 +66,8 @@ void Answers::temperature(const StateRecord& record) {
   message.used_C = record.state.temperature_C;
   message.age_s = record.temperature_age_s;
   message.status = record.state.temperature_status;
-  message.fallback_in_use = static_cast<GainsInUse>(record.state.gains_in_use) == GainsInUse::kFallback ? 1 : 0;
+  message.fallback_in_use =
+      static_cast<GainsInUse>(record.state.gains_in_use) == GainsInUse::kFallback ? 1 : 0;
   const auto& joint = joints_[static_cast<std::size_t>(record.joint_index)];
   out_.write(wire(channel(prefix_, joint, channel_kind::kTemperature), message));
 }
@@ -108,7 +109,9 @@ void Answers::timing(const LoopStatistics& statistics, const std::array<std::int
   message.joint_count = static_cast<std::int32_t>(joints_.size());
   message.wakeup_latency_max_ns = statistics.wakeup_latency.max_ns();
   message.execution_time_max_ns = statistics.execution_time.max_ns();
-  const auto copy = [](const HistogramCounts& counts, std::int64_t* to) { std::copy(counts.begin(), counts.end(), to); };
+  const auto copy = [](const HistogramCounts& counts, std::int64_t* to) {
+    std::copy(counts.begin(), counts.end(), to);
+  };
   copy(statistics.wakeup_latency.counts(), message.wakeup_latency_count);
   copy(statistics.execution_time.counts(), message.execution_time_count);
   copy(statistics.period_error.counts(), message.period_error_count);

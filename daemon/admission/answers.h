@@ -7,8 +7,8 @@
 #include <string>
 
 #include "daemon/admission/admission.h"
-#include "daemon/realtime/realtime_loop.h"
 #include "daemon/gateway/shared_memory.h"
+#include "daemon/realtime/realtime_loop.h"
 
 namespace strainwave {
 

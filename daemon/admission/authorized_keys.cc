@@ -72,7 +72,8 @@ std::optional<std::size_t> AuthorizedKeys::find(const KeyId& id) const noexcept 
 }
 
 std::filesystem::path credential_or_file(const std::filesystem::path& path) {
-  const char* folder = std::getenv("CREDENTIALS_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
+  const char* folder =
+      std::getenv("CREDENTIALS_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
   if (folder == nullptr || *folder == '\0') return path;
   std::error_code unreadable;
   const std::filesystem::path credential = std::filesystem::path(folder) / path.filename();

@@ -21,8 +21,8 @@ TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const Pl
                          const FuzzyFriction& friction) {
   const CertificateReport report = certify(gains, plant, friction);
   std::ostringstream text;
-  text << which << " gains " << gains.controller.view() << ": worst pair of rules (" << report.worst.from << ", "
-       << report.worst.to << "), margin " << report.worst.margin;
+  text << which << " gains " << gains.controller.view() << ": worst pair of rules (" << report.worst.from
+       << ", " << report.worst.to << "), margin " << report.worst.margin;
   if (report.certified) return {Reason::kAccepted, text.str()};
   text << ": stability is not proved for this joint; design the table for it with strainwave-design gains";
   return {Reason::kTableNotCertified, text.str()};
@@ -38,11 +38,13 @@ TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, 
          << " in this daemon: design the table with --period_s " << expected.period_s;
     return {Reason::kTablePeriod, text.str()};
   }
-  if (const auto mismatch = find_identity_mismatch(table, expected)) return {Reason::kTableIdentity, *mismatch};
+  if (const auto mismatch = find_identity_mismatch(table, expected))
+    return {Reason::kTableIdentity, *mismatch};
   if (table.torque_limit_Nm > torque_limit_Nm * (1.0 + kPeriodTolerance)) {
     std::ostringstream text;
-    text << "torque_limit_Nm = " << table.torque_limit_Nm << " in the table, joint.limits.torque_Nm = "
-         << torque_limit_Nm << ": the table may not ask for more";
+    text << "torque_limit_Nm = " << table.torque_limit_Nm
+         << " in the table, joint.limits.torque_Nm = " << torque_limit_Nm
+         << ": the table may not ask for more";
     return {Reason::kTableDefect, text.str()};
   }
   PlantIdentity plant = expected;

@@ -1,5 +1,6 @@
 #include "daemon/config/config.h"
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -7,15 +8,14 @@
 #include <functional>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "base/input_error.h"
+#include "base/toml_section.h"
 #include "daemon/config/config_can.h"
 #include "daemon/config/config_gpio.h"
 #include "daemon/config/config_homing.h"
 #include "daemon/config/config_simulated.h"
 #include "daemon/config/config_thermometer.h"
-#include "base/toml_section.h"
 #include "lcmtypes/channels.h"
 
 namespace strainwave {
@@ -43,15 +43,17 @@ LoopConfig read_loop(TomlSection& section) {
 RecorderConfig read_recorder(TomlSection section, const std::filesystem::path& folder) {
   RecorderConfig recorder;
   recorder.seconds = section.number_or("seconds", recorder.seconds, {0.01, 600.0});
-  recorder.post_trigger_s = section.number_or("post_trigger_s", std::min(recorder.post_trigger_s, 0.1 * recorder.seconds),
-                                              {0.0, 0.9 * recorder.seconds});
+  recorder.post_trigger_s =
+      section.number_or("post_trigger_s", std::min(recorder.post_trigger_s, 0.1 * recorder.seconds),
+                        {0.0, 0.9 * recorder.seconds});
   // systemd's StateDirectory=, the first if there are several.
   const char* state = std::getenv("STATE_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
   if (section.has("directory")) {
     recorder.directory = folder / section.text("directory");
   } else if (state != nullptr && *state != '\0') {
-    recorder.directory = std::filesystem::path(std::string_view(state).substr(0, std::string_view(state).find(':'))) /
-                         "flight-records";
+    recorder.directory =
+        std::filesystem::path(std::string_view(state).substr(0, std::string_view(state).find(':'))) /
+        "flight-records";
   }
   recorder.max_files = static_cast<int>(section.integer_or("max_files", recorder.max_files, 1, 100000));
   recorder.max_total_MB = section.number_or("max_total_MB", recorder.max_total_MB, {0.001, 1e6});
@@ -119,7 +121,8 @@ void read_features(TomlSection section, JointControllerConfig& controller) {
   section.refuse_unknown_keys();
 }
 
-JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder, CanConfig& can) {
+JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
+                       CanConfig& can) {
   JointConfig joint;
   joint.name = read_name(section, "name", "");
   joint.plant.joint_model = FixedString<32>(section.text("joint_model"));
@@ -132,16 +135,19 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   read_temperature_check(section.section_or_empty("temperature"), joint.loop);
   if (section.has("group")) joint.group = read_name(section, "group", "");
   joint.loop.fault_stops_group = section.choice_or("on_fault", "joint", {"joint", "group"}) == "group";
-  if (joint.loop.fault_stops_group && joint.group.empty()) section.fail("on_fault", "\"group\" needs joint.group as well");
+  if (joint.loop.fault_stops_group && joint.group.empty())
+    section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   read_features(section.section_or_empty("control"), joint.loop.controller);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
   if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
   if (joint.thermometer && joint.driver == "simulated")
-    section.fail("thermometer", "a sensor of a real drive is allowed: the simulated one has its own temperature");
+    section.fail("thermometer",
+                 "a sensor of a real drive is allowed: the simulated one has its own temperature");
   TomlSection driver = section.section_or_empty(joint.driver);
   if (joint.thermometer && driver.has("temperature"))
-    section.fail("thermometer", "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
+    section.fail("thermometer",
+                 "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
   HomingInputs inputs;
   if (joint.driver == "can")
     can.read_joint(driver, joint);
@@ -180,15 +186,17 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
                              const std::filesystem::path& folder) {
   SecurityPolicy security;
   security.unsigned_allowed = section.choice_or("unsigned_orders", "refuse", {"refuse", "allow"}) == "allow";
-  const bool simulated =
-      std::all_of(joints.begin(), joints.end(), [](const JointConfig& joint) { return joint.driver == "simulated"; });
+  const bool simulated = std::all_of(joints.begin(), joints.end(),
+                                     [](const JointConfig& joint) { return joint.driver == "simulated"; });
   if (security.unsigned_allowed && !simulated)
-    section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
+    section.fail("unsigned_orders",
+                 "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
   if (section.has("authorized_keys"))
     security.keys = read_authorized_keys(credential_or_file(folder / section.text("authorized_keys")));
   else if (!security.unsigned_allowed)
-    section.fail("authorized_keys", "give the file with the public keys that may give orders (strainwavectl keygen makes "
-                                    "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
+    section.fail("authorized_keys",
+                 "give the file with the public keys that may give orders (strainwavectl keygen makes "
+                 "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
   section.refuse_unknown_keys();
   return security;
 }
@@ -201,8 +209,8 @@ toml::table parse_file(const std::filesystem::path& path) {
   try {
     return toml::parse(text.str(), path.string());
   } catch (const toml::parse_error& error) {
-    throw InputError(path.string() + ":" + std::to_string(error.source().begin.line) + ": not valid TOML: " +
-                     std::string(error.description()));
+    throw InputError(path.string() + ":" + std::to_string(error.source().begin.line) +
+                     ": not valid TOML: " + std::string(error.description()));
   }
 }
 
@@ -221,11 +229,13 @@ DaemonConfig read_config(const std::filesystem::path& path) {
 
   CanConfig can(root, config.loop.period_s);
   std::vector<TomlSection> joints = root.sections("joint");
-  if (joints.size() > kMaxJoints) root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");
+  if (joints.size() > kMaxJoints)
+    root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");
   std::set<std::string> names;
   for (TomlSection& section : joints) {
     config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can));
-    if (!names.insert(config.joints.back().name).second) section.fail("name", "each joint needs a name of its own");
+    if (!names.insert(config.joints.back().name).second)
+      section.fail("name", "each joint needs a name of its own");
   }
   config.buses = can.buses();
   number_groups(config.joints);
@@ -244,9 +254,9 @@ DaemonConfig read_config(const std::filesystem::path& path) {
 std::vector<JointAdmission> admission_of(const DaemonConfig& config) {
   std::vector<JointAdmission> joints;
   for (const JointConfig& joint : config.joints)
-    joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad, joint.loop.limits.position_max_rad,
-                      joint.loop.controller.torque_limit_Nm, joint.loop.controller.motion.velocity_rad_s,
-                      joint.takes_injected_faults});
+    joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad,
+                      joint.loop.limits.position_max_rad, joint.loop.controller.torque_limit_Nm,
+                      joint.loop.controller.motion.velocity_rad_s, joint.takes_injected_faults});
   return joints;
 }
 

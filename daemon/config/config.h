@@ -13,9 +13,9 @@
 #include "control/gain_table.h"
 #include "daemon/admission/admission.h"
 #include "daemon/admission/authorized_keys.h"
-#include "daemon/records/flight_record_writer.h"
 #include "daemon/gateway/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/records/flight_record_writer.h"
 #include "drivers/actuator.h"
 #include "drivers/fieldbus.h"
 #include "drivers/temperature_file.h"
@@ -28,9 +28,9 @@ enum class RealTimePolicy { kEnforce, kIgnore };
 struct LoopConfig {
   double period_s = 0.001;
   RealTimePolicy real_time = RealTimePolicy::kEnforce;
-  int priority = 80;             ///< SCHED_FIFO
-  int cpu = -1;                  ///< pin to this processor; -1: do not
-  int overrun_limit = 10;        ///< cycles in a row that begin late by a period or more
+  int priority = 80;       ///< SCHED_FIFO
+  int cpu = -1;            ///< pin to this processor; -1: do not
+  int overrun_limit = 10;  ///< cycles in a row that begin late by a period or more
   double state_rate_Hz = 200.0;
 };
 
@@ -45,7 +45,7 @@ struct JointConfig {
   PlantIdentity plant;
   JointLoopConfig loop;
   std::string driver;
-  std::string group;             ///< name of the joints that stop together; empty: none
+  std::string group;  ///< name of the joints that stop together; empty: none
   bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
   std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
@@ -53,9 +53,9 @@ struct JointConfig {
   /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
   std::function<bool(std::ostream&)> describe_lines;
   DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
-  int bus = -1;                   ///< index in DaemonConfig::buses; -1: on none
-  std::size_t bus_slot = 0;       ///< the drive's place on that bus
-  std::filesystem::path table;  ///< initial gain table; empty: none
+  int bus = -1;                               ///< index in DaemonConfig::buses; -1: on none
+  std::size_t bus_slot = 0;                   ///< the drive's place on that bus
+  std::filesystem::path table;                ///< initial gain table; empty: none
 };
 
 /// What several joints share.

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/config/config.h"
 #include "base/toml_section.h"
+#include "daemon/config/config.h"
 #include "drivers/can/can_bus.h"
 
 namespace strainwave {

@@ -2,9 +2,9 @@
 // docs/gpio.md explains them.
 #pragma once
 
+#include "base/toml_section.h"
 #include "daemon/config/config.h"
 #include "daemon/config/config_homing.h"
-#include "base/toml_section.h"
 
 namespace strainwave {
 

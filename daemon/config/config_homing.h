@@ -1,8 +1,8 @@
 // [joint.homing] of the configuration, see docs/configuration.md. Not real-time.
 #pragma once
 
-#include "daemon/config/config.h"
 #include "base/toml_section.h"
+#include "daemon/config/config.h"
 
 namespace strainwave {
 

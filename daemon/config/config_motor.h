@@ -2,8 +2,8 @@
 // Not real-time.
 #pragma once
 
-#include "control/motor_limits.h"
 #include "base/toml_section.h"
+#include "control/motor_limits.h"
 
 namespace strainwave {
 

@@ -1,8 +1,8 @@
 // The keys of [joint.can] with protocol = "odrive". Not real-time.
 #pragma once
 
-#include "daemon/config/config.h"
 #include "base/toml_section.h"
+#include "daemon/config/config.h"
 #include "drivers/can/odrive/odrive_config.h"
 
 namespace strainwave {

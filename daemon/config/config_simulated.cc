@@ -75,7 +75,8 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   config.plant.period_s = period_s;
   config.plant.joint.inertia_kgm2 = section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});
-  for (FrictionParameters* part : {&config.plant.joint.friction.asymptote, &config.plant.joint.friction.amplitude}) {
+  for (FrictionParameters* part :
+       {&config.plant.joint.friction.asymptote, &config.plant.joint.friction.amplitude}) {
     part->static_Nm *= friction_scale;
     part->coulomb_Nm *= friction_scale;
     part->viscous_Nms_rad *= friction_scale;
@@ -87,14 +88,17 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   config.ambient = read_profile(section);
   config.load_torque_Nm = section.number_or("load_torque_Nm", 0.0, {-1e3, 1e3});
   config.enable_delay_s = section.number_or("enable_delay_s", config.enable_delay_s, {0.0, 10.0});
-  config.temperature_period_s = section.number_or("temperature_period_s", config.temperature_period_s, {0.0, 60.0});
-  config.temperature_noise_C = section.number_or("temperature_noise_C", kDefaultTemperatureNoise_C, {0.0, 10.0});
+  config.temperature_period_s =
+      section.number_or("temperature_period_s", config.temperature_period_s, {0.0, 60.0});
+  config.temperature_noise_C =
+      section.number_or("temperature_noise_C", kDefaultTemperatureNoise_C, {0.0, 10.0});
   config.seed = static_cast<std::uint64_t>(section.integer_or("seed", 1, 0, INT64_MAX));
 
   JointControllerConfig& controller = joint.loop.controller;
   controller.encoder_resolution_rad = config.plant.encoder.resolution_rad();
   controller.delay_samples = config.plant.delay_samples;
-  controller.motor = {config.plant.motor.peak_Nm, config.plant.motor.stall_Nm, config.plant.motor.slope_Nms_rad};
+  controller.motor = {config.plant.motor.peak_Nm, config.plant.motor.stall_Nm,
+                      config.plant.motor.slope_Nms_rad};
   const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
   joint.takes_injected_faults = true;
   joint.make_actuator = [config, faults] {

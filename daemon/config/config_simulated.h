@@ -1,9 +1,9 @@
 // The keys of [joint.simulated]: the simulated joint behind the drivers' seam. Not real-time.
 #pragma once
 
+#include "base/toml_section.h"
 #include "daemon/config/config.h"
 #include "daemon/config/config_homing.h"
-#include "base/toml_section.h"
 
 namespace strainwave {
 

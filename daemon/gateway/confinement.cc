@@ -83,10 +83,11 @@ void keep_from_other_processes() {
   const Filter filter(::seccomp_init(SCMP_ACT_ALLOW), &::seccomp_release);
   if (filter == nullptr) fail("keeping from other processes", ENOMEM);
   for (const int call :
-       {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo), SCMP_SYS(pidfd_open),
-        SCMP_SYS(pidfd_getfd), SCMP_SYS(pidfd_send_signal), SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
-        SCMP_SYS(process_vm_writev), SCMP_SYS(process_madvise), SCMP_SYS(execve), SCMP_SYS(execveat), SCMP_SYS(fork),
-        SCMP_SYS(vfork), SCMP_SYS(io_uring_setup), SCMP_SYS(bpf), SCMP_SYS(userfaultfd)})
+       {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo),
+        SCMP_SYS(pidfd_open), SCMP_SYS(pidfd_getfd), SCMP_SYS(pidfd_send_signal), SCMP_SYS(ptrace),
+        SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(process_madvise), SCMP_SYS(execve),
+        SCMP_SYS(execveat), SCMP_SYS(fork), SCMP_SYS(vfork), SCMP_SYS(io_uring_setup), SCMP_SYS(bpf),
+        SCMP_SYS(userfaultfd)})
     add_rule(filter, SCMP_ACT_KILL_PROCESS, call);
   const auto own_pid = static_cast<scmp_datum_t>(::getpid());
   const scmp_arg_cmp another = SCMP_A0(SCMP_CMP_NE, own_pid);

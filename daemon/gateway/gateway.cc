@@ -104,7 +104,8 @@ void Gateway::publish_states() {
 void Gateway::publish_messages() {
   WireMessage message;
   while (outbound_.messages.read(message_cursor_, message, messages_dropped_)) {
-    const auto size = static_cast<unsigned int>(std::min<std::uint64_t>(message.size, WireMessage::kMaxBytes));
+    const auto size =
+        static_cast<unsigned int>(std::min<std::uint64_t>(message.size, WireMessage::kMaxBytes));
     lcm_.publish(std::string(message.channel.view()), message.bytes.data(), size);
   }
 }

@@ -57,7 +57,8 @@ void GatewayProcess::start(std::int64_t now_ns) {
   constexpr int kAway = 64;
   constexpr int kProgram = kAway + 3;
   const std::array<int, 4> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_};
-  for (int i = 0; i < 4; ++i) ::posix_spawn_file_actions_adddup2(&actions, from[static_cast<std::size_t>(i)], kAway + i);
+  for (int i = 0; i < 4; ++i)
+    ::posix_spawn_file_actions_adddup2(&actions, from[static_cast<std::size_t>(i)], kAway + i);
   for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_adddup2(&actions, kAway + i, kGatewayOutboundFd + i);
   for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_addclose(&actions, kAway + i);
   sigset_t none;

@@ -20,7 +20,8 @@ namespace {
 }
 
 void* map(int descriptor, std::size_t size, bool writable) {
-  void* address = ::mmap(nullptr, size, writable ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, descriptor, 0);
+  void* address =
+      ::mmap(nullptr, size, writable ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, descriptor, 0);
   if (address == MAP_FAILED) fail("mapping shared memory", descriptor);
   return address;
 }
@@ -45,7 +46,8 @@ MemoryFile MemoryFile::open(int descriptor, std::size_t size, bool writable) {
   if (::fstat(descriptor, &status) != 0) fail("inspecting shared memory", descriptor);
   if (static_cast<std::size_t>(status.st_size) < size) {
     errno = EINVAL;
-    fail("shared memory is smaller than this program expects: core and gateway are of different versions", descriptor);
+    fail("shared memory is smaller than this program expects: core and gateway are of different versions",
+         descriptor);
   }
   return {descriptor, map(descriptor, size, writable), size};
 }

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <strainwave/state_v1.hpp>
 
-#include "base/fixed_string.h"
 #include "base/broadcast_ring.h"
+#include "base/fixed_string.h"
 
 namespace strainwave {
 

@@ -14,7 +14,9 @@ namespace strainwave {
 inline constexpr std::size_t kHistogramBuckets = 64;
 using HistogramCounts = std::array<std::int64_t, kHistogramBuckets>;
 
-inline double bucket_upper_ns(std::size_t bucket) { return 1000.0 * std::exp2(static_cast<double>(bucket) / 4.0); }
+inline double bucket_upper_ns(std::size_t bucket) {
+  return 1000.0 * std::exp2(static_cast<double>(bucket) / 4.0);
+}
 
 /// The value below which `fraction` of the counted durations lie, interpolated within its bucket; 0 when empty.
 inline double percentile_ns(const HistogramCounts& counts, double fraction) {
@@ -36,7 +38,8 @@ inline double percentile_ns(const HistogramCounts& counts, double fraction) {
 class Histogram {
  public:
   Histogram() noexcept {
-    for (std::size_t i = 0; i < kHistogramBuckets; ++i) upper_ns_[i] = static_cast<std::int64_t>(bucket_upper_ns(i));
+    for (std::size_t i = 0; i < kHistogramBuckets; ++i)
+      upper_ns_[i] = static_cast<std::int64_t>(bucket_upper_ns(i));
   }
 
   /// Counts one duration; negative ones count as 0. One thread only.
@@ -45,11 +48,14 @@ class Histogram {
     std::size_t high = kHistogramBuckets - 1;
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      if (duration_ns < upper_ns_[middle]) high = middle;
-      else low = middle + 1;
+      if (duration_ns < upper_ns_[middle])
+        high = middle;
+      else
+        low = middle + 1;
     }
     bump(counts_[low]);
-    if (duration_ns > max_ns_.load(std::memory_order_relaxed)) max_ns_.store(duration_ns, std::memory_order_relaxed);
+    if (duration_ns > max_ns_.load(std::memory_order_relaxed))
+      max_ns_.store(duration_ns, std::memory_order_relaxed);
   }
 
   /// A copy for another thread; counts added meanwhile may or may not be in it.

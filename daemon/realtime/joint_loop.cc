@@ -12,16 +12,26 @@ constexpr double kAtLimit = 1.0 - 1e-9;
 
 Fault fault_of(ActuatorFault fault) noexcept {
   switch (fault) {
-    case ActuatorFault::kNone: return Fault::kNone;
-    case ActuatorFault::kReadFailed: return Fault::kReadFailed;
-    case ActuatorFault::kWriteRefused: return Fault::kWriteRefused;
-    case ActuatorFault::kDriveFault: return Fault::kDriveFault;
-    case ActuatorFault::kPowerLost: return Fault::kPowerLost;
-    case ActuatorFault::kImplausible: return Fault::kImplausibleReading;
-    case ActuatorFault::kLinkLost: return Fault::kLinkLost;
-    case ActuatorFault::kEmergencyStop: return Fault::kEmergencyStop;
-    case ActuatorFault::kDriveRestarted: return Fault::kDriveRestarted;
-    case ActuatorFault::kBusError: return Fault::kBusError;
+    case ActuatorFault::kNone:
+      return Fault::kNone;
+    case ActuatorFault::kReadFailed:
+      return Fault::kReadFailed;
+    case ActuatorFault::kWriteRefused:
+      return Fault::kWriteRefused;
+    case ActuatorFault::kDriveFault:
+      return Fault::kDriveFault;
+    case ActuatorFault::kPowerLost:
+      return Fault::kPowerLost;
+    case ActuatorFault::kImplausible:
+      return Fault::kImplausibleReading;
+    case ActuatorFault::kLinkLost:
+      return Fault::kLinkLost;
+    case ActuatorFault::kEmergencyStop:
+      return Fault::kEmergencyStop;
+    case ActuatorFault::kDriveRestarted:
+      return Fault::kDriveRestarted;
+    case ActuatorFault::kBusError:
+      return Fault::kBusError;
   }
   return Fault::kDriveFault;
 }
@@ -39,7 +49,8 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       controller_(config.controller),
       homing_(config.homing),
       temperature_(config.temperature),
-      position_check_({config.controller.period_s, config.limits.overspeed_rad_s, config.controller.encoder_resolution_rad}),
+      position_check_({config.controller.period_s, config.limits.overspeed_rad_s,
+                       config.controller.encoder_resolution_rad}),
       temperature_update_periods_(std::max<std::int64_t>(
           1, std::llround(config.temperature_update_period_s / config.controller.period_s))) {
   record_.joint_index = index;
@@ -71,16 +82,19 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
   reading_ = reading;
   if (!reading_fresh_) {
     // Where the joint must be by now: a position that stands still and then jumps would look like a blocked joint.
-    const double moved_rad = is_controlled(mode_) ? motion_.joint_velocity_rad_s * config_.controller.period_s : 0.0;
+    const double moved_rad =
+        is_controlled(mode_) ? motion_.joint_velocity_rad_s * config_.controller.period_s : 0.0;
     reading_.joint_position_rad = last_position_rad + moved_rad;
     reading_.has_velocity = false;
     reading_.torque_applied_Nm = 0.0;
   }
   ever_read_ = ever_read_ || reading_fresh_;
   const bool driven = reading.drive_state == DriveState::kEnabled && is_controlled(mode_);
-  const bool impossible = reading_fresh_ && !position_check_.plausible(reading.joint_position_rad,
-                                                                       reading.torque_applied_Nm, driven, time.now_ns);
-  if ((malformed || impossible) && reading_.fault == ActuatorFault::kNone) reading_.fault = ActuatorFault::kImplausible;
+  const bool impossible =
+      reading_fresh_ &&
+      !position_check_.plausible(reading.joint_position_rad, reading.torque_applied_Nm, driven, time.now_ns);
+  if ((malformed || impossible) && reading_.fault == ActuatorFault::kNone)
+    reading_.fault = ActuatorFault::kImplausible;
 }
 
 void JointLoop::check_reading(const CycleTime& time) noexcept {
@@ -94,9 +108,10 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
 }
 
 void JointLoop::check_temperature(const CycleTime& time) noexcept {
-  temperature_.update(reading_.has_temperature, reading_.temperature_C, time.now_ns - reading_.temperature_age_ns,
-                      time.now_ns);
-  const bool hot = temperature_.status() == TemperatureStatus::kValid && temperature_.used_C() > config_.limits.hot_C;
+  temperature_.update(reading_.has_temperature, reading_.temperature_C,
+                      time.now_ns - reading_.temperature_age_ns, time.now_ns);
+  const bool hot =
+      temperature_.status() == TemperatureStatus::kValid && temperature_.used_C() > config_.limits.hot_C;
   if (hot && mode_ != Mode::kOff) raise_fault(Fault::kTemperatureLimit, time);
 }
 
@@ -136,11 +151,13 @@ void JointLoop::control(const CycleTime& time) noexcept {
   refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
-  if (motion_.gains_in_use == GainsInUse::kFallback) notice(Notice::kFallbackGains);
+  if (motion_.gains_in_use == GainsInUse::kFallback)
+    notice(Notice::kFallbackGains);
   else if (measurement.temperature_C < table_min_C_ || measurement.temperature_C > table_max_C_)
     notice(Notice::kTemperatureClamped);
   const double speed_limit_rad_s = config_.controller.motion.velocity_rad_s;
-  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s) notice(Notice::kSpeedLimited);
+  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s)
+    notice(Notice::kSpeedLimited);
 }
 
 void JointLoop::check_motion(const CycleTime& time) noexcept {
@@ -153,7 +170,8 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
     return raise_fault(Fault::kPositionLimit, time);
   if (mode_ != Mode::kHoming && into_limit_switch(motion_.reference.velocity_rad_s))
     return raise_fault(Fault::kLimitSwitch, time);
-  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s) return raise_fault(Fault::kSpeedLimit, time);
+  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
+    return raise_fault(Fault::kSpeedLimit, time);
   if (std::abs(motion_.reference.position_rad - position_rad) > limits.following_error_rad)
     raise_fault(Fault::kFollowingError, time);
 }
@@ -172,7 +190,8 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       // A stream rests at its last setpoint until the next one comes or it expires.
       if (motion_.at_target && setpoint_expires_ns_ == 0) (void)change_mode(ModeEvent::kArrived, time);
       return;
-    case Mode::kHoming: return end_homing(time);
+    case Mode::kHoming:
+      return end_homing(time);
     case Mode::kStopping:
       if (motion_.at_target && std::abs(motion_.joint_velocity_rad_s) < config_.standstill_rad_s)
         (void)change_mode(ModeEvent::kStopped, time);
@@ -181,7 +200,8 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       return;
     case Mode::kOff:
     case Mode::kHolding:
-    case Mode::kFaulted: return;
+    case Mode::kFaulted:
+      return;
   }
 }
 
@@ -200,7 +220,8 @@ void JointLoop::raise_fault(Fault fault, const CycleTime& time) noexcept {
   drive_error_ = reading_.drive_error;
   drive_stopped_ = false;
   // Counts may be missing from now on.
-  if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost) homed_ = false;
+  if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost)
+    homed_ = false;
   group_stop_due_ = config_.fault_stops_group && fault != Fault::kGroup;
   (void)change_mode(ModeEvent::kFaultRaised, time, fault);
 }
@@ -226,11 +247,13 @@ void JointLoop::fill_record(const CycleTime& time) noexcept {
   state.cycle = time.cycle;
   state.table_id = table_id_;
   const double position_rad = reading_.joint_position_rad + position_offset_rad_;
-  state.setpoint_position_rad = controlled ? motion_.reference.position_rad + position_offset_rad_ : position_rad;
+  state.setpoint_position_rad =
+      controlled ? motion_.reference.position_rad + position_offset_rad_ : position_rad;
   state.setpoint_velocity_rad_s = controlled ? motion_.reference.velocity_rad_s : 0.0;
   // To the bit what was ordered, so that whoever ordered it knows it again.
   const bool as_ordered = controller_.target_rad() == ordered_target_rad_;
-  const double target_rad = as_ordered ? ordered_position_rad_ : controller_.target_rad() + position_offset_rad_;
+  const double target_rad =
+      as_ordered ? ordered_position_rad_ : controller_.target_rad() + position_offset_rad_;
   state.target_position_rad = controlled ? target_rad : position_rad;
   state.joint_position_rad = position_rad;
   state.joint_velocity_rad_s = controlled ? motion_.joint_velocity_rad_s : reading_.joint_velocity_rad_s;

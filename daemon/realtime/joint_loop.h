@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "control/joint_controller.h"
-#include "daemon/realtime/mode_machine.h"
+#include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/flight_recorder.h"
 #include "daemon/realtime/homing.h"
+#include "daemon/realtime/mode_machine.h"
 #include "daemon/realtime/orders.h"
 #include "daemon/realtime/position_check.h"
 #include "daemon/realtime/temperature_check.h"
-#include "daemon/gateway/shared_memory.h"
 #include "drivers/actuator.h"
 #include "drivers/faulty_actuator.h"
 
@@ -27,10 +27,10 @@ namespace strainwave {
 struct JointLimits {
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
-  double position_margin_rad = 0.0;    ///< fault beyond position_min - margin and position_max + margin
-  double overspeed_rad_s = 0.0;        ///< fault
-  double following_error_rad = 0.0;    ///< fault: |reference - position|
-  double hot_C = 0.0;                  ///< fault above
+  double position_margin_rad = 0.0;  ///< fault beyond position_min - margin and position_max + margin
+  double overspeed_rad_s = 0.0;      ///< fault
+  double following_error_rad = 0.0;  ///< fault: |reference - position|
+  double hot_C = 0.0;                ///< fault above
 };
 
 struct JointLoopConfig {
@@ -39,12 +39,12 @@ struct JointLoopConfig {
   TemperatureCheckConfig temperature;
   HomingConfig homing;
   double temperature_update_period_s = 0.01;  ///< how often the gains are scheduled anew
-  int group = -1;                    ///< joints with the same number >= 0 belong together
-  bool fault_stops_group = false;    ///< a fault of this joint stops the others of its group
-  double start_timeout_s = 2.0;      ///< from enable to the drive's readiness
-  double stop_timeout_s = 3.0;       ///< from disable to standstill
+  int group = -1;                             ///< joints with the same number >= 0 belong together
+  bool fault_stops_group = false;             ///< a fault of this joint stops the others of its group
+  double start_timeout_s = 2.0;               ///< from enable to the drive's readiness
+  double stop_timeout_s = 3.0;                ///< from disable to standstill
   double standstill_rad_s = 0.01;
-  int missed_readings_limit = 5;     ///< periods without a fresh position before it is a fault
+  int missed_readings_limit = 5;  ///< periods without a fresh position before it is a fault
 };
 
 /// When this cycle happens.
@@ -63,8 +63,8 @@ class JointLoop {
   };
 
   /// `actuator` is owned. The queues are the loop's, shared by all joints, and outlive it.
-  JointLoop(std::int64_t index, const JointLoopConfig& config, std::unique_ptr<Actuator> actuator, ReplyQueue& replies,
-            EventQueue& events);
+  JointLoop(std::int64_t index, const JointLoopConfig& config, std::unique_ptr<Actuator> actuator,
+            ReplyQueue& replies, EventQueue& events);
 
   // Supervisor's thread.
   OrderQueue& orders() noexcept { return orders_; }
@@ -151,7 +151,7 @@ class JointLoop {
   std::int64_t next_temperature_cycle_ = 0;
   double ordered_target_rad_ = 0.0;    ///< of the last setpoint, as the drive counts
   double ordered_position_rad_ = 0.0;  ///< the same as it was ordered
-  double position_offset_rad_ = 0.0;  ///< what the drive counts plus this is the joint's position
+  double position_offset_rad_ = 0.0;   ///< what the drive counts plus this is the joint's position
   double scheduling_temperature_C_ = 0.0;
   double table_min_C_ = 0.0;
   double table_max_C_ = 0.0;
@@ -164,7 +164,7 @@ class JointLoop {
   bool setpoint_expired_ = false;  ///< shown until the next setpoint is accepted
   bool stream_refused_ = false;    ///< a stream has expired and nobody has said that a new one begins
   bool group_stop_due_ = false;
-  bool drive_stopped_ = false;     ///< stop() has been called since the fault
+  bool drive_stopped_ = false;  ///< stop() has been called since the fault
 };
 
 }  // namespace strainwave

@@ -30,14 +30,22 @@ void JointLoop::take_orders(const CycleTime& time) noexcept {
 
 Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
   switch (order.kind) {
-    case OrderKind::kEnable: return enable(time);
-    case OrderKind::kDisable: return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
-    case OrderKind::kHold: return hold();
-    case OrderKind::kClearFault: return clear_fault(time);
-    case OrderKind::kSetpoint: return begin_setpoint(order, time);
-    case OrderKind::kUseTable: return use_table(static_cast<std::size_t>(order.table_slot));
-    case OrderKind::kInject: return inject(order.injection);
-    case OrderKind::kHome: return home(time);
+    case OrderKind::kEnable:
+      return enable(time);
+    case OrderKind::kDisable:
+      return change_mode(ModeEvent::kDisableOrdered, time) ? Reason::kAccepted : Reason::kWrongMode;
+    case OrderKind::kHold:
+      return hold();
+    case OrderKind::kClearFault:
+      return clear_fault(time);
+    case OrderKind::kSetpoint:
+      return begin_setpoint(order, time);
+    case OrderKind::kUseTable:
+      return use_table(static_cast<std::size_t>(order.table_slot));
+    case OrderKind::kInject:
+      return inject(order.injection);
+    case OrderKind::kHome:
+      return home(time);
   }
   return Reason::kUnknownAction;
 }
@@ -46,7 +54,8 @@ Reason JointLoop::enable(const CycleTime& time) noexcept {
   if (mode_ == Mode::kFaulted) return Reason::kFaulted;
   if (!controller_.has_table()) return Reason::kNoTable;
   // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
-  if (mode_ == Mode::kOff && !reading_fresh_ && reading_.fault == ActuatorFault::kNone) return Reason::kDriveNotReady;
+  if (mode_ == Mode::kOff && !reading_fresh_ && reading_.fault == ActuatorFault::kNone)
+    return Reason::kDriveNotReady;
   if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
   setpoint_expired_ = false;
   stream_refused_ = false;

@@ -19,7 +19,7 @@ enum class ModeEvent {
   kDisableOrdered,    ///< a command to disable, or the end of the daemon
   kStopped,           ///< the joint stands still after kDisableOrdered
   kFaultRaised,
-  kFaultCleared,      ///< a command to clear
+  kFaultCleared,  ///< a command to clear
 };
 
 /// The mode after `event`, or nothing when the event means nothing in this mode (a command is then refused).
@@ -27,11 +27,13 @@ std::optional<Mode> next_mode(Mode mode, ModeEvent event) noexcept;
 
 /// True while the drive is to be enabled.
 constexpr bool wants_drive_enabled(Mode mode) noexcept {
-  return mode == Mode::kStarting || mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kStopping ||
-         mode == Mode::kHoming;
+  return mode == Mode::kStarting || mode == Mode::kHolding || mode == Mode::kTracking ||
+         mode == Mode::kStopping || mode == Mode::kHoming;
 }
 
 /// True while the control law sets the torque.
-constexpr bool is_controlled(Mode mode) noexcept { return wants_drive_enabled(mode) && mode != Mode::kStarting; }
+constexpr bool is_controlled(Mode mode) noexcept {
+  return wants_drive_enabled(mode) && mode != Mode::kStarting;
+}
 
 }  // namespace strainwave

@@ -9,16 +9,25 @@
 
 namespace strainwave {
 
-enum class OrderKind : std::int32_t { kEnable, kDisable, kHold, kClearFault, kSetpoint, kUseTable, kInject, kHome };
+enum class OrderKind : std::int32_t {
+  kEnable,
+  kDisable,
+  kHold,
+  kClearFault,
+  kSetpoint,
+  kUseTable,
+  kInject,
+  kHome
+};
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {
-  std::int64_t id = 0;          ///< quoted in the reply; 0: nobody waits for one
+  std::int64_t id = 0;  ///< quoted in the reply; 0: nobody waits for one
   OrderKind kind = OrderKind::kDisable;
-  std::int32_t table_slot = 0;  ///< kUseTable
-  double position_rad = 0.0;    ///< kSetpoint
-  double valid_for_s = 0.0;     ///< kSetpoint; 0: a move
-  Injection injection;          ///< kInject
+  std::int32_t table_slot = 0;     ///< kUseTable
+  double position_rad = 0.0;       ///< kSetpoint
+  double valid_for_s = 0.0;        ///< kSetpoint; 0: a move
+  Injection injection;             ///< kInject
   double speed_limit_rad_s = 0.0;  ///< kSetpoint; 0: the joint's own
 };
 

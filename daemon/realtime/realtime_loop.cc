@@ -15,7 +15,8 @@ namespace strainwave {
 RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::states)& states)
     : config_(config.loop),
       period_ns_(std::llround(config.loop.period_s * 1e9)),
-      publish_every_(std::max<std::int64_t>(1, std::llround(1.0 / (config.loop.period_s * config.loop.state_rate_Hz)))),
+      publish_every_(
+          std::max<std::int64_t>(1, std::llround(1.0 / (config.loop.period_s * config.loop.state_rate_Hz)))),
       stop_deadline_periods_(0),
       states_(states),
       replies_(std::make_unique<ReplyQueue>()),
@@ -24,8 +25,9 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
       overrun_watch_(config.loop.overrun_limit) {
   for (const BusConfig& bus : config.buses) buses_.push_back(bus.make_bus());
   for (const JointConfig& joint : config.joints) {
-    auto actuator = joint.bus < 0 ? joint.make_actuator()
-                                  : buses_[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
+    auto actuator = joint.bus < 0
+                        ? joint.make_actuator()
+                        : buses_[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
     if (joint.bus >= 0 && joint.thermometer)
       actuator = std::make_unique<ThermometerActuator>(std::move(actuator), *joint.thermometer);
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
@@ -93,13 +95,15 @@ void RealtimeLoop::run() noexcept {
     for (const auto& bus : buses_) bus->end_cycle();
     publish(time);
 
-    const bool at_rest = std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });
+    const bool at_rest =
+        std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });
     const bool waited_enough = time.cycle - stop_since_cycle_ > stop_deadline_periods_;
     if (stop_since_cycle_ >= 0 && (at_rest || waited_enough)) return;
 
     statistics_->execution_time.add(monotonic_now_ns() - wake.woke_ns);
     statistics_->page_faults.store(thread_page_faults() - page_faults_before, std::memory_order_relaxed);
-    statistics_->cycles.store(statistics_->cycles.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    statistics_->cycles.store(statistics_->cycles.load(std::memory_order_relaxed) + 1,
+                              std::memory_order_release);
   }
 }
 
@@ -114,7 +118,8 @@ void RealtimeLoop::stop_drives() noexcept {
 
 void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept {
   statistics_->wakeup_latency.add(wake.woke_ns - wake.planned_ns);
-  if (previous_wake_ns_ != 0) statistics_->period_error.add(std::abs(wake.woke_ns - previous_wake_ns_ - period_ns_));
+  if (previous_wake_ns_ != 0)
+    statistics_->period_error.add(std::abs(wake.woke_ns - previous_wake_ns_ - period_ns_));
   previous_wake_ns_ = wake.woke_ns;
   statistics_->overruns.store(statistics_->overruns.load(std::memory_order_relaxed) + wake.skipped,
                               std::memory_order_relaxed);

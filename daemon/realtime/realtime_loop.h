@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "daemon/config/config.h"
+#include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/overrun_watch.h"
 #include "daemon/realtime/periodic_clock.h"
-#include "daemon/gateway/shared_memory.h"
 
 namespace strainwave {
 
@@ -56,7 +56,9 @@ class RealtimeLoop {
 
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
   /// Null when the configuration wants none.
-  FlightRecorder* recorder(std::size_t index) noexcept { return recorders_.empty() ? nullptr : recorders_[index].get(); }
+  FlightRecorder* recorder(std::size_t index) noexcept {
+    return recorders_.empty() ? nullptr : recorders_[index].get();
+  }
   std::size_t joint_count() const noexcept { return joints_.size(); }
   /// In the configuration's order.
   const std::vector<std::unique_ptr<Fieldbus>>& buses() const noexcept { return buses_; }

@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::size_t kStackToTouch = 256 * 1024;
 
-std::string error_text(int error) { return std::generic_category().message(error); }
+std::string error_text(int error) {
+  return std::generic_category().message(error);
+}
 
 // Pages of the stack that the loop may reach exist before it starts.
 __attribute__((noinline)) void touch_stack() {
@@ -43,13 +45,15 @@ std::string make_thread_real_time(int priority, int cpu) {
     CPU_ZERO(&set);
     CPU_SET(static_cast<std::size_t>(cpu), &set);
     if (const int error = ::pthread_setaffinity_np(::pthread_self(), sizeof set, &set))
-      return "processor " + std::to_string(cpu) + " cannot be used (" + error_text(error) + "): change daemon.cpu";
+      return "processor " + std::to_string(cpu) + " cannot be used (" + error_text(error) +
+             "): change daemon.cpu";
   }
   sched_param parameter{};
   parameter.sched_priority = priority;
   if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter))
     return "SCHED_FIFO priority " + std::to_string(priority) + " is refused (" + error_text(error) +
-           "): run under the service, as root, or raise the limit with `ulimit -r " + std::to_string(priority) + "`";
+           "): run under the service, as root, or raise the limit with `ulimit -r " +
+           std::to_string(priority) + "`";
   return "";
 }
 

@@ -58,7 +58,8 @@ void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64
   if (has_reading) {
     const double time_constant_s = config_.max_step_C / config_.max_rate_C_s;
     const double elapsed_s = std::max(0.0, seconds_between(accepted_ns_, produced_ns));
-    recent_C_ += accepted_ ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s) : temperature_C;
+    recent_C_ +=
+        accepted_ ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s) : temperature_C;
     accepted_ = true;
     accepted_C_ = temperature_C;
     accepted_ns_ = produced_ns;

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <limits>
 
-#include "daemon/records/flight_record_file.h"
 #include "daemon/realtime/periodic_clock.h"
+#include "daemon/records/flight_record_file.h"
 
 namespace strainwave {
 

@@ -5,9 +5,9 @@
 
 #include "drivers/can/can_interface.h"
 #include "drivers/can/can_socket.h"
+#include "drivers/can/canopen/sdo_client.h"
 #include "drivers/can/cia402/cia402_description.h"
 #include "drivers/can/hexadecimal.h"
-#include "drivers/can/canopen/sdo_client.h"
 
 namespace strainwave {
 

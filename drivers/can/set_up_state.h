@@ -18,7 +18,9 @@ class SetUpState {
     State requested = State::kRequested;
     return state_.compare_exchange_strong(requested, State::kRunning, std::memory_order_acq_rel);
   }
-  void end(bool good) noexcept { state_.store(good ? State::kReady : State::kFailed, std::memory_order_release); }
+  void end(bool good) noexcept {
+    state_.store(good ? State::kReady : State::kFailed, std::memory_order_release);
+  }
 
   // Either.
 

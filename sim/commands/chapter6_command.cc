@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/text_file.h"
-#include "sim/studies/chapter6_figures.h"
 #include "sim/commands/commands.h"
+#include "sim/studies/chapter6_figures.h"
 #include "sim/studies/html_page.h"
 #include "sim/studies/performance_tables.h"
 

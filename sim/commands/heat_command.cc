@@ -4,9 +4,9 @@
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/commands/study_output.h"
-#include "sim/studies/heat.h"
 #include "sim/joint/plant_file.h"
 #include "sim/joint/reference_plant.h"
+#include "sim/studies/heat.h"
 
 namespace strainwave {
 

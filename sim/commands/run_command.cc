@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "control/gain_table_json.h"
 #include "base/text_file.h"
+#include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/studies/text_table.h"
 #include "sim/studies/time_optimal.h"

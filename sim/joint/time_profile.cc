@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/input_error.h"
 #include "base/csv.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

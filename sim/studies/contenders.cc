@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/gain_table_json.h"
 #include "base/input_error.h"
+#include "control/gain_table_json.h"
 
 namespace strainwave {
 
@@ -25,7 +25,8 @@ constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
 constexpr double kNoTorqueLimit_Nm = 1e4;
 
 double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {
-  return std::isfinite(plant.motor.peak_Nm) ? std::min(plant.motor.peak_Nm, table.torque_limit_Nm) : kNoTorqueLimit_Nm;
+  return std::isfinite(plant.motor.peak_Nm) ? std::min(plant.motor.peak_Nm, table.torque_limit_Nm)
+                                            : kNoTorqueLimit_Nm;
 }
 
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
@@ -59,7 +60,8 @@ Contender extended_contender(const std::string& name, const GainTable& table,
             require_period(table, plant);
             GainTable limited = table;
             limited.torque_limit_Nm = torque_limit_Nm(plant, table);
-            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, features), limited);
+            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, features),
+                                                            limited);
           }};
 }
 

@@ -1,10 +1,10 @@
 #include <array>
 #include <cmath>
 
-#include "control/units.h"
-#include "sim/studies/chapter6_figures.h"
 #include "base/csv.h"
+#include "control/units.h"
 #include "sim/joint/reference_plant.h"
+#include "sim/studies/chapter6_figures.h"
 #include "sim/studies/text_table.h"
 
 namespace strainwave {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/input_error.h"
 #include "base/csv.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 

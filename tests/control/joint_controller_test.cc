@@ -30,7 +30,8 @@ JointControllerConfig realistic_config() {
 /// One joint under control, a period at a time.
 class Loop {
  public:
-  explicit Loop(const JointPlantConfig& plant = realistic_plant()) : plant_(plant), controller_(realistic_config()) {
+  explicit Loop(const JointPlantConfig& plant = realistic_plant())
+      : plant_(plant), controller_(realistic_config()) {
     controller_.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
     plant_.set_ambient_temperature(temperature_C);
     controller_.start(plant_.measured_position_rad());
@@ -71,7 +72,8 @@ TEST(JointController, EndsWithinACountAndRestsQuietlyWhereverAndHoweverColdItIs)
     const double target_rad = target(random);
     loop.controller().set_target(target_rad);
     loop.run(2.0);
-    EXPECT_LE(std::abs(loop.position_rad() - target_rad), kCount_rad) << target_rad << " at " << loop.temperature_C;
+    EXPECT_LE(std::abs(loop.position_rad() - target_rad), kCount_rad)
+        << target_rad << " at " << loop.temperature_C;
     int sign_changes = 0;
     double last_sign = 0.0;
     for (int k = 0; k < 1000; ++k) {

@@ -9,7 +9,9 @@
 namespace strainwave {
 namespace {
 
-JointModel model() { return {0.089, {4.4, 3.6, 2.3}, {0.042, 2.0}}; }
+JointModel model() {
+  return {0.089, {4.4, 3.6, 2.3}, {0.042, 2.0}};
+}
 
 TEST(JointModel, StaysAtRestExactlyWhileTheTorqueIsBelowStaticFriction) {
   const JointDisturbance none;
@@ -40,7 +42,8 @@ TEST(JointModel, ItsDerivativesAreThoseOfItsMotion) {
     const ModelMotion here = model().advance(10.0, {}, velocity_rad_s, 0.001);
     const ModelMotion beside = model().advance(10.0, {}, velocity_rad_s + step, 0.001);
     EXPECT_NEAR(here.velocity_by_velocity, (beside.velocity_rad_s - here.velocity_rad_s) / step, 3e-2);
-    EXPECT_NEAR(here.displacement_by_velocity, (beside.displacement_rad - here.displacement_rad) / step, 2e-5);
+    EXPECT_NEAR(here.displacement_by_velocity, (beside.displacement_rad - here.displacement_rad) / step,
+                2e-5);
     const ModelMotion loaded = model().advance(10.0, {0.0, step}, velocity_rad_s, 0.001);
     EXPECT_NEAR(here.velocity_by_load, (loaded.velocity_rad_s - here.velocity_rad_s) / step, 5e-4);
   }
@@ -52,7 +55,8 @@ TEST(Landing, ItsPushEndsWhereItIsMeantTo) {
     double position_rad = 0.0;
     double velocity_rad_s = 0.0;
     for (int k = 0; k < 12; ++k) {
-      const double torque_Nm = landing_torque_Nm(joint, {}, velocity_rad_s, distance_rad - position_rad, 0.001);
+      const double torque_Nm =
+          landing_torque_Nm(joint, {}, velocity_rad_s, distance_rad - position_rad, 0.001);
       const ModelMotion motion = joint.advance(torque_Nm, {}, velocity_rad_s, 0.001);
       position_rad += motion.displacement_rad;
       velocity_rad_s = motion.velocity_rad_s;

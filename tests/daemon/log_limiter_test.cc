@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "daemon/log.h"
 #include "daemon/admission/token_bucket.h"
+#include "daemon/log.h"
 
 namespace strainwave {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "control/gain_table_json.h"
 #include "base/text_file.h"
+#include "control/gain_table_json.h"
 
 namespace strainwave {
 namespace {

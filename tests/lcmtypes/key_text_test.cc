@@ -7,7 +7,9 @@
 namespace strainwave {
 namespace {
 
-SecretKeyText some_key() { return {SecretKey::generate(), Role::kEngineer, "Ann, cell 3"}; }
+SecretKeyText some_key() {
+  return {SecretKey::generate(), Role::kEngineer, "Ann, cell 3"};
+}
 
 std::string error_of(const std::string& line) {
   try {
@@ -50,8 +52,9 @@ TEST(KeyText, SaysWhatIsWrongWithALine) {
   EXPECT_NE(error_of("ed25519 " + key + " Engineer").find("operator or engineer"), std::string::npos);
   EXPECT_NE(error_of(sound + "\r").find("Windows line end"), std::string::npos);
   EXPECT_NE(error_of(sound + std::string(101, 'x')).find("100 bytes"), std::string::npos);
-  EXPECT_NE(error_of("ed25519 AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA= operator").find("no Ed25519 public key"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of("ed25519 AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA= operator").find("no Ed25519 public key"),
+      std::string::npos);
 }
 
 TEST(KeyText, WarnsOfASecretKeyAmongPublicOnesWithoutQuotingIt) {
@@ -63,7 +66,8 @@ TEST(KeyText, WarnsOfASecretKeyAmongPublicOnesWithoutQuotingIt) {
 }
 
 TEST(KeyText, RefusesAPublicKeyWhereASecretOneIsNeeded) {
-  EXPECT_THROW(parse_secret_line(to_line(AuthorizedKey{some_key().key.public_key(), Role::kOperator, ""})), InputError);
+  EXPECT_THROW(parse_secret_line(to_line(AuthorizedKey{some_key().key.public_key(), Role::kOperator, ""})),
+               InputError);
   EXPECT_THROW(parse_secret_line(""), InputError);
   EXPECT_THROW(parse_secret_line("-----BEGIN OPENSSH PRIVATE KEY-----"), InputError);
 }

@@ -53,7 +53,8 @@ TEST(Signing, CoversEveryBitOfTheMessageAndOfTheSignature) {
 
 TEST(Signing, CoversTheChannelSoThatAnOrderForOneJointIsNoneForAnother) {
   const std::vector<std::uint8_t> bytes = signed_command(key_number(1));
-  for (const char* other : {"SW.wrist.COMMAND", "SW.elbow.SETPOINT", "LAB.elbow.COMMAND", "SW.elbow.COMMAN", ""})
+  for (const char* other :
+       {"SW.wrist.COMMAND", "SW.elbow.SETPOINT", "LAB.elbow.COMMAND", "SW.elbow.COMMAN", ""})
     EXPECT_FALSE(verify(other, key_number(1).public_key(), bytes)) << other;
 }
 

@@ -7,7 +7,8 @@
 int main() {
   const std::vector<char> bytes{std::istreambuf_iterator<char>(std::cin), {}};
   strainwave::state_v1 state{};
-  if (state.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size())) return 1;
+  if (state.decode(bytes.data(), 0, static_cast<int>(bytes.size())) != static_cast<int>(bytes.size()))
+    return 1;
   std::cout << "mode " << state.mode << ", setpoint " << state.setpoint_position_rad << " rad\n";
   return state.mode == 3 && state.setpoint_position_rad == 0.25 ? 0 : 1;
 }

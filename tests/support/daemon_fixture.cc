@@ -29,10 +29,12 @@ constexpr auto kPollStep = std::chrono::milliseconds(10);
 class PrivateNetwork : public ::testing::Environment {
  public:
   void SetUp() override {
-    if (!enter_private_network()) std::puts("note: no network namespace allowed, using the machine's own network");
+    if (!enter_private_network())
+      std::puts("note: no network namespace allowed, using the machine's own network");
   }
 };
-[[maybe_unused]] ::testing::Environment* const kNetwork = ::testing::AddGlobalTestEnvironment(new PrivateNetwork);
+[[maybe_unused]] ::testing::Environment* const kNetwork =
+    ::testing::AddGlobalTestEnvironment(new PrivateNetwork);
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -49,7 +51,8 @@ bool in_virtual_time() {
 
 std::filesystem::path programs_folder() {
   // In the virtual machine everything that a test needs lies beside it.
-  return in_virtual_time() ? std::filesystem::current_path() : std::filesystem::path(STRAINWAVE_BINARY_DIR) / "bin";
+  return in_virtual_time() ? std::filesystem::current_path()
+                           : std::filesystem::path(STRAINWAVE_BINARY_DIR) / "bin";
 }
 
 DaemonProcess::DaemonProcess(const std::filesystem::path& folder, const std::string& configuration,
@@ -62,7 +65,8 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, const std::str
   pid_ = ::fork();
   if (pid_ == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves no daemon behind
-    if (!start.preload.empty()) ::setenv("LD_PRELOAD", start.preload.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+    if (!start.preload.empty())
+      ::setenv("LD_PRELOAD", start.preload.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     ::dup2(log, STDOUT_FILENO);
     ::dup2(start.log_file >= 0 ? start.log_file : log, STDERR_FILENO);
     ::execl(program.c_str(), program.c_str(), "--config", config_path.c_str(), nullptr);
@@ -78,9 +82,13 @@ DaemonProcess::~DaemonProcess() {
   wait_for_end(std::chrono::seconds(5));
 }
 
-void DaemonProcess::signal(int signal_number) const { ::kill(pid_, signal_number); }
+void DaemonProcess::signal(int signal_number) const {
+  ::kill(pid_, signal_number);
+}
 
-bool DaemonProcess::running() { return wait_for_end(std::chrono::milliseconds(0)) == -1; }
+bool DaemonProcess::running() {
+  return wait_for_end(std::chrono::milliseconds(0)) == -1;
+}
 
 int DaemonProcess::wait_for_end(std::chrono::milliseconds timeout) {
   const auto deadline = Clock::now() + timeout;
@@ -104,7 +112,9 @@ pid_t DaemonProcess::gateway_pid() const {
   return children >> child ? child : -1;
 }
 
-std::string DaemonProcess::log() const { return read_file(log_path_); }
+std::string DaemonProcess::log() const {
+  return read_file(log_path_);
+}
 
 bool DaemonProcess::wait_for_log(const std::string& text, std::chrono::milliseconds timeout) const {
   const auto deadline = Clock::now() + timeout;
@@ -133,7 +143,8 @@ void TestClient::pump(std::chrono::milliseconds duration) {
   } while (Clock::now() < deadline);
 }
 
-bool TestClient::wait_for_state(const std::string& joint, const std::function<bool(const state_v1&)>& condition,
+bool TestClient::wait_for_state(const std::string& joint,
+                                const std::function<bool(const state_v1&)>& condition,
                                 std::chrono::milliseconds timeout) {
   const auto deadline = Clock::now() + timeout;
   while (!(states_[joint] && condition(*states_[joint]))) {
@@ -145,7 +156,8 @@ bool TestClient::wait_for_state(const std::string& joint, const std::function<bo
 
 bool TestClient::wait_for_mode(const std::string& joint, Mode mode, std::chrono::milliseconds timeout) {
   return wait_for_state(
-      joint, [mode](const state_v1& state) { return state.mode == static_cast<std::int32_t>(mode); }, timeout);
+      joint, [mode](const state_v1& state) { return state.mode == static_cast<std::int32_t>(mode); },
+      timeout);
 }
 
 bool TestClient::wait_for_timing(std::chrono::milliseconds timeout) {
@@ -185,7 +197,8 @@ gain_table_v1 TestClient::make_table(const std::string& joint, const GainTable& 
   return message;
 }
 
-inject_v1 TestClient::make_injection(const std::string& joint, std::int32_t kind, double for_s, double amount) {
+inject_v1 TestClient::make_injection(const std::string& joint, std::int32_t kind, double for_s,
+                                     double amount) {
   inject_v1 message{};
   fill_envelope(joint, message);
   message.kind = kind;
@@ -232,8 +245,8 @@ void TestClient::on_timing(const lcm::ReceiveBuffer*, const std::string&, const 
 }
 
 std::string DaemonTest::configuration(const std::string& joint_extra, const std::string& daemon_extra) {
-  const std::string real_time = in_virtual_time() ? "real_time = \"enforce\"\n"
-                                                  : "real_time = \"ignore\"\noverrun_limit = 100000\n";
+  const std::string real_time =
+      in_virtual_time() ? "real_time = \"enforce\"\n" : "real_time = \"ignore\"\noverrun_limit = 100000\n";
   return "[daemon]\n" + real_time + daemon_extra +
          R"(
 [security]
@@ -250,8 +263,9 @@ limits = { position_min_rad = -3.2, position_max_rad = 3.2, speed_rad_s = 6, acc
 }
 
 GainTable DaemonTest::shipped_table() {
-  const std::filesystem::path folder =
-      in_virtual_time() ? programs_folder() : std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables";
+  const std::filesystem::path folder = in_virtual_time()
+                                           ? programs_folder()
+                                           : std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables";
   return read_gain_table(folder / "rhs17-6006.json");
 }
 

@@ -12,7 +12,6 @@
 #include <lcm/lcm-cpp.hpp>
 #include <map>
 #include <optional>
-#include <string>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
@@ -20,6 +19,7 @@
 #include <strainwave/setpoint_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/timing_v1.hpp>
+#include <string>
 #include <vector>
 
 #include "control/gain_table.h"
@@ -45,7 +45,8 @@ struct DaemonStart {
 class DaemonProcess {
  public:
   /// `configuration` is the text of the TOML file; it is written into `folder`.
-  DaemonProcess(const std::filesystem::path& folder, const std::string& configuration, const DaemonStart& start = {});
+  DaemonProcess(const std::filesystem::path& folder, const std::string& configuration,
+                const DaemonStart& start = {});
   /// Ends it by SIGKILL if it still runs.
   ~DaemonProcess();
   DaemonProcess(const DaemonProcess&) = delete;
@@ -84,7 +85,8 @@ class TestClient {
   /// Pumps until `condition` holds for the latest state of `joint`; false after `timeout`.
   bool wait_for_state(const std::string& joint, const std::function<bool(const state_v1&)>& condition,
                       std::chrono::milliseconds timeout = std::chrono::seconds(10));
-  bool wait_for_mode(const std::string& joint, Mode mode, std::chrono::milliseconds timeout = std::chrono::seconds(10));
+  bool wait_for_mode(const std::string& joint, Mode mode,
+                     std::chrono::milliseconds timeout = std::chrono::seconds(10));
   const std::optional<state_v1>& state(const std::string& joint) { return states_[joint]; }
   /// All states of `joint` since the last call of forget_states().
   const std::vector<state_v1>& history(const std::string& joint) { return history_[joint]; }

@@ -35,7 +35,8 @@ bool enter_private_network(bool with_route) {
   if (!unshare_network()) return false;
   const std::string path = "PATH=$PATH:/usr/sbin:/sbin; ";
   std::string commands = path + "ip link set lo up";
-  if (with_route) commands += " && ip link set lo multicast on && ip route add 239.255.76.67/32 dev lo src 127.0.0.1";
+  if (with_route)
+    commands += " && ip link set lo multicast on && ip route add 239.255.76.67/32 dev lo src 127.0.0.1";
   return std::system(commands.c_str()) == 0;  // NOLINT(concurrency-mt-unsafe): before threads
 }
 

@@ -38,12 +38,16 @@ TEST_F(DaemonSystem, TracksMovesWhileTheTemperatureRises) {
   start_holding("[joint.simulated]\nambient_temperature_C = \"steps:-10,5,0.5,11\"\n");
   for (const double target_rad : {0.001, 0.01, 0.1, 1.0}) {
     ASSERT_TRUE(client_->move("elbow", target_rad).accepted);
-    ASSERT_TRUE(client_->wait_for_state("elbow", [&](const state_v1& state) {
-      return state.mode == static_cast<std::int32_t>(Mode::kHolding) &&
-             std::abs(state.joint_position_rad - target_rad) <= kCount_rad;
-    })) << "at " << target_rad << " rad the joint is at " << client_->state("elbow")->joint_position_rad;
+    ASSERT_TRUE(client_->wait_for_state("elbow",
+                                        [&](const state_v1& state) {
+                                          return state.mode == static_cast<std::int32_t>(Mode::kHolding) &&
+                                                 std::abs(state.joint_position_rad - target_rad) <=
+                                                     kCount_rad;
+                                        }))
+        << "at " << target_rad << " rad the joint is at " << client_->state("elbow")->joint_position_rad;
   }
-  EXPECT_TRUE(client_->wait_for_state("elbow", [](const state_v1& state) { return state.temperature_C > 40.0; }));
+  EXPECT_TRUE(
+      client_->wait_for_state("elbow", [](const state_v1& state) { return state.temperature_C > 40.0; }));
   const state_v1 state = *client_->state("elbow");
   EXPECT_EQ(state.gains_in_use, static_cast<std::int32_t>(GainsInUse::kPrimary));
   double sum = 0.0;
@@ -87,9 +91,8 @@ TEST_F(DaemonSystem, RefusesATableWhileMovingAndKeepsMoving) {
   ASSERT_TRUE(client_->move("elbow", 3.0).accepted);
   ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kTracking));
   EXPECT_EQ(client_->load("elbow", shipped_table()).reason, Reason::kMoving);
-  EXPECT_TRUE(client_->wait_for_state("elbow", [](const state_v1& state) {
-    return std::abs(state.joint_position_rad - 3.0) <= kCount_rad;
-  }));
+  EXPECT_TRUE(client_->wait_for_state(
+      "elbow", [](const state_v1& state) { return std::abs(state.joint_position_rad - 3.0) <= kCount_rad; }));
 }
 
 TEST_F(DaemonSystem, RefusesSetpointsThatAreNotNumbersOrOutOfRange) {
@@ -110,7 +113,8 @@ TEST_F(DaemonSystem, AnswersAResentOrderTheSameWayAndObeysItOnce) {
   setpoint_v1 late = move;
   EXPECT_TRUE(client_->send_and_wait("elbow", "SETPOINT", late).accepted);  // the first answer is still known
   EXPECT_TRUE(client_->wait_for_state("elbow", [](const state_v1& state) {
-    return state.mode == static_cast<std::int32_t>(Mode::kHolding) && std::abs(state.joint_position_rad - 0.02) < 1e-4;
+    return state.mode == static_cast<std::int32_t>(Mode::kHolding) &&
+           std::abs(state.joint_position_rad - 0.02) < 1e-4;
   }));
 }
 
@@ -123,7 +127,8 @@ TEST_F(DaemonSystem, SaysHowToGoOnWhenItRefuses) {
 TEST_F(DaemonSystem, StopsTheJointAndEndsCleanlyOnSigterm) {
   start_holding();
   ASSERT_TRUE(client_->move("elbow", 3.0).accepted);
-  ASSERT_TRUE(client_->wait_for_state("elbow", [](const state_v1& state) { return state.joint_velocity_rad_s > 1.0; }));
+  ASSERT_TRUE(client_->wait_for_state(
+      "elbow", [](const state_v1& state) { return state.joint_velocity_rad_s > 1.0; }));
   client_->forget_states();
   daemon_->signal(SIGTERM);
   client_->pump(milliseconds(1500));

@@ -56,20 +56,22 @@ void HostileDatagrams::put_random(std::size_t size) {
 }
 
 std::string HostileDatagrams::some_channel() {
-  static const std::array<const char*, 8> kChannels{"SW.elbow.SETPOINT", "SW.elbow.COMMAND", "SW.elbow.TABLE",
-                                                    "SW.elbow.STATE",    "SW.elbow.ACK",     "SW.nobody.COMMAND",
-                                                    "SW.TIMING",         "LCM_SELF_TEST"};
+  static const std::array<const char*, 8> kChannels{
+      "SW.elbow.SETPOINT", "SW.elbow.COMMAND",  "SW.elbow.TABLE", "SW.elbow.STATE",
+      "SW.elbow.ACK",      "SW.nobody.COMMAND", "SW.TIMING",      "LCM_SELF_TEST"};
   if (random_() % 8 == 0) return std::string(random_() % 200, static_cast<char>('!' + random_() % 90));
   return kChannels[random_() % kChannels.size()];
 }
 
 std::uint32_t HostileDatagrams::some_size() {
-  static const std::array<std::uint32_t, 10> kSizes{0,     1,         100,        1400,       8120,
+  static const std::array<std::uint32_t, 10> kSizes{0,     1,        100,        1400,       8120,
                                                     65535, 1U << 20, (1U << 28), 0x7fffffff, 0xffffffff};
   return kSizes[random_() % kSizes.size()];
 }
 
-void HostileDatagrams::noise() { put_random(random_() % 64); }
+void HostileDatagrams::noise() {
+  put_random(random_() % 64);
+}
 
 void HostileDatagrams::short_message() {
   put_u32(random_() % 16 == 0 ? static_cast<std::uint32_t>(random_()) : kShortMagic);
@@ -86,7 +88,8 @@ void HostileDatagrams::fragment() {
   // An offset within reason: what lies beyond crashes, and has its own turn.
   put_u32(static_cast<std::uint32_t>(random_() % 3000));
   put_u16(static_cast<std::uint16_t>(random_() % 4));
-  put_u16(random_() % 2 == 0 ? static_cast<std::uint16_t>(random_() % 4) : static_cast<std::uint16_t>(random_()));
+  put_u16(random_() % 2 == 0 ? static_cast<std::uint16_t>(random_() % 4)
+                             : static_cast<std::uint16_t>(random_()));
   if (random_() % 2 == 0) put_text(some_channel(), random_() % 4 != 0);
   put_random(random_() % 1400);
 }
@@ -132,13 +135,21 @@ const std::vector<std::uint8_t>& HostileDatagrams::next() {
     crashing_fragment();
   } else {
     switch (random_() % 8) {
-      case 0: noise(); break;
+      case 0:
+        noise();
+        break;
       case 1:
       case 2:
-      case 3: short_message(); break;
+      case 3:
+        short_message();
+        break;
       case 4:
-      case 5: fragment(); break;
-      default: order_with_random_fields(); break;
+      case 5:
+        fragment();
+        break;
+      default:
+        order_with_random_fields();
+        break;
     }
   }
   if (bytes_.size() > kLargestDatagram) bytes_.resize(kLargestDatagram);
@@ -154,12 +165,12 @@ std::int64_t send_hostile_datagrams(std::int64_t count, std::uint64_t seed, doub
   const auto start = std::chrono::steady_clock::now();
   for (std::int64_t i = 0; i < count; ++i) {
     if (i % kBatch == 0)
-      std::this_thread::sleep_until(start + std::chrono::microseconds(static_cast<std::int64_t>(
-                                                static_cast<double>(i) / per_s * 1e6)));
+      std::this_thread::sleep_until(
+          start + std::chrono::microseconds(static_cast<std::int64_t>(static_cast<double>(i) / per_s * 1e6)));
     const auto& bytes = datagrams.next();
     const sockaddr_in& target = targets[static_cast<std::size_t>(i % 2)];
-    if (::sendto(socket, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&target), sizeof target) ==
-        static_cast<ssize_t>(bytes.size()))
+    if (::sendto(socket, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&target),
+                 sizeof target) == static_cast<ssize_t>(bytes.size()))
       ++sent;
   }
   ::close(socket);

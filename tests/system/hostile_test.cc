@@ -32,7 +32,8 @@ using std::chrono::seconds;
 
 /// A million, unless $STRAINWAVE_HOSTILE_DATAGRAMS says otherwise.
 std::int64_t datagrams() {
-  const char* text = std::getenv("STRAINWAVE_HOSTILE_DATAGRAMS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  const char* text =
+      std::getenv("STRAINWAVE_HOSTILE_DATAGRAMS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
   return text != nullptr ? std::stoll(text) : 1'000'000;
 }
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "client/commands/identify_plan.h"
 #include "base/text_file.h"
+#include "client/commands/identify_plan.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
 #include "design/friction_fit.h"

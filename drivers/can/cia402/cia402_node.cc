@@ -151,8 +151,7 @@ void Node::supervise() noexcept {
 // What holds as long as its cause lasts, in use or not.
 NodeFault Node::present_trouble() const noexcept {
   if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
-  if (setup_.failed())
-    return {ActuatorFault::kDriveRestarted, drive_error_of(CanDetail::kSetupFailed)};
+  if (setup_.failed()) return {ActuatorFault::kDriveRestarted, drive_error_of(CanDetail::kSetupFailed)};
   if (!setup_.ready()) return {};
   if (restarted_.fault != ActuatorFault::kNone) return restarted_;
   if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)

@@ -14,8 +14,8 @@
 #include "drivers/can/can_node.h"
 #include "drivers/can/canopen/canopen.h"
 #include "drivers/can/cia402/cia402_config.h"
-#include "drivers/can/packed_temperature.h"
 #include "drivers/can/cia402/power_sequence.h"
+#include "drivers/can/packed_temperature.h"
 #include "drivers/can/set_up_state.h"
 
 namespace strainwave::cia402 {

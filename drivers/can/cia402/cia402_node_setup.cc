@@ -3,8 +3,8 @@
 
 #include "base/input_error.h"
 #include "control/units.h"
-#include "drivers/can/cia402/cia402_setup.h"
 #include "drivers/can/canopen/sdo_client.h"
+#include "drivers/can/cia402/cia402_setup.h"
 
 namespace strainwave::cia402 {
 

@@ -3,8 +3,8 @@
 // CiA 402-2.
 #pragma once
 
-#include "drivers/can/cia402/cia402_config.h"
 #include "drivers/can/canopen/sdo_client.h"
+#include "drivers/can/cia402/cia402_config.h"
 
 namespace strainwave::cia402 {
 

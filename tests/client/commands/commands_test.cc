@@ -11,8 +11,8 @@
 #include <strainwave/setpoint_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
-#include "client/link/exit_status.h"
 #include "base/input_error.h"
+#include "client/link/exit_status.h"
 #include "lcmtypes/event_log.h"
 #include "tests/client/link/fake_daemon.h"
 #include "tests/support/temporary_folder.h"

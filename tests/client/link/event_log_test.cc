@@ -5,12 +5,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/input_error.h"
 #include "client/commands/commands.h"
 #include "client/link/event_log_writer.h"
 #include "client/link/exit_status.h"
 #include "client/text/message_csv.h"
 #include "client/text/state_csv.h"
-#include "base/input_error.h"
 #include "tests/client/link/fake_daemon.h"
 #include "tests/support/event_log_file.h"
 #include "tests/support/temporary_folder.h"

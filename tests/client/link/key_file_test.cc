@@ -8,8 +8,8 @@
 #include <sstream>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "client/link/sender.h"
 #include "base/input_error.h"
+#include "client/link/sender.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <thread>
 
-#include "client/options/command_line.h"
 #include "client/link/multicast_check.h"
+#include "client/options/command_line.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/wire.h"
 #include "tests/client/link/fake_daemon.h"

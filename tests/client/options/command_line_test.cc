@@ -36,9 +36,9 @@ Result run_alone(const Arguments& given) {
 TEST(CommandLine, HelpNamesEveryExitStatusAndCommand) {
   const Result result = run({"--help"});
   EXPECT_EQ(result.status, ExitStatus::kDone);
-  for (const char* part :
-       {"\n  0 ", "\n  1 ", "\n  2 ", "\n  3 ", "\n  4 ", "\n  5 ", "\n  130 ", "status", "timing", "watch",
-        "enable", "disable", "move", "hold", "clear-fault", "load-table", "revert-table", "inject", "record"}) {
+  for (const char* part : {"\n  0 ", "\n  1 ", "\n  2 ", "\n  3 ", "\n  4 ", "\n  5 ", "\n  130 ", "status",
+                           "timing", "watch", "enable", "disable", "move", "hold", "clear-fault",
+                           "load-table", "revert-table", "inject", "record"}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   }
 }

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/input_error.h"
 #include "client/commands/commands.h"
 #include "client/link/exit_status.h"
-#include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

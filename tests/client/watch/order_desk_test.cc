@@ -4,8 +4,8 @@
 
 #include <strainwave/command_v1.hpp>
 
-#include "client/link/key_file.h"
 #include "base/input_error.h"
+#include "client/link/key_file.h"
 #include "tests/client/link/fake_daemon.h"
 #include "tests/support/temporary_folder.h"
 

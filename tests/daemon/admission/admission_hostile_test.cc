@@ -22,7 +22,17 @@ constexpr const char* kSetpoint = "SW.elbow.SETPOINT";
 constexpr const char* kCommand = "SW.elbow.COMMAND";
 
 /// What a hostile order does wrong.
-enum class Attack { kUnsigned, kForged, kStranger, kReplayed, kReordered, kOtherSession, kOutOfRange, kNotFinite, kCount };
+enum class Attack {
+  kUnsigned,
+  kForged,
+  kStranger,
+  kReplayed,
+  kReordered,
+  kOtherSession,
+  kOutOfRange,
+  kNotFinite,
+  kCount
+};
 
 class HostileOrders : public ::testing::Test {
  protected:
@@ -47,10 +57,14 @@ class HostileOrders : public ::testing::Test {
   std::pair<WireMessage, Reason> make(Attack attack) {
     setpoint_v1 message = next_setpoint();
     switch (attack) {
-      case Attack::kUnsigned: return {wire(kSetpoint, message, nullptr), Reason::kUnsigned};
-      case Attack::kForged: return {forged(message), Reason::kBadSignature};
-      case Attack::kStranger: return {wire(kSetpoint, message, &stranger_), Reason::kBadSignature};
-      case Attack::kReplayed: return {last_good_, Reason::kOldSequence};
+      case Attack::kUnsigned:
+        return {wire(kSetpoint, message, nullptr), Reason::kUnsigned};
+      case Attack::kForged:
+        return {forged(message), Reason::kBadSignature};
+      case Attack::kStranger:
+        return {wire(kSetpoint, message, &stranger_), Reason::kBadSignature};
+      case Attack::kReplayed:
+        return {last_good_, Reason::kOldSequence};
       case Attack::kReordered:
         message.sequence = last_good_sequence_ - 1;
         return {wire(kSetpoint, message, &key_), Reason::kOldSequence};
@@ -58,12 +72,14 @@ class HostileOrders : public ::testing::Test {
         message.session_id = static_cast<std::int64_t>(random_() >> 1);
         return {wire(kSetpoint, message, &key_), Reason::kWrongSession};
       case Attack::kOutOfRange:
-        message.position_rad = (random_() % 2 == 0 ? 1.0 : -1.0) * std::uniform_real_distribution<>(1.001, 1e9)(random_);
+        message.position_rad =
+            (random_() % 2 == 0 ? 1.0 : -1.0) * std::uniform_real_distribution<>(1.001, 1e9)(random_);
         return {wire(kSetpoint, message, &key_), Reason::kOutOfRange};
       case Attack::kNotFinite:
         message.valid_for_s = random_() % 2 == 0 ? std::nan("") : std::numeric_limits<double>::infinity();
         return {wire(kSetpoint, message, &key_), Reason::kNotFinite};
-      case Attack::kCount: break;
+      case Attack::kCount:
+        break;
     }
     return {};
   }
@@ -103,7 +119,8 @@ TEST_F(HostileOrders, AreNeverObeyedAndEachIsCountedUnderItsCause) {
     if (attack == Attack::kReplayed || attack == Attack::kReordered) send_good_order();
     const auto [message, cause] = make(attack);
     const Verdict verdict = consider(message);
-    ASSERT_NE(verdict.kind, Verdict::Kind::kOrder) << "attack " << static_cast<int>(attack) << ", order " << i;
+    ASSERT_NE(verdict.kind, Verdict::Kind::kOrder)
+        << "attack " << static_cast<int>(attack) << ", order " << i;
     EXPECT_EQ(verdict.reason, cause) << "attack " << static_cast<int>(attack) << ", order " << i;
     ++expected[static_cast<std::size_t>(cause)];
   }
@@ -111,7 +128,8 @@ TEST_F(HostileOrders, AreNeverObeyedAndEachIsCountedUnderItsCause) {
 }
 
 TEST_F(HostileOrders, OfRandomBytesOnEveryChannelAreNeverObeyed) {
-  const std::array<const char*, 6> channels{kSetpoint, kCommand, "SW.elbow.TABLE", "SW..SETPOINT", "SW.elbow.STATE", ""};
+  const std::array<const char*, 6> channels{kSetpoint,      kCommand,         "SW.elbow.TABLE",
+                                            "SW..SETPOINT", "SW.elbow.STATE", ""};
   const WireMessage sound = wire(kCommand, command_v1{}, nullptr);
   std::int64_t count = 0;
   for (int i = 0; i < kHostileOrders; ++i) {
@@ -120,7 +138,8 @@ TEST_F(HostileOrders, OfRandomBytesOnEveryChannelAreNeverObeyed) {
     message.size = i % 10 == 0 ? random_() : random_() % (WireMessage::kMaxBytes + 100);
     for (std::size_t at = 0; at < 256; at += 8) {
       const std::uint64_t bits = random_();
-      std::copy_n(reinterpret_cast<const std::uint8_t*>(&bits), 8, message.bytes.begin() + static_cast<std::ptrdiff_t>(at));
+      std::copy_n(reinterpret_cast<const std::uint8_t*>(&bits), 8,
+                  message.bytes.begin() + static_cast<std::ptrdiff_t>(at));
     }
     // Half of them with the right fingerprint and size, so that they get as far as they can; never the action that stops.
     if (i % 2 == 0) {

@@ -72,7 +72,8 @@ TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
   EXPECT_NE(revert.text.find("needs engineer"), std::string::npos);
   // The empty table passes the role and fails on its own account.
   EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &engineer_)).reason, Reason::kTableDefect);
-  EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind,
+            Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
 }
 
@@ -95,7 +96,8 @@ TEST_F(SignedAdmission, RefusesAnOrderThatWasSignedForAnotherJoint) {
 
 TEST_F(SignedAdmission, ASignatureWithoutAKeyIdIsNotTakenForNoSignature) {
   WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
-  std::fill_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(message.size - kSealBytes), sizeof(KeyId), 0);
+  std::fill_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(message.size - kSealBytes), sizeof(KeyId),
+              0);
   EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
 }
 
@@ -105,7 +107,8 @@ TEST_F(SignedAdmission, AForgeryDoesNotUseUpASequenceNumber) {
   forged.bytes[forged.size - 1] ^= 1;
   EXPECT_EQ(consider(forged).reason, Reason::kBadSignature);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), nullptr)).reason, Reason::kUnsigned);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &stranger_)).reason, Reason::kBadSignature);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &stranger_)).reason,
+            Reason::kBadSignature);
   EXPECT_EQ(consider(wire(kSetpoint, order, &operator_)).kind, Verdict::Kind::kOrder);
 }
 
@@ -116,7 +119,8 @@ TEST_F(SignedAdmission, SequencesOfOneKeySayNothingAboutAnotherKeys) {
 }
 
 TEST_F(SignedAdmission, ARoleThatIsNotEnoughUsesUpNothing) {
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 100), &operator_)).reason, Reason::kRoleNotAllowed);
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 100), &operator_)).reason,
+            Reason::kRoleNotAllowed);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
 }
 
@@ -131,8 +135,10 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSenders) {
 
 TEST_F(SignedAdmission, ChecksASignatureThatIsThereEvenWhereNoneIsNeeded) {
   Admission open("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}}, {{}, true});
-  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), nullptr), 0).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_), 0).reason, Reason::kBadSignature);
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), nullptr), 0).kind,
+            Verdict::Kind::kOrder);
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_), 0).reason,
+            Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
@@ -143,7 +149,8 @@ TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
   for (int i = 0; i < kForgeries; ++i)
     admission_.consider(forged, static_cast<std::int64_t>(kSeconds * 1e9 / kForgeries * i));
   const double verified = static_cast<double>(rejects(Reason::kBadSignature));
-  EXPECT_NEAR(verified, Admission::kWastedVerificationsPer_s * kSeconds + Admission::kWastedVerificationsAtOnce, 2.0);
+  EXPECT_NEAR(verified,
+              Admission::kWastedVerificationsPer_s * kSeconds + Admission::kWastedVerificationsAtOnce, 2.0);
   EXPECT_EQ(rejects(Reason::kBadSignature) + rejects(Reason::kBusy), kForgeries);
   // A millisecond later the owner of the key is heard again, and a stop was at all times.
   EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_), 2'001'000'000).kind,

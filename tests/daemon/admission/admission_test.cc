@@ -16,8 +16,9 @@ constexpr std::int64_t kSession = 4711;
 
 class AdmissionTest : public ::testing::Test {
  protected:
-  AdmissionTest() : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}, {"wrist", {}, -2.0, 2.0, 34.0, 6.0}},
-                              {{}, /*unsigned_allowed=*/true}) {}
+  AdmissionTest()
+      : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}, {"wrist", {}, -2.0, 2.0, 34.0, 6.0}},
+                   {{}, /*unsigned_allowed=*/true}) {}
 
   setpoint_v1 setpoint(double position_rad) {
     setpoint_v1 message{};

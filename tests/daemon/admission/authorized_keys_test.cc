@@ -95,7 +95,8 @@ TEST_F(AuthorizedKeysFile, RefusesAFileOfAThirdUser) {
 
 TEST_F(AuthorizedKeysFile, BoundsTheirNumber) {
   std::string text;
-  for (std::size_t i = 0; i <= AuthorizedKeys::kMaxKeys; ++i) text += to_line(some_key(Role::kOperator)) + "\n";
+  for (std::size_t i = 0; i <= AuthorizedKeys::kMaxKeys; ++i)
+    text += to_line(some_key(Role::kOperator)) + "\n";
   write(text);
   EXPECT_NE(error().find("more than 256 keys"), std::string::npos) << error();
 }

@@ -30,7 +30,8 @@ TEST(SequenceMemory, NeverTakesAMessageTwiceHoweverManySendersComeAndGo) {
   for (int i = 0; i < 200'000; ++i) {
     // Half new messages with a rising clock, half replays of what was sent before or numbers near it.
     const auto sender = static_cast<std::int64_t>(random() % 500);
-    const std::int64_t sequence = random() % 2 == 0 ? ++clock : static_cast<std::int64_t>(random()) % (clock + 1);
+    const std::int64_t sequence =
+        random() % 2 == 0 ? ++clock : static_cast<std::int64_t>(random()) % (clock + 1);
     if (memory.judge(sender, sequence) == Judgement::kNew) {
       EXPECT_TRUE(taken.emplace(sender, sequence).second) << sender << " " << sequence;
     }
@@ -42,7 +43,8 @@ TEST(SequenceMemory, NeverTakesAMessageTwiceHoweverManySendersComeAndGo) {
 TEST(SequenceMemory, BelievesANewSenderWhoseClockIsRightHoweverManyWereForgotten) {
   SequenceMemory memory;
   std::int64_t clock = 1'700'000'000'000'000;
-  for (std::int64_t sender = 0; sender < 10'000; ++sender) EXPECT_EQ(memory.judge(sender, ++clock), Judgement::kNew);
+  for (std::int64_t sender = 0; sender < 10'000; ++sender)
+    EXPECT_EQ(memory.judge(sender, ++clock), Judgement::kNew);
   EXPECT_EQ(memory.judge(3, clock + 1), Judgement::kNew);  // forgotten, and back
   EXPECT_EQ(memory.judge(10'001, 1), Judgement::kOld);
 }

@@ -16,7 +16,9 @@ class TableAdmission : public ::testing::Test {
   Reason judge() const { return judge_table(table_, joint_, torque_limit_Nm_).reason; }
 };
 
-TEST_F(TableAdmission, AcceptsTheTableForItsOwnJoint) { EXPECT_EQ(judge(), Reason::kAccepted); }
+TEST_F(TableAdmission, AcceptsTheTableForItsOwnJoint) {
+  EXPECT_EQ(judge(), Reason::kAccepted);
+}
 
 TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosAndModels) {
   joint_.period_s *= 1.001;

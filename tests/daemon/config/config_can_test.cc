@@ -67,7 +67,8 @@ TEST_F(CanConfigTest, WantsUnitAndSideOfTorqueSaid) {
 
 TEST_F(CanConfigTest, TakesOneTemperaturePerJoint) {
   const std::string sensor = "[joint.thermometer]\nfile = \"/dev/null\"\n\n[joint.can]";
-  expect_mentions(error_after("epos4.toml", "[joint.can]", sensor), {"joint[0].thermometer", "one temperature"});
+  expect_mentions(error_after("epos4.toml", "[joint.can]", sensor),
+                  {"joint[0].thermometer", "one temperature"});
   std::string text = example("epos4.toml");
   text.replace(text.find("[joint.can]"), 11, sensor);
   text.resize(text.find("[joint.can.temperature]"));

@@ -38,7 +38,8 @@ TEST_F(OdriveConfigTest, WantsABusOfItsOwn) {
 
 TEST_F(OdriveConfigTest, TakesItsOwnNodeNumbersOnly) {
   EXPECT_NO_THROW(read_with("node_id = 1\nprotocol", "node_id = 0\nprotocol"));
-  EXPECT_NE(error_after("node_id = 1\nprotocol", "node_id = 64\nprotocol").find("0 to 63"), std::string::npos);
+  EXPECT_NE(error_after("node_id = 1\nprotocol", "node_id = 64\nprotocol").find("0 to 63"),
+            std::string::npos);
 }
 
 TEST_F(OdriveConfigTest, WantsEveryUnitAndSideSaid) {
@@ -54,8 +55,8 @@ TEST_F(OdriveConfigTest, RefusesKeysOfTheOtherProtocol) {
 
 TEST_F(OdriveConfigTest, WantsBothEndpointsOfTheWatchdogOrNone) {
   EXPECT_NE(error_after("timeout_endpoint = 191", "").find("timeout_endpoint"), std::string::npos);
-  EXPECT_NO_THROW(
-      read_with("[joint.can.watchdog]\nenabled_endpoint = 190         # check 1\ntimeout_endpoint = 191\n", ""));
+  EXPECT_NO_THROW(read_with(
+      "[joint.can.watchdog]\nenabled_endpoint = 190         # check 1\ntimeout_endpoint = 191\n", ""));
 }
 
 }  // namespace

@@ -55,9 +55,11 @@ TEST_F(ConfigTest, NamesFileLineKeyAndTheUnitThatWasForgotten) {
 }
 
 TEST_F(ConfigTest, NamesKeyValueAndRangeOfAnImpossibleValue) {
-  expect_mentions(error_after("inertia_kgm2 = 0.089", "inertia_kgm2 = -1"), {"joint[0].inertia_kgm2 = -1", "from"});
+  expect_mentions(error_after("inertia_kgm2 = 0.089", "inertia_kgm2 = -1"),
+                  {"joint[0].inertia_kgm2 = -1", "from"});
   expect_mentions(error_after("torque_Nm = 34", "torque_Nm = nan"), {"torque_Nm = nan"});
-  expect_mentions(error_after("speed_rad_s = 6.0", "speed_rad_s = \"fast\""), {"speed_rad_s", "fast", "a number"});
+  expect_mentions(error_after("speed_rad_s = 6.0", "speed_rad_s = \"fast\""),
+                  {"speed_rad_s", "fast", "a number"});
 }
 
 TEST_F(ConfigTest, NamesAMissingKey) {
@@ -65,8 +67,10 @@ TEST_F(ConfigTest, NamesAMissingKey) {
 }
 
 TEST_F(ConfigTest, SuggestsTheNearestKeyForAMisspelledOne) {
-  expect_mentions(error_after("following_error_rad", "folowing_error_rad"), {"following_error_rad is missing"});
-  expect_mentions(error_after("driver = \"simulated\"", "driver = \"simulated\"\ndrivr = 1"), {"drivr", "did you mean driver"});
+  expect_mentions(error_after("following_error_rad", "folowing_error_rad"),
+                  {"following_error_rad is missing"});
+  expect_mentions(error_after("driver = \"simulated\"", "driver = \"simulated\"\ndrivr = 1"),
+                  {"drivr", "did you mean driver"});
 }
 
 TEST_F(ConfigTest, ListsTheDriversWhenOneIsUnknown) {
@@ -74,7 +78,8 @@ TEST_F(ConfigTest, ListsTheDriversWhenOneIsUnknown) {
 }
 
 TEST_F(ConfigTest, RefusesLimitsThatCross) {
-  expect_mentions(error_after("position_max_rad = 3.2", "position_max_rad = -4"), {"position_max_rad", "above position_min_rad"});
+  expect_mentions(error_after("position_max_rad = 3.2", "position_max_rad = -4"),
+                  {"position_max_rad", "above position_min_rad"});
 }
 
 TEST_F(ConfigTest, RefusesTwoJointsOfTheSameName) {
@@ -117,8 +122,10 @@ TEST_F(ConfigTest, ReadsTheKeysBesideTheConfiguration) {
 }
 
 TEST_F(ConfigTest, RefusesAGatewayUserWhoIsNoneOrRoot) {
-  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"nobody-such\""), {"daemon.gateway_user", "no such user"});
-  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"root\""), {"daemon.gateway_user", "without privileges"});
+  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"nobody-such\""),
+                  {"daemon.gateway_user", "no such user"});
+  expect_mentions(error_after("prefix = \"LAB\"", "gateway_user = \"root\""),
+                  {"daemon.gateway_user", "without privileges"});
 }
 
 TEST_F(ConfigTest, EveryShippedExampleIsSound) {

@@ -22,7 +22,9 @@ class RecorderConfigTest : public ConfigFileTest {
            "following_error_rad = 0.1, torque_Nm = 34 }\n" +
            keys + tables;
   }
-  static std::string simulated(const std::string& text) { return "[security]\nunsigned_orders = \"allow\"\n" + text; }
+  static std::string simulated(const std::string& text) {
+    return "[security]\nunsigned_orders = \"allow\"\n" + text;
+  }
   DaemonConfig read(const std::string& text) { return ConfigFileTest::read(simulated(text)); }
   std::string error(const std::string& text) { return error_of(simulated(text)); }
 };

@@ -59,12 +59,15 @@ std::set<std::string> keys_in_reference() {
 
 TEST(ReferenceConfiguration, NamesEveryKeyThatIsReadAndNoOther) {
   std::set<std::string> in_code = keys_in_code();
-  for (const char* driver : {"simulated", "can", "gpio"}) in_code.insert(driver);  // a driver's section is named after it
+  for (const char* driver : {"simulated", "can", "gpio"})
+    in_code.insert(driver);  // a driver's section is named after it
   EXPECT_GT(in_code.size(), 40U);
   EXPECT_EQ(in_code, keys_in_reference());
 }
 
-TEST(ReferenceConfiguration, IsSound) { EXPECT_NO_THROW(read_config(STRAINWAVE_SOURCE_DIR "/config/reference.toml")); }
+TEST(ReferenceConfiguration, IsSound) {
+  EXPECT_NO_THROW(read_config(STRAINWAVE_SOURCE_DIR "/config/reference.toml"));
+}
 
 }  // namespace
 }  // namespace strainwave

@@ -46,7 +46,8 @@ class Confinement : public ::testing::Test {
 };
 
 TEST_F(Confinement, EndsTheProcessThatOpensASocket) {
-  EXPECT_EXIT(try_confined([] { return ::socket(AF_INET, SOCK_DGRAM, 0) >= 0; }), ::testing::KilledBySignal(SIGSYS), "");
+  EXPECT_EXIT(try_confined([] { return ::socket(AF_INET, SOCK_DGRAM, 0) >= 0; }),
+              ::testing::KilledBySignal(SIGSYS), "");
 }
 
 TEST_F(Confinement, EndsTheProcessThatStartsAProgram) {
@@ -56,7 +57,8 @@ TEST_F(Confinement, EndsTheProcessThatStartsAProgram) {
 }
 
 TEST_F(Confinement, EndsTheProcessThatTouchesAnother) {
-  EXPECT_EXIT(try_confined([] { return ::kill(::getppid(), 0) == 0; }), ::testing::KilledBySignal(SIGSYS), "");
+  EXPECT_EXIT(try_confined([] { return ::kill(::getppid(), 0) == 0; }), ::testing::KilledBySignal(SIGSYS),
+              "");
   EXPECT_EXIT(try_confined([] { return ::ptrace(PTRACE_ATTACH, ::getppid(), nullptr, nullptr) == 0; }),
               ::testing::KilledBySignal(SIGSYS), "");
 }
@@ -70,8 +72,8 @@ TEST_F(Confinement, KeepsFromOtherProcessesEvenBeforeLcmIsSetUp) {
   EXPECT_EXIT(try_between([] { return ::kill(::getppid(), 0) == 0; }), ::testing::KilledBySignal(SIGSYS), "");
   EXPECT_EXIT(try_between([] { return ::ptrace(PTRACE_ATTACH, ::getppid(), nullptr, nullptr) == 0; }),
               ::testing::KilledBySignal(SIGSYS), "");
-  EXPECT_EXIT(try_between([] { return ::execl("/bin/true", "true", nullptr) == 0; }), ::testing::KilledBySignal(SIGSYS),
-              "");
+  EXPECT_EXIT(try_between([] { return ::execl("/bin/true", "true", nullptr) == 0; }),
+              ::testing::KilledBySignal(SIGSYS), "");
   // What LCM does need.
   EXPECT_EXIT(try_between([] {
                 std::thread([] {}).join();
@@ -82,14 +84,15 @@ TEST_F(Confinement, KeepsFromOtherProcessesEvenBeforeLcmIsSetUp) {
 
 TEST_F(Confinement, EndsTheProcessThatMakesMemoryRunnable) {
   EXPECT_EXIT(try_confined([] {
-                return ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
-                       MAP_FAILED;
+                return ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS,
+                              -1, 0) != MAP_FAILED;
               }),
               ::testing::KilledBySignal(SIGSYS), "");
 }
 
 TEST_F(Confinement, OpensNoFile) {
-  EXPECT_EXIT(try_confined([] { return ::open("/etc/passwd", O_RDONLY) >= 0; }), ::testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(try_confined([] { return ::open("/etc/passwd", O_RDONLY) >= 0; }), ::testing::ExitedWithCode(0),
+              "");
 }
 
 // The core reads this eventfd and must never be made to wait for it.

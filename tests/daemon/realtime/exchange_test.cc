@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "base/broadcast_ring.h"
-#include "daemon/realtime/histogram.h"
 #include "base/spsc_queue.h"
+#include "daemon/realtime/histogram.h"
 
 namespace strainwave {
 namespace {
@@ -28,8 +28,10 @@ TEST(SpscQueue, KeepsOrderAndLosesNothingThatItAccepted) {
   auto queue = std::make_unique<SpscQueue<std::uint64_t, 64>>();
   std::thread writer([&] {
     for (std::uint64_t i = 0; i < kItems;)
-      if (queue->push(i)) ++i;
-      else std::this_thread::yield();
+      if (queue->push(i))
+        ++i;
+      else
+        std::this_thread::yield();
   });
   std::uint64_t expected = 0;
   while (expected < kItems) {

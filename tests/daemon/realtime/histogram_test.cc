@@ -6,7 +6,8 @@ namespace strainwave {
 namespace {
 
 TEST(Histogram, PutsEachDurationBelowItsBucketsBoundAndNotBelowTheOneBefore) {
-  for (const std::int64_t duration_ns : {0L, 999L, 1000L, 1189L, 1190L, 5000L, 123456L, 1000000L, 40000000L}) {
+  for (const std::int64_t duration_ns :
+       {0L, 999L, 1000L, 1189L, 1190L, 5000L, 123456L, 1000000L, 40000000L}) {
     Histogram histogram;
     histogram.add(duration_ns);
     const HistogramCounts counts = histogram.counts();

@@ -119,7 +119,9 @@ TEST(JointLoopMissedReadings, DoNotDisturbAMotionAtFullSpeed) {
     bench.bring_to_hold(0);
     ASSERT_EQ(bench.move(0, 1.0), Reason::kAccepted);
     const double full_speed_rad_s = demo_joint().loop.controller.motion.velocity_rad_s;
-    ASSERT_GE(bench.step_until([&] { return bench.state(0).joint_velocity_rad_s > 0.98 * full_speed_rad_s; }, 500), 0);
+    ASSERT_GE(
+        bench.step_until([&] { return bench.state(0).joint_velocity_rad_s > 0.98 * full_speed_rad_s; }, 500),
+        0);
     bench.drive(0).miss_readings(missing);
     bench.run(1.0);
     EXPECT_EQ(bench.fault(0), Fault::kNone) << missing << ": " << to_text(bench.fault(0));

@@ -7,11 +7,12 @@
 namespace strainwave {
 namespace {
 
-constexpr std::array kModes{Mode::kOff, Mode::kStarting, Mode::kHolding, Mode::kTracking, Mode::kStopping, Mode::kFaulted,
-                            Mode::kHoming};
-constexpr std::array kEvents{ModeEvent::kEnableOrdered, ModeEvent::kDriveReady,     ModeEvent::kSetpointAccepted,
-                             ModeEvent::kArrived,       ModeEvent::kDisableOrdered, ModeEvent::kStopped,
-                             ModeEvent::kFaultRaised,   ModeEvent::kFaultCleared,   ModeEvent::kHomeOrdered};
+constexpr std::array kModes{Mode::kOff,      Mode::kStarting, Mode::kHolding, Mode::kTracking,
+                            Mode::kStopping, Mode::kFaulted,  Mode::kHoming};
+constexpr std::array kEvents{
+    ModeEvent::kEnableOrdered, ModeEvent::kDriveReady,     ModeEvent::kSetpointAccepted,
+    ModeEvent::kArrived,       ModeEvent::kDisableOrdered, ModeEvent::kStopped,
+    ModeEvent::kFaultRaised,   ModeEvent::kFaultCleared,   ModeEvent::kHomeOrdered};
 
 TEST(ModeMachine, FaultsFromEveryMode) {
   for (const Mode mode : kModes) EXPECT_EQ(next_mode(mode, ModeEvent::kFaultRaised), Mode::kFaulted);

@@ -13,8 +13,8 @@
 #include <set>
 #include <sstream>
 
-#include "daemon/records/flight_record_file.h"
 #include "daemon/realtime/periodic_clock.h"
+#include "daemon/records/flight_record_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -43,9 +43,7 @@ class FlightRecordWriterTest : public ::testing::Test {
     config_.directory = temporary_.path() / "records";
     config_.min_interval_s = 0.0;
   }
-  void TearDown() override {
-    fs::permissions(temporary_.path(), fs::perms::owner_all);
-  }
+  void TearDown() override { fs::permissions(temporary_.path(), fs::perms::owner_all); }
 
   FlightRecordWriter writer() {
     return {config_, 0.001, 4711, {{"elbow", "rhs17-6006", &elbow_}, {"wrist", "rhs17-6006", &wrist_}}};

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "control/gain_table_json.h"
 #include "base/input_error.h"
+#include "control/gain_table_json.h"
+#include "sim/joint/reference_plant.h"
 #include "sim/studies/chapter6.h"
 #include "sim/studies/figure.h"
 #include "sim/studies/heat.h"
 #include "sim/studies/performance_tables.h"
-#include "sim/joint/reference_plant.h"
 #include "sim/studies/robustness.h"
 
 namespace strainwave {

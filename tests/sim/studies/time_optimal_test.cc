@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/input_error.h"
-#include "sim/studies/loop_controllers.h"
 #include "sim/joint/reference_plant.h"
+#include "sim/studies/loop_controllers.h"
 #include "sim/studies/scenarios.h"
 
 namespace strainwave {
