@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "tests/support/c_library_allocator.h"
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define STRAINWAVE_TRAP_AVAILABLE 0
 #else
