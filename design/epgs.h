@@ -1,23 +1,22 @@
 // EPGS, evolutionary parallel gradient search: the minimum of a cost with a gradient over a box. Offline.
 // Source: Zhao (2006), section 4.1.
 //
-// A population X of P points; f the cost, g(X) = f(X) - slope_weight |grad f(X)| the promise of a point
-// (steep ones have far to fall). Each generation:
+// A population X of P points; f the cost; the promise of a point (steep ones have far to fall) is
+//   g(X) = f(X) - slope_weight |grad f(X)|.
+// Each generation:
 //   1. evaluate; stop on the generation limit, on no improvement, or within tolerance of a known optimum;
 //   2. the clone_by_cost * P best by f and the clone_by_promise * P best of the rest by g take gradient steps
-//   and go on to the next
-//      generation;
-//   3. crossover * P children: X' = r Xa + (1 - r) Xb, r uniform in [0, 1], Xa from those selected, Xb from
-//   the rest;
+//      and go on to the next generation;
+//   3. crossover * P children:  X' = r Xa + (1 - r) Xb,
+//      r uniform in [0, 1], Xa from those selected, Xb from the rest;
 //   4. a child's variable mutates when |q| < mutation, q uniform in [-1, 1], by q times its range;
 //   5. the rest of the population is drawn afresh; everything is clamped to the box. The best point is never
-//   lost.
+//      lost.
 //
 // Where this departs from the source, and why:
 // - a gradient step is a damped Newton step in the unit box (box_descent.h) instead of a fixed learning rate:
-// costs with long
-//   curved valleys, such as that of the fuzzy memberships, otherwise take thousands of generations. A point
-//   takes up to `steps` of them in a generation and rests once it has converged;
+//   costs with long curved valleys, such as that of the fuzzy memberships, otherwise take thousands of
+//   generations. A point takes up to `steps` of them in a generation and rests once it has converged;
 // - variables are scaled to [0, 1] (the ranges differ by up to 1e4);
 // - points that have come together count once: a copy gives up its place to a fresh point;
 // - each variable of a child mutates on its own.
@@ -39,10 +38,10 @@ struct EpgsOptions {
   double mutation = 0.15;         ///< m
   double slope_weight = 0.01;     ///< of |grad f| in g
   int steps = 20;                 ///< gradient steps per selected point and generation
-  double step_tolerance =
-      1e-6;  ///< a point has converged when a step promises less than this part of its cost
-  double final_tolerance =
-      1e-12;  ///< the best point of all takes steps until one promises less than this part
+  /// A point has converged when a step promises less than this part of its cost.
+  double step_tolerance = 1e-6;
+  /// The best point of all takes steps until one promises less than this part.
+  double final_tolerance = 1e-12;
   int generation_limit = 250;
   int patience = 1000000;         ///< generations without improvement before stopping
   double improvement = 1e-6;      ///< relative, that counts as one

@@ -5,9 +5,13 @@
 // A switch is left, always towards the same side and at the creep speed, and the place where it opens is
 // home: the same edge whatever the search met first. `d` is the search's direction.
 //
-//   search: d until the switch closes -> stop -> creep: -d until it opens = home -> (creep: -d to the next
-//   index pulse) -> rest A limit switch that is not looked for turns the search round, once. What overshot
-//   the switch returns to it first. The index alone: creep in d to the next pulse.
+//   search:  d until the switch closes -> stop
+//   creep:   -d until it opens = home
+//   creep:   -d to the next index pulse = home, if that is asked for
+//   rest
+//
+// A limit switch that is not looked for turns the search round, once. What overshot the switch returns to it
+// first. The index alone: creep in d to the next pulse.
 #pragma once
 
 #include <cstdint>

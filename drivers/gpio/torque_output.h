@@ -1,9 +1,10 @@
 // From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
 // real-time safe. Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/joint/motor.h.
 //
-//   current:  the amplifier makes a current from the duty;           T = Kt I                  I = full scale
-//   * share voltage:  the bridge makes a voltage; inductance neglected;      T = Kt (u - Ke w) / R     u =
-//   supply * share
+//   current:  the amplifier makes a current from the duty;
+//               T = Kt I,  I = full scale * share
+//   voltage:  the bridge makes a voltage; inductance neglected;
+//               T = Kt (u - Ke w) / R,  u = supply * share
 // Kt at the joint = motor's Kt * gear ratio * efficiency. `share` runs from -1 to 1 and becomes a duty:
 //   sign-magnitude:      duty = min + |share| (max - min), a line tells the direction, idle is min
 //   locked anti-phase:   duty = middle + share (max - min) / 2, idle is the middle

@@ -2,9 +2,11 @@
 // the plant of every closed-loop test and it is not the controller's model: friction is the Stribeck curve
 // itself. Joint side, SI. Real-time safe: advance() allocates nothing and throws nothing.
 //
-//   w != 0:  J dw/dt = Tm(w) - load - F(w, T),   d(theta)/dt = w        F: control/friction.h, Zhao (2006),
-//   (2-1)..(2-10) w  = 0:  stuck while |Tm(0) - load| <= Fs(T), else the joint breaks away in the direction
-//   of Tm(0) - load
+//   w != 0:  J dw/dt = Tm(w) - load - F(w, T)
+//            d(theta)/dt = w
+//   w  = 0:  stuck while |Tm(0) - load| <= Fs(T),
+//            else the joint breaks away in the direction of Tm(0) - load
+//   F: control/friction.h; Zhao (2006), (2-1)..(2-10)
 //
 // Between events: classical Runge-Kutta of order 4 with friction continued smoothly through w = 0. For
 // constant torque the velocity obeys a scalar autonomous equation, so it is monotone: a step holds at most

@@ -1,8 +1,9 @@
 // The plant as a TOML file: what differs from one of the built-in joints. Offline.
 //
-//   base = "realistic"                    # ideal, limited or realistic: where everything not given comes
-//   from [joint]       inertia_kgm2, stribeck_velocity_rad_s, stribeck_exponent [friction]    reference_C,
-//   decay_C, asymptote_static_Nm, asymptote_coulomb_Nm, asymptote_viscous_Nms_rad,
+//   base = "realistic"    # ideal, limited or realistic: where everything not given comes from
+//   [joint]       inertia_kgm2, stribeck_velocity_rad_s, stribeck_exponent
+//   [friction]    reference_C, decay_C,
+//                 asymptote_static_Nm, asymptote_coulomb_Nm, asymptote_viscous_Nms_rad,
 //                 amplitude_static_Nm, amplitude_coulomb_Nm, amplitude_viscous_Nms_rad
 //   [motor]       peak_torque_Nm, stall_torque_Nm, torque_per_speed_Nms_rad, winding_loss_W_Nm2
 //   [encoder]     counts_per_joint_revolution (0: ideal)
