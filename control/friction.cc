@@ -8,8 +8,8 @@
 namespace strainwave {
 
 namespace {
-// exp(-40) is 4e-18: past it the Stribeck term is below the rounding of Fc and its exponential is not worth
-// its time.
+// exp(-40) is 4e-18: past it the Stribeck term is below the
+// rounding of Fc and its exponential is not worth its time.
 constexpr double kNegligibleExponent = 40.0;
 }  // namespace
 

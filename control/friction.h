@@ -4,8 +4,8 @@
 
 namespace strainwave {
 
-/// Friction at one temperature, joint side. All three are >= 0 and static_Nm >= coulomb_Nm for a physical
-/// joint.
+/// Friction at one temperature, joint side. All three are
+/// >= 0 and static_Nm >= coulomb_Nm for a physical joint.
 struct FrictionParameters {
   double static_Nm = 0.0;        ///< Fs: largest torque that the joint at rest withstands.
   double coulomb_Nm = 0.0;       ///< Fc: friction of slow motion, beyond the Stribeck range.

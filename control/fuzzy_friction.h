@@ -32,8 +32,8 @@ struct VelocityMemberships {
   double zero_weight(double velocity_rad_s) const noexcept;
 };
 
-/// The whole model, as it travels in a gain table. 1 <= rule_count <= kMaxTemperatureRules, centres
-/// ascending.
+/// The whole model, as it travels in a gain table. 1 <=
+/// rule_count <= kMaxTemperatureRules, centres ascending.
 struct FuzzyFriction {
   std::int32_t rule_count = 0;
   std::array<TemperatureRule, kMaxTemperatureRules> rules{};

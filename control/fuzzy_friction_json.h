@@ -10,8 +10,8 @@ namespace strainwave {
 
 nlohmann::ordered_json fuzzy_friction_to_json(const FuzzyFriction& friction);
 
-/// Reads what fuzzy_friction_to_json wrote: keys, types and sizes; ranges are find_defect()'s. Throws
-/// InputError.
+/// Reads what fuzzy_friction_to_json wrote: keys, types and
+/// sizes; ranges are find_defect()'s. Throws InputError.
 FuzzyFriction fuzzy_friction_from_json(StrictObject object);
 
 }  // namespace strainwave

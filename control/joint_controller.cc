@@ -13,8 +13,8 @@ namespace {
 // The Stribeck velocity as a share of the width of the table's "zero velocity" membership, and its exponent.
 constexpr double kStribeckShare = 0.5;
 constexpr double kStribeckExponent = 2.0;
-// Landing begins where one push with this share of the torque, and one period's braking, can end on the
-// target.
+// Landing begins where one push with this share of the
+// torque, and one period's braking, can end on the target.
 constexpr double kLandingShare = 0.5;
 // A landing that finds itself this many times farther away is given up: something pushed the joint.
 constexpr double kLandingLost = 4.0;

@@ -2,9 +2,10 @@
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Joint side, SI.
 //
 //   measurement -> gains in use -> estimate, carried to when the torque will act -> reference -> torque
-//   tracking:  scheduled feedback on the reference + what its motion needs (inertia, friction, load),
-//   saturated landing:   the last counts, by pushes (control/landing.h) resting:   the torque that holds the
-//   load, nothing else
+//
+//   tracking   scheduled feedback on the reference + what its motion needs (inertia, friction, load)
+//   landing    the last counts, by pushes (control/landing.h)
+//   resting    the torque that holds the load, nothing else
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@ namespace strainwave {
 
 inline constexpr int kMaxControlDelay = 8;
 
-/// One joint's configuration. Each feature can be switched off; without any, the plain control law of the
-/// table is left.
+/// One joint's configuration. Each feature can be switched off;
+/// without any, the plain control law of the table is left.
 struct JointControllerConfig {
   double period_s = 0.001;                 ///< > 0, the table's
   double encoder_resolution_rad = 0.0;     ///< position of one count at the joint; 0: exact

@@ -1,12 +1,13 @@
 // The joint as the controller knows it: one inertia, friction at the present temperature with true stiction,
 // and what is not known of friction, load and inertia. Used by the observer, the landing and the
-// feed-forward. Real-time safe.
+// feed-forward. Real-time safe. Source: Zhao (2006), (2-1)..(2-4).
 //
 //   w != 0:  J dw/dt = torque - load - sign(w) (F(|w|) + friction offset)
 //   w  = 0:  at rest while |torque - load| <= Fs + friction offset
-//   F(w) = Fc + Fv w + (Fs - Fc) exp(-(w/ws)^2),  ws: half the width of the table's "zero velocity"
-//   membership, which with the source's memberships is the Stribeck velocity of the catalogue. Source: Zhao
-//   (2006), (2-1)..(2-4).
+//   F(w) = Fc + Fv w + (Fs - Fc) exp(-(w/ws)^2)
+//
+// ws is half the width of the table's "zero velocity" membership, which with the source's memberships is the
+// Stribeck velocity of the catalogue.
 #pragma once
 
 #include "control/friction.h"
@@ -19,8 +20,8 @@ struct JointDisturbance {
   double load_Nm = 0.0;             ///< external torque; positive opposes positive motor torque
 };
 
-/// One period's motion and its derivatives by the velocity at its start, by both disturbances and by the
-/// inertia.
+/// One period's motion and its derivatives by the velocity
+/// at its start, by both disturbances and by the inertia.
 struct ModelMotion {
   double displacement_rad = 0.0;
   double velocity_rad_s = 0.0;  ///< at the end

@@ -9,16 +9,16 @@ namespace strainwave {
 
 namespace {
 
-// Least friction that is believed, as a share of the model's: an estimate gone wrong must not turn friction
-// round.
+// Least friction that is believed, as a share of the model's:
+// an estimate gone wrong must not turn friction round.
 constexpr double kLeastFriction = 0.2;
-// Share of static friction that may act against a joint which will stop within the period: it must stay
-// stopped.
+// Share of static friction that may act against a joint
+// which will stop within the period: it must stay stopped.
 constexpr double kSafeReverse = 0.5;
 // Where exact sensing takes a joint to be on its target.
 constexpr double kExactTolerance_rad = 1e-8;
-// A slide ends this far beyond the edge, in counts; its length may be in doubt by so much; periods that it
-// takes.
+// A slide ends this far beyond the edge, in counts; its
+// length may be in doubt by so much; periods that it takes.
 constexpr double kSlideBeyond = 0.7;
 constexpr double kSlideDoubt = 0.5;
 constexpr double kShortestSlide = 3.0;
@@ -47,8 +47,8 @@ double landing_torque_Nm(const JointModel& model, const JointDisturbance& distur
     const double deceleration = std::min(needed, std::max(safe, speed / period_s));
     return disturbance.load_Nm + direction * (friction_Nm - inertia * deceleration);
   }
-  // End speed from which the joint stops at the target: by static friction alone, or in half a period if that
-  // is harder.
+  // End speed from which the joint stops at the target: by static
+  // friction alone, or in half a period if that is harder.
   const double push_s = samples * period_s;
   const double beyond = distance - 0.5 * speed * push_s;
   const double coasting = static_Nm / inertia;

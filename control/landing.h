@@ -4,9 +4,11 @@
 //
 // Within a count the encoder is silent, but its edges are not. Three kinds of push, each only while it is
 // needed:
-//   slides   across the edge nearest to the target, as slow as friction is known: when the edge comes tells
-//   friction; probes   onto the edge, as it is believed to lie: the count tells on which side it really is,
-//   which halves the doubt; the last push from there to the target.
+//   slides   across the edge nearest to the target, as slow as friction is known:
+//            when the edge comes tells friction
+//   probes   onto the edge, as it is believed to lie:
+//            the count tells on which side it really is, which halves the doubt
+//   the last push, from there to the target
 // Then the joint rests: the torque is what holds the load, constant, and nothing hunts.
 #pragma once
 
@@ -38,8 +40,8 @@ class Landing {
 
   /// A landing on `target_rad` begins.
   void begin(double target_rad) noexcept;
-  /// Torque for the period that begins when `then` is reached; `now` is the present estimate, `reading_rad`
-  /// the encoder's.
+  /// Torque for the period that begins when `then` is reached;
+  /// `now` is the present estimate, `reading_rad` the encoder's.
   double step(const JointEstimate& now, const JointEstimate& then, double reading_rad,
               const JointModel& model) noexcept;
   /// Landed: the torque only holds the load.

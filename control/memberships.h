@@ -29,8 +29,8 @@ class TemperatureMemberships {
   /// `friction` must have passed find_defect().
   explicit TemperatureMemberships(const FuzzyFriction& friction) noexcept;
 
-  /// Normalised memberships at `temperature_C`, which is clamped to the table's range first; it must not be
-  /// NaN.
+  /// Normalised memberships at `temperature_C`, which is
+  /// clamped to the table's range first; it must not be NaN.
   TemperatureWeights weights(double temperature_C) const noexcept;
 
   /// The same before they are normalised: relative to the nearest rule's, which has 1, so that far from every

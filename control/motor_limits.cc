@@ -6,8 +6,8 @@
 namespace strainwave {
 
 namespace {
-// Acceleration that a reference always has, as a share of what the torque limit gives without friction and
-// load.
+// Acceleration that a reference always has, as a share of
+// what the torque limit gives without friction and load.
 constexpr double kLeastShare = 0.02;
 }  // namespace
 

@@ -1,12 +1,16 @@
 // Reference shaping: turns targets, which may change at any moment, into a reference that the joint can
 // follow. Real-time safe: allocates nothing, throws nothing, one square root per sample.
 //
-// Time-optimal in discrete time. With period h, the acceleration is constant over a sample, so that
-//   v' = v + h a,   x' = x + h (v + v') / 2                            hold exactly, and J a is the torque to
-//   feed forward.
+// Time-optimal in discrete time. With period h the acceleration a is constant over a sample, so that
+//   v' = v + h a
+//   x' = x + h (v + v') / 2
+// hold exactly, and J a is the torque to feed forward.
+//
 // From speed v the joint can stop within S(v): full deceleration D for whole samples, the remainder in the
-// last one; S is the chord polygon of v^2 / 2D with nodes at v = n D h. Each sample takes the largest
-//   v' <= min(v + A h, V)  with  S(v') + h v' / 2 <= d - h v / 2       d: distance to the target,
+// last one; S is the chord polygon of v^2 / 2D with nodes at v = n D h. Each sample takes the largest v' with
+//   v' <= v + A h
+//   v' <= V
+//   S(v') + h v' / 2 <= d - h v / 2,    d: distance to the target
 // which keeps the target reachable exactly, at rest, on a sample: no overshoot, no chatter around the target.
 #pragma once
 

@@ -6,8 +6,8 @@
 namespace strainwave {
 
 namespace {
-// Samples without a count before a joint counts as still: slower than this it moves less than a count in
-// their time.
+// Samples without a count before a joint counts as still:
+// slower than this it moves less than a count in their time.
 constexpr int kStillSamples = 10;
 
 constexpr double kReleaseCounts = 1.5;

@@ -49,8 +49,8 @@ void ScheduledController::set_temperature(double temperature_C) noexcept {
   Blend blend = Blend::Zero();
   for (int i = 0; i < weights_.count; ++i)
     blend += weights_.weight[static_cast<std::size_t>(i)] * rules_.col(i);
-  // Normalised last: the sum of the memberships and its reciprocal are computed beside the blend, not before
-  // it.
+  // Normalised last: the sum of the memberships and its
+  // reciprocal are computed beside the blend, not before it.
   blend *= scale;
   weights_.scale_by(scale);
   blended_friction_ = {blend(0), blend(1), blend(2)};

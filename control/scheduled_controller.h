@@ -1,20 +1,27 @@
 // Scheduled state feedback with integrator, friction compensation, saturation and anti-windup: the control
 // law of one joint. Real-time safe: nothing here allocates or throws.
 //
-//   e = position - setpoint,  x = [ integral e, e, velocity - setpoint velocity ]
-//   u = (alpha_0 F_0 + (1 - alpha_0) sum_i w_i(T) F_i) x                                        feedback
-//   f = (alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity))       moving                     friction
-//   compensation f = (1 + margin) Fs(T) d                                         at rest;  d = sign(-e):
-//   towards the setpoint torque = clamp(u + f)      or, when the setpoint's motion is planned:  torque =
-//   clamp(u + planned torque)
+//   e = position - setpoint
+//   x = [ integral e, e, velocity - setpoint velocity ]
+//   d = sign(-e): towards the setpoint
+//
+//   feedback               u = (alpha_0 F_0 + (1 - alpha_0) sum_i w_i(T) F_i) x
+//   friction compensation
+//     moving               f = alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity)
+//     at rest              f = (1 + margin) Fs(T) d
+//   torque
+//     step reference       torque = clamp(u + f)
+//     planned motion       torque = clamp(u + planned torque)
+//
 // Source: Zhao (2006), (3-9)..(3-35), section 5.4. What he leaves open: d, which here is where the joint must
 // go (the sign of the velocity keeps an overshoot going, the sign of u chatters while the integral settles),
 // and the joint at rest, which needs all of Fs to move again. Controllers without temperature (one rule) know
 // no friction: f = 0.
 //
 // The integral is one number with two duties; only the slow one is wanted: what friction and load leave to
-// correct. With P the Lyapunov matrix of rule 0,  V(x) = P_00 (slow)^2 + (a form in e and velocity alone),
-//   slow = integral + (P_01 e + P_02 velocity error) / P_00,
+// correct. With P the Lyapunov matrix of rule 0,
+//   V(x) = P_00 slow^2 + (a form in e and velocity alone)
+//   slow = integral + (P_01 e + P_02 velocity error) / P_00
 // so the integral that costs least for a given e and velocity is the one that leaves `slow` where it was. A
 // new setpoint and a saturated torque therefore keep `slow`: neither winds up, neither raises V, and the
 // certificate still holds.

@@ -10,8 +10,8 @@ namespace {
 
 enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
 
-// Bounds of what may be estimated: friction offset and load in units of static friction, inertia relative to
-// the model's.
+// Bounds of what may be estimated: friction offset and load in
+// units of static friction, inertia relative to the model's.
 constexpr double kLeastFriction = -0.8;
 constexpr double kMostFriction = 1.5;
 constexpr double kMostLoad = 20.0;
@@ -20,14 +20,14 @@ constexpr double kMostInertia = 1.5;
 
 constexpr double kCertain = 6.0;   // this many deviations inside, an edge says nothing
 constexpr double kSurprise = 4.0;  // this many outside, the model did not foresee the reading
-// Share of a change of the model's friction (another temperature, another table) that its error may change
-// by.
+// Share of a change of the model's friction (another
+// temperature, another table) that its error may change by.
 constexpr double kModelChange = 0.2;
 constexpr double kSurpriseLoad = 3.0;    // load that one surprise may bring, in units of static friction
 constexpr double kRestDrift_Nm = 0.001;  // per period in motion, however slow
 constexpr double kLoadDrift = 0.1;       // a load's share of the drift
-// Deviations of the velocity that a stop is doubted by; share of a period's friction that a doubtful
-// direction may cost.
+// Deviations of the velocity that a stop is doubted by; share
+// of a period's friction that a doubtful direction may cost.
 constexpr double kDoubtfulStop = 1.5;
 constexpr double kDirectionShare = 0.25;
 // What is left of an exact position and velocity after rounding.
@@ -106,8 +106,8 @@ void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_d
   }
 }
 
-// What the model gets wrong differs from speed to speed (friction), and grows with the acceleration
-// (inertia).
+// What the model gets wrong differs from speed to speed
+// (friction), and grows with the acceleration (inertia).
 void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model) noexcept {
   const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
   const double share = square(square(std::min(1.0, speed / model.stribeck.velocity_rad_s)));
@@ -121,8 +121,8 @@ void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model)
           : 0.0;
 }
 
-// The mean of one component shifts and its variance shrinks to a share; the others follow by their
-// correlation.
+// The mean of one component shifts and its variance shrinks
+// to a share; the others follow by their correlation.
 void VelocityObserver::condition(int component, double shift, double variance_ratio) noexcept {
   const double variance = covariance_(component, component);
   if (variance <= 0.0) return;

@@ -40,8 +40,8 @@ double shortest_time_from_rest_s(double distance_rad, const MotionLimits& limits
   return peak / a + peak / d + std::max(0.0, cruise_rad) / peak;
 }
 
-// The same from any velocity: a motion away from the target, or too fast to stop before it, first brakes to
-// rest.
+// The same from any velocity: a motion away from the target,
+// or too fast to stop before it, first brakes to rest.
 double shortest_time_s(double distance_rad, double velocity, const MotionLimits& limits) {
   const double stop_rad = 0.5 * velocity * std::abs(velocity) / limits.deceleration_rad_s2;
   if (velocity < 0.0 || stop_rad > distance_rad)
