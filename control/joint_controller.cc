@@ -61,12 +61,14 @@ JointControllerConfig consistent(JointControllerConfig config) noexcept {
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(consistent(config)),
       shaper_(config.period_s),
+      ordered_(config.period_s),
       observer_(observer_config(config)),
       landing_(landing_config(config)),
       rest_detector_(config.encoder_resolution_rad),
       motion_(config.motion) {
   assert(config.delay_samples >= 0 && config.delay_samples <= kMaxControlDelay);
   shaper_.set_limits(config.motion);
+  ordered_.set_limits(config.motion);
 }
 
 void JointController::load(const GainTable& table) noexcept {
@@ -83,19 +85,24 @@ void JointController::load(const GainTable& table) noexcept {
   has_table_ = true;
 }
 
-void JointController::start(double position_rad) noexcept {
+void JointController::start(double position_rad, double velocity_rad_s, double holding_torque_Nm) noexcept {
   motion_ = config_.motion;
-  shaper_.reset(position_rad, 0.0);
-  observer_.reset(position_rad);
+  const double fastest = motion_.velocity_rad_s;
+  const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
+  shaper_.reset(position_rad, begin_rad_s);
+  ordered_ = shaper_;
+  observer_.reset(position_rad, velocity_rad_s, holding_torque_Nm);
   rest_detector_.reset();
   primary_.reset();
   fallback_.reset();
-  torques_Nm_.fill(0.0);
-  reference_ = {position_rad, 0.0, 0.0};
+  torques_Nm_.fill(holding_torque_Nm);
+  reference_ = {position_rad, begin_rad_s, 0.0};
+  ordered_reference_ = reference_;
   previous_position_rad_ = position_rad;
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
   plans_ = 0;
+  replans_ = 0;
   begin_landings();
   landing_failures_ = 0;
   started_ = false;
@@ -107,21 +114,38 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   if (speed_limit_rad_s > 0.0) motion_.velocity_rad_s = std::min(motion_.velocity_rad_s, speed_limit_rad_s);
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
+  ordered_.set_target(position_rad);
   plans_ = 0;
   begin_landings();
   enter(MotionPhase::kTracking);
 }
 
+void JointController::stop() noexcept {
+  shaper_.stop();
+  ordered_ = shaper_;
+}
+
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!has_table_) return {};
+  const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   choose_gains(measurement);
-  estimate_state(measurement);
+  estimate_state(measurement, elapsed_periods);
   look_ahead();
-  advance_reference();
+  advance_reference(elapsed_periods);
   choose_phase(measurement);
   const ControllerOutput output = compute_torque(measurement);
   remember(output.torque_Nm);
-  return {output, reference_, then_.velocity_rad_s, gains_in_use_, shaper_.at_target(), phase_, now_};
+  JointStep result;
+  result.output = output;
+  result.reference = reference_;
+  result.ordered_reference = ordered_reference_;
+  result.joint_velocity_rad_s = then_.velocity_rad_s;
+  result.gains_in_use = gains_in_use_;
+  result.at_target = shaper_.at_target();
+  result.phase = phase_;
+  result.estimate = now_;
+  result.replans = replans_;
+  return result;
 }
 
 // Scheduled gains while the temperature is known, temperature-free ones otherwise. Friction stays that of the
@@ -141,11 +165,16 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
   has_temperature_ = true;
 }
 
-void JointController::estimate_state(const JointMeasurement& measurement) noexcept {
+// Over periods that were left out the last torque stayed applied: it is remembered once more for each.
+void JointController::estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept {
   const double position_rad = measurement.joint_position_rad;
   adapted_ = model_;
+  for (int period = 0; started_ && period < elapsed_periods; ++period) {
+    if (period > 0) push_back(torques_Nm_.front());
+    if (config_.use_observer)
+      observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_samples)], model_);
+  }
   if (config_.use_observer) {
-    if (started_) observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_samples)], model_);
     if (measurement.has_velocity && config_.encoder_resolution_rad == 0.0)
       observer_.correct(position_rad, measurement.joint_velocity_rad_s);
     else
@@ -155,9 +184,9 @@ void JointController::estimate_state(const JointMeasurement& measurement) noexce
   } else {
     now_ = {};
     now_.position_rad = position_rad;
-    now_.velocity_rad_s = measurement.has_velocity
-                              ? measurement.joint_velocity_rad_s
-                              : (position_rad - previous_position_rad_) / config_.period_s;
+    now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
+                                                   : (position_rad - previous_position_rad_) /
+                                                         (elapsed_periods * config_.period_s);
   }
   previous_position_rad_ = position_rad;
   started_ = true;
@@ -175,22 +204,33 @@ void JointController::look_ahead() noexcept {
   }
 }
 
-void JointController::advance_reference() noexcept {
+void JointController::advance_reference(int elapsed_periods) noexcept {
   if (!config_.use_shaping) {
     shaper_.jump();
+    ordered_.jump();
     reference_ = {shaper_.target_rad(), 0.0, 0.0};
+    ordered_reference_ = reference_;
     return;
   }
-  if (replan_) {
-    const double fastest = config_.motion.velocity_rad_s;
-    shaper_.restart(then_.position_rad, std::clamp(then_.velocity_rad_s, -fastest, fastest));
+  for (int period = 0; period < elapsed_periods; ++period) {
+    // The last of them begins anew, if one has to: it is where the joint is now.
+    if (replan_ && period == elapsed_periods - 1) {
+      const double fastest = config_.motion.velocity_rad_s;
+      shaper_.restart(then_.position_rad, std::clamp(then_.velocity_rad_s, -fastest, fastest));
+      ++replans_;
+      replan_ = false;
+    }
+    reference_ = advanced(shaper_, reference_);
+    ordered_reference_ = advanced(ordered_, ordered_reference_);
   }
-  replan_ = false;
-  const double speed =
-      std::abs(reference_.velocity_rad_s + config_.period_s * reference_.acceleration_rad_s2);
-  shaper_.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
-                                      config_.torque_reserve, speed, config_.period_s));
-  reference_ = shaper_.step();
+}
+
+// One period, within what the joint can do at the speed that the reference has reached.
+Reference JointController::advanced(ReferenceShaper& shaper, const Reference& last) const noexcept {
+  const double speed = std::abs(last.velocity_rad_s + config_.period_s * last.acceleration_rad_s2);
+  shaper.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
+                                     config_.torque_reserve, speed, config_.period_s));
+  return shaper.step();
 }
 
 bool JointController::reference_moves() const noexcept {
@@ -315,8 +355,12 @@ ControllerOutput JointController::apply(double torque_Nm) const noexcept {
 }
 
 void JointController::remember(double torque_Nm) noexcept {
+  push_back(config_.motor.limit_Nm(torque_Nm, then_.velocity_rad_s));
+}
+
+void JointController::push_back(double torque_Nm) noexcept {
   std::copy_backward(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
-  torques_Nm_[0] = config_.motor.limit_Nm(torque_Nm, then_.velocity_rad_s);
+  torques_Nm_.front() = torque_Nm;
 }
 
 }  // namespace strainwave

@@ -22,6 +22,8 @@
 namespace strainwave {
 
 inline constexpr int kMaxControlDelay = 8;
+/// A longer stall is a fault of the loop; what the joint did over it, no model knows.
+inline constexpr int kMaxElapsedPeriods = 50;
 
 /// One joint's configuration. Each feature can be switched off;
 /// without any, the plain control law of the table is left.
@@ -52,6 +54,9 @@ struct JointMeasurement {
   double temperature_C = 0.0;         ///< used only when temperature_valid
   bool has_velocity = false;
   bool temperature_valid = false;
+  /// Periods since the last step(), >= 1; more when the loop left some out. Over those the last torque stayed
+  /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
+  int elapsed_periods = 1;
 };
 
 enum class GainsInUse : int { kNone = 0, kPrimary = 1, kFallback = 2 };
@@ -62,12 +67,16 @@ enum class MotionPhase : int { kTracking = 0, kLanding = 1, kResting = 2 };
 /// One period's result.
 struct JointStep {
   ControllerOutput output;
-  Reference reference;                ///< what the joint tracks now
+  Reference reference;  ///< what the joint tracks now
+  /// What the orders alone make of it: begins with start() and stop() where `reference` does, and is never
+  /// begun anew from where the joint is. What the joint is supervised against.
+  Reference ordered_reference;
   double joint_velocity_rad_s = 0.0;  ///< measured or estimated, as the feedback used it
   GainsInUse gains_in_use = GainsInUse::kNone;
   bool at_target = false;  ///< the reference has ended on the target
   MotionPhase phase = MotionPhase::kTracking;
   JointEstimate estimate;  ///< of this sample
+  int replans = 0;         ///< since start(): how often `reference` began anew from where the joint was
 };
 
 class JointController {
@@ -79,12 +88,14 @@ class JointController {
   void load(const GainTable& table) noexcept;
   bool has_table() const noexcept { return has_table_; }
 
-  /// Begins to hold `position_rad` with nothing remembered: call when the drive becomes enabled.
-  void start(double position_rad) noexcept;
+  /// Begins with nothing remembered, when the drive becomes enabled: comes to rest from `velocity_rad_s` and
+  /// holds, at rest `position_rad`. `holding_torque_Nm` is what held the load until now (a joint that a brake
+  /// held: what gravity needs); the first torque at rest continues it.
+  void start(double position_rad, double velocity_rad_s = 0.0, double holding_torque_Nm = 0.0) noexcept;
   /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
   /// Decelerates to rest and holds.
-  void stop() noexcept { shaper_.stop(); }
+  void stop() noexcept;
   /// Where the motion ends.
   double target_rad() const noexcept { return shaper_.target_rad(); }
 
@@ -97,12 +108,15 @@ class JointController {
  private:
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
-  void estimate_state(const JointMeasurement& measurement) noexcept;
+  void estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept;
   void look_ahead() noexcept;
-  void advance_reference() noexcept;
+  void advance_reference(int elapsed_periods) noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;
   ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
   void remember(double torque_Nm) noexcept;
+
+  void push_back(double torque_Nm) noexcept;
+  Reference advanced(ReferenceShaper& shaper, const Reference& last) const noexcept;
 
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
@@ -121,6 +135,7 @@ class JointController {
 
   JointControllerConfig config_;
   ReferenceShaper shaper_;
+  ReferenceShaper ordered_;  ///< the same orders, never restarted
   VelocityObserver observer_;
   Landing landing_;
   RestDetector rest_detector_;
@@ -132,6 +147,7 @@ class JointController {
   JointEstimate now_;             ///< at this sample
   JointEstimate then_;            ///< when this period's torque begins to act
   Reference reference_;
+  Reference ordered_reference_;
   std::array<double, kMaxControlDelay + 1>
       torques_Nm_{};     ///< newest first, as far as the motor can deliver them
   MotionLimits motion_;  ///< the configuration's, and this order's speed
@@ -140,6 +156,7 @@ class JointController {
   double previous_position_rad_ = 0.0;
   double hold_torque_Nm_ = 0.0;
   double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
+  int replans_ = 0;                    ///< since start()
   int plans_ = 0;                      ///< new ones since the target or the phase changed
   int landing_periods_ = 0;            ///< spent on landing since the target changed or the joint last rested
   int landing_begins_ = 0;             ///< landings begun since then

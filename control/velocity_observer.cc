@@ -46,9 +46,12 @@ double square(double x) noexcept {
 
 }  // namespace
 
-void VelocityObserver::reset(double position_rad) noexcept {
-  state_ << position_rad, 0.0, 0.0, 0.0, 0.0;
+void VelocityObserver::reset(double position_rad, double velocity_rad_s, double load_Nm) noexcept {
+  state_ << position_rad, velocity_rad_s, 0.0, load_Nm, 0.0;
   covariance_.setZero();
+  // The difference of two readings, each wrong by up to half a count.
+  if (velocity_rad_s != 0.0)
+    covariance_(kVelocity, kVelocity) = square(config_.encoder_resolution_rad / config_.period_s) / 6.0;
   covariance_(kPosition, kPosition) = square(config_.encoder_resolution_rad) / 12.0;
   covariance_(kFriction, kFriction) = square(config_.friction_uncertainty_Nm);
   covariance_(kLoad, kLoad) = square(config_.load_uncertainty_Nm);

@@ -42,8 +42,9 @@ class VelocityObserver {
  public:
   explicit VelocityObserver(const VelocityObserverConfig& config) noexcept : config_(config) { reset(0.0); }
 
-  /// At rest where the encoder reads `position_rad`; friction and load unknown again.
-  void reset(double position_rad) noexcept;
+  /// Where the encoder reads `position_rad`, at `velocity_rad_s` (0: at rest) as two readings tell it, and
+  /// with `load_Nm`; friction and load unknown again.
+  void reset(double position_rad, double velocity_rad_s = 0.0, double load_Nm = 0.0) noexcept;
   /// The period that ends now: the torque that acted over it, by a joint like `model`.
   void predict(double torque_Nm, const JointModel& model) noexcept;
   /// The encoder's reading now.

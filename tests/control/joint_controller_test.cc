@@ -42,12 +42,26 @@ class Loop {
     measurement.joint_position_rad = plant_.measured_position_rad();
     measurement.temperature_C = temperature_C;
     measurement.temperature_valid = temperature_valid;
+    measurement.elapsed_periods = 1 + skipped_periods_;
+    skipped_periods_ = 0;
     const JointStep result = controller_.step(measurement);
-    plant_.step(result.output.torque_Nm, load_torque_Nm);
+    torque_Nm_ = result.output.torque_Nm;
+    plant_.step(torque_Nm_, load_torque_Nm);
     return result;
+  }
+  /// Periods in which the joint goes on and the controller is not called.
+  void skip(int periods) {
+    for (int k = 0; k < periods; ++k) plant_.step(torque_Nm_, load_torque_Nm);
+    skipped_periods_ += periods;
   }
   void run(double duration_s) {
     for (int k = 0; k < static_cast<int>(duration_s * 1000.0); ++k) step();
+  }
+  /// A joint of another kind goes on where the old one stands.
+  void free() {
+    JointPlantConfig plant = realistic_plant();
+    plant.initial_position_rad = plant_.state().position_rad;
+    plant_ = JointPlant(plant);
   }
   JointController& controller() { return controller_; }
   double position_rad() const { return plant_.state().position_rad; }
@@ -60,6 +74,8 @@ class Loop {
  private:
   JointPlant plant_;
   JointController controller_;
+  double torque_Nm_ = 0.0;
+  int skipped_periods_ = 0;
 };
 
 TEST(JointController, EndsWithinACountAndRestsQuietlyWhereverAndHoweverColdItIs) {
@@ -175,6 +191,94 @@ TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
     ASSERT_LE(std::abs(step.output.torque_Nm), kReferencePeakTorque_Nm);
   }
   EXPECT_EQ(loop.position_rad(), 0.0);
+  loop.free();
+  loop.run(3.0);
+  EXPECT_LE(std::abs(loop.position_rad() - 0.5), kCount_rad);
+}
+
+TEST(JointController, TakesSkippedPeriodsForWhatTheyAre) {
+  for (const int skipped : {1, 2, 5, 20}) {
+    Loop loop;
+    loop.controller().set_target(10.0, 2.0);
+    loop.run(1.0);
+    const JointStep before = loop.step();
+    ASSERT_NEAR(before.estimate.velocity_rad_s, 2.0, 0.01);
+    loop.skip(skipped);
+    for (int k = 0; k < 50; ++k) {
+      const double true_rad_s = loop.velocity_rad_s();
+      const JointStep after = loop.step();
+      EXPECT_NEAR(after.estimate.velocity_rad_s, true_rad_s, skipped > 5 ? 0.1 : 0.02) << skipped;
+      EXPECT_NEAR(after.output.torque_Nm, before.output.torque_Nm, skipped > 5 ? 5.0 : 1.0) << skipped;
+      EXPECT_NEAR(after.reference.position_rad - before.reference.position_rad,
+                  2.0 * 0.001 * (skipped + 1 + k), 1e-9);
+      EXPECT_EQ(after.replans, 0);
+    }
+  }
+}
+
+TEST(JointController, ArrivesToTheCountAlthoughPeriodsWereSkippedOnTheWay) {
+  for (const int begin : {5, 40, 60, 80}) {
+    Loop loop;
+    loop.controller().set_target(1.0);
+    for (int k = 0; k < begin; ++k) loop.step();
+    loop.skip(2);
+    double furthest_rad = 0.0;
+    for (int k = 0; k < 1500; ++k) {
+      loop.step();
+      furthest_rad = std::max(furthest_rad, loop.position_rad());
+    }
+    EXPECT_LE(std::abs(loop.position_rad() - 1.0), kCount_rad) << begin;
+    EXPECT_LE(furthest_rad, 1.01) << begin;
+  }
+}
+
+TEST(JointController, BeginsWithTheMotionAndTheLoadThatItFinds) {
+  JointController controller(realistic_config());
+  controller.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
+  JointMeasurement measurement;
+  measurement.temperature_C = 20.0;
+  measurement.temperature_valid = true;
+  controller.start(0.0, 0.0, 7.0);
+  EXPECT_NEAR(controller.step(measurement).output.torque_Nm, 7.0, 1e-9);
+
+  JointPlant plant(realistic_plant());
+  plant.set_ambient_temperature(20.0);
+  while (plant.state().velocity_rad_s < 3.6) plant.step(20.0);
+  const double position_rad = plant.measured_position_rad();
+  plant.clear_pending_torque();
+  plant.step(0.0);
+  const double velocity_rad_s = (plant.measured_position_rad() - position_rad) / 0.001;
+  controller.start(plant.measured_position_rad(), velocity_rad_s);
+  double last_Nm = 0.0;
+  int reversals = 0;
+  for (int k = 0; k < 1000; ++k) {
+    measurement.joint_position_rad = plant.measured_position_rad();
+    const JointStep step = controller.step(measurement);
+    if (k == 0) {
+      EXPECT_EQ(step.reference.velocity_rad_s, velocity_rad_s);
+      EXPECT_LT(step.output.torque_Nm, 0.0);
+    }
+    if (plant.state().velocity_rad_s > 0.2 && step.output.torque_Nm * last_Nm < 0.0) ++reversals;
+    last_Nm = step.output.torque_Nm;
+    plant.step(step.output.torque_Nm, 0.0);
+  }
+  EXPECT_EQ(reversals, 0);
+  EXPECT_EQ(plant.state().velocity_rad_s, 0.0);
+}
+
+TEST(JointController, KeepsTheOrderedReferenceWhenABlockedJointIsPlannedAnew) {
+  JointPlantConfig blocked = realistic_plant();
+  blocked.joint.friction.asymptote.static_Nm = 100.0;
+  blocked.joint.friction.asymptote.coulomb_Nm = 100.0;
+  Loop loop(blocked);
+  JointStep step;
+  for (int k = 0; k < 4000; ++k) {
+    if (k % 10 == 0) loop.controller().set_target(1.0 + 1e-6 * k);  // a stream, every packet a little off
+    step = loop.step();
+  }
+  EXPECT_GT(step.replans, 100);
+  EXPECT_LT(std::abs(step.reference.position_rad), 0.1);
+  EXPECT_GT(step.ordered_reference.position_rad, 0.9);
 }
 
 TEST(JointController, NeitherStepNorLoadTouchesTheHeap) {
