@@ -13,7 +13,7 @@ class TimingProof {
  public:
   explicit TimingProof(std::int64_t cycles_needed) : cycles_needed_(cycles_needed) {}
 
-  /// Totals since the loop's start, as LoopStatistics counts them. True from the first proof on.
+  /// Totals since the loop's start, as LoopTotals counts them. True from the first proof on.
   bool update(std::int64_t cycles, std::int64_t overruns) noexcept {
     if (overruns != overruns_) {
       overruns_ = overruns;

@@ -411,7 +411,7 @@ void Supervisor::publish_timing(std::int64_t now_ns) {
 
 void Supervisor::tell_systemd(std::int64_t now_ns) {
   const bool was_ready = service_.ready();
-  const LoopStatistics& statistics = loop_.statistics();
+  const LoopTotals& statistics = loop_.statistics();
   service_.update(statistics.cycles.load(std::memory_order_acquire),
                   statistics.overruns.load(std::memory_order_acquire), now_ns);
   if (service_.ready() && !was_ready) spdlog::info("ready: the loop meets its timing");

@@ -94,7 +94,7 @@ void Answers::limits(std::size_t joint, const PlantIdentity& plant, const JointL
   out_.write(wire(channel(prefix_, joints_[joint], channel_kind::kLimits), message));
 }
 
-void Answers::timing(const LoopStatistics& statistics, const std::array<std::int64_t, kReasonCount>& rejects,
+void Answers::timing(const LoopTotals& statistics, const std::array<std::int64_t, kReasonCount>& rejects,
                      const LoopConfig& config, bool real_time, std::int64_t records_dropped) {
   static_assert(kHistogramBuckets == sizeof(timing_v1::wakeup_latency_count) / sizeof(std::int64_t));
   timing_v1 message{};

@@ -27,7 +27,7 @@ class Answers {
   void temperature(const StateRecord& record);
   /// What joint number `joint` is and may do.
   void limits(std::size_t joint, const PlantIdentity& plant, const JointLoopConfig& config);
-  void timing(const LoopStatistics& statistics, const std::array<std::int64_t, kReasonCount>& rejects,
+  void timing(const LoopTotals& statistics, const std::array<std::int64_t, kReasonCount>& rejects,
               const LoopConfig& config, bool real_time, std::int64_t records_dropped);
 
  private:

@@ -4,7 +4,7 @@ namespace strainwave {
 
 void stop_faulted_groups(std::span<const std::unique_ptr<JointLoop>> joints, const CycleTime& time) noexcept {
   for (const auto& faulted : joints) {
-    if (!faulted->take_group_stop() || faulted->group() < 0) continue;
+    if (!faulted->stops_group(time) || faulted->group() < 0) continue;
     for (const auto& other : joints) {
       if (other == faulted || other->group() != faulted->group() || other->at_rest()) continue;
       other->raise_fault(Fault::kGroup, time);

@@ -4,7 +4,7 @@
 namespace strainwave {
 
 Homing::Observation JointLoop::observe(const CycleTime& time) const noexcept {
-  return {reading_.joint_position_rad, reading_.inputs, motion_.at_target, time.now_ns};
+  return {reading().joint_position_rad, reading().inputs, motion_.at_target, time.now_ns};
 }
 
 void JointLoop::obey_homing(const Homing::Order& order) noexcept {
@@ -21,29 +21,26 @@ void JointLoop::obey_homing(const Homing::Order& order) noexcept {
 }
 
 Reason JointLoop::home(const CycleTime& time) noexcept {
-  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
+  if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   if (!homing_.possible()) return Reason::kNoHoming;
   if (!change_mode(ModeEvent::kHomeOrdered, time)) return Reason::kWrongMode;
-  homed_ = false;
-  setpoint_expired_ = false;
-  stream_refused_ = false;
-  setpoint_expires_ns_ = 0;
+  zero_.forget();
+  ordered_.forget();
   obey_homing(homing_.begin(observe(time)));
   return Reason::kAccepted;
 }
 
 void JointLoop::advance_homing(const CycleTime& time) noexcept {
-  if (mode_ != Mode::kHoming) return;
-  if (reading_fresh_) obey_homing(homing_.step(observe(time)));
+  if (!mode_.is(Mode::kHoming)) return;
+  if (watch_.fresh()) obey_homing(homing_.step(observe(time)));
   if (homing_.phase() == Homing::Phase::kFailed) raise_fault(Fault::kHomingFailed, time);
 }
 
 // Found, or told to hold: the joint holds as soon as it rests.
 void JointLoop::end_homing(const CycleTime& time) noexcept {
   if (homing_.phase() == Homing::Phase::kDone) {
-    position_offset_rad_ = config_.homing.home_position_rad - homing_.found_rad();
-    ordered_position_rad_ = ordered_target_rad_ + position_offset_rad_;
-    homed_ = true;
+    zero_.set(homing_.found_rad(), config_.homing.home_position_rad);
+    ordered_.rezero(zero_);
     (void)change_mode(ModeEvent::kArrived, time);
   } else if (homing_.phase() == Homing::Phase::kIdle && motion_.at_target) {
     (void)change_mode(ModeEvent::kArrived, time);
@@ -51,12 +48,13 @@ void JointLoop::end_homing(const CycleTime& time) noexcept {
 }
 
 bool JointLoop::into_limit_switch(double direction) const noexcept {
-  return direction < 0.0 ? reading_.inputs.negative_limit : direction > 0.0 && reading_.inputs.positive_limit;
+  return direction < 0.0 ? reading().inputs.negative_limit
+                         : direction > 0.0 && reading().inputs.positive_limit;
 }
 
 // Homing goes into switches on purpose, slowly; its way to a stop needs the torque.
 void JointLoop::refuse_torque_into_limit_switch() noexcept {
-  if (mode_ == Mode::kHoming || !into_limit_switch(motion_.output.torque_Nm)) return;
+  if (mode_.is(Mode::kHoming) || !into_limit_switch(motion_.output.torque_Nm)) return;
   motion_.output.torque_Nm = 0.0;
   motion_.output.saturated = true;
 }

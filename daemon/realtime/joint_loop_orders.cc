@@ -8,8 +8,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kNanosecondsPerSecond = 1e9;
-
 double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   double largest_Nm = 0.0;
   for (std::int32_t i = 0; i < friction.rule_count; ++i)
@@ -24,7 +22,7 @@ void JointLoop::take_orders(const CycleTime& time) noexcept {
   while (orders_.pop(order)) {
     const Reason reason = obey(order, time);
     // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
-    if (order.id != 0) (void)replies_.push({order.id, reason, mode_});
+    if (order.id != 0) (void)replies_.push({order.id, reason, mode()});
   }
 }
 
@@ -41,7 +39,7 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
     case OrderKind::kSetpoint:
       return begin_setpoint(order, time);
     case OrderKind::kUseTable:
-      return use_table(static_cast<std::size_t>(order.table_slot));
+      return use_table(tables_[static_cast<std::size_t>(order.table_slot)]);
     case OrderKind::kInject:
       return inject(order.injection);
     case OrderKind::kHome:
@@ -51,56 +49,45 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
 }
 
 Reason JointLoop::enable(const CycleTime& time) noexcept {
-  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
+  if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   if (!controller_.has_table()) return Reason::kNoTable;
   // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
-  if (mode_ == Mode::kOff && !reading_fresh_ && reading_.fault == ActuatorFault::kNone)
+  if (mode_.is(Mode::kOff) && !watch_.fresh() && reading().fault == ActuatorFault::kNone)
     return Reason::kDriveNotReady;
   if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
-  setpoint_expired_ = false;
-  stream_refused_ = false;
+  ordered_.forget();
   return Reason::kAccepted;
 }
 
-Reason JointLoop::use_table(std::size_t slot) noexcept {
+Reason JointLoop::use_table(const TableSlot& slot) noexcept {
   // At rest a swap is always allowed; under control only while the reference stands still.
-  const bool at_standstill = mode_ == Mode::kHolding;
+  const bool at_standstill = mode_.is(Mode::kHolding);
   if (!at_rest() && !at_standstill) return Reason::kMoving;
-  const GainTable& table = tables_[slot].table;
+  const GainTable& table = slot.table;
   controller_.load(table);
-  table_id_ = tables_[slot].id;
-  temperature_rules_ = table.friction.rule_count;
-  table_min_C_ = table.friction.temperature_min_C;
-  table_max_C_ = table.friction.temperature_max_C;
-  position_check_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));
+  table_ = &slot;
+  watch_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));
   return Reason::kAccepted;
 }
 
 Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
-  if (mode_ == Mode::kFaulted) return Reason::kFaulted;
-  const bool streamed = order.valid_for_s > 0.0;
+  if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   // A late packet of a stream that has ended must not set the joint moving again.
-  if (streamed && stream_refused_) return Reason::kStreamExpired;
-  if (!position_known()) return Reason::kNotHomed;
-  const double target_rad = order.position_rad - position_offset_rad_;
-  if (into_limit_switch(target_rad - reading_.joint_position_rad)) return Reason::kAtLimitSwitch;
+  if (order.valid_for_s > 0.0 && !ordered_.takes_stream()) return Reason::kStreamExpired;
+  if (!zero_.known()) return Reason::kNotHomed;
+  const double target_rad = zero_.to_drive_rad(order.position_rad);
+  if (into_limit_switch(target_rad - reading().joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
   controller_.set_target(target_rad, order.speed_limit_rad_s);
-  ordered_target_rad_ = target_rad;
-  ordered_position_rad_ = order.position_rad;
-  setpoint_expires_ns_ =
-      streamed ? time.now_ns + static_cast<std::int64_t>(order.valid_for_s * kNanosecondsPerSecond) : 0;
-  setpoint_expired_ = false;
-  stream_refused_ = false;
+  ordered_.accept(order.position_rad, target_rad, order.valid_for_s, time.now_ns);
   return Reason::kAccepted;
 }
 
 Reason JointLoop::hold() noexcept {
-  if (!is_controlled(mode_)) return Reason::kWrongMode;
+  if (!mode_.controlled()) return Reason::kWrongMode;
   controller_.stop();
   homing_.abort();
-  setpoint_expires_ns_ = 0;
-  stream_refused_ = false;
+  ordered_.hold();
   return Reason::kAccepted;
 }
 
@@ -111,9 +98,9 @@ Reason JointLoop::inject(const Injection& injection) noexcept {
 }
 
 Reason JointLoop::clear_fault(const CycleTime& time) noexcept {
-  if (mode_ != Mode::kFaulted) return Reason::kWrongMode;
+  if (!mode_.is(Mode::kFaulted)) return Reason::kWrongMode;
   actuator_->clear_fault();
-  missed_readings_ = 0;
+  watch_.forgive();
   return change_mode(ModeEvent::kFaultCleared, time) ? Reason::kAccepted : Reason::kWrongMode;
 }
 

@@ -21,7 +21,7 @@ RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::
       states_(states),
       replies_(std::make_unique<ReplyQueue>()),
       events_(std::make_unique<EventQueue>()),
-      statistics_(std::make_unique<LoopStatistics>()),
+      statistics_(std::make_unique<LoopTotals>()),
       overrun_watch_(config.loop.overrun_limit) {
   for (const BusConfig& bus : config.buses) buses_.push_back(bus.make_bus());
   for (const JointConfig& joint : config.joints) {

@@ -22,7 +22,7 @@
 namespace strainwave {
 
 /// Written by the loop, read by anybody.
-struct LoopStatistics {
+struct LoopTotals {
   std::atomic<std::int64_t> cycles{0};
   std::atomic<std::int64_t> overruns{0};
   std::atomic<std::int64_t> page_faults{0};
@@ -64,7 +64,7 @@ class RealtimeLoop {
   const std::vector<std::unique_ptr<Fieldbus>>& buses() const noexcept { return buses_; }
   ReplyQueue& replies() noexcept { return *replies_; }
   EventQueue& events() noexcept { return *events_; }
-  const LoopStatistics& statistics() const noexcept { return *statistics_; }
+  const LoopTotals& statistics() const noexcept { return *statistics_; }
 
  private:
   void thread_main();
@@ -81,7 +81,7 @@ class RealtimeLoop {
   decltype(OutboundMemory::states)& states_;
   std::unique_ptr<ReplyQueue> replies_;
   std::unique_ptr<EventQueue> events_;
-  std::unique_ptr<LoopStatistics> statistics_;
+  std::unique_ptr<LoopTotals> statistics_;
   std::vector<std::unique_ptr<FlightRecorder>> recorders_;
   std::vector<std::unique_ptr<Fieldbus>> buses_;  ///< the joints' drives refer to them
   std::vector<std::unique_ptr<JointLoop>> joints_;

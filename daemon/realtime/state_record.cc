@@ -1,0 +1,78 @@
+#include "daemon/realtime/state_record.h"
+
+#include <algorithm>
+
+namespace strainwave {
+
+namespace {
+
+void fill_motion(const JointCycle& cycle, state_v1& state) noexcept {
+  const bool controlled = cycle.mode.controlled();
+  const JointStep& motion = cycle.motion;
+  const double position_rad = cycle.zero.to_joint_rad(cycle.reading.joint_position_rad);
+  state.setpoint_position_rad =
+      controlled ? cycle.zero.to_joint_rad(motion.reference.position_rad) : position_rad;
+  state.setpoint_velocity_rad_s = controlled ? motion.reference.velocity_rad_s : 0.0;
+  state.target_position_rad =
+      controlled ? cycle.ordered.shown_rad(cycle.target_rad, cycle.zero) : position_rad;
+  state.joint_position_rad = position_rad;
+  state.joint_velocity_rad_s = controlled ? motion.joint_velocity_rad_s : cycle.reading.joint_velocity_rad_s;
+  state.torque_commanded_Nm = controlled ? motion.output.torque_Nm : 0.0;
+  state.torque_applied_Nm = cycle.reading.torque_applied_Nm;
+  state.torque_feedback_Nm = motion.output.feedback_torque_Nm;
+  state.torque_feedforward_Nm = motion.output.feedforward_torque_Nm;
+  state.zero_velocity_weight = motion.output.zero_velocity_weight;
+  state.gains_in_use = static_cast<std::int32_t>(motion.gains_in_use);
+}
+
+}  // namespace
+
+void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
+  state_v1& state = record.state;
+  state.cycle = cycle.time.cycle;
+  state.table_id = cycle.table_id;
+  fill_motion(cycle, state);
+  state.temperature_C = cycle.temperature.used_C();
+  std::copy(cycle.weights.weight.begin(), cycle.weights.weight.end(), state.temperature_weights);
+  state.rule_count = cycle.temperature_rules;
+  state.temperature_status = static_cast<std::int32_t>(cycle.temperature.status());
+  state.mode = static_cast<std::int32_t>(cycle.mode.mode());
+  state.fault = static_cast<std::int32_t>(cycle.mode.fault());
+  state.notices = cycle.notices;
+  state.faults_total = cycle.mode.faults_total();
+  // The drive may forget; what it said when the fault came is what explains it.
+  state.drive_error = cycle.mode.is(Mode::kFaulted) ? cycle.mode.drive_error() : cycle.reading.drive_error;
+  record.temperature_measured_C = cycle.temperature.measured_C();
+  record.temperature_age_s = cycle.temperature.age_s(cycle.time.now_ns);
+}
+
+FlightSample flight_sample(const StateRecord& record, const CycleTime& time, DriveState drive_state,
+                           bool reading_fresh) noexcept {
+  const state_v1& state = record.state;
+  FlightSample sample;
+  sample.time_ns = time.now_ns;
+  sample.cycle = time.cycle;
+  sample.table_id = state.table_id;
+  sample.setpoint_position_rad = state.setpoint_position_rad;
+  sample.setpoint_velocity_rad_s = state.setpoint_velocity_rad_s;
+  sample.target_position_rad = state.target_position_rad;
+  sample.joint_position_rad = state.joint_position_rad;
+  sample.joint_velocity_rad_s = state.joint_velocity_rad_s;
+  sample.torque_commanded_Nm = state.torque_commanded_Nm;
+  sample.torque_applied_Nm = state.torque_applied_Nm;
+  sample.torque_feedback_Nm = state.torque_feedback_Nm;
+  sample.torque_feedforward_Nm = state.torque_feedforward_Nm;
+  sample.temperature_C = state.temperature_C;
+  sample.temperature_measured_C = record.temperature_measured_C;
+  sample.zero_velocity_weight = state.zero_velocity_weight;
+  sample.notices = static_cast<std::uint16_t>(state.notices);
+  sample.mode = static_cast<std::uint8_t>(state.mode);
+  sample.fault = static_cast<std::uint8_t>(state.fault);
+  sample.gains_in_use = static_cast<std::uint8_t>(state.gains_in_use);
+  sample.temperature_status = static_cast<std::uint8_t>(state.temperature_status);
+  sample.drive_state = static_cast<std::uint8_t>(drive_state);
+  sample.reading_fresh = reading_fresh ? 1 : 0;
+  return sample;
+}
+
+}  // namespace strainwave

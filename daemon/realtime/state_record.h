@@ -1,0 +1,41 @@
+// What is told of one joint's cycle: pure functions from what the cycle came to. Real-time safe.
+#pragma once
+
+#include <cstdint>
+
+#include "control/joint_controller.h"
+#include "daemon/gateway/shared_memory.h"
+#include "daemon/realtime/cycle_time.h"
+#include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/joint_mode.h"
+#include "daemon/realtime/joint_zero.h"
+#include "daemon/realtime/ordered_target.h"
+#include "daemon/realtime/temperature_check.h"
+#include "drivers/actuator.h"
+
+namespace strainwave {
+
+/// All that a record is made of. Positions of reading, motion and target are the drive's; a record has the joint's.
+struct JointCycle {
+  const CycleTime& time;
+  const JointMode& mode;
+  const ActuatorReading& reading;
+  const JointStep& motion;
+  const JointZero& zero;
+  const OrderedTarget& ordered;
+  const TemperatureCheck& temperature;
+  const TemperatureWeights& weights;
+  double target_rad = 0.0;             ///< of the controller
+  std::int64_t table_id = 0;           ///< 0: none
+  std::int32_t temperature_rules = 0;  ///< of the table
+  std::int32_t notices = 0;
+};
+
+/// Every field but joint_index and those that the gateway adds (utime, session_id).
+void fill_record(const JointCycle& cycle, StateRecord& record) noexcept;
+
+/// The same cycle for the flight recorder.
+FlightSample flight_sample(const StateRecord& record, const CycleTime& time, DriveState drive_state,
+                           bool reading_fresh) noexcept;
+
+}  // namespace strainwave
