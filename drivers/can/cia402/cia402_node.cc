@@ -139,7 +139,6 @@ void Node::note_bus(const NodeFault& trouble) noexcept {
 
 void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.quick_stop_after + 1);
-  if (!fresh_ && setup_.ready()) ++missed_total_;
   const NodeFault present = present_trouble();
   if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted)
     needs_set_up_ = true;

@@ -48,7 +48,6 @@ class Node final : public CanNode {
   void clear_fault() noexcept override;
 
   /// Counts since the start, for tests.
-  std::int64_t missed_positions() const noexcept { return missed_total_; }
   std::int64_t malformed_frames() const noexcept { return malformed_; }
 
  private:
@@ -89,7 +88,6 @@ class Node final : public CanNode {
   double pdo_temperature_C_ = 0.0;
   std::int64_t pdo_temperature_ns_ = 0;
   std::int64_t heartbeat_ns_ = 0;
-  std::int64_t missed_total_ = 0;
   std::int64_t malformed_ = 0;
   int missed_ = 0;
   std::uint32_t emergency_ = 0;  ///< the last one, until the drive takes it back

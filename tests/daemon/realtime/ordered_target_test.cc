@@ -1,0 +1,83 @@
+#include "daemon/realtime/ordered_target.h"
+
+#include <gtest/gtest.h>
+
+namespace strainwave {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+TEST(OrderedTarget, OfAMoveNeverExpires) {
+  OrderedTarget target;
+  target.accept(1.0, 1.0, 0.0, 0);
+  EXPECT_FALSE(target.streamed());
+  EXPECT_FALSE(target.expire(INT64_MAX));
+  EXPECT_FALSE(target.shows_expiry());
+}
+
+TEST(OrderedTarget, OfAStreamExpiresOnceAtTheEndOfItsTime) {
+  OrderedTarget target;
+  target.accept(1.0, 1.0, 0.05, 0);
+  EXPECT_TRUE(target.streamed());
+  EXPECT_FALSE(target.expire(50 * kMillisecond_ns - 1));
+  EXPECT_TRUE(target.expire(50 * kMillisecond_ns));
+  EXPECT_FALSE(target.expire(51 * kMillisecond_ns));
+  EXPECT_FALSE(target.streamed());
+}
+
+TEST(OrderedTarget, IsValidForTheTimeOfTheNewestSetpoint) {
+  OrderedTarget target;
+  for (std::int64_t sent_ms = 0; sent_ms < 1000; sent_ms += 10) {
+    target.accept(1.0, 1.0, 0.05, sent_ms * kMillisecond_ns);
+    EXPECT_FALSE(target.expire((sent_ms + 9) * kMillisecond_ns));
+  }
+  EXPECT_TRUE(target.expire((990 + 50) * kMillisecond_ns));
+}
+
+TEST(OrderedTarget, RefusesAnExpiredStreamUntilAHoldAndShowsTheExpiryUntilASetpoint) {
+  OrderedTarget target;
+  target.accept(1.0, 1.0, 0.05, 0);
+  ASSERT_TRUE(target.expire(50 * kMillisecond_ns));
+  EXPECT_FALSE(target.takes_stream());
+  EXPECT_TRUE(target.shows_expiry());
+  target.hold();
+  EXPECT_TRUE(target.takes_stream());
+  EXPECT_TRUE(target.shows_expiry());
+  target.accept(1.0, 1.0, 0.05, 60 * kMillisecond_ns);
+  EXPECT_FALSE(target.shows_expiry());
+}
+
+TEST(OrderedTarget, EndsALiveStreamWithAHoldWithoutCallingItExpired) {
+  OrderedTarget target;
+  target.accept(1.0, 1.0, 0.05, 0);
+  target.hold();
+  EXPECT_FALSE(target.streamed());
+  EXPECT_FALSE(target.expire(INT64_MAX));
+  EXPECT_FALSE(target.shows_expiry());
+}
+
+TEST(OrderedTarget, ForgetsWhateverStreamThereWas) {
+  OrderedTarget target;
+  target.accept(1.0, 1.0, 0.05, 0);
+  ASSERT_TRUE(target.expire(50 * kMillisecond_ns));
+  target.forget();
+  EXPECT_TRUE(target.takes_stream());
+  EXPECT_FALSE(target.shows_expiry());
+}
+
+TEST(OrderedTarget, IsShownToTheBitAsItWasOrderedAlsoAfterTheZeroHasMoved) {
+  JointZero zero(true);
+  zero.set(0.1, 0.3);
+  OrderedTarget target;
+  const double ordered_rad = 0.7;
+  const double drive_rad = zero.to_drive_rad(ordered_rad);
+  target.accept(ordered_rad, drive_rad, 0.0, 0);
+  EXPECT_EQ(target.shown_rad(drive_rad, zero), ordered_rad);
+  EXPECT_DOUBLE_EQ(target.shown_rad(0.25, zero), 0.45) << "the controller has another one by now";
+  zero.set(0.1, 0.5);
+  target.rezero(zero);
+  EXPECT_DOUBLE_EQ(target.shown_rad(drive_rad, zero), 0.9);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,44 @@
+// The clock against itself: what it promises whatever the host does. No duration is asserted.
+#include "daemon/realtime/periodic_clock.h"
+
+#include <gtest/gtest.h>
+
+namespace strainwave {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 1'000'000;
+
+TEST(PeriodicClock, NeverBeginsACycleBeforeItsInstant) {
+  PeriodicClock clock(kPeriod_ns);
+  clock.start();
+  for (int i = 0; i < 50; ++i) {
+    const PeriodicClock::Wake wake = clock.wait();
+    EXPECT_GE(wake.woke_ns, wake.planned_ns);
+  }
+}
+
+TEST(PeriodicClock, PlansEveryCycleAWholeNumberOfPeriodsAfterTheOneBeforeAndSaysHowManyItLeftOut) {
+  PeriodicClock clock(kPeriod_ns);
+  clock.start();
+  std::int64_t previous_ns = clock.wait().planned_ns;
+  for (int i = 0; i < 50; ++i) {
+    if (i % 10 == 0) busy_wait(5 * kPeriod_ns / 2);
+    const PeriodicClock::Wake wake = clock.wait();
+    EXPECT_EQ(wake.planned_ns - previous_ns, (1 + wake.skipped) * kPeriod_ns);
+    previous_ns = wake.planned_ns;
+  }
+}
+
+TEST(PeriodicClock, LeavesOutTheCyclesThatAreOverAndSqueezesNoneIn) {
+  PeriodicClock clock(kPeriod_ns);
+  clock.start();
+  (void)clock.wait();
+  busy_wait(7 * kPeriod_ns / 2);
+  const std::int64_t before_ns = monotonic_now_ns();
+  const PeriodicClock::Wake wake = clock.wait();
+  EXPECT_GE(wake.skipped, 3);
+  EXPECT_GE(wake.planned_ns, before_ns) << "the next instant that lies ahead";
+}
+
+}  // namespace
+}  // namespace strainwave

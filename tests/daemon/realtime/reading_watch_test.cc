@@ -1,0 +1,99 @@
+#include "daemon/realtime/reading_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace strainwave {
+namespace {
+
+class ReadingWatchTest : public ::testing::Test {
+ protected:
+  ReadingWatchTest() : watch_({0.001, 5.0, 2e-5}, 3) {
+    reading_.has_position = true;
+    reading_.drive_state = DriveState::kEnabled;
+  }
+  const ActuatorReading& take(bool controlled = true, double velocity_rad_s = 0.0) {
+    time_.now_ns += 1'000'000;
+    ++time_.cycle;
+    return watch_.take(reading_, controlled, velocity_rad_s, time_);
+  }
+  ReadingWatch watch_;
+  ActuatorReading reading_;
+  CycleTime time_;
+};
+
+TEST_F(ReadingWatchTest, PassesAGoodReadingOnAsItIs) {
+  reading_.joint_position_rad = 0.5;
+  reading_.joint_velocity_rad_s = 0.25;
+  reading_.has_velocity = true;
+  EXPECT_EQ(take().joint_position_rad, 0.5);
+  EXPECT_EQ(watch_.reading().joint_velocity_rad_s, 0.25);
+  EXPECT_TRUE(watch_.fresh());
+  EXPECT_FALSE(watch_.missed());
+}
+
+TEST_F(ReadingWatchTest, CarriesAMissingPositionOnByTheVelocityOfAControlledJointOnly) {
+  reading_.joint_position_rad = 0.5;
+  take();
+  reading_.has_position = false;
+  EXPECT_DOUBLE_EQ(take(true, 2.0).joint_position_rad, 0.502);
+  EXPECT_DOUBLE_EQ(take(true, 2.0).joint_position_rad, 0.504);
+  EXPECT_DOUBLE_EQ(take(false, 2.0).joint_position_rad, 0.504);
+  EXPECT_FALSE(watch_.fresh());
+  EXPECT_EQ(watch_.reading().fault, ActuatorFault::kNone);
+}
+
+TEST_F(ReadingWatchTest, CountsMissesInARowAndForgivesThemWhenTold) {
+  reading_.has_position = false;
+  for (int i = 0; i < 3; ++i) take();
+  EXPECT_TRUE(watch_.missed());
+  EXPECT_FALSE(watch_.too_many_missed());
+  take();
+  EXPECT_TRUE(watch_.too_many_missed());
+  watch_.forgive();
+  EXPECT_FALSE(watch_.missed());
+  for (int i = 0; i < 3; ++i) take();
+  EXPECT_FALSE(watch_.too_many_missed());
+  reading_.has_position = true;
+  take();
+  EXPECT_FALSE(watch_.missed());
+}
+
+TEST_F(ReadingWatchTest, CallsWhatIsNoNumberImplausibleAndGoesOnWithNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  take();
+  for (double ActuatorReading::*field :
+       {&ActuatorReading::joint_position_rad, &ActuatorReading::torque_applied_Nm}) {
+    reading_.*field = nan;
+    const ActuatorReading& taken = take();
+    EXPECT_EQ(taken.fault, ActuatorFault::kImplausible);
+    EXPECT_EQ(taken.joint_position_rad, 0.0);
+    EXPECT_EQ(taken.torque_applied_Nm, 0.0);
+    reading_.*field = 0.0;
+  }
+}
+
+TEST_F(ReadingWatchTest, IgnoresAVelocityThatNobodyVouchesFor) {
+  reading_.joint_velocity_rad_s = std::numeric_limits<double>::quiet_NaN();
+  take();
+  EXPECT_TRUE(watch_.fresh());
+}
+
+TEST_F(ReadingWatchTest, CallsAJumpOfADrivenJointImplausible) {
+  take();
+  reading_.joint_position_rad = 0.5;
+  EXPECT_EQ(take().fault, ActuatorFault::kImplausible);
+  reading_.joint_position_rad = 1.0;
+  EXPECT_EQ(take(false).fault, ActuatorFault::kNone) << "somebody may turn a joint that is off";
+}
+
+TEST_F(ReadingWatchTest, LeavesTheDrivesOwnFaultInItsPlace) {
+  take();
+  reading_.joint_position_rad = 0.5;
+  reading_.fault = ActuatorFault::kPowerLost;
+  EXPECT_EQ(take().fault, ActuatorFault::kPowerLost);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,119 @@
+#include "daemon/realtime/state_record.h"
+
+#include <gtest/gtest.h>
+
+namespace strainwave {
+namespace {
+
+class StateRecordTest : public ::testing::Test {
+ protected:
+  StateRecordTest() {
+    reading_.joint_position_rad = 0.5;
+    reading_.joint_velocity_rad_s = 0.1;
+    reading_.torque_applied_Nm = 3.0;
+    motion_.reference = {0.6, 0.2, 0.0};
+    motion_.joint_velocity_rad_s = 0.15;
+    motion_.output.torque_Nm = 4.0;
+    zero_.set(0.0, 1.0);
+    weights_.weight[0] = 0.25;
+    weights_.weight[1] = 0.75;
+  }
+  void enable() {
+    (void)mode_.apply(ModeEvent::kEnableOrdered, 1);
+    (void)mode_.apply(ModeEvent::kDriveReady, 2);
+  }
+  const state_v1& filled() {
+    JointCycle cycle{time_, mode_, reading_, motion_, zero_, ordered_, temperature_, weights_};
+    cycle.target_rad = 0.75;
+    cycle.table_id = 77;
+    cycle.temperature_rules = 2;
+    cycle.notices = 5;
+    fill_record(cycle, record_);
+    return record_.state;
+  }
+  CycleTime time_{3'000'000'000, 42};
+  JointMode mode_;
+  ActuatorReading reading_;
+  JointStep motion_;
+  JointZero zero_{false};
+  OrderedTarget ordered_;
+  TemperatureCheck temperature_{TemperatureCheckConfig{}};
+  TemperatureWeights weights_;
+  StateRecord record_;
+};
+
+TEST_F(StateRecordTest, ShowsTheMeasuredPlaceAsSetpointAndTargetWhileNothingIsControlled) {
+  const state_v1& state = filled();
+  EXPECT_EQ(state.joint_position_rad, 1.5);
+  EXPECT_EQ(state.setpoint_position_rad, 1.5);
+  EXPECT_EQ(state.target_position_rad, 1.5);
+  EXPECT_EQ(state.setpoint_velocity_rad_s, 0.0);
+  EXPECT_EQ(state.joint_velocity_rad_s, 0.1);
+  EXPECT_EQ(state.torque_commanded_Nm, 0.0) << "whatever the last motion was";
+  EXPECT_EQ(state.torque_applied_Nm, 3.0);
+}
+
+TEST_F(StateRecordTest, ShowsReferenceTargetAndEstimateUnderControlAllFromOneZero) {
+  enable();
+  const state_v1& state = filled();
+  EXPECT_DOUBLE_EQ(state.setpoint_position_rad, 1.6);
+  EXPECT_DOUBLE_EQ(state.target_position_rad, 1.75);
+  EXPECT_EQ(state.joint_position_rad, 1.5);
+  EXPECT_EQ(state.setpoint_velocity_rad_s, 0.2);
+  EXPECT_EQ(state.joint_velocity_rad_s, 0.15);
+  EXPECT_EQ(state.torque_commanded_Nm, 4.0);
+}
+
+TEST_F(StateRecordTest, ShowsTheTargetToTheBitAsItWasOrdered) {
+  enable();
+  ordered_.accept(1.7500000001, 0.75, 0.0, 0);
+  EXPECT_EQ(filled().target_position_rad, 1.7500000001);
+}
+
+TEST_F(StateRecordTest, ShowsTheDrivesErrorOfNowUntilAFaultAndThenThatOfTheFault) {
+  reading_.drive_error = 1;
+  EXPECT_EQ(filled().drive_error, 1);
+  (void)mode_.latch(Fault::kDriveFault, 2, 3);
+  const state_v1& state = filled();
+  EXPECT_EQ(state.drive_error, 2);
+  EXPECT_EQ(state.fault, static_cast<int>(Fault::kDriveFault));
+  EXPECT_EQ(state.mode, static_cast<int>(Mode::kFaulted));
+  EXPECT_EQ(state.faults_total, 1);
+}
+
+TEST_F(StateRecordTest, HasTheCycleTheTableItsWeightsAndTheNotices) {
+  const state_v1& state = filled();
+  EXPECT_EQ(state.cycle, 42);
+  EXPECT_EQ(state.table_id, 77);
+  EXPECT_EQ(state.rule_count, 2);
+  EXPECT_EQ(state.temperature_weights[1], 0.75);
+  EXPECT_EQ(state.notices, 5);
+}
+
+TEST_F(StateRecordTest, TellsTheAgeOfTheTemperatureAndThatThereWasNone) {
+  filled();
+  EXPECT_EQ(record_.temperature_age_s, -1.0);
+  temperature_.update(true, 21.5, 1'000'000'000, time_.now_ns);
+  filled();
+  EXPECT_EQ(record_.state.temperature_C, 21.5);
+  EXPECT_EQ(record_.temperature_measured_C, 21.5);
+  EXPECT_DOUBLE_EQ(record_.temperature_age_s, 2.0);
+}
+
+TEST_F(StateRecordTest, AndTheFlightSampleSayTheSame) {
+  enable();
+  const state_v1& state = filled();
+  const FlightSample sample = flight_sample(record_, time_, DriveState::kEnabled, true);
+  EXPECT_EQ(sample.time_ns, time_.now_ns);
+  EXPECT_EQ(sample.cycle, state.cycle);
+  EXPECT_EQ(sample.setpoint_position_rad, state.setpoint_position_rad);
+  EXPECT_EQ(sample.joint_position_rad, state.joint_position_rad);
+  EXPECT_EQ(sample.torque_commanded_Nm, state.torque_commanded_Nm);
+  EXPECT_EQ(sample.mode, state.mode);
+  EXPECT_EQ(sample.notices, state.notices);
+  EXPECT_EQ(sample.drive_state, 2);
+  EXPECT_EQ(sample.reading_fresh, 1);
+}
+
+}  // namespace
+}  // namespace strainwave
