@@ -1,11 +1,12 @@
 #include "base/csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <string>
+#include <set>
 
 #include "base/input_error.h"
+#include "base/text_file.h"
 
 namespace strainwave {
 
@@ -21,6 +22,17 @@ std::string joined(const std::vector<std::string>& columns) {
   std::string header;
   for (const std::string& column : columns) header += (header.empty() ? "" : ",") + column;
   return header;
+}
+
+std::vector<std::string> fields_of(std::string_view line) {
+  std::vector<std::string> fields;
+  for (const std::string_view field : split(line, ',')) fields.emplace_back(trimmed(field));
+  return fields;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
 }  // namespace
@@ -40,49 +52,72 @@ double parse_number(std::string_view text, const std::string& where, const std::
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw InputError(where, key, std::string(text), "must be a finite number");
+    throw InputError(where, key, "\"" + std::string(text) + "\"", "must be a finite number");
   return value;
 }
 
-std::vector<CsvTextRow> read_csv_text(const std::filesystem::path& path,
-                                      const std::vector<std::string>& columns) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path.string() + ": cannot be read; check the path and its permissions");
-  const std::string header = joined(columns);
-  std::vector<CsvTextRow> rows;
-  bool header_seen = false;
-  std::string text;
-  for (int line = 1; std::getline(file, text); ++line) {
-    const std::string where = path.string() + ":" + std::to_string(line);
-    const std::string_view content = trimmed(text);
-    if (content.empty() || content.front() == '#') continue;
-    if (!header_seen) {
-      if (content != header)
-        throw InputError(where, "header", std::string(content), "must be '" + header + "'");
-      header_seen = true;
-      continue;
-    }
-    const auto fields = split(content, ',');
-    if (fields.size() != columns.size())
-      throw InputError(where, "fields", std::to_string(fields.size()),
-                       "must be " + std::to_string(columns.size()) + " (" + header + ")");
-    rows.push_back({line, {fields.begin(), fields.end()}});
-  }
-  if (rows.empty())
-    throw InputError(path.string() + ": has no rows; expected '" + header + "' and at least one row");
-  return rows;
+template <typename Field>
+std::size_t CsvRows<Field>::column(const std::string& name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end())
+    throw InputError(source + ": column " + name + " is missing; there are " + joined(columns));
+  return static_cast<std::size_t>(found - columns.begin());
 }
 
-std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::vector<std::string>& columns) {
-  std::vector<CsvRow> rows;
-  for (const CsvTextRow& text : read_csv_text(path, columns)) {
-    CsvRow row{text.line, {}};
-    const std::string where = path.string() + ":" + std::to_string(text.line);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      row.values.push_back(parse_number(text.fields[i], where, columns[i]));
-    rows.push_back(std::move(row));
+template <typename Field>
+void CsvRows<Field>::require_columns(const std::vector<std::string>& names) const {
+  if (columns != names)
+    throw InputError(source, "header", joined(columns), "must be '" + joined(names) + "'");
+}
+
+template struct CsvRows<std::string>;
+template struct CsvRows<double>;
+
+CsvText parse_csv_text(std::string_view text, const std::string& source) {
+  CsvText table;
+  table.source = source;
+  int number = 0;
+  for (const std::string_view raw : split(without_byte_order_mark(text), '\n')) {
+    ++number;
+    const std::string_view line = trimmed(raw);
+    if (line.empty() || line.front() == '#') continue;
+    std::vector<std::string> fields = fields_of(line);
+    const std::string where = source + ":" + std::to_string(number);
+    if (table.columns.empty()) {
+      if (std::set<std::string>(fields.begin(), fields.end()).size() != fields.size())
+        throw InputError(where, "header", std::string(line), "a column name occurs twice");
+      table.columns = std::move(fields);
+      continue;
+    }
+    if (fields.size() != table.columns.size())
+      throw InputError(where + ": has " + std::to_string(fields.size()) + " fields, the header has " +
+                       std::to_string(table.columns.size()) + " (" + joined(table.columns) + ")");
+    table.rows.push_back(std::move(fields));
+    table.line_numbers.push_back(number);
   }
-  return rows;
+  if (table.rows.empty())
+    throw InputError(source + ": has no data: a header line and at least one row are needed");
+  return table;
+}
+
+CsvTable parse_csv(std::string_view text, const std::string& source) {
+  CsvText read = parse_csv_text(text, source);
+  CsvTable table{source, std::move(read.columns), {}, std::move(read.line_numbers)};
+  for (const std::vector<std::string>& fields : read.rows) {
+    std::vector<double>& row = table.rows.emplace_back();
+    const std::string where = table.place(table.rows.size() - 1);
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      row.push_back(parse_number(fields[i], where, table.columns[i]));
+  }
+  return table;
+}
+
+CsvText read_csv_text(const std::filesystem::path& path) {
+  return parse_csv_text(read_text_file(path), path.string());
+}
+
+CsvTable read_csv(const std::filesystem::path& path) {
+  return parse_csv(read_text_file(path), path.string());
 }
 
 }  // namespace strainwave

@@ -1,4 +1,5 @@
-// Strict reader for small numeric CSV files. Offline or at start-up only.
+// Strict reader of the project's CSV files: comment lines begin with '#', then one header line, then rows of as many fields.
+// Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -8,24 +9,30 @@
 
 namespace strainwave {
 
-/// One row: its line in the file (from 1) and its fields in the order of the columns asked for.
-struct CsvTextRow {
-  int line = 0;
-  std::vector<std::string> fields;
-};
-struct CsvRow {
-  int line = 0;
-  std::vector<double> values;
+template <typename Field>
+struct CsvRows {
+  std::string source;  ///< named in messages
+  std::vector<std::string> columns;
+  std::vector<std::vector<Field>> rows;  ///< each as long as `columns`
+  std::vector<int> line_numbers;         ///< of each row in the file, from 1
+
+  /// Index of a column. Throws InputError that names those that are there when it is missing.
+  std::size_t column(const std::string& name) const;
+  /// Throws InputError unless the header is exactly `names`, in this order.
+  void require_columns(const std::vector<std::string>& names) const;
+  /// "file:line" of a row.
+  std::string place(std::size_t row) const { return source + ":" + std::to_string(line_numbers.at(row)); }
 };
 
-/// Reads a file whose header is exactly `columns`, comma separated. Lines that start with '#' and empty lines
-/// are skipped. Throws InputError "<file>:<line>: ..." on another header, a wrong number of fields, and when
-/// there is no row. Fields are not quoted.
-std::vector<CsvTextRow> read_csv_text(const std::filesystem::path& path,
-                                      const std::vector<std::string>& columns);
+using CsvText = CsvRows<std::string>;  ///< fields without the blanks around them; they are not quoted
+using CsvTable = CsvRows<double>;      ///< finite numbers alone
 
-/// The same for finite numbers; anything else in a field is an InputError.
-std::vector<CsvRow> read_csv(const std::filesystem::path& path, const std::vector<std::string>& columns);
+/// Throws InputError "file:line: ..." on repeated columns, a row of another length, a file without a row, and for a CsvTable
+/// on a field that is not a finite number. A byte order mark is skipped.
+CsvText parse_csv_text(std::string_view text, const std::string& source);
+CsvTable parse_csv(std::string_view text, const std::string& source);
+CsvText read_csv_text(const std::filesystem::path& path);
+CsvTable read_csv(const std::filesystem::path& path);
 
 /// The number that `text` is, whole; throws InputError "<where>: <key> = <text>: must be a finite number".
 double parse_number(std::string_view text, const std::string& where, const std::string& key);

@@ -76,16 +76,16 @@ class TemporaryFile {
 std::string read_text_file(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
-    throw InputError(path.string() + ": is a directory, not a file");
+    throw InputError(path.string() + ": is a folder, not a file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "cannot read", errno);
+  if (!file) fail(path, "cannot be read", errno);
   if (std::filesystem::is_regular_file(path, error) &&
       std::filesystem::file_size(path, error) > kMaxFileBytes) {
     throw InputError(path.string() + ": is larger than 16 MiB: not a file of this program");
   }
   std::ostringstream text;
   text << file.rdbuf();
-  if (file.bad()) fail(path, "cannot read", errno);
+  if (file.bad()) fail(path, "cannot be read", errno);
   return std::move(text).str();
 }
 

@@ -1,185 +1,216 @@
 #include "base/toml_section.h"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include "base/input_error.h"
+#include "base/nearest_word.h"
+#include "base/text_file.h"
 
 namespace strainwave {
 
 namespace {
 
-const toml::table& empty_table() {
-  static const toml::table table;
-  return table;
+/// The shortest digits that read back to the same number.
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 std::string value_text(const toml::node& node) {
-  std::ostringstream text;
-  node.visit([&](const auto& value) { text << value; });
-  return text.str();
+  if (const auto* text = node.as_string()) return "\"" + text->get() + "\"";
+  if (const auto* number = node.as_floating_point()) return number_text(number->get());
+  if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  if (node.is_table()) return "(a table)";
+  if (const auto* array = node.as_array()) return "(a list of " + std::to_string(array->size()) + ")";
+  return "(a date or a time)";
 }
 
-std::string number_text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-std::string join(const std::vector<std::string>& words) {
+std::string join(const std::vector<std::string>& words, const char* quote) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "\"" : ", \"") + word + "\"";
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + (quote + word + quote);
   return text;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
 
-TomlSection::TomlSection(const toml::table& table, std::string file, std::string path)
-    : table_(&table), file_(std::move(file)), path_(std::move(path)) {}
+struct TomlSection::Table {
+  std::shared_ptr<const toml::table> document;
+  const toml::table* table;
+
+  unsigned line() const { return static_cast<unsigned>(table->source().begin.line); }
+};
+
+/// What reads nodes, which the header does not know.
+struct TomlSection::Reader {
+  static const toml::node* find(TomlSection& section, std::string_view key) {
+    section.asked_.emplace(key);
+    return section.table_->table->get(key);
+  }
+
+  static const toml::node& require(TomlSection& section, std::string_view key) {
+    const toml::node* node = find(section, key);
+    if (node == nullptr) section.fail(key, "the key is required" + instead(section, key));
+    return *node;
+  }
+
+  /// What stands in the table and may be the key that is missing.
+  static std::string instead(const TomlSection& section, std::string_view key) {
+    std::vector<std::string> others;
+    for (const auto& [name, node] : *section.table_->table)
+      if (!section.asked_.contains(name.str())) others.emplace_back(name.str());
+    const std::string* nearest = nearest_word(key, others);
+    if (nearest == nullptr) return "";
+    const auto line = section.table_->table->get(*nearest)->source().begin.line;
+    return "; line " + std::to_string(line) + " has " + *nearest + ": is that what was meant?";
+  }
+
+  static double checked(const TomlSection& section, std::string_view key, const toml::node& node,
+                        Range allowed) {
+    const auto value = node.value<double>();
+    if (!node.is_number() || !value || !std::isfinite(*value) || *value < allowed.min || *value > allowed.max)
+      section.fail(key, "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) +
+                            " is allowed" + (node.is_string() ? ", without quotes" : ""));
+    return *value;
+  }
+};
+
+TomlSection::TomlSection(std::shared_ptr<const Table> table, std::string file, std::string path)
+    : table_(std::move(table)), file_(std::move(file)), path_(std::move(path)) {}
+
+TomlSection TomlSection::parse(std::string_view text, const std::string& file) {
+  try {
+    const auto document = std::make_shared<const toml::table>(toml::parse(text, file));
+    return {std::make_shared<const Table>(Table{document, document.get()}), file, ""};
+  } catch (const toml::parse_error& error) {
+    throw InputError(file + ":" + std::to_string(error.source().begin.line) +
+                     ": not valid TOML: " + std::string(error.description()));
+  }
+}
+
+TomlSection TomlSection::read(const std::filesystem::path& path) {
+  return parse(read_text_file(path), path.string());
+}
+
+bool TomlSection::has(std::string_view key) const {
+  return table_->table->contains(key);
+}
 
 std::string TomlSection::full_name(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 
 void TomlSection::fail(std::string_view key, const std::string& allowed) const {
-  const toml::node* node = table_->get(key);
-  const auto line = node != nullptr ? node->source().begin.line : table_->source().begin.line;
-  const std::string where = file_ + ":" + std::to_string(line);
+  const toml::node* node = table_->table->get(key);
+  const unsigned line = node != nullptr ? static_cast<unsigned>(node->source().begin.line) : table_->line();
+  // A table that stands nowhere has no line.
+  const std::string where = line > 0 ? file_ + ":" + std::to_string(line) : file_;
   if (node == nullptr) throw InputError(where + ": " + full_name(key) + " is missing: " + allowed);
   throw InputError(where, full_name(key), value_text(*node), allowed);
 }
 
-const toml::node* TomlSection::find(std::string_view key) {
-  asked_.emplace(key);
-  return table_->get(key);
-}
-
-const toml::node& TomlSection::require(std::string_view key) {
-  const toml::node* node = find(key);
-  if (node == nullptr) fail(key, "the key is required");
-  return *node;
-}
-
-double TomlSection::checked(std::string_view key, const toml::node& node, Range allowed) const {
-  const std::string range =
-      "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) + " is allowed";
-  const auto value = node.value<double>();
-  if (!node.is_number() || !value || !std::isfinite(*value) || *value < allowed.min || *value > allowed.max)
-    fail(key, range);
-  return *value;
-}
-
 double TomlSection::number(std::string_view key, Range allowed) {
-  return checked(key, require(key), allowed);
+  return Reader::checked(*this, key, Reader::require(*this, key), allowed);
 }
 
 double TomlSection::number_or(std::string_view key, double fallback, Range allowed) {
-  const toml::node* node = find(key);
-  return node == nullptr ? fallback : checked(key, *node, allowed);
+  const toml::node* node = Reader::find(*this, key);
+  return node == nullptr ? fallback : Reader::checked(*this, key, *node, allowed);
 }
 
 std::int64_t TomlSection::integer(std::string_view key, std::int64_t min, std::int64_t max) {
-  (void)require(key);
+  (void)Reader::require(*this, key);
   return integer_or(key, min, min, max);
 }
 
 std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t fallback, std::int64_t min,
                                      std::int64_t max) {
-  const toml::node* node = find(key);
+  const toml::node* node = Reader::find(*this, key);
   if (node == nullptr) return fallback;
   const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
   if (!value || *value < min || *value > max)
-    fail(key, "a whole number from " + std::to_string(min) + " to " + std::to_string(max) + " is allowed");
+    fail(key, "a whole number from " + std::to_string(min) + " to " + std::to_string(max) + " is allowed" +
+                  (node->is_string() ? ", without quotes" : ""));
   return *value;
 }
 
 bool TomlSection::boolean_or(std::string_view key, bool fallback) {
-  const toml::node* node = find(key);
+  const toml::node* node = Reader::find(*this, key);
   if (node == nullptr) return fallback;
-  if (!node->is_boolean()) fail(key, "true or false is allowed");
+  if (!node->is_boolean())
+    fail(key, std::string("true or false is allowed") + (node->is_string() ? ", without quotes" : ""));
   return *node->value<bool>();
 }
 
 std::string TomlSection::text(std::string_view key) {
-  const toml::node& node = require(key);
+  const toml::node& node = Reader::require(*this, key);
   if (!node.is_string()) fail(key, "a text in quotes is allowed");
   return *node.value<std::string>();
 }
 
 std::string TomlSection::text_or(std::string_view key, std::string fallback) {
-  return find(key) == nullptr ? fallback : text(key);
+  return Reader::find(*this, key) == nullptr ? fallback : text(key);
 }
 
 std::string TomlSection::choice(std::string_view key, const std::vector<std::string>& allowed) {
-  std::string value = text(key);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
-    fail(key, "allowed are " + join(allowed));
-  return value;
+  const std::optional<std::string> value = Reader::require(*this, key).value_exact<std::string>();
+  if (!value || std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
+    const std::string* nearest = value ? nearest_word(*value, allowed) : nullptr;
+    fail(key, "allowed are " + join(allowed, "\"") +
+                  (nearest != nullptr ? "; did you mean \"" + *nearest + "\"?" : ""));
+  }
+  return *value;
 }
 
 std::string TomlSection::choice_or(std::string_view key, std::string fallback,
                                    const std::vector<std::string>& allowed) {
-  return find(key) == nullptr ? fallback : choice(key, allowed);
+  return Reader::find(*this, key) == nullptr ? fallback : choice(key, allowed);
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, Range allowed) {
-  const toml::array* array = require(key).as_array();
+  const toml::array* array = Reader::require(*this, key).as_array();
   if (array == nullptr || array->empty()) fail(key, "a list of numbers is allowed");
   std::vector<double> values;
-  for (const toml::node& node : *array) values.push_back(checked(key, node, allowed));
+  for (const toml::node& node : *array) values.push_back(Reader::checked(*this, key, node, allowed));
   return values;
 }
 
 TomlSection TomlSection::section(std::string_view key) {
-  const toml::table* table = require(key).as_table();
+  const toml::table* table = Reader::require(*this, key).as_table();
   if (table == nullptr) fail(key, "a table, written [" + full_name(key) + "], is allowed");
-  return {*table, file_, full_name(key)};
+  return {std::make_shared<const Table>(Table{table_->document, table}), file_, full_name(key)};
 }
 
 TomlSection TomlSection::section_or_empty(std::string_view key) {
-  return find(key) == nullptr ? TomlSection(empty_table(), file_, full_name(key)) : section(key);
+  static const toml::table nothing;
+  if (Reader::find(*this, key) != nullptr) return section(key);
+  return {std::make_shared<const Table>(Table{nullptr, &nothing}), file_, full_name(key)};
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) {
-  const toml::array* array = require(key).as_array();
+  const toml::array* array = Reader::require(*this, key).as_array();
   if (array == nullptr || array->empty() || !array->is_homogeneous(toml::node_type::table))
-    fail(key, "one or more tables, each written [[" + full_name(key) + "]], are allowed");
+    fail(key, "one or more tables are allowed, each written [[" + full_name(key) + "]] with two brackets");
   std::vector<TomlSection> result;
   for (const toml::node& node : *array)
-    result.emplace_back(*node.as_table(), file_, full_name(key) + "[" + std::to_string(result.size()) + "]");
+    result.push_back({std::make_shared<const Table>(Table{table_->document, node.as_table()}), file_,
+                      full_name(key) + "[" + std::to_string(result.size()) + "]"});
   return result;
 }
 
 void TomlSection::refuse_unknown_keys() const {
-  for (const auto& [key, node] : *table_) {
+  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  for (const auto& [key, node] : *table_->table) {
     const std::string_view name = key.str();
-    if (asked_.find(name) != asked_.end()) continue;
-    const std::string* nearest = nullptr;
-    for (const std::string& known : asked_) {
-      // A forgotten unit ("period" for "period_s") is the likeliest slip; then a misspelling.
-      const bool unit_forgotten = known.size() > name.size() && known.rfind(std::string(name) + "_", 0) == 0;
-      if (unit_forgotten || edit_distance(name, known) <= 2) nearest = &known;
-      if (unit_forgotten) break;
-    }
-    std::string hint = nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are: ";
-    if (nearest == nullptr)
-      for (const std::string& known : asked_) hint += (known == *asked_.begin() ? "" : ", ") + known;
+    if (asked_.contains(name)) continue;
+    const std::string* nearest = nearest_word(name, known);
+    const std::string hint =
+        nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are: " + join(known, "");
     fail(name, "unknown key; " + hint + " Physical quantities carry their unit in the key.");
   }
 }

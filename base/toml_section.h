@@ -1,8 +1,10 @@
 // Strict reading of one TOML table: every key is asked for by name, with its allowed range, and what nobody asked for is
-// an error. Not real-time.
+// an error. The only door to toml++. Not real-time.
 #pragma once
 
-#include <toml++/toml.h>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,11 +17,13 @@ struct Range {
   double max;
 };
 
-/// One table of the file. `path` is how messages name it ("joint[0].limits"). All methods throw InputError that names the
-/// file, line, key, value and what is allowed.
+/// One table of a file. Messages name it by its path ("joint[0].limits"). All methods throw InputError that names the file,
+/// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead.
 class TomlSection {
  public:
-  TomlSection(const toml::table& table, std::string file, std::string path);
+  /// The outermost table of `text`; `file` is named in messages.
+  static TomlSection parse(std::string_view text, const std::string& file);
+  static TomlSection read(const std::filesystem::path& path);
 
   double number(std::string_view key, Range allowed);
   double number_or(std::string_view key, double fallback, Range allowed);
@@ -33,7 +37,7 @@ class TomlSection {
   std::string choice_or(std::string_view key, std::string fallback, const std::vector<std::string>& allowed);
   std::vector<double> numbers(std::string_view key, Range allowed);
 
-  bool has(std::string_view key) const { return table_->contains(key); }
+  bool has(std::string_view key) const;
   /// A sub-table that must exist, or an empty one when it does not.
   TomlSection section(std::string_view key);
   TomlSection section_or_empty(std::string_view key);
@@ -49,11 +53,11 @@ class TomlSection {
   [[noreturn]] void fail(std::string_view key, const std::string& allowed) const;
 
  private:
-  const toml::node* find(std::string_view key);
-  const toml::node& require(std::string_view key);
-  double checked(std::string_view key, const toml::node& node, Range allowed) const;
+  struct Table;  ///< toml++'s table, kept with its document
+  struct Reader;
+  TomlSection(std::shared_ptr<const Table> table, std::string file, std::string path);
 
-  const toml::table* table_;
+  std::shared_ptr<const Table> table_;
   std::string file_;
   std::string path_;
   std::set<std::string, std::less<>> asked_;

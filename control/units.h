@@ -9,8 +9,6 @@
 // Source: Zhao (2006), section 2.3 and Table 5.
 #pragma once
 
-#include <cmath>
-#include <cstdint>
 #include <numbers>
 
 namespace strainwave {
@@ -46,11 +44,6 @@ constexpr double motor_rpm_from_joint_velocity_rad_s(double joint_velocity_rad_s
 constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_viscous_Nms_rad,
                                                               double gear_ratio) {
   return joint_viscous_Nms_rad / (gear_ratio * gear_ratio * kNmPerNcm / kRadPerSecondPerRpm);
-}
-
-/// A duration as the loop counts time, rounded to the nearest.
-inline std::int64_t nanoseconds(double duration_s) noexcept {
-  return std::llround(duration_s * 1e9);
 }
 
 /// -1, 0 or 1.

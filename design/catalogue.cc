@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/text_file.h"
-#include "design/csv.h"
 #include "design/sha256.h"
 
 namespace strainwave {
@@ -74,8 +74,7 @@ FrictionData from_running_torque(const CsvTable& csv, double starting_torque_Ncm
     std::vector<double> torques;
     for (const std::size_t c : torque_columns) {
       if (!(csv.rows[r][c] > 0.0)) {
-        throw InputError(csv.source + ", line " + std::to_string(csv.line_numbers[r]) + ": " +
-                         csv.columns[c] + ": running torque must be above 0");
+        throw InputError(csv.place(r) + ": " + csv.columns[c] + ": running torque must be above 0");
       }
       torques.push_back(csv.rows[r][c]);
     }
@@ -113,8 +112,7 @@ FrictionData read_catalogue(const std::filesystem::path& path, double starting_t
   if (data.points.size() < 3) throw InputError(csv.source + ": needs at least three temperatures");
   for (std::size_t r = 1; r < data.points.size(); ++r) {
     if (!(data.points[r - 1].temperature_C < data.points[r].temperature_C)) {
-      throw InputError(csv.source + ", line " + std::to_string(csv.line_numbers[r]) +
-                       ": temperatures must ascend");
+      throw InputError(csv.place(r) + ": temperatures must ascend");
     }
   }
   return data;

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/csv.h"
 #include "base/input_error.h"
 #include "base/strict_json.h"
 #include "base/text_file.h"
 #include "control/fuzzy_friction_json.h"
 #include "control/units.h"
-#include "design/csv.h"
 #include "design/friction_fit.h"
 #include "design/sha256.h"
 
@@ -132,8 +132,7 @@ FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide si
     fit.center_C(i) = row[index[0]];
     fit.width_C(i) = row[index[1]];
     fit.consequents.row(i) << row[index[2]], row[index[3]], row[index[4]];
-    const std::string where =
-        csv.source + ", line " + std::to_string(csv.line_numbers[static_cast<std::size_t>(i)]);
+    const std::string where = csv.place(static_cast<std::size_t>(i));
     if (!(fit.width_C(i) > 0.0)) throw InputError(where + ": width_C must be above 0");
     if (i > 0 && !(fit.center_C(i - 1) < fit.center_C(i))) throw InputError(where + ": centres must ascend");
     if (!(fit.consequents.row(i).minCoeff() >= 0.0))

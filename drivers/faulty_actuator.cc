@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "control/units.h"
+#include "base/durations.h"
 
 namespace strainwave {
 

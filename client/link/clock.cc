@@ -17,11 +17,6 @@ double seconds_between(Instant earlier, Instant later) noexcept {
   return std::chrono::duration<double>(later - earlier).count();
 }
 
-std::int64_t utime_us() noexcept {
-  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(since_epoch).count();
-}
-
 Deadline::Deadline(double seconds)
     : end_(now() + std::chrono::duration_cast<Instant::duration>(
                        std::chrono::duration<double>(std::clamp(seconds, 0.0, kLongestWait_s)))) {}

@@ -1,8 +1,7 @@
-// The only file of the client that reads a clock. Not real-time.
+// The client's monotonic clock. Not real-time.
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 
 namespace strainwave {
 
@@ -13,9 +12,6 @@ Instant now() noexcept;
 
 /// Seconds from `earlier` to `later`.
 double seconds_between(Instant earlier, Instant later) noexcept;
-
-/// us since the epoch, for the utime of messages: records only.
-std::int64_t utime_us() noexcept;
 
 /// A wait that ends.
 class Deadline {

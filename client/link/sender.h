@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "client/link/clock.h"
+#include "base/utime.h"
 #include "lcmtypes/signing.h"
 #include "lcmtypes/wire.h"
 
@@ -44,7 +44,7 @@ class Sender {
   /// The same without a signature, for a stop: it needs none, and no trouble with a key may keep it back.
   template <typename Message>
   SealedMessage seal_unsigned(std::string channel, Message message, std::int64_t session_id) {
-    message.utime = utime_us();
+    message.utime = utime_now();
     message.session_id = session_id;
     message.sender_id = sender_id_;
     message.sequence = next_sequence(message.utime);

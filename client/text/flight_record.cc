@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/gnuplot.h"
 #include "base/input_error.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -49,21 +50,6 @@ set autoscale xfix
 set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '#c00000' linewidth 1.4 dashtype 2 front
 )";
 
-/// In gnuplot's single quotes only the single quote itself is special.
-std::string gnuplot_text(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
-  return result + "'";
-}
-
-/// For a title: no mark-up, and nothing that a terminal would obey.
-std::string printable(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    if (static_cast<unsigned char>(c) >= ' ') result += c;
-  return gnuplot_text(result);
-}
-
 std::string mode_names() {
   std::string tics;
   for (int mode = 0; mode <= static_cast<int>(Mode::kHoming); ++mode)
@@ -102,12 +88,12 @@ std::string plot_script(const FlightRecordInfo& info, const std::filesystem::pat
                        style, title);
   };
   std::string script =
-      fmt::format("set output {}\nFILE = {}\n", gnuplot_text(png.string()), gnuplot_text(file.string())) +
+      fmt::format("set output {}\nFILE = {}\n", gnuplot_quoted(png.string()), gnuplot_quoted(file.string())) +
       kSettings;
   if (around_s) script += fmt::format("set xrange [{}:{}]\n", -*around_s, *around_s);
   script += fmt::format("set multiplot layout 5,1 title {} font 'sans,14'\n",
-                        printable(head("joint") + ": fault " + head("fault") + ", " + head("fault_utc") +
-                                  " (cycle " + head("fault_cycle") + ")"));
+                        gnuplot_quoted(head("joint") + ": fault " + head("fault") + ", " + head("fault_utc") +
+                                       " (cycle " + head("fault_cycle") + ")"));
   script += "set ylabel 'position in rad'\nplot " + curve("setpoint_position_rad", "setpoint", 2) + ", " +
             curve("joint_position_rad", "measured", 1) + "\n";
   script += fmt::format(

@@ -1,13 +1,10 @@
 #include "daemon/config/config.h"
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <set>
-#include <sstream>
 
 #include "base/input_error.h"
 #include "base/toml_section.h"
@@ -201,24 +198,10 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
   return security;
 }
 
-toml::table parse_file(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path.string() + ": cannot be read: give an existing file to --config");
-  std::ostringstream text;
-  text << file.rdbuf();
-  try {
-    return toml::parse(text.str(), path.string());
-  } catch (const toml::parse_error& error) {
-    throw InputError(path.string() + ":" + std::to_string(error.source().begin.line) +
-                     ": not valid TOML: " + std::string(error.description()));
-  }
-}
-
 }  // namespace
 
 DaemonConfig read_config(const std::filesystem::path& path) {
-  const toml::table file = parse_file(path);
-  TomlSection root(file, path.string(), "");
+  TomlSection root = TomlSection::read(path);
   DaemonConfig config;
   TomlSection daemon = root.section_or_empty("daemon");
   config.loop = read_loop(daemon);

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/utime.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/records/flight_record_file.h"
 
@@ -26,11 +27,6 @@ constexpr double kNanosecondsPerSecond = 1e9;
 constexpr const char* kUnfinished = ".part";
 constexpr int kComplaints = 5;
 constexpr std::int64_t kComplaintWindow_ns = 60'000'000'000;
-
-std::int64_t unix_now_us() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
 
 std::string error_text(const std::string& what) {
   return what + ": " + std::strerror(errno);
@@ -126,7 +122,7 @@ void FlightRecordWriter::handle(State& state, std::int64_t now_ns) {
   const FlightRecorder& recorder = *state.source.recorder;
   const std::int64_t since_fault_us = (now_ns - recorder.sample(recorder.fault_index()).time_ns) / 1000;
   const FlightRecordHeader header{joint, state.source.joint_model, session_id_,
-                                  unix_now_us() - since_fault_us, period_s_};
+                                  utime_now() - since_fault_us, period_s_};
   const std::string name = flight_record_name(header, recorder);
   std::string problem;
   if (!write(name, flight_record_text(header, recorder), problem))

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/input_error.h"
-#include "control/units.h"
+#include "base/durations.h"
 
 namespace strainwave {
 

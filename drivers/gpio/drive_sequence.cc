@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "control/units.h"
+#include "base/durations.h"
 
 namespace strainwave {
 

@@ -1,10 +1,12 @@
 #include "sim/joint/plant_file.h"
 
-#include <toml++/toml.h>
+#include <algorithm>
+#include <limits>
 #include <map>
 
 #include "base/input_error.h"
 #include "base/text_file.h"
+#include "base/toml_section.h"
 #include "sim/studies/scenarios.h"
 
 namespace strainwave {
@@ -13,12 +15,7 @@ namespace {
 
 using Fields = std::map<std::string, double*>;
 
-struct Whole {  // whole numbers are read as doubles and checked when they are put back
-  double substeps;
-  double delay_samples;
-};
-
-std::map<std::string, Fields> sections_of(JointPlantConfig& c, Whole& whole) {
+std::map<std::string, Fields> sections_of(JointPlantConfig& c) {
   FrictionParameters& asymptote = c.joint.friction.asymptote;
   FrictionParameters& amplitude = c.joint.friction.amplitude;
   return {{"joint",
@@ -44,76 +41,38 @@ std::map<std::string, Fields> sections_of(JointPlantConfig& c, Whole& whole) {
            {{"resistance_C_W", &c.thermal.resistance_C_W},
             {"time_constant_s", &c.thermal.time_constant_s},
             {"sensor_time_constant_s", &c.thermal.sensor_time_constant_s}}},
-          {"simulation",
-           {{"period_s", &c.period_s},
-            {"substeps", &whole.substeps},
-            {"delay_samples", &whole.delay_samples},
-            {"initial_position_rad", &c.initial_position_rad}}}};
+          {"simulation", {{"period_s", &c.period_s}, {"initial_position_rad", &c.initial_position_rad}}}};
 }
 
-std::string known(const auto& map) {
-  std::string keys;
-  for (const auto& [key, value] : map) keys += (keys.empty() ? "" : ", ") + key;
-  return keys;
+JointPlantConfig base_plant(TomlSection& file) {
+  std::vector<std::string> names;
+  for (const Setting setting : kSettings) names.emplace_back(name(setting));
+  const std::string base = file.choice_or("base", name(Setting::kRealistic), names);
+  const auto found = std::find(names.begin(), names.end(), base);
+  return setting_plant(kSettings[static_cast<std::size_t>(found - names.begin())]);
 }
 
-std::string place(const std::string& source, const toml::node& node) {
-  return source + ":" + std::to_string(node.source().begin.line);
-}
-
-JointPlantConfig base_plant(const toml::table& table, const std::string& source) {
-  const toml::node* node = table.get("base");
-  if (node == nullptr) return setting_plant(Setting::kRealistic);
-  const auto text = node->value<std::string>();
-  for (const Setting setting : kSettings)
-    if (text && *text == name(setting)) return setting_plant(setting);
-  throw InputError(place(source, *node), "base", text.value_or("(no text)"),
-                   "must be ideal, limited or realistic");
-}
-
-void read_section(const toml::table& section, const std::string& section_name, const Fields& fields,
-                  const std::string& source) {
-  for (const auto& [key, node] : section) {
-    const std::string name = section_name + "." + std::string(key.str());
-    const auto field = fields.find(std::string(key.str()));
-    if (field == fields.end())
-      throw InputError(place(source, node) + ": unknown key " + name + "; allowed in [" + section_name +
-                       "]: " + known(fields));
-    const auto value = node.value<double>();
-    if (!value) throw InputError(place(source, node) + ": " + name + " must be a number");
-    *field->second = *value;
+void read_section(TomlSection section, const std::string& section_name, const Fields& fields,
+                  JointPlantConfig& config) {
+  constexpr Range kAnyNumber{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
+  constexpr std::int64_t kMost = 1'000'000;
+  for (const auto& [key, value] : fields) *value = section.number_or(key, *value, kAnyNumber);
+  if (section_name == "simulation") {
+    config.substeps = static_cast<int>(section.integer_or("substeps", config.substeps, 0, kMost));
+    config.delay_samples =
+        static_cast<int>(section.integer_or("delay_samples", config.delay_samples, 0, kMost));
   }
-}
-
-int whole_number(double value, const std::string& source, const char* key) {
-  if (!(value >= 0.0 && value <= 1e6 && value == static_cast<double>(static_cast<int>(value))))
-    throw InputError(source, key, std::to_string(value), "must be a whole number >= 0");
-  return static_cast<int>(value);
+  section.refuse_unknown_keys();
 }
 
 }  // namespace
 
 JointPlantConfig plant_from_toml(std::string_view text, const std::string& source) {
-  toml::table table;
-  try {
-    table = toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    throw InputError(source + ":" + std::to_string(error.source().begin.line) + ": " +
-                     std::string(error.description()));
-  }
-  JointPlantConfig config = base_plant(table, source);
-  Whole whole{static_cast<double>(config.substeps), static_cast<double>(config.delay_samples)};
-  const auto sections = sections_of(config, whole);
-  for (const auto& [key, node] : table) {
-    if (key.str() == "base") continue;
-    const auto section = sections.find(std::string(key.str()));
-    if (section == sections.end() || !node.is_table())
-      throw InputError(place(source, node) + ": unknown key " + std::string(key.str()) +
-                       "; allowed: base and the sections " + known(sections));
-    read_section(*node.as_table(), section->first, section->second, source);
-  }
-  config.substeps = whole_number(whole.substeps, source, "simulation.substeps");
-  config.delay_samples = whole_number(whole.delay_samples, source, "simulation.delay_samples");
+  TomlSection file = TomlSection::parse(text, source);
+  JointPlantConfig config = base_plant(file);
+  for (const auto& [section, fields] : sections_of(config))
+    read_section(file.section_or_empty(section), section, fields, config);
+  file.refuse_unknown_keys();
   try {
     const JointPlant checked(config);
   } catch (const InputError& error) {

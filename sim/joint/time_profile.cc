@@ -81,12 +81,14 @@ TimeProfile TimeProfile::from_csv(const std::filesystem::path& path, bool hold,
                                   const ProfileQuantity& quantity) {
   TimeProfile profile;
   profile.kind_ = hold ? Kind::kHold : Kind::kLines;
-  for (const CsvRow& row : read_csv(path, {"time_s", quantity.key})) {
-    const std::string where = path.string() + ":" + std::to_string(row.line);
-    if (!profile.points_.empty() && row.values[0] <= profile.points_.back().time_s)
-      throw InputError(where, "time_s", std::to_string(row.values[0]),
+  const CsvTable table = read_csv(path);
+  table.require_columns({"time_s", quantity.key});
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const double time_s = table.rows[i][0];
+    if (!profile.points_.empty() && time_s <= profile.points_.back().time_s)
+      throw InputError(table.place(i), "time_s", std::to_string(time_s),
                        "must be greater than in the row before");
-    profile.points_.push_back({row.values[0], checked(row.values[1], quantity, where)});
+    profile.points_.push_back({time_s, checked(table.rows[i][1], quantity, table.place(i))});
   }
   return profile;
 }

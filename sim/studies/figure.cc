@@ -4,10 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 
-#include "base/input_error.h"
+#include "base/gnuplot.h"
 #include "base/parallel.h"
 
 namespace strainwave {
@@ -19,15 +17,6 @@ constexpr int kPanelHeight = 330;
 // Okabe and Ito's palette: told apart by colour-blind readers.
 constexpr std::array<const char*, 8> kPalette = {"#000000", "#E69F00", "#56B4E9", "#009E73",
                                                  "#0072B2", "#D55E00", "#CC79A7", "#999999"};
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + "\"";
-}
 
 std::string block_name(std::size_t figure, std::size_t panel, std::size_t series) {
   return "$d" + std::to_string(figure) + "_" + std::to_string(panel) + "_" + std::to_string(series);
@@ -68,22 +57,22 @@ std::string style(const Series& series) {
 void write_panel(std::string& script, const Panel& panel, std::size_t figure, std::size_t index) {
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     write_data(script, block_name(figure, index, i), thinned(panel.series[i].points));
-  script += "set title " + quoted(panel.title) + "\nset xlabel " + quoted(panel.x_label) +
-            " offset 0,0.5\nset ylabel " + quoted(panel.y_label) + "\n";
+  script += "set title " + gnuplot_quoted(panel.title) + "\nset xlabel " + gnuplot_quoted(panel.x_label) +
+            " offset 0,0.5\nset ylabel " + gnuplot_quoted(panel.y_label) + "\n";
   script += panel.log_y ? "set logscale y\nset format y '%.0e'\n" : "unset logscale\nset format y '%g'\n";
   script += range("x", panel.x_range) + range("y", panel.y_range);
   script += panel.show_key ? "set key below horizontal samplen 2\n" : "unset key\n";
   if (panel.right_label.empty()) {
     script += "unset y2tics\nunset y2label\nset ytics mirror\n";
   } else {
-    script += "set ytics nomirror\nset y2tics\nset y2label " + quoted(panel.right_label) + "\n";
+    script += "set ytics nomirror\nset y2tics\nset y2label " + gnuplot_quoted(panel.right_label) + "\n";
   }
   script += "plot ";
   for (std::size_t i = 0; i < panel.series.size(); ++i) {
     const Series& series = panel.series[i];
     script += (i == 0 ? "" : ", ") + block_name(figure, index, i) + " using 1:2 " +
               (series.right_axis ? "axes x1y2 " : "") + style(series) + " " +
-              (series.name.empty() ? "notitle" : "title " + quoted(series.name));
+              (series.name.empty() ? "notitle" : "title " + gnuplot_quoted(series.name));
   }
   script += "\n";
 }
@@ -93,32 +82,13 @@ std::string script_of(const Figure& figure, std::size_t index, const std::filesy
   const int columns = std::min(figure.columns, panels);
   const int rows = (panels + columns - 1) / columns;
   const std::string size = std::to_string(columns * kPanelWidth) + "," + std::to_string(rows * kPanelHeight);
-  std::string script = "reset\nset encoding utf8\nset terminal svg noenhanced size " + size +
-                       " dynamic font 'sans-serif,12' name '" + figure.id +
-                       "' background 'white'\nset output " +
-                       quoted((directory / (figure.id + ".svg")).string()) + "\nset grid lc rgb '#dddddd'\n";
+  std::string script =
+      "reset\nset encoding utf8\nset terminal svg noenhanced size " + size +
+      " dynamic font 'sans-serif,12' name '" + figure.id + "' background 'white'\nset output " +
+      gnuplot_quoted((directory / (figure.id + ".svg")).string()) + "\nset grid lc rgb '#dddddd'\n";
   script += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + "\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(script, figure.panels[i], index, i);
   return script + "unset multiplot\nunset output\n";
-}
-
-/// Runs gnuplot on `script`; what it says is in the exception.
-void run_gnuplot(const std::string& script, const std::filesystem::path& stem) {
-  const std::filesystem::path input = stem.string() + ".gp";
-  const std::filesystem::path log = stem.string() + ".log";
-  std::ofstream(input) << script;
-  const auto shell = [](const std::filesystem::path& path) {
-    std::string text = "'";
-    for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-  };
-  const int status = std::system(("gnuplot " + shell(input) + " > " + shell(log) + " 2>&1").c_str());
-  std::string said;
-  std::getline(std::ifstream(log), said, '\0');
-  std::filesystem::remove(input);
-  std::filesystem::remove(log);
-  if (status != 0)
-    throw InputError("gnuplot failed: " + said + "; install it with: apt-get install gnuplot-nox");
 }
 
 }  // namespace
@@ -131,7 +101,7 @@ void draw_figures(const std::vector<Figure>& figures, const std::filesystem::pat
     std::string script;
     for (std::size_t i = batch; i < figures.size(); i += batches)
       script += script_of(figures[i], i, directory);
-    run_gnuplot(script, directory / ("batch" + std::to_string(batch)));
+    run_gnuplot(script);
   });
 }
 

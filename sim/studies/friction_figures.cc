@@ -14,15 +14,16 @@ namespace {
 constexpr std::array kSpeeds_rpm = {500.0, 1000.0, 2000.0, 3500.0};
 
 struct Catalogue {
-  std::vector<CsvRow> torque;      ///< temperature, torque at kSpeeds_rpm (motor side)
-  std::vector<CsvRow> parameters;  ///< temperature, viscous, Coulomb, static (motor side)
+  CsvTable torque;      ///< temperature, torque at kSpeeds_rpm (motor side)
+  CsvTable parameters;  ///< temperature, viscous, Coulomb, static (motor side)
 };
 
 Catalogue read_catalogue(const std::filesystem::path& data) {
-  return {read_csv(data / "no_load_torque.csv", {"temperature_C", "torque_500rpm_Ncm", "torque_1000rpm_Ncm",
-                                                 "torque_2000rpm_Ncm", "torque_3500rpm_Ncm"}),
-          read_csv(data / "friction_parameters.csv",
-                   {"temperature_C", "viscous_Ncm_per_rpm", "coulomb_Ncm", "static_Ncm"})};
+  Catalogue catalogue{read_csv(data / "no_load_torque.csv"), read_csv(data / "friction_parameters.csv")};
+  catalogue.torque.require_columns({"temperature_C", "torque_500rpm_Ncm", "torque_1000rpm_Ncm",
+                                    "torque_2000rpm_Ncm", "torque_3500rpm_Ncm"});
+  catalogue.parameters.require_columns({"temperature_C", "viscous_Ncm_per_rpm", "coulomb_Ncm", "static_Ncm"});
+  return catalogue;
 }
 
 template <typename Function>
@@ -35,9 +36,9 @@ Points sampled(double from, double to, const Function& f, int count = 300) {
   return points;
 }
 
-Points column(const std::vector<CsvRow>& rows, std::size_t index) {
+Points column(const CsvTable& table, std::size_t index) {
   Points points;
-  for (const CsvRow& row : rows) points.emplace_back(row.values[0], row.values[index]);
+  for (const std::vector<double>& row : table.rows) points.emplace_back(row[0], row[index]);
   return points;
 }
 
@@ -59,14 +60,13 @@ Figure torque_figure(const Catalogue& catalogue) {
               {},
               true};
   int colour = 0;
-  for (std::size_t i = 0; i < catalogue.torque.size(); i += 4) {
-    const CsvRow& row = catalogue.torque[i];
-    const std::vector<double>& fit = catalogue.parameters[i].values;
+  for (std::size_t i = 0; i < catalogue.torque.rows.size(); i += 4) {
+    const std::vector<double>& row = catalogue.torque.rows[i];
+    const std::vector<double>& fit = catalogue.parameters.rows[i];
     Points points;
-    for (std::size_t s = 0; s < kSpeeds_rpm.size(); ++s)
-      points.emplace_back(kSpeeds_rpm[s], row.values[s + 1]);
-    const FrictionParameters law = reference_joint().friction.at(row.values[0]);
-    panel.series.push_back({number(row.values[0]) + " degC", points, Mark::kPoints, colour, false});
+    for (std::size_t s = 0; s < kSpeeds_rpm.size(); ++s) points.emplace_back(kSpeeds_rpm[s], row[s + 1]);
+    const FrictionParameters law = reference_joint().friction.at(row[0]);
+    panel.series.push_back({number(row[0]) + " degC", points, Mark::kPoints, colour, false});
     panel.series.push_back({"",
                             sampled(
                                 0, 3600, [&](double rpm) { return fit[2] + fit[1] * rpm; }, 2),

@@ -70,14 +70,17 @@ std::vector<SourceIndex> read_source_indices(const std::filesystem::path& path) 
   const std::vector<std::string> columns = {"table",   "index",   "controller", "range_1",
                                             "range_2", "range_3", "range_4"};
   std::vector<SourceIndex> indices;
-  for (const CsvTextRow& row : read_csv_text(path, columns)) {
-    const std::string where = path.string() + ":" + std::to_string(row.line);
+  const CsvText table = read_csv_text(path);
+  table.require_columns(columns);
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const std::vector<std::string>& fields = table.rows[r];
+    const std::string where = table.place(r);
     SourceIndex index;
-    index.table = static_cast<int>(parse_number(row.fields[0], where, "table"));
-    index.index = row.fields[1];
-    index.controller = row.fields[2];
+    index.table = static_cast<int>(parse_number(fields[0], where, "table"));
+    index.index = fields[1];
+    index.controller = fields[2];
     for (std::size_t i = 0; i < index.value.size(); ++i)
-      index.value[i] = parse_number(row.fields[3 + i], where, columns[3 + i]);
+      index.value[i] = parse_number(fields[3 + i], where, columns[3 + i]);
     indices.push_back(index);
   }
   return indices;

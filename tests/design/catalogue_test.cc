@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/input_error.h"
-#include "design/csv.h"
+#include "base/csv.h"
 
 namespace strainwave {
 namespace {
@@ -62,8 +62,8 @@ TEST_F(CatalogueFile, RefusesWhatIsNotACatalogue) {
   const std::string header = "temperature_C,torque_500rpm_Ncm,torque_1000rpm_Ncm\n";
   EXPECT_EQ(message_of(header + "0,1,2\n5,1,2\n10,1,2\n"), "");
   EXPECT_NE(message_of(header + "0,1,2\n5,1,2\n").find("three temperatures"), std::string::npos);
-  EXPECT_NE(message_of(header + "0,1,2\n5,1,2\n5,1,2\n").find("line 4"), std::string::npos);
-  EXPECT_NE(message_of(header + "0,1,2\n5,-1,2\n10,1,2\n").find("line 3"), std::string::npos);
+  EXPECT_NE(message_of(header + "0,1,2\n5,1,2\n5,1,2\n").find(".csv:4:"), std::string::npos);
+  EXPECT_NE(message_of(header + "0,1,2\n5,-1,2\n10,1,2\n").find(".csv:3:"), std::string::npos);
   EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm,speed\n0,1,2\n").find("speed"), std::string::npos);
   EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm\n0,1\n5,1\n10,1\n").find("two or more speeds"),
             std::string::npos);

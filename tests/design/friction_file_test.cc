@@ -56,7 +56,7 @@ TEST(FrictionFile, RefusesRulesThatAreNotInOrderOrNotPhysical) {
     return std::string();
   };
   EXPECT_EQ(message_of("0,5,2,1,1\n10,5,2,1,1\n"), "");
-  EXPECT_NE(message_of("0,5,2,1,1\n0,5,2,1,1\n").find("line 3"), std::string::npos);
+  EXPECT_NE(message_of("0,5,2,1,1\n0,5,2,1,1\n").find(".csv:3:"), std::string::npos);
   EXPECT_NE(message_of("0,0,2,1,1\n").find("width_C"), std::string::npos);
   EXPECT_NE(message_of("0,5,2,-1,1\n").find("negative"), std::string::npos);
 }

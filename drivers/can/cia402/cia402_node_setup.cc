@@ -2,7 +2,7 @@
 #include "drivers/can/cia402/cia402_node.h"
 
 #include "base/input_error.h"
-#include "control/units.h"
+#include "base/durations.h"
 #include "drivers/can/canopen/sdo_client.h"
 #include "drivers/can/cia402/cia402_setup.h"
 

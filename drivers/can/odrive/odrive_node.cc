@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
-#include "control/units.h"
+#include "base/durations.h"
 #include "drivers/can/can_detail.h"
 #include "drivers/can/odrive/odrive_setup.h"
 

@@ -1,4 +1,4 @@
-#include "design/csv.h"
+#include "base/csv.h"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ TEST(Csv, ReadsCommentsHeaderAndNumbers) {
 }
 
 TEST(Csv, NamesFileAndLineOfEveryDefect) {
-  EXPECT_NE(message_of("a,b\n1,x\n").find("file.csv, line 2, b"), std::string::npos);
-  EXPECT_NE(message_of("a,b\n1\n").find("line 2"), std::string::npos);
+  EXPECT_NE(message_of("a,b\n1,x\n").find("file.csv:2: b = \"x\""), std::string::npos);
+  EXPECT_NE(message_of("a,b\n1\n").find("file.csv:2:"), std::string::npos);
   EXPECT_NE(message_of("a,b\n1,2,3\n").find("3 fields"), std::string::npos);
   EXPECT_NE(message_of("a,a\n1,2\n").find("occurs twice"), std::string::npos);
   for (const char* const bad : {"nan", "inf", "1e999", "1 2", "", "0x10", "1,"}) {

@@ -1,0 +1,45 @@
+#include "base/nearest_word.h"
+
+#include <algorithm>
+
+namespace strainwave {
+
+namespace {
+
+/// Letters to insert, delete or replace.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+bool is_without_unit(std::string_view shorter, std::string_view longer) {
+  return longer.size() > shorter.size() && longer.starts_with(shorter) && longer[shorter.size()] == '_';
+}
+
+}  // namespace
+
+const std::string* nearest_word(std::string_view typed, const std::vector<std::string>& known) {
+  const std::string* nearest = nullptr;
+  std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
+  for (const std::string& word : known) {
+    // A forgotten unit is the likeliest slip.
+    if (!typed.empty() && (is_without_unit(typed, word) || is_without_unit(word, typed))) return &word;
+    const std::size_t distance = edit_distance(typed, word);
+    if (distance >= least || distance >= std::max(typed.size(), word.size())) continue;
+    least = distance;
+    nearest = &word;
+  }
+  return nearest;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,14 @@
+// Which of the words that are allowed did somebody mean? Not real-time.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strainwave {
+
+/// The word of `known` that `typed` most likely was to be: the same without its unit ("speed" for "speed_rad_s"), or few slips
+/// of the pen away (one for three letters, two at least). Null when none is.
+const std::string* nearest_word(std::string_view typed, const std::vector<std::string>& known);
+
+}  // namespace strainwave

@@ -1,0 +1,39 @@
+#include "base/gnuplot.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "base/input_error.h"
+
+namespace strainwave {
+namespace {
+
+std::string refusal(const std::string& script) {
+  try {
+    run_gnuplot(script);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Gnuplot, SaysWhatGnuplotSaid) {
+  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
+  EXPECT_EQ(refusal("x = 1\n"), "");
+  EXPECT_NE(refusal("plot nonsense(\n").find("nonsense"), std::string::npos);
+}
+
+TEST(Gnuplot, NamesThePackageWhenThereIsNone) {
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", "/nonexistent", 1);
+  const std::string said = refusal("x = 1\n");
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NE(said.find("gnuplot-nox"), std::string::npos) << said;
+}
+
+TEST(Gnuplot, TakesNoTextForACommand) {
+  EXPECT_EQ(gnuplot_quoted("it's `x` \\ \n\x1b[2J"), "'it''s `x` \\ [2J'");
+}
+
+}  // namespace
+}  // namespace strainwave
