@@ -47,7 +47,7 @@ std::map<std::string, Fields> sections_of(JointPlantConfig& c) {
 JointPlantConfig base_plant(TomlSection& file) {
   std::vector<std::string> names;
   for (const Setting setting : kSettings) names.emplace_back(name(setting));
-  const std::string base = file.choice_or("base", name(Setting::kRealistic), names);
+  const std::string base = file.choice_or("base", std::string(name(Setting::kRealistic)), names);
   const auto found = std::find(names.begin(), names.end(), base);
   return setting_plant(kSettings[static_cast<std::size_t>(found - names.begin())]);
 }
