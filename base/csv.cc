@@ -67,7 +67,8 @@ std::size_t CsvRows<Field>::column(const std::string& name) const {
 template <typename Field>
 void CsvRows<Field>::require_columns(const std::vector<std::string>& names) const {
   if (columns != names)
-    throw InputError(source, "header", joined(columns), "must be '" + joined(names) + "'");
+    throw InputError(source + ":" + std::to_string(header_line), "header", joined(columns),
+                     "must be '" + joined(names) + "'");
 }
 
 template struct CsvRows<std::string>;
@@ -87,6 +88,7 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
       if (std::set<std::string>(fields.begin(), fields.end()).size() != fields.size())
         throw InputError(where, "header", std::string(line), "a column name occurs twice");
       table.columns = std::move(fields);
+      table.header_line = number;
       continue;
     }
     if (fields.size() != table.columns.size())
@@ -102,7 +104,7 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
 
 CsvTable parse_csv(std::string_view text, const std::string& source) {
   CsvText read = parse_csv_text(text, source);
-  CsvTable table{source, std::move(read.columns), {}, std::move(read.line_numbers)};
+  CsvTable table{source, std::move(read.columns), read.header_line, {}, std::move(read.line_numbers)};
   for (const std::vector<std::string>& fields : read.rows) {
     std::vector<double>& row = table.rows.emplace_back();
     const std::string where = table.place(table.rows.size() - 1);

@@ -13,6 +13,7 @@ template <typename Field>
 struct CsvRows {
   std::string source;  ///< named in messages
   std::vector<std::string> columns;
+  int header_line = 0;
   std::vector<std::vector<Field>> rows;  ///< each as long as `columns`
   std::vector<int> line_numbers;         ///< of each row in the file, from 1
 

@@ -40,6 +40,20 @@ TEST(Csv, RefusesFilesWithoutData) {
   EXPECT_NE(message_of("a,b\n"), "");
 }
 
+TEST(Csv, AnotherHeaderIsNamedWithItsLine) {
+  try {
+    parse_csv("# note\na,b\n1,2\n", "file.csv").require_columns({"a", "c"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "file.csv:2: header = a,b: must be 'a,c'");
+  }
+  EXPECT_NO_THROW(parse_csv("\xEF\xBB\xBF"
+                            "a,b\n1,2\n",
+                            "file.csv")
+                      .require_columns({"a", "b"}))
+      << "a byte order mark";
+}
+
 TEST(Csv, AMissingColumnIsNamed) {
   EXPECT_THROW(parse_csv("a\n1\n", "file.csv").column("b"), InputError);
 }

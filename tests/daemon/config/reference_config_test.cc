@@ -26,7 +26,7 @@ std::set<std::string> keys_in_code() {
   const std::regex asks(
       R"re(\b(?:number|number_or|integer|integer_or|boolean_or|text|text_or|choice|choice_or|numbers|section|section_or_empty|sections|read_name)\(\s*(?:\w+,\s*)?"([A-Za-z0-9_]+)")re");
   std::set<std::string> keys;
-  for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/daemon")) {
+  for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/daemon/config")) {
     const std::string name = entry.path().filename().string();
     if (name.rfind("config", 0) != 0 || entry.path().extension() != ".cc") continue;
     const std::string text = read(entry.path());

@@ -72,7 +72,7 @@ TEST(TemperatureProfile, NamesTheFileAndLineOfABadRecord) {
   EXPECT_NE(refused_at("time_s,temperature_C\n0,20\n# pause\n0,21\n", ":4:").find("greater"),
             std::string::npos);
   EXPECT_NE(refused_at("time_s,temperature_C\n0,-300\n", ":2:").find("-273.15"), std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n", ": has no rows").find("at least one row"),
+  EXPECT_NE(refused_at("time_s,temperature_C\n", ": has no data").find("at least one row"),
             std::string::npos);
   EXPECT_NE(refusal("csv:/nonexistent/profile.csv").find("cannot be read"), std::string::npos);
 }
