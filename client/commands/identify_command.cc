@@ -9,7 +9,7 @@
 #include "client/commands/identify_plan.h"
 #include "client/link/event_log_writer.h"
 #include "client/link/exit_status.h"
-#include "client/link/limits_listener.h"
+#include "client/link/latest_messages.h"
 
 namespace strainwave {
 
@@ -84,6 +84,23 @@ class Identification {
   std::int64_t session_id_;
 };
 
+/// The limits of a joint, from the daemon whose states are heard.
+limits_v1 wait_for_limits(Client& client, const std::string& joint) {
+  const LatestMessages<Latest<limits_v1>> limits(client.connection());
+  const std::string& prefix = client.options().prefix;
+  const std::int64_t session_id = client.wait_for_joint(joint).state.session_id;
+  const auto heard = [&] {
+    const auto* latest = limits.find(prefix, joint);
+    return latest != nullptr && latest->message.session_id == session_id;
+  };
+  if (!client.wait_until(heard, Deadline(client.options().timeout_s)))
+    throw ClientError(
+        ExitStatus::kNoAnswer,
+        fmt::format("no limits on {} in {} s: they come once a second from a daemon of this version",
+                    channel(prefix, joint, channel_kind::kLimits), client.options().timeout_s));
+  return limits.find(prefix, joint)->message;
+}
+
 void require_ready(const JointView& view, const std::string& joint) {
   const auto mode = static_cast<Mode>(view.state.mode);
   if (mode != Mode::kHolding)
@@ -108,7 +125,7 @@ void wait_for_limits_in(Client& client, const EventLogWriter& log, const std::st
 void identify(Client& client, const Output& output, const IdentifyArguments& arguments) {
   const std::string& joint = arguments.joint;
   const JointView& view = client.wait_for_joint(joint);
-  const limits_v1 limits = LimitsListener(client.connection()).wait_for(client, joint);
+  const limits_v1 limits = wait_for_limits(client, joint);
   const IdentifyPlan plan = plan_identification(arguments, limits, view.state.joint_position_rad);
   output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_C, to_text(plan));
   output.stream.flush();

@@ -186,9 +186,8 @@ void move(Client& client, const Output& output, const MoveArguments& arguments) 
                                   "hold {}",
                                   joint, position_rad, joint));
   }
-  const state_v1& state = client.find(joint)->state;
   output.stream << fmt::format("{}: arrived at {} rad, error {:.2e} rad\n", joint, position_rad,
-                               state.joint_position_rad - state.setpoint_position_rad);
+                               tracking_error_rad(*client.find(joint)));
 }
 
 }  // namespace strainwave

@@ -1,35 +1,13 @@
 // timing: the daemon's own account of its loop.
 #include <fmt/format.h>
 
-#include <optional>
-#include <strainwave/timing_v1.hpp>
-
 #include "client/commands/commands.h"
 #include "client/link/exit_status.h"
+#include "client/link/latest_messages.h"
 
 namespace strainwave {
 
 namespace {
-
-/// Keeps the first timing message of one daemon.
-class TimingListener {
- public:
-  TimingListener(Connection& connection, const std::string& prefix)
-      : subscription_(connection.subscribe(channel_pattern_of(prefix), &TimingListener::on_timing, this)) {}
-  const std::optional<timing_v1>& timing() const noexcept { return timing_; }
-
- private:
-  /// LCM takes a regular expression, where a dot means any character.
-  static std::string channel_pattern_of(const std::string& prefix) {
-    return prefix + "\\." + std::string(channel_kind::kTiming);
-  }
-  void on_timing(const lcm::ReceiveBuffer* buffer, const std::string&) {
-    if (!timing_) timing_ = decode_exactly<timing_v1>(payload(*buffer));
-  }
-
-  std::optional<timing_v1> timing_;
-  Subscription subscription_;
-};
 
 std::string describe(const timing_v1& timing) {
   std::string text = fmt::format(
@@ -58,15 +36,15 @@ std::string describe(const timing_v1& timing) {
 
 void show_timing(Client& client, const Output& output) {
   const std::string& prefix = client.options().prefix;
-  const TimingListener listener(client.connection(), prefix);
-  if (!client.wait_until([&] { return listener.timing().has_value(); },
+  const LatestMessages<Latest<timing_v1>> timings(client.connection());
+  if (!client.wait_until([&] { return timings.find(prefix) != nullptr; },
                          Deadline(client.options().timeout_s))) {
     throw ClientError(
         ExitStatus::kNoAnswer,
         fmt::format("no timing message on {} in {} s: it comes once a second while strainwaved runs",
                     timing_channel(prefix), client.options().timeout_s));
   }
-  output.stream << describe(*listener.timing());
+  output.stream << describe(timings.find(prefix)->message);
 }
 
 }  // namespace strainwave

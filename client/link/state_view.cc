@@ -1,22 +1,37 @@
 #include "client/link/state_view.h"
 
-#include "lcmtypes/channels.h"
-#include "lcmtypes/wire.h"
+#include "lcmtypes/cycle_fields.h"
 
 namespace strainwave {
 
-StateView::StateView(Connection& connection)
-    : subscription_(
-          connection.subscribe(channel_pattern("[^.]+", channel_kind::kState), &StateView::on_state, this)) {}
+void JointView::take(const state_v1& latest) {
+  if (messages > 0 && latest.session_id != state.session_id) {
+    two_daemons = two_daemons || latest.session_id == previous_session;
+    previous_session = state.session_id;
+  }
+  if (messages == 0 || latest.session_id != state.session_id) {
+    first_cycle = latest.cycle;
+    first_utime = latest.utime;
+  }
+  state = latest;
+  received = now();
+  ++messages;
+}
 
-const JointView* StateView::find(const std::string& prefix, const std::string& joint) const {
-  const auto found = joints_.find({prefix, joint});
-  return found == joints_.end() ? nullptr : &found->second;
+double JointView::period_s() const noexcept {
+  // As doubles: what a network sends may overflow an integer.
+  const double cycles = static_cast<double>(state.cycle) - static_cast<double>(first_cycle);
+  const double duration_s = 1e-6 * (static_cast<double>(state.utime) - static_cast<double>(first_utime));
+  return cycles > 0.0 && duration_s > 0.0 ? duration_s / cycles : 0.0;
+}
+
+double tracking_error_rad(const JointView& view) noexcept {
+  return tracking_error_rad(view.state, view.period_s());
 }
 
 std::vector<std::string> StateView::joints(const std::string& prefix) const {
   std::vector<std::string> names;
-  for (const auto& [name, view] : joints_) {
+  for (const auto& [name, view] : latest_.all()) {
     if (name.first == prefix) names.push_back(name.second);
   }
   return names;
@@ -24,31 +39,10 @@ std::vector<std::string> StateView::joints(const std::string& prefix) const {
 
 std::vector<std::string> StateView::prefixes() const {
   std::vector<std::string> names;
-  for (const auto& [name, view] : joints_) {
+  for (const auto& [name, view] : latest_.all()) {
     if (names.empty() || names.back() != name.first) names.push_back(name.first);
   }
   return names;
-}
-
-void StateView::accept(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  const auto parts = parse_channel(channel);
-  if (!parts || parts->kind != channel_kind::kState) return;
-  const auto state = decode_exactly<state_v1>(bytes);
-  if (!state) return;
-  const std::pair name(parts->prefix, parts->joint);
-  if (joints_.size() >= kMaxJoints && !joints_.contains(name)) return;
-  JointView& view = joints_[name];
-  if (view.messages > 0 && state->session_id != view.state.session_id) {
-    view.two_daemons = view.two_daemons || state->session_id == view.previous_session;
-    view.previous_session = view.state.session_id;
-  }
-  view.state = *state;
-  view.received = now();
-  ++view.messages;
-}
-
-void StateView::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  accept(channel, payload(*buffer));
 }
 
 }  // namespace strainwave

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/csv.h"
 #include "base/gnuplot.h"
 #include "base/input_error.h"
 #include "lcmtypes/vocabulary.h"
@@ -16,9 +17,10 @@ namespace strainwave {
 namespace {
 
 constexpr std::string_view kFirstLine = "# strainwave-flight-record 1";
-constexpr std::array<std::string_view, 8> kNeeded{"time_s",
+constexpr std::array<std::string_view, 9> kNeeded{"time_s",
                                                   "mode",
                                                   "setpoint_position_rad",
+                                                  "setpoint_velocity_rad_s",
                                                   "joint_position_rad",
                                                   "torque_commanded_Nm",
                                                   "torque_applied_Nm",
@@ -50,11 +52,25 @@ set autoscale xfix
 set arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor rgb '#c00000' linewidth 1.4 dashtype 2 front
 )";
 
+/// Modes have the numbers from 0 on; the first one without a name ends them.
+int mode_count() {
+  int count = 0;
+  while (to_text(static_cast<Mode>(count)) != to_text(static_cast<Mode>(-1))) ++count;
+  return count;
+}
+
 std::string mode_names() {
   std::string tics;
-  for (int mode = 0; mode <= static_cast<int>(Mode::kHoming); ++mode)
+  for (int mode = 0; mode < mode_count(); ++mode)
     tics += fmt::format("{}'{}' {}", mode == 0 ? "" : ", ", to_text(static_cast<Mode>(mode)), mode);
   return tics;
+}
+
+double period_of(const FlightRecordInfo& info, const std::filesystem::path& file) {
+  const auto period = info.head.find("period_s");
+  if (period == info.head.end())
+    throw InputError(file.string() + " does not say its period_s: it is incomplete");
+  return parse_number(period->second, file.string(), "period_s");
 }
 
 }  // namespace
@@ -73,6 +89,7 @@ FlightRecordInfo read_flight_record(const std::filesystem::path& file) {
   for (const std::string_view name : kNeeded)
     if (!info.columns.contains(std::string(name)))
       throw InputError(file.string() + " has no column " + std::string(name) + ": it is incomplete");
+  info.period_s = period_of(info, file);
   return info;
 }
 
@@ -97,19 +114,21 @@ std::string plot_script(const FlightRecordInfo& info, const std::filesystem::pat
   script += "set ylabel 'position in rad'\nplot " + curve("setpoint_position_rad", "setpoint", 2) + ", " +
             curve("joint_position_rad", "measured", 1) + "\n";
   script += fmt::format(
-      "set ylabel 'error in rad'\nplot FILE using {}:(${} - ${}) with lines linestyle 1 title 'setpoint - "
-      "measured'\n",
-      column("time_s"), column("setpoint_position_rad"), column("joint_position_rad"));
+      "set ylabel 'error in rad'\nplot FILE using {}:(${} - {} * ${} - ${}) with lines linestyle 1 title "
+      "'setpoint - "
+      "measured, at one instant'\n",
+      column("time_s"), column("setpoint_position_rad"), info.period_s, column("setpoint_velocity_rad_s"),
+      column("joint_position_rad"));
   script += "set ylabel 'torque in N.m'\nplot " + curve("torque_commanded_Nm", "commanded", 2) + ", " +
             curve("torque_applied_Nm", "applied", 1) + "\n";
   script += "set ylabel 'temperature in degC'\nplot " + curve("temperature_measured_C", "measured", 2) +
             ", " + curve("temperature_C", "used", 1) + "\n";
   script += fmt::format(
-      "set ylabel 'mode'\nset ytics ({})\nset yrange [-0.5:5.5]\nset xlabel 'time after the fault in s'\n"
+      "set ylabel 'mode'\nset ytics ({})\nset yrange [-0.5:{}]\nset xlabel 'time after the fault in s'\n"
       "plot FILE using {}:{} with steps linestyle 1 title 'mode', NaN with lines linecolor rgb '#c00000' "
       "linewidth 1.4 "
       "dashtype 2 title 'fault'\n",
-      mode_names(), column("time_s"), column("mode"));
+      mode_names(), mode_count() - 0.5, column("time_s"), column("mode"));
   return script + "unset multiplot\n";
 }
 

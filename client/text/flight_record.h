@@ -12,6 +12,7 @@ namespace strainwave {
 struct FlightRecordInfo {
   std::map<std::string, std::string> head;  ///< "joint", "fault", "fault_utc", ...
   std::map<std::string, int> columns;       ///< 1 is the first, as gnuplot counts
+  double period_s = 0.0;
 };
 
 /// Reads the head. Throws InputError when the file cannot be read or is no flight record of format 1 with the

@@ -1,9 +1,11 @@
 #include "client/watch/order_desk.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "client/text/text.h"
 
@@ -11,10 +13,16 @@ namespace strainwave {
 
 namespace {
 
+constexpr std::size_t kRefusalsKept = 8;
+
 command_v1 command(Action action) {
   command_v1 message{};
   message.action = static_cast<std::int32_t>(action);
   return message;
+}
+
+std::string full_name(const OrderDesk::Name& joint) {
+  return joint.first + "." + joint.second;
 }
 
 }  // namespace
@@ -26,25 +34,45 @@ OrderDesk::OrderDesk(Connection& connection, const std::filesystem::path& key_fi
       acknowledgements_(
           connection.subscribe(channel_pattern("[^.]+", channel_kind::kAck), &OrderDesk::on_ack, this)) {}
 
-void OrderDesk::stop(const std::string& prefix, const std::string& joint) {
-  post(prefix, joint,
-       sender_.seal_unsigned(channel(prefix, joint, channel_kind::kCommand), command(Action::kDisable), 0),
-       Action::kDisable);
+void OrderDesk::stop(const std::vector<Name>& joints) {
+  if (joints.empty()) return;
+  const auto batch = std::make_shared<Batch>(
+      Batch{std::string(to_text(Action::kDisable)),
+            joints.size() == 1 ? full_name(joints.front()) : fmt::format("{} joints", joints.size()),
+            joints.size(),
+            0,
+            {}});
+  for (const Name& joint : joints)
+    post(joint,
+         sender_.seal_unsigned(channel(joint.first, joint.second, channel_kind::kCommand),
+                               command(Action::kDisable), 0),
+         batch);
+  report(*batch);
 }
 
-void OrderDesk::order(const std::string& prefix, const std::string& joint, std::int64_t session_id,
-                      Action action) {
-  post(prefix, joint,
-       sender_.seal(channel(prefix, joint, channel_kind::kCommand), command(action), session_id), action);
+template <typename Message>
+void OrderDesk::post(const Name& joint, std::string_view kind, const Message& message,
+                     std::int64_t session_id, std::string what) {
+  const auto batch = std::make_shared<Batch>(Batch{std::move(what), full_name(joint), 1, 0, {}});
+  post(joint, sender_.seal(channel(joint.first, joint.second, kind), message, session_id), batch);
+  report(*batch);
 }
 
-void OrderDesk::post(const std::string& prefix, const std::string& joint, SealedMessage order,
-                     Action action) {
-  Waiting waiting{std::move(order), channel(prefix, joint, channel_kind::kAck),
-                  fmt::format("{}.{}: {}", prefix, joint, to_text(action)), now(), 0};
-  transmit(waiting);
-  say(waiting.what + " sent", false);
-  waiting_.push_back(std::move(waiting));
+void OrderDesk::order(const Name& joint, std::int64_t session_id, Action action) {
+  post(joint, channel_kind::kCommand, command(action), session_id, std::string(to_text(action)));
+}
+
+void OrderDesk::move(const Name& joint, std::int64_t session_id, double position_rad) {
+  setpoint_v1 message{};
+  message.position_rad = position_rad;
+  message.acknowledge = 1;
+  post(joint, channel_kind::kSetpoint, message, session_id, fmt::format("move to {:.6g} rad", position_rad));
+}
+
+void OrderDesk::post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch) {
+  waiting_.push_back({std::move(order), channel(joint.first, joint.second, channel_kind::kAck),
+                      full_name(joint), std::move(batch), now(), 0});
+  transmit(waiting_.back());
 }
 
 void OrderDesk::transmit(Waiting& waiting) {
@@ -54,21 +82,32 @@ void OrderDesk::transmit(Waiting& waiting) {
 }
 
 void OrderDesk::tick() {
-  for (Waiting& waiting : waiting_) {
-    if (seconds_between(waiting.sent, now()) < repeat_s_) continue;
-    if (waiting.transmissions <= Client::kRepetitions)
+  std::erase_if(waiting_, [&](Waiting& waiting) {
+    if (seconds_between(waiting.sent, now()) < repeat_s_) return false;
+    if (waiting.transmissions <= Client::kRepetitions) {
       transmit(waiting);
-    else
-      say(waiting.what + ": no answer", true);
-  }
-  std::erase_if(waiting_, [&](const Waiting& waiting) {
-    return waiting.transmissions > Client::kRepetitions && seconds_between(waiting.sent, now()) >= repeat_s_;
+      return false;
+    }
+    fail(waiting, "no answer");
+    return true;
   });
 }
 
-void OrderDesk::say(const std::string& message, bool alarm) {
-  message_ = message;
-  alarm_ = alarm;
+void OrderDesk::fail(const Waiting& waiting, const std::string& why) {
+  refusals_.push_front({now(), fmt::format("{}: {}: {}", waiting.name, waiting.batch->what, why)});
+  if (refusals_.size() > kRefusalsKept) refusals_.pop_back();
+  waiting.batch->failures.push_back(waiting.batch->joints == 1 ? why : waiting.name + ": " + why);
+  report(*waiting.batch);
+}
+
+void OrderDesk::report(const Batch& batch) {
+  alarm_ = !batch.failures.empty();
+  message_ = batch.whose + ": " + batch.what;
+  if (batch.accepted == 0 && batch.failures.empty()) message_ += " sent";
+  if (batch.accepted > 0)
+    message_ += batch.accepted == batch.joints ? " accepted" : fmt::format(", {} accepted", batch.accepted);
+  if (alarm_)
+    message_ += fmt::format("{}{}", batch.joints == 1 ? ": " : "; ", fmt::join(batch.failures, "; "));
 }
 
 void OrderDesk::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -78,14 +117,15 @@ void OrderDesk::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& chan
     return waiting.ack_channel == channel && waiting.order.sequence == ack->sequence;
   });
   if (found == waiting_.end()) return;
-  const std::string text = printable(std::string(std::begin(ack->text), std::end(ack->text)));
-  if (ack->accepted == 1)
-    say(found->what + " accepted", false);
-  else
-    say(fmt::format("{} refused: {}{}{}", found->what, to_text(static_cast<Reason>(ack->reason)),
-                    text.empty() ? "" : ": ", text),
-        true);
+  const Waiting waiting = std::move(*found);
   waiting_.erase(found);
+  if (ack->accepted == 1) {
+    ++waiting.batch->accepted;
+    return report(*waiting.batch);
+  }
+  const std::string text = printable(std::string(std::begin(ack->text), std::end(ack->text)));
+  fail(waiting, fmt::format("refused, {}{}{}", to_text(static_cast<Reason>(ack->reason)),
+                            text.empty() ? "" : ": ", text));
 }
 
 }  // namespace strainwave

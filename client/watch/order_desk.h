@@ -2,8 +2,11 @@
 // on. Not real-time.
 #pragma once
 
+#include <deque>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/link/client.h"
@@ -12,13 +15,17 @@ namespace strainwave {
 
 class OrderDesk {
  public:
+  using Name = std::pair<std::string, std::string>;  ///< prefix, joint
+
   /// `timeout_s`: how long an order is repeated before its silence is reported.
   OrderDesk(Connection& connection, const std::filesystem::path& key_file, double timeout_s);
 
-  /// A disable: unsigned and for any session, so that nothing can be wrong with it.
-  void stop(const std::string& prefix, const std::string& joint);
-  /// Signed. Throws InputError when the key cannot be used.
-  void order(const std::string& prefix, const std::string& joint, std::int64_t session_id, Action action);
+  /// A disable of each: unsigned and for any session, so that nothing can be wrong with it. Of several, the message counts the
+  /// answers and names who did not give one.
+  void stop(const std::vector<Name>& joints);
+  /// Signed if there is a key. Throws InputError when the key cannot be used.
+  void order(const Name& joint, std::int64_t session_id, Action action);
+  void move(const Name& joint, std::int64_t session_id, double position_rad);
 
   /// Repeats what was not answered. Call often.
   void tick();
@@ -27,17 +34,37 @@ class OrderDesk {
   const std::string& message() const noexcept { return message_; }
   bool alarm() const noexcept { return alarm_; }
 
+  struct Refusal {
+    Instant when;
+    std::string text;
+  };
+  /// Refusals and silences, the latest first, a few.
+  const std::deque<Refusal>& refusals() const noexcept { return refusals_; }
+
  private:
+  /// What was asked for at once, of one or several joints.
+  struct Batch {
+    std::string what;
+    std::string whose;  ///< the joint's name, or how many
+    std::size_t joints = 0;
+    std::size_t accepted = 0;
+    std::vector<std::string> failures;
+  };
   struct Waiting {
     SealedMessage order;
     std::string ack_channel;
-    std::string what;
+    std::string name;
+    std::shared_ptr<Batch> batch;
     Instant sent;
     int transmissions = 0;
   };
-  void post(const std::string& prefix, const std::string& joint, SealedMessage order, Action action);
+  template <typename Message>
+  void post(const Name& joint, std::string_view kind, const Message& message, std::int64_t session_id,
+            std::string what);
+  void post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch);
   void transmit(Waiting& waiting);
-  void say(const std::string& message, bool alarm);
+  void fail(const Waiting& waiting, const std::string& why);
+  void report(const Batch& batch);
   void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
 
   Connection& connection_;
@@ -46,6 +73,7 @@ class OrderDesk {
   std::vector<Waiting> waiting_;
   std::string message_;
   bool alarm_ = false;
+  std::deque<Refusal> refusals_;
   Subscription acknowledgements_;
 };
 

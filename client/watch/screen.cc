@@ -14,24 +14,17 @@ const Cell& Screen::at(int row, int column) const {
                    static_cast<std::size_t>(column));
 }
 
-int Screen::put(int row, int column, std::string_view text, Style style) {
+int Screen::put(int row, int column, std::string_view text, Style style, bool marked) {
   for (std::size_t i = 0; i < text.size(); ++column) {
     std::size_t length = 1;
     while (i + length < text.size() && (static_cast<unsigned char>(text[i + length]) & 0xC0U) == 0x80U)
       ++length;
     if (row >= 0 && row < rows_ && column >= 0 && column < columns_)
       cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-             static_cast<std::size_t>(column)] = {std::string(text.substr(i, length)), style};
+             static_cast<std::size_t>(column)] = {std::string(text.substr(i, length)), style, marked};
     i += length;
   }
   return column;
-}
-
-void Screen::paint(int row, Style style) {
-  for (int column = 0; row >= 0 && row < rows_ && column < columns_; ++column)
-    cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column)]
-        .style = style;
 }
 
 std::string Screen::text(int row) const {

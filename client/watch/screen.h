@@ -8,11 +8,12 @@
 
 namespace strainwave {
 
-enum class Style { kPlain, kDim, kTitle, kGood, kWarning, kAlarm, kSelected };
+enum class Style { kPlain, kDim, kTitle, kGood, kWarning, kAlarm };
 
 struct Cell {
   std::string glyph = " ";  ///< one character in UTF-8, one column wide
   Style style = Style::kPlain;
+  bool marked = false;  ///< of what is selected: reversed, in its own colours
   bool operator==(const Cell&) const = default;
 };
 
@@ -26,9 +27,7 @@ class Screen {
   const Cell& at(int row, int column) const;
 
   /// Writes `text` (UTF-8) from a place on; what lies outside is left out. Returns the column behind it.
-  int put(int row, int column, std::string_view text, Style style = Style::kPlain);
-  /// Gives a whole row a style.
-  void paint(int row, Style style);
+  int put(int row, int column, std::string_view text, Style style = Style::kPlain, bool marked = false);
   /// A row as text, without the blanks at its end.
   std::string text(int row) const;
   bool operator==(const Screen&) const = default;

@@ -3,8 +3,10 @@
 #include <curses.h>
 #include <langinfo.h>
 
+#include <array>
 #include <clocale>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 #include "client/link/exit_status.h"
@@ -15,28 +17,29 @@ namespace {
 
 SCREEN* opened = nullptr;
 
-/// Attributes stay useful on a terminal without colours.
-attr_t attributes(Style style) {
-  const auto colour = [](short pair) {
-    return has_colors() ? static_cast<attr_t>(COLOR_PAIR(pair)) : attr_t{A_NORMAL};
-  };
-  switch (style) {
-    case Style::kPlain:
-      return A_NORMAL;
-    case Style::kDim:
-      return A_DIM;
-    case Style::kTitle:
-      return A_BOLD;
-    case Style::kGood:
-      return colour(1);
-    case Style::kWarning:
-      return colour(2) | A_BOLD;
-    case Style::kAlarm:
-      return colour(3) | A_BOLD;
-    case Style::kSelected:
-      return A_REVERSE;
-  }
-  return A_NORMAL;
+constexpr std::array kStyles{Style::kPlain, Style::kDim,     Style::kTitle,
+                             Style::kGood,  Style::kWarning, Style::kAlarm};
+
+/// What the terminal has; NO_COLOR is how its user says none (no-color.org).
+Colours available_colours() {
+  const char* const refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): one thread
+  if (!has_colors() || (refused != nullptr && *refused != '\0')) return Colours::kNone;
+  return COLORS >= 256 ? Colours::kMany : Colours::kEight;
+}
+
+short pair_of(Style style) {
+  return static_cast<short>(1 + static_cast<int>(style));
+}
+
+attr_t attributes(const Cell& cell, Colours colours) {
+  const Paint paint = paint_of(cell.style, colours);
+  attr_t result = A_NORMAL;
+  if (paint.bold) result |= A_BOLD;
+  if (paint.dim) result |= A_DIM;
+  if (paint.underlined) result |= A_UNDERLINE;
+  if (cell.marked) result |= A_REVERSE;
+  if (colours != Colours::kNone) result |= static_cast<attr_t>(COLOR_PAIR(pair_of(cell.style)));
+  return result;
 }
 
 }  // namespace
@@ -58,9 +61,12 @@ Terminal::Terminal() {
   if (has_colors()) {
     ::start_color();
     ::use_default_colors();
-    ::init_pair(1, COLOR_GREEN, -1);
-    ::init_pair(2, COLOR_YELLOW, -1);
-    ::init_pair(3, COLOR_RED, -1);
+  }
+  colours_ = available_colours();
+  for (const Style style : kStyles) {
+    const Paint paint = paint_of(style, colours_);
+    if (colours_ != Colours::kNone)
+      ::init_pair(pair_of(style), static_cast<short>(paint.foreground), static_cast<short>(paint.background));
   }
 }
 
@@ -82,7 +88,7 @@ void Terminal::show(const Screen& screen) {
     ::move(row, 0);
     for (int column = 0; column < screen.columns(); ++column) {
       const Cell& cell = screen.at(row, column);
-      ::attrset(static_cast<int>(attributes(cell.style)));
+      ::attrset(static_cast<int>(attributes(cell, colours_)));
       ::addstr(cell.glyph.c_str());
     }
   }

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "client/watch/palette.h"
 #include "client/watch/screen.h"
 
 namespace strainwave {
@@ -31,6 +32,7 @@ class Terminal {
 
  private:
   bool unicode_ = false;
+  Colours colours_ = Colours::kNone;
 };
 
 }  // namespace strainwave

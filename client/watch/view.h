@@ -15,13 +15,20 @@
 
 namespace strainwave {
 
+/// Over time, the latest last.
+struct WatchHistory {
+  std::deque<double> position_rad;
+  std::deque<double> error_rad;
+  std::deque<double> torque_Nm;
+  std::deque<double> temperature_C;
+};
+
 struct WatchedJoint {
   std::string prefix;
   std::string joint;
   JointView view;
-  double age_s = 0.0;             ///< of the state
-  std::deque<double> errors_rad;  ///< |error| over time, the latest last
-  std::deque<double> torques_Nm;  ///< |applied torque| over time
+  double age_s = 0.0;  ///< of the state
+  WatchHistory history;
   std::optional<temperature_v1> temperature;
   std::optional<limits_v1> limits;
 };
@@ -32,20 +39,36 @@ struct WatchedDaemon {
   double age_s = 0.0;
 };
 
+/// What became of an order.
+struct WatchNotice {
+  std::string text;
+  double age_s = 0.0;
+};
+
 struct WatchModel {
   std::vector<WatchedDaemon> daemons;
   std::vector<WatchedJoint> joints;
-  int selected = 0;      ///< of `joints`
-  bool has_key = false;  ///< orders can be signed
-  bool unicode = true;   ///< the terminal shows more than ASCII
-  std::string message;   ///< the latest answer or refusal
+  int selected = 0;         ///< of `joints`
+  bool has_key = false;     ///< orders are signed
+  bool unicode = true;      ///< the terminal shows more than ASCII
+  bool help = false;        ///< the keys and their meaning instead of the joints
+  double interval_s = 0.2;  ///< between two points of a history
+  double jog_rad = 0.01;    ///< step of the jog keys
+  std::string message;      ///< the latest answer or refusal
   bool message_alarm = false;
+  std::vector<WatchNotice> refusals;  ///< of orders from here, the latest first
 };
 
 /// The whole screen. Columns that do not fit are left out, the most important ones stay; so do rows.
 Screen render(const WatchModel& model, int rows, int columns);
 
-/// `values` as bars, the latest last, scaled to the largest one; at most `width` of them.
-std::string sparkline(const std::deque<double>& values, int width, bool unicode);
+/// "elbow", or "SW.elbow" when there are several daemons.
+std::string name_of(const WatchModel& model, const WatchedJoint& joint);
+
+/// Alarm: it has faulted, is silent, or two daemons use its channels. Warning: a limit is in force.
+Style style_of(const WatchedJoint& joint);
+
+/// Where the temperature that schedules the gains comes from.
+std::string temperature_source(const WatchedJoint& joint);
 
 }  // namespace strainwave

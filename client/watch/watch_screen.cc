@@ -1,11 +1,11 @@
 #include "client/watch/watch_screen.h"
 
 #include <algorithm>
-#include <map>
+#include <array>
 
 #include "base/input_error.h"
 #include "client/link/exit_status.h"
-#include "client/link/limits_listener.h"
+#include "client/link/latest_messages.h"
 #include "client/watch/order_desk.h"
 #include "client/watch/terminal.h"
 #include "client/watch/view.h"
@@ -14,55 +14,25 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::size_t kHistory = 64;
-constexpr double kKeyDelay_s = 0.05;  // keys are looked for this often
+constexpr std::size_t kHistory = 512;  // two for each character of the widest terminal
+constexpr double kKeyDelay_s = 0.05;   // keys are looked for this often
 
-/// The messages besides states and limits that the view shows.
-class Listener {
- public:
-  explicit Listener(Connection& connection)
-      : timing_(connection.subscribe("[^.]+\\." + std::string(channel_kind::kTiming), &Listener::on_timing,
-                                     this)),
-        temperature_(connection.subscribe(channel_pattern("[^.]+", channel_kind::kTemperature),
-                                          &Listener::on_temperature, this)) {}
-  struct Timing {
-    timing_v1 message{};
-    Instant received;
-  };
-  std::map<std::string, Timing> timings;
-  std::map<std::pair<std::string, std::string>, temperature_v1> temperatures;
-
- private:
-  void on_timing(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    const auto parts = parse_channel(channel);
-    const auto message = decode_exactly<timing_v1>(payload(*buffer));
-    if (!parts || !message || (timings.size() >= StateView::kMaxJoints && !timings.contains(parts->prefix)))
-      return;
-    timings[parts->prefix] = {*message, now()};
-  }
-  void on_temperature(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    const auto parts = parse_channel(channel);
-    const auto message = decode_exactly<temperature_v1>(payload(*buffer));
-    if (!parts || !message) return;
-    const std::pair name(parts->prefix, parts->joint);
-    if (temperatures.size() < StateView::kMaxJoints || temperatures.contains(name))
-      temperatures[name] = *message;
-  }
-
-  Subscription timing_;
-  Subscription temperature_;
-};
+/// Steps of the jog keys, in rad.
+constexpr std::array kJogSteps_rad{0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01,
+                                   0.02,   0.05,   0.1,    0.2,   0.5,   1.0};
 
 class WatchScreen {
  public:
   WatchScreen(Client& client, const WatchArguments& arguments)
       : client_(client),
         arguments_(arguments),
-        listener_(client.connection()),
+        timings_(client.connection()),
+        temperatures_(client.connection()),
         limits_(client.connection()),
         desk_(client.connection(), client.options().key_file, client.options().timeout_s) {
     model_.has_key = !client.options().key_file.empty();
     model_.unicode = terminal_.unicode();
+    model_.interval_s = arguments.interval_s;
   }
 
   void run() {
@@ -77,6 +47,10 @@ class WatchScreen {
       }
       model_.message = desk_.message();
       model_.message_alarm = desk_.alarm();
+      model_.jog_rad = kJogSteps_rad.at(jog_);
+      model_.refusals.clear();
+      for (const OrderDesk::Refusal& refusal : desk_.refusals())
+        model_.refusals.push_back({refusal.text, seconds_between(refusal.when, now())});
       terminal_.show(render(model_, terminal_.rows(), terminal_.columns()));
       client_.wait_until([] { return false; }, Deadline(std::min(kKeyDelay_s, arguments_.interval_s)));
       while (const auto press = terminal_.read()) obey(*press);
@@ -104,9 +78,9 @@ class WatchScreen {
     model_.selected = again == joints.end() ? 0 : static_cast<int>(again - joints.begin());
     model_.joints = std::move(joints);
     model_.daemons.clear();
-    for (const auto& [prefix, timing] : listener_.timings) {
-      if (client_.options().all_prefixes || prefix == client_.options().prefix)
-        model_.daemons.push_back({prefix, timing.message, seconds_between(timing.received, now())});
+    for (const auto& [name, timing] : timings_.all()) {
+      if (client_.options().all_prefixes || name.first == client_.options().prefix)
+        model_.daemons.push_back({name.first, timing.message, seconds_between(timing.received, now())});
     }
   }
 
@@ -124,11 +98,13 @@ class WatchScreen {
     result.view = *client_.states().find(prefix, joint);
     result.age_s = seconds_between(result.view.received, now());
     const state_v1& state = result.view.state;
-    remember(result.errors_rad, std::abs(state.joint_position_rad - state.setpoint_position_rad));
-    remember(result.torques_Nm, std::abs(state.torque_applied_Nm));
-    const auto temperature = listener_.temperatures.find({prefix, joint});
-    if (temperature != listener_.temperatures.end()) result.temperature = temperature->second;
-    if (const limits_v1* limits = limits_.find(prefix, joint)) result.limits = *limits;
+    remember(result.history.error_rad, tracking_error_rad(result.view));
+    remember(result.history.torque_Nm, state.torque_applied_Nm);
+    remember(result.history.position_rad, state.joint_position_rad);
+    remember(result.history.temperature_C, state.temperature_C);
+    if (const auto* temperature = temperatures_.find(prefix, joint))
+      result.temperature = temperature->message;
+    if (const auto* limits = limits_.find(prefix, joint)) result.limits = limits->message;
     return result;
   }
 
@@ -150,36 +126,62 @@ class WatchScreen {
       case 'q':
         quit_ = true;
         return;
+      case '?':
+        model_.help = !model_.help;
+        return;
       case 's':
-        if (const WatchedJoint* joint = selected()) desk_.stop(joint->prefix, joint->joint);
+        if (const WatchedJoint* joint = selected()) desk_.stop({{joint->prefix, joint->joint}});
         return;
       case 'S':
-        for (const WatchedJoint& joint : model_.joints) desk_.stop(joint.prefix, joint.joint);
-        return;
+        return stop_all();
       case 'e':
         return order(Action::kEnable);
       case 'h':
         return order(Action::kHold);
       case 'c':
         return order(Action::kClearFault);
+      case ']':
+        return jog(1.0);
+      case '[':
+        return jog(-1.0);
+      case '+':
+        jog_ = std::min(jog_ + 1, kJogSteps_rad.size() - 1);
+        return;
+      case '-':
+        jog_ = jog_ > 0 ? jog_ - 1 : 0;
+        return;
       default:
         return;
     }
   }
 
+  void stop_all() {
+    std::vector<OrderDesk::Name> all;
+    for (const WatchedJoint& joint : model_.joints) all.emplace_back(joint.prefix, joint.joint);
+    desk_.stop(all);
+  }
+
   void order(Action action) {
-    const WatchedJoint* joint = selected();
-    if (joint == nullptr || !model_.has_key) return;
-    desk_.order(joint->prefix, joint->joint, joint->view.state.session_id, action);
+    if (const WatchedJoint* joint = selected())
+      desk_.order({joint->prefix, joint->joint}, joint->view.state.session_id, action);
+  }
+
+  /// From where the joint was sent last, so that several presses add up.
+  void jog(double direction) {
+    if (const WatchedJoint* joint = selected())
+      desk_.move({joint->prefix, joint->joint}, joint->view.state.session_id,
+                 joint->view.state.target_position_rad + direction * kJogSteps_rad.at(jog_));
   }
 
   Client& client_;
   const WatchArguments& arguments_;
   Terminal terminal_;
-  Listener listener_;
-  LimitsListener limits_;
+  LatestMessages<Latest<timing_v1>> timings_;
+  LatestMessages<Latest<temperature_v1>> temperatures_;
+  LatestMessages<Latest<limits_v1>> limits_;
   OrderDesk desk_;
   WatchModel model_;
+  std::size_t jog_ = 6;  ///< of kJogSteps_rad
   bool quit_ = false;
 };
 

@@ -5,41 +5,12 @@
 #include <ctime>
 #include <string_view>
 
+#include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
 
 namespace {
-
-struct Column {
-  std::string_view name;
-  std::string_view unit;
-};
-
-constexpr std::array kColumns{
-    Column{"cycle", "1"},
-    Column{"time_s", "s"},
-    Column{"mode", "1"},
-    Column{"fault", "1"},
-    Column{"notices", "1"},
-    Column{"drive_state", "1"},
-    Column{"reading_fresh", "1"},
-    Column{"setpoint_position_rad", "rad"},
-    Column{"setpoint_velocity_rad_s", "rad/s"},
-    Column{"target_position_rad", "rad"},
-    Column{"joint_position_rad", "rad"},
-    Column{"joint_velocity_rad_s", "rad/s"},
-    Column{"torque_commanded_Nm", "N.m"},
-    Column{"torque_applied_Nm", "N.m"},
-    Column{"torque_feedback_Nm", "N.m"},
-    Column{"torque_feedforward_Nm", "N.m"},
-    Column{"temperature_C", "degC"},
-    Column{"temperature_measured_C", "degC"},
-    Column{"temperature_status", "1"},
-    Column{"gains_in_use", "1"},
-    Column{"zero_velocity_weight", "1"},
-    Column{"table_id", "1"},
-};
 
 template <typename Number>
 void append_number(std::string& text, Number number) {
@@ -48,48 +19,17 @@ void append_number(std::string& text, Number number) {
   text.append(buffer.data(), end);
 }
 
-class Row {
- public:
-  explicit Row(std::string& text) : text_(text) {}
-  template <typename Number>
-  Row& add(Number number) {
-    if (!first_) text_ += ',';
-    first_ = false;
-    append_number(text_, number);
-    return *this;
-  }
-  void end() { text_ += '\n'; }
-
- private:
-  std::string& text_;
-  bool first_ = true;
-};
-
 void append_sample(std::string& text, const FlightSample& sample, std::int64_t fault_ns) {
-  Row(text)
-      .add(sample.cycle)
-      .add(static_cast<double>(sample.time_ns - fault_ns) * 1e-9)
-      .add(int{sample.mode})
-      .add(int{sample.fault})
-      .add(int{sample.notices})
-      .add(int{sample.drive_state})
-      .add(int{sample.reading_fresh})
-      .add(sample.setpoint_position_rad)
-      .add(sample.setpoint_velocity_rad_s)
-      .add(sample.target_position_rad)
-      .add(sample.joint_position_rad)
-      .add(sample.joint_velocity_rad_s)
-      .add(sample.torque_commanded_Nm)
-      .add(sample.torque_applied_Nm)
-      .add(sample.torque_feedback_Nm)
-      .add(sample.torque_feedforward_Nm)
-      .add(sample.temperature_C)
-      .add(sample.temperature_measured_C)
-      .add(int{sample.temperature_status})
-      .add(int{sample.gains_in_use})
-      .add(sample.zero_velocity_weight)
-      .add(sample.table_id)
-      .end();
+  append_number(text, static_cast<double>(sample.time_ns - fault_ns) * 1e-9);
+  visit_cycle_fields(sample, [&](const FieldName&, auto value) {
+    text += ',';
+    // A byte is a number here, not a character.
+    if constexpr (sizeof(value) == 1)
+      append_number(text, int{value});
+    else
+      append_number(text, value);
+  });
+  text += '\n';
 }
 
 // "2026-11-21T03:04:05Z"
@@ -133,12 +73,12 @@ std::string flight_record_text(const FlightRecordHeader& header, const FlightRec
   append_line(text, "period_s", period);
   append_line(text, "rows", std::to_string(recorder.size()));
   append_line(text, "lost_rows", std::to_string(recorder.lost()));
-  std::string units;
-  std::string names;
-  for (const Column& column : kColumns) {
-    units.append(units.empty() ? "" : ",").append(column.unit);
-    names.append(names.empty() ? "" : ",").append(column.name);
-  }
+  std::string units = "s";
+  std::string names = "time_s";
+  visit_cycle_fields(fault, [&](const FieldName& field, const auto&) {
+    units.append(",").append(field.unit);
+    names.append(",").append(field.name);
+  });
   append_line(text, "units", units);
   text.append(names).append("\n");
   for (std::size_t i = 0; i < recorder.size(); ++i) append_sample(text, recorder.sample(i), fault.time_ns);

@@ -21,10 +21,11 @@ constexpr const char* kHead =
     "# fault_cycle: 2\n# fault_utc: 2026-11-21T03:04:05Z\n# period_s: 0.001\n# rows: 3\n# lost_rows: 0\n# "
     "units: s,1\n";
 constexpr const char* kColumns =
-    "cycle,time_s,mode,fault,setpoint_position_rad,joint_position_rad,torque_commanded_Nm,torque_applied_Nm,"
+    "cycle,time_s,mode,fault,setpoint_position_rad,setpoint_velocity_rad_s,joint_position_rad,torque_"
+    "commanded_Nm,torque_applied_Nm,"
     "temperature_C,temperature_measured_C\n";
 constexpr const char* kRows =
-    "1,-0.001,3,0,0.1,0.1,1,1,20,20\n2,0,5,13,0.1,0.11,0,1,20,nan\n3,0.001,5,13,0.11,0.11,0,0,20,20\n";
+    "1,-0.001,6,0,0.1,0,0.1,1,1,20,20\n2,0,5,13,0.1,0,0.11,0,1,20,nan\n3,0.001,5,13,0.11,0,0.11,0,0,20,20\n";
 
 class FlightRecordPlot : public ::testing::Test {
  protected:
@@ -49,7 +50,8 @@ TEST_F(FlightRecordPlot, ReadsTheHeadAndNumbersTheColumns) {
   EXPECT_EQ(info.head.at("joint"), "elbow");
   EXPECT_EQ(info.head.at("fault"), "13 speed limit");
   EXPECT_EQ(info.columns.at("cycle"), 1);
-  EXPECT_EQ(info.columns.at("temperature_measured_C"), 10);
+  EXPECT_EQ(info.columns.at("temperature_measured_C"), 11);
+  EXPECT_EQ(info.period_s, 0.001);
 }
 
 TEST_F(FlightRecordPlot, RefusesWhatIsNoRecordAndSaysWhy) {
@@ -85,6 +87,19 @@ TEST_F(FlightRecordPlot, LetsNoNameInAFileBecomeAnInstruction) {
   EXPECT_NE(script.find("'x''; system(''false'') #[2J: fault"), std::string::npos) << script;
 }
 
+TEST_F(FlightRecordPlot, DrawsEveryModeInsideItsAxis) {
+  const FlightRecordInfo info = read_flight_record(file(std::string(kHead) + kColumns + kRows));
+  const std::string script = plot_script(info, folder_ / "a", folder_ / "b", std::nullopt);
+  EXPECT_NE(script.find("'homing' 6)"), std::string::npos) << script;
+  EXPECT_NE(script.find("set yrange [-0.5:6.5]"), std::string::npos) << script;
+}
+
+TEST_F(FlightRecordPlot, TakesTheErrorAtTheInstantOfThePosition) {
+  const FlightRecordInfo info = read_flight_record(file(std::string(kHead) + kColumns + kRows));
+  const std::string script = plot_script(info, folder_ / "a", folder_ / "b", std::nullopt);
+  EXPECT_NE(script.find("using 2:($5 - 0.001 * $6 - $7)"), std::string::npos) << script;
+}
+
 TEST_F(FlightRecordPlot, SaysWhenThePictureCannotBeWritten) {
   if (std::system("gnuplot --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
   std::ostringstream text;
@@ -92,8 +107,8 @@ TEST_F(FlightRecordPlot, SaysWhenThePictureCannotBeWritten) {
   try {
     plot_record({text}, {path, folder_ / "no" / "such" / "b.png", std::nullopt});
     FAIL();
-  } catch (const ClientError& error) {
-    EXPECT_EQ(error.status(), ExitStatus::kFile);
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("b.png"), std::string::npos) << error.what();
   }
 }
 

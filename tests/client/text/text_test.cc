@@ -84,7 +84,7 @@ TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
   view.state.gains_in_use = 1;
   const std::string row = state_row("elbow", view, 0.0);
   for (const char* part :
-       {"elbow", "holding", "+0.100000", "+0.100002", "+2.0e-06", "-3.250", "-10.0", "scheduled"}) {
+       {"elbow", "holding", "+0.100000", "+0.100002", "-2.0e-06", "-3.250", "-10.0", "scheduled"}) {
     EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
   }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
 #include "client/link/key_file.h"
@@ -27,7 +28,7 @@ class OrderDeskTest : public ::testing::Test {
 
 TEST_F(OrderDeskTest, AStopIsUnsignedAndNeedsNoSession) {
   OrderDesk desk(connection_, "/nonexistent/key", 0.4);  // a key in trouble must not keep a stop back
-  desk.stop("ARM2", "elbow");
+  desk.stop({{"ARM2", "elbow"}});
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
   const auto command = decode_exactly<command_v1>(daemon_.heard()[0].bytes);
@@ -41,7 +42,7 @@ TEST_F(OrderDeskTest, AStopIsUnsignedAndNeedsNoSession) {
 TEST_F(OrderDeskTest, RepeatsTheSameOrderUntilItIsAnswered) {
   daemon_.drop = 2;
   OrderDesk desk(connection_, "", 0.4);
-  desk.stop("ARM2", "elbow");
+  desk.stop({{"ARM2", "elbow"}});
   handle(0.5, desk);
   ASSERT_EQ(daemon_.heard().size(), 3U);
   EXPECT_EQ(daemon_.heard()[0].bytes, daemon_.heard()[2].bytes);
@@ -51,11 +52,33 @@ TEST_F(OrderDeskTest, RepeatsTheSameOrderUntilItIsAnswered) {
 TEST_F(OrderDeskTest, SaysSoWhenNobodyAnswers) {
   daemon_.drop = 100;
   OrderDesk desk(connection_, "", 0.2);
-  desk.stop("ARM2", "elbow");
+  desk.stop({{"ARM2", "elbow"}});
   handle(0.5, desk);
   EXPECT_EQ(desk.message(), "ARM2.elbow: disable: no answer");
   EXPECT_TRUE(desk.alarm());
   EXPECT_EQ(daemon_.heard().size(), 4U) << "and does not go on for ever";
+}
+
+TEST_F(OrderDeskTest, AStopOfSeveralCountsItsAnswersAndNamesWhoIsSilent) {
+  OrderDesk desk(connection_, "", 0.2);
+  desk.stop({{"ARM2", "elbow"}, {"ARM2", "ghost"}});
+  EXPECT_EQ(desk.message(), "2 joints: disable sent");
+  handle(0.5, desk);
+  EXPECT_EQ(desk.message(), "2 joints: disable, 1 accepted; ARM2.ghost: no answer");
+  EXPECT_TRUE(desk.alarm());
+}
+
+TEST_F(OrderDeskTest, AJogIsAnAcknowledgedMove) {
+  OrderDesk desk(connection_, "", 0.4);
+  desk.move({"ARM2", "elbow"}, 4711, 0.25);
+  handle(0.1, desk);
+  ASSERT_EQ(daemon_.heard().size(), 1U);
+  const auto setpoint = decode_exactly<setpoint_v1>(daemon_.heard()[0].bytes);
+  ASSERT_TRUE(setpoint);
+  EXPECT_EQ(setpoint->position_rad, 0.25);
+  EXPECT_EQ(setpoint->session_id, 4711);
+  EXPECT_EQ(setpoint->valid_for_s, 0.0) << "the joint stays there";
+  EXPECT_EQ(desk.message(), "ARM2.elbow: move to 0.25 rad accepted");
 }
 
 TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
@@ -64,15 +87,17 @@ TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
   OrderDesk desk(connection_, key, 0.4);
   daemon_.reason = Reason::kFaulted;
   daemon_.text = "see its fault\x1b[2J";
-  desk.order("ARM2", "elbow", 4711, Action::kEnable);
+  desk.order({"ARM2", "elbow"}, 4711, Action::kEnable);
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
   EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[0].bytes)->session_id, 4711);
   EXPECT_TRUE(verify("ARM2.elbow.COMMAND", made.key, daemon_.heard()[0].bytes));
-  EXPECT_EQ(desk.message(), "ARM2.elbow: enable refused: joint is faulted: see its fault?[2J");
+  EXPECT_EQ(desk.message(), "ARM2.elbow: enable: refused, joint is faulted: see its fault?[2J");
   EXPECT_TRUE(desk.alarm());
+  ASSERT_EQ(desk.refusals().size(), 1U);
+  EXPECT_EQ(desk.refusals().front().text, desk.message());
   OrderDesk without(connection_, "/nonexistent/key", 0.4);
-  EXPECT_THROW(without.order("ARM2", "elbow", 4711, Action::kEnable), InputError);
+  EXPECT_THROW(without.order({"ARM2", "elbow"}, 4711, Action::kEnable), InputError);
 }
 
 }  // namespace

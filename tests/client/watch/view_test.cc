@@ -47,7 +47,7 @@ int row_of(const Screen& screen, const std::string& text) {
 TEST(WatchView, ShowsWhatEveryJointDoesAndWhichKeysThereAre) {
   const Screen screen = render(model(2), 24, 160);
   for (const char* part :
-       {"joint0", "joint1", "holding", "+0.250000", "SW: ", "s stop", "e enable", "sensor"})
+       {"joint0", "joint1", "holding", "+0.250000", "SW: ", "s stop", "e enable", "sensor", "? help"})
     EXPECT_TRUE(shows(screen, part)) << part << "\n" << all_text(screen);
 }
 
@@ -73,7 +73,7 @@ TEST(WatchView, KeepsTheSelectedJointInSight) {
     const Screen screen = render(many, 20, 100);
     const int row = row_of(screen, ">joint" + std::to_string(many.selected) + " ");
     ASSERT_GE(row, 0) << many.selected;
-    EXPECT_EQ(screen.at(row, 0).style, Style::kSelected);
+    EXPECT_TRUE(screen.at(row, 1).marked);
   }
 }
 
@@ -101,13 +101,66 @@ TEST(WatchView, NamesTheDaemonOfAJointWhenThereAreSeveral) {
   EXPECT_TRUE(shows(render(two, 24, 160), "ARM2.joint0"));
 }
 
-TEST(WatchView, OffersNoSignedOrderWithoutAKey) {
+TEST(WatchView, OffersOrdersToDaemonsThatTakeThemUnsigned) {
   WatchModel unsigned_model = model(1);
   unsigned_model.has_key = false;
   const Screen screen = render(unsigned_model, 24, 160);
-  EXPECT_FALSE(shows(screen, "e enable"));
-  EXPECT_TRUE(shows(screen, "s stop"));
-  EXPECT_TRUE(shows(screen, "--key FILE"));
+  EXPECT_TRUE(shows(screen, "e enable"));
+  EXPECT_TRUE(shows(screen, "orders are not signed"));
+}
+
+TEST(WatchView, AFaultKeepsItsColourWhenItsJointIsSelected) {
+  WatchModel one = model(2);
+  one.joints[0].view.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+  for (const auto& [rows, columns] : {std::pair(24, 80), std::pair(40, 120), std::pair(50, 200)}) {
+    const Screen screen = render(one, rows, columns);
+    const int row = row_of(screen, ">joint0");
+    ASSERT_GE(row, 0);
+    for (const int column : {1, 14, 24}) EXPECT_EQ(screen.at(row, column).style, Style::kAlarm) << column;
+    EXPECT_TRUE(screen.at(row, 1).marked) << "and is seen to be selected";
+    EXPECT_FALSE(screen.at(row_of(screen, " joint1"), 1).marked);
+  }
+}
+
+TEST(WatchView, ShowsTheNumbersOfAJointOn80By24) {
+  WatchModel one = model(2);
+  state_v1& state = one.joints[0].view.state;
+  state.setpoint_position_rad = 0.25002;
+  state.torque_applied_Nm = -4.702;
+  state.temperature_C = -9.5;
+  const Screen screen = render(one, 24, 80);
+  const std::string row = screen.text(row_of(screen, ">joint0"));
+  for (const char* part : {"holding", "+0.250000", "+2.0e-05", "-4.702", "-9.5"})
+    EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
+  for (int empty = 0, r = 0; r < 24; ++r) {
+    empty += screen.text(r).empty();
+    EXPECT_LE(empty, 4) << all_text(screen);
+  }
+}
+
+TEST(WatchView, HasRoomForWhatItKnowsOfTheSelectedJoint) {
+  WatchModel one = model(1);
+  one.joints[0].limits.emplace();
+  one.joints[0].limits->position_min_rad = -3.0;
+  one.joints[0].limits->position_max_rad = 3.0;
+  one.joints[0].limits->torque_Nm = 34.0;
+  one.joints[0].history.error_rad = {0.0, 1e-3};
+  one.refusals = {{"SW.joint0: enable: refused, joint is faulted", 12.0}};
+  one.daemons[0].timing.rejects[static_cast<int>(Reason::kOldSequence)] = 3;
+  for (const auto& [rows, columns] : {std::pair(24, 80), std::pair(40, 120), std::pair(50, 200)}) {
+    const Screen screen = render(one, rows, columns);
+    for (const char* part :
+         {"torque 34 N.m", "12 s ago: SW.joint0: enable: refused", "3 ", "error_rad", "torque_Nm"})
+      EXPECT_TRUE(shows(screen, part)) << part << "\n" << all_text(screen);
+  }
+}
+
+TEST(WatchView, ExplainsItsKeys) {
+  WatchModel asked = model(1);
+  asked.help = true;
+  const Screen screen = render(asked, 24, 80);
+  for (const char* part : {"jog", "clear a fault", "needs no key", "error_rad"})
+    EXPECT_TRUE(shows(screen, part)) << part << "\n" << all_text(screen);
 }
 
 TEST(WatchView, ShowsWhereTheTemperatureComesFrom) {
@@ -117,15 +170,6 @@ TEST(WatchView, ShowsWhereTheTemperatureComesFrom) {
   EXPECT_TRUE(shows(render(one, 24, 160), "sensor, 0.3 s"));
   one.joints[0].view.state.temperature_status = static_cast<std::int32_t>(TemperatureStatus::kTooOld);
   EXPECT_TRUE(shows(render(one, 24, 160), "too old"));
-}
-
-TEST(WatchView, ASparklineIsScaledToItsLargestValueAndKeepsToAscii) {
-  EXPECT_EQ(sparkline({0.0, 0.5, 1.0}, 10, false), ".+#");
-  EXPECT_EQ(sparkline({0.0, 0.5, 1.0}, 10, true), "▁▅█");
-  EXPECT_EQ(sparkline({5.0, 0.0, 1.0}, 2, false), ".#") << "only what is shown counts";
-  EXPECT_EQ(sparkline({0.0, 0.0}, 5, false), "..");
-  EXPECT_EQ(sparkline({std::nan(""), 1.0}, 5, false), "?#");
-  EXPECT_EQ(sparkline({}, 5, true), "");
 }
 
 TEST(WatchView, HostileStatesAreDrawnAsWell) {
@@ -138,6 +182,10 @@ TEST(WatchView, HostileStatesAreDrawnAsWell) {
   state.temperature_weights[0] = std::nan("");
   state.temperature_weights[1] = -1e9;
   hostile.joints[0].limits.emplace();  // min and max are equal
+  for (const double value : {1e300, -1e300, std::nan(""), 0.0}) {
+    hostile.joints[0].history.error_rad.push_back(value);
+    hostile.joints[0].history.torque_Nm.push_back(value);
+  }
   for (const int columns : {30, 80, 300}) render(hostile, 24, columns);
   hostile.selected = 17;
   render(hostile, 24, 80);

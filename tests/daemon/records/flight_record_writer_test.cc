@@ -101,17 +101,21 @@ TEST_F(FlightRecordWriterTest, WritesTheDocumentedFormat) {
   EXPECT_EQ(lines[7], "# period_s: 0.001");
   EXPECT_EQ(lines[8], "# rows: 61");
   EXPECT_EQ(lines[9], "# lost_rows: 0");
-  EXPECT_TRUE(lines[10].starts_with("# units: 1,s,")) << lines[10];
-  EXPECT_TRUE(lines[11].starts_with("cycle,time_s,mode,fault,")) << lines[11];
+  EXPECT_TRUE(lines[10].starts_with("# units: s,1,1,rad,")) << lines[10];
+  EXPECT_TRUE(lines[11].starts_with("time_s,cycle,table_id,setpoint_position_rad,")) << lines[11];
   EXPECT_EQ(lines.size(), 12U + 61U);
   const auto columns = split(lines[11], ',');
   EXPECT_EQ(split(lines[10].substr(9), ',').size(), columns.size());
   for (std::size_t i = 12; i < lines.size(); ++i)
     ASSERT_EQ(split(lines[i], ',').size(), columns.size()) << lines[i];
   const auto at_fault = split(lines[12 + 50], ',');
-  EXPECT_EQ(at_fault[0], "51");
-  EXPECT_EQ(at_fault[1], "0");
-  EXPECT_EQ(at_fault[3], "13");
+  const auto value = [&](const char* column) {
+    return at_fault.at(
+        static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin()));
+  };
+  EXPECT_EQ(value("cycle"), "51");
+  EXPECT_EQ(value("time_s"), "0");
+  EXPECT_EQ(value("fault"), "13") << "a byte is printed as a number";
 }
 
 TEST_F(FlightRecordWriterTest, DocumentsEveryColumn) {

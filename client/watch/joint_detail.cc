@@ -1,0 +1,176 @@
+#include "client/watch/joint_detail.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "client/text/text.h"
+#include "client/watch/plot.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr int kLabelWidth = 13;
+constexpr int kLeastPlotHeight = 3;
+constexpr int kTwoPlotsAbreast = 100;  // columns
+constexpr std::size_t kRefusalsShown = 3;
+
+/// Writes lines one below the other as long as there is room.
+class Lines {
+ public:
+  Lines(Screen& screen, int first, int end) : screen_(screen), row_(first), end_(end) {}
+  int row() const { return row_; }
+
+  /// Breaks at blanks; what follows stands under `label`'s text.
+  void put(std::string_view label, const std::string& text, Style style = Style::kPlain) {
+    constexpr int kIndent = 9;
+    const auto room = static_cast<std::size_t>(std::max(10, screen_.columns() - kIndent));
+    std::string_view rest = text;
+    for (bool begun = false; !rest.empty() || !begun; begun = true) {
+      if (row_ >= end_) return;
+      if (!begun) screen_.put(row_, 0, label, Style::kDim);
+      std::string_view line = rest.substr(0, clipped(rest, room).size());
+      if (const auto blank = line.rfind(' '); line.size() < rest.size() && blank != line.npos && blank > 0)
+        line = line.substr(0, blank);
+      screen_.put(row_++, kIndent, line, style);
+      rest.remove_prefix(line.size());
+      while (rest.starts_with(' ')) rest.remove_prefix(1);
+    }
+  }
+
+ private:
+  Screen& screen_;
+  int row_;
+  int end_;
+};
+
+std::string position_scale(const WatchedJoint& joint) {
+  const limits_v1& limits = *joint.limits;
+  const double width_rad = limits.position_max_rad - limits.position_min_rad;
+  const double share = (joint.view.state.joint_position_rad - limits.position_min_rad) / width_rad;
+  if (!(width_rad > 0.0) || !std::isfinite(share)) return "";
+  constexpr int kScale = 21;
+  std::string scale(kScale, '-');
+  scale[static_cast<std::size_t>(std::clamp(share * kScale, 0.0, kScale - 1.0))] = '|';
+  return fmt::format("{:+.2f} [{}] {:+.2f} rad, ", limits.position_min_rad, scale, limits.position_max_rad);
+}
+
+std::string limits_text(const WatchedJoint& joint) {
+  const limits_v1& limits = *joint.limits;
+  return position_scale(joint) +
+         fmt::format("speed {:.3g} rad/s, torque {:.3g} N.m, following error {:.3g} rad, {:.3g} degC",
+                     limits.speed_rad_s, limits.torque_Nm, limits.following_error_rad, limits.temperature_C);
+}
+
+std::string gains_text(const WatchModel& model, const WatchedJoint& joint) {
+  const state_v1& state = joint.view.state;
+  std::deque<double> weights;
+  for (int i = 0; i < std::clamp(state.rule_count, 0, 16); ++i)
+    weights.push_back(state.temperature_weights[i]);
+  return fmt::format("{}, rules {}, standstill {:.2f}; temperature {:+.1f} degC from {}",
+                     to_text(static_cast<GainsInUse>(state.gains_in_use)),
+                     sparkline(weights, static_cast<int>(weights.size()), 1.0, model.unicode),
+                     state.zero_velocity_weight, state.temperature_C, temperature_source(joint));
+}
+
+/// What the daemon has refused since its start, from anybody.
+std::string rejects_text(const WatchModel& model, const WatchedJoint& joint) {
+  std::string text;
+  for (const WatchedDaemon& daemon : model.daemons) {
+    if (daemon.prefix != joint.prefix) continue;
+    for (int reason = 1; reason < kReasonCount; ++reason)
+      if (daemon.timing.rejects[reason] > 0)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", daemon.timing.rejects[reason],
+                            to_text(static_cast<Reason>(reason)));
+  }
+  return text;
+}
+
+void put_text(const WatchModel& model, const WatchedJoint& joint, Lines& lines) {
+  const state_v1& state = joint.view.state;
+  lines.put(name_of(model, joint).substr(0, 8),
+            fmt::format("{}, target {:+.6f} rad, setpoint {:+.6f} rad, speed {:+.4f} rad/s",
+                        to_text(static_cast<Mode>(state.mode)), state.target_position_rad,
+                        state.setpoint_position_rad, state.joint_velocity_rad_s));
+  if (const std::string notes = state_notes(joint.view, joint.age_s); !notes.empty())
+    lines.put("notes", notes, style_of(joint));
+  if (joint.limits) lines.put("limits", limits_text(joint));
+  lines.put("gains", gains_text(model, joint));
+  for (std::size_t i = 0; i < std::min(kRefusalsShown, model.refusals.size()); ++i)
+    lines.put(i == 0 ? "refused" : "",
+              fmt::format("{:.0f} s ago: {}", model.refusals[i].age_s, model.refusals[i].text),
+              Style::kWarning);
+  if (const std::string rejects = rejects_text(model, joint); !rejects.empty())
+    lines.put("rejects", rejects + " (since the daemon's start, from anybody)");
+}
+
+struct Curve {
+  const char* name;
+  const std::deque<double>* values;
+  double least_span;
+  bool with_zero;
+  const char* format;
+};
+
+void draw_plot(const Curve& curve, bool unicode, Screen& screen, int row, int column, int width, int height) {
+  const int room = width - kLabelWidth;
+  const PlotScale scale =
+      scale_of(*curve.values, plot_capacity(room, unicode), curve.least_span, curve.with_zero);
+  screen.put(row, column, fmt::format(fmt::runtime(curve.format), scale.high), Style::kDim);
+  screen.put(row + height / 2, column, curve.name, Style::kTitle);
+  screen.put(row + height - 1, column, fmt::format(fmt::runtime(curve.format), scale.low), Style::kDim);
+  const std::vector<std::string> lines = plot(*curve.values, scale, room, height, unicode);
+  for (int i = 0; i < height; ++i) {
+    screen.put(row + i, column + kLabelWidth - 1, unicode ? "│" : "|", Style::kDim);
+    screen.put(row + i, column + kLabelWidth, lines[static_cast<std::size_t>(i)], Style::kGood);
+  }
+}
+
+void draw_plots(const WatchModel& model, const WatchedJoint& joint, Screen& screen, int first, int end) {
+  const PlotSpans spans = plot_spans(joint);
+  const std::array<Curve, 4> curves{{
+      {"error_rad", &joint.history.error_rad, spans.error_rad, true, "{:>+11.1e}"},
+      {"torque_Nm", &joint.history.torque_Nm, spans.torque_Nm, true, "{:>+11.2f}"},
+      {"position_rad", &joint.history.position_rad, spans.position_rad, false, "{:>+11.5f}"},
+      {"temp_C", &joint.history.temperature_C, spans.temperature_C, false, "{:>+11.1f}"},
+  }};
+  const int abreast = screen.columns() >= kTwoPlotsAbreast ? 2 : 1;
+  const int width = (screen.columns() - (abreast - 1)) / abreast;
+  // One line says what the time axis spans.
+  const int rows = end - first - 1;
+  const int stacked = std::min(static_cast<int>(curves.size()) / abreast, rows / kLeastPlotHeight);
+  if (stacked < 1 || width < kLabelWidth + 10) return;
+  const double span_s =
+      static_cast<double>(plot_capacity(width - kLabelWidth, model.unicode)) * model.interval_s;
+  screen.put(first, 0, fmt::format("the last {:.0f} s, now at the right", span_s), Style::kDim);
+  const int height = rows / stacked;
+  for (int i = 0; i < stacked * abreast; ++i)
+    draw_plot(curves[static_cast<std::size_t>(i)], model.unicode, screen, first + 1 + (i / abreast) * height,
+              (i % abreast) * (width + 1), width, height);
+}
+
+}  // namespace
+
+PlotSpans plot_spans(const WatchedJoint& joint) {
+  PlotSpans spans;
+  if (!joint.limits) return spans;
+  const limits_v1& limits = *joint.limits;
+  // Of the limits, what an operator would call nothing.
+  if (limits.following_error_rad > 0.0) spans.error_rad = 0.01 * limits.following_error_rad;
+  if (limits.torque_Nm > 0.0) spans.torque_Nm = 0.1 * limits.torque_Nm;
+  if (limits.position_max_rad > limits.position_min_rad)
+    spans.position_rad = 1e-3 * (limits.position_max_rad - limits.position_min_rad);
+  return spans;
+}
+
+void draw_detail(const WatchModel& model, const WatchedJoint& joint, Screen& screen, int first, int end) {
+  Lines lines(screen, first, end);
+  put_text(model, joint, lines);
+  draw_plots(model, joint, screen, lines.row(), end);
+}
+
+}  // namespace strainwave
