@@ -47,6 +47,7 @@ struct RecordArguments {
   std::filesystem::path file;
   std::optional<double> duration_s;  ///< nothing: until interrupted
   bool overwrite = false;
+  bool mcap = false;  ///< an MCAP file instead of an LCM event log
 };
 void record(Client& client, const Output& output, const RecordArguments& arguments);
 
@@ -56,6 +57,7 @@ struct ExportArguments {
   std::filesystem::path log;
   std::filesystem::path out;
   bool overwrite = false;
+  bool mcap = false;  ///< one MCAP file instead, see text/mcap_log.h
 };
 void export_log(const Output& output, const ExportArguments& arguments);
 

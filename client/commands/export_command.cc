@@ -6,6 +6,7 @@
 
 #include "client/commands/commands.h"
 #include "client/link/exit_status.h"
+#include "client/text/mcap_log.h"
 #include "client/text/message_csv.h"
 #include "client/text/state_csv.h"
 #include "lcmtypes/channels.h"
@@ -111,6 +112,27 @@ class ChannelExport {
   std::map<std::string, File> files_;
 };
 
+/// Every message of ours in one MCAP file.
+class McapExport {
+ public:
+  McapExport(const std::filesystem::path& path, bool overwrite) : path_(path), log_(checked(path, overwrite)) {}
+  bool take(const ChannelName& name, const LogEvent& event) {
+    return log_.take(name, event.channel, event.received_us, event.data);
+  }
+  void finish(const Output& output) {
+    log_.finish();
+    output.stream << fmt::format("{} messages in {}\n", log_.messages(), path_.string());
+  }
+
+ private:
+  static const std::filesystem::path& checked(const std::filesystem::path& path, bool overwrite) {
+    (void)create(path, overwrite);
+    return path;
+  }
+  std::filesystem::path path_;
+  McapLog log_;
+};
+
 template <typename Export>
 void export_into(Export into, const Output& output, const std::filesystem::path& log) {
   EventLogReader reader(log);
@@ -128,7 +150,9 @@ void export_into(Export into, const Output& output, const std::filesystem::path&
 
 void export_log(const Output& output, const ExportArguments& arguments) {
   const EventLogReader readable(arguments.log);  // before anything is created
-  if (arguments.out.extension() == ".csv")
+  if (arguments.mcap)
+    export_into(McapExport(arguments.out, arguments.overwrite), output, arguments.log);
+  else if (arguments.out.extension() == ".csv")
     export_into(StateExport(arguments.out, arguments.overwrite), output, arguments.log);
   else
     export_into(ChannelExport(arguments.out, arguments.overwrite), output, arguments.log);

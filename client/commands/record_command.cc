@@ -4,13 +4,58 @@
 #include "client/commands/commands.h"
 #include "client/link/event_log_writer.h"
 #include "client/link/exit_status.h"
+#include "client/text/mcap_log.h"
 
 namespace strainwave {
 
 namespace {
 
+/// What is heard, into an MCAP file as it comes.
+class McapRecording {
+ public:
+  McapRecording(Client& client, const RecordArguments& arguments)
+      : log_(checked(arguments)),
+        subscription_(client.connection().subscribe(
+            recorded_channels(client.options().prefix, arguments.joints), &McapRecording::on_message, this)) {
+  }
+
+  bool good() const noexcept { return good_; }
+  const std::map<std::string, long>& counts() const noexcept { return counts_; }
+  void finish() {
+    if (!error_.empty()) throw ClientError(ExitStatus::kFile, error_);
+    log_.finish();
+  }
+
+ private:
+  static const std::filesystem::path& checked(const RecordArguments& arguments) {
+    if (!arguments.overwrite && std::filesystem::exists(arguments.file))
+      throw ClientError(ExitStatus::kFile,
+                        arguments.file.string() + " exists: choose another name, or say --overwrite");
+    return arguments.file;
+  }
+  // Called through C, so nothing may be thrown past it.
+  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    const auto name = parse_channel(channel);
+    if (!good_ || !name) return;
+    try {
+      if (log_.take(*name, channel, buffer->recv_utime, payload(*buffer))) ++counts_[channel];
+      good_ = log_.good();
+    } catch (const std::exception& error) {
+      good_ = false;
+      error_ = error.what();
+    }
+  }
+
+  McapLog log_;
+  std::map<std::string, long> counts_;
+  bool good_ = true;
+  std::string error_;
+  Subscription subscription_;
+};
+
 /// Waits until the recording is over; an interrupt is a normal end.
-void wait_for_end(Client& client, const EventLogWriter& log, const Deadline& end) {
+template <typename Log>
+void wait_for_end(Client& client, const Log& log, const Deadline& end) {
   try {
     client.wait_until([&] { return !log.good(); }, end);
   } catch (const ClientError& error) {
@@ -18,18 +63,27 @@ void wait_for_end(Client& client, const EventLogWriter& log, const Deadline& end
   }
 }
 
-}  // namespace
-
-void record(Client& client, const Output& output, const RecordArguments& arguments) {
-  for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
-  if (arguments.joints.empty()) client.wait_for_joints();
-  EventLogWriter log(client.connection(), client.options().prefix, arguments.joints, arguments.file,
-                     arguments.overwrite);
+template <typename Log>
+void record_into(Log& log, Client& client, const Output& output, const RecordArguments& arguments) {
   constexpr double kNoEnd_s = 1e9;
   wait_for_end(client, log, Deadline(arguments.duration_s.value_or(kNoEnd_s)));
   log.finish();
   for (const auto& [channel, count] : log.counts())
     output.stream << fmt::format("{}: {} messages in {}\n", channel, count, arguments.file.string());
+}
+
+}  // namespace
+
+void record(Client& client, const Output& output, const RecordArguments& arguments) {
+  for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
+  if (arguments.joints.empty()) client.wait_for_joints();
+  if (arguments.mcap) {
+    McapRecording log(client, arguments);
+    return record_into(log, client, output, arguments);
+  }
+  EventLogWriter log(client.connection(), client.options().prefix, arguments.joints, arguments.file,
+                     arguments.overwrite);
+  record_into(log, client, output, arguments);
 }
 
 }  // namespace strainwave

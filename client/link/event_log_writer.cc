@@ -10,12 +10,6 @@ namespace strainwave {
 
 namespace {
 
-/// Names hold nothing that means something else in a regular expression.
-std::string pattern(const std::string& prefix, const std::vector<std::string>& joints) {
-  if (joints.empty()) return prefix + "\\..*";
-  return fmt::format("{}\\.(({})\\..*|{})", prefix, fmt::join(joints, "|"), channel_kind::kTiming);
-}
-
 lcm_eventlog_t* create(const std::filesystem::path& file, bool overwrite) {
   if (!overwrite && std::filesystem::exists(file))
     throw ClientError(ExitStatus::kFile, file.string() + " exists: choose another name, or say --overwrite");
@@ -28,12 +22,18 @@ lcm_eventlog_t* create(const std::filesystem::path& file, bool overwrite) {
 
 }  // namespace
 
+// Names hold nothing that means something else in a regular expression.
+std::string recorded_channels(const std::string& prefix, const std::vector<std::string>& joints) {
+  if (joints.empty()) return prefix + "\\..*";
+  return fmt::format("{}\\.(({})\\..*|{})", prefix, fmt::join(joints, "|"), channel_kind::kTiming);
+}
+
 EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix,
                                const std::vector<std::string>& joints, const std::filesystem::path& file,
                                bool overwrite)
     : name_(file.string()),
       log_(create(file, overwrite), &::lcm_eventlog_destroy),
-      subscription_(connection.subscribe(pattern(prefix, joints), &EventLogWriter::on_message, this)) {}
+      subscription_(connection.subscribe(recorded_channels(prefix, joints), &EventLogWriter::on_message, this)) {}
 
 void EventLogWriter::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   if (!good_ || channel.size() > kMaxChannelLength) return;

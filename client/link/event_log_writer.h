@@ -13,6 +13,9 @@
 
 namespace strainwave {
 
+/// The channels of `prefix`, or only those of `joints` and the daemon as a whole, as Connection::subscribe() takes them.
+std::string recorded_channels(const std::string& prefix, const std::vector<std::string>& joints);
+
 class EventLogWriter {
  public:
   /// Creates `file` and writes every message of `prefix` from now on, or only those of `joints` and the

@@ -19,6 +19,7 @@ void add_record(CLI::App& app, Invocation& invocation) {
   auto duration_s = std::make_shared<double>(0.0);
   add_seconds(*command, "--duration_s", *duration_s, "end after this time");
   command->add_flag("--overwrite", arguments->overwrite, "replace the file if it exists");
+  command->add_flag("--mcap", arguments->mcap, "an MCAP file (Foxglove, PlotJuggler) instead of an LCM event log");
   command->callback([&invocation, arguments, duration_s] {
     if (*duration_s > 0.0) arguments->duration_s = *duration_s;
     invocation.command = [arguments](Client& client, const Output& output) {
@@ -38,6 +39,7 @@ void add_export(CLI::App& app, Invocation& invocation) {
       ->required()
       ->type_name("DIR|FILE.csv");
   command->add_flag("--overwrite", arguments->overwrite, "replace files that exist");
+  command->add_flag("--mcap", arguments->mcap, "one MCAP file (Foxglove, PlotJuggler) instead of CSV");
   command->callback([&invocation, arguments] {
     invocation.local_command = [arguments](const Output& output) { export_log(output, *arguments); };
   });

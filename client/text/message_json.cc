@@ -1,0 +1,95 @@
+#include "client/text/message_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "client/text/text.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave::json {
+
+namespace {
+
+/// `text` in quotes, without what could command a terminal; bytes that are no UTF-8 become the replacement character.
+std::string quoted(std::string_view text) {
+  return nlohmann::json(printable(text)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+void Object::begin(std::string_view name) {
+  if (text_.size() > 1) text_ += ',';
+  text_ += '"';
+  text_ += name;
+  text_ += "\":";
+}
+
+void Object::append(double value) {
+  text_ += std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+void Object::append(std::int64_t value) {
+  text_ += fmt::format("{}", value);
+}
+
+void Object::add(std::string_view name, double value) {
+  begin(name);
+  append(value);
+}
+
+void Object::add(std::string_view name, std::int64_t value) {
+  begin(name);
+  append(value);
+}
+
+void Object::add(std::string_view name, std::string_view text) {
+  begin(name);
+  text_ += quoted(text);
+}
+
+Schema::Schema(std::string_view title)
+    : text_(fmt::format(R"({{"title":"{}","type":"object","properties":{{)", title)) {}
+
+void Schema::add(std::string_view name, std::string_view type) {
+  if (any_) text_ += ',';
+  any_ = true;
+  text_ += fmt::format("\"{}\":{{{}}}", name, type);
+}
+
+void Schema::number(std::string_view name) {
+  add(name, R"("type":"number")");
+}
+void Schema::integer(std::string_view name) {
+  add(name, R"("type":"integer")");
+}
+void Schema::text(std::string_view name) {
+  add(name, R"("type":"string")");
+}
+void Schema::numbers(std::string_view name) {
+  add(name, R"("type":"array","items":{"type":"number"})");
+}
+
+Words words_of(const state_v1& state) {
+  return {{"mode_text", to_text(static_cast<Mode>(state.mode))},
+          {"fault_text", to_text(static_cast<Fault>(state.fault))},
+          {"gains_in_use_text", to_text(static_cast<GainsInUse>(state.gains_in_use))},
+          {"temperature_status_text", to_text(static_cast<TemperatureStatus>(state.temperature_status))}};
+}
+
+Words words_of(const temperature_v1& message) {
+  return {{"status_text", to_text(static_cast<TemperatureStatus>(message.status))}};
+}
+
+Words words_of(const ack_v1& message) {
+  return {{"reason_text", to_text(static_cast<Reason>(message.reason))}};
+}
+
+std::size_t used_entries(const state_v1& state, std::string_view field, std::size_t size) {
+  if (field != "temperature_weights") return size;
+  return std::min(size, static_cast<std::size_t>(std::max(state.rule_count, 0)));
+}
+
+}  // namespace strainwave::json

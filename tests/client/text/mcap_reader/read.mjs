@@ -1,0 +1,58 @@
+// Reads an MCAP file with the reader of the format's inventors and prints what it found as one line of JSON.
+//
+//   node read.mjs FILE [--stream]     --stream: from the beginning, as far as whole chunks go (a file that was cut off)
+import { readFile, open } from 'node:fs/promises';
+import { McapIndexedReader, McapStreamReader } from '@mcap/core';
+import * as fzstd from 'fzstd';
+
+const [file, mode] = process.argv.slice(2);
+const decompressHandlers = { zstd: (bytes, size) => fzstd.decompress(bytes, new Uint8Array(Number(size))) };
+const found = { topics: {}, schemas: {}, keys: {}, wrong: 0, last: {} };
+const channels = new Map();
+const schemas = new Map();
+
+function fits(value, type) {
+  if (value === null) return type === 'number';
+  if (type === 'integer') return Number.isInteger(value);
+  if (type === 'array') return Array.isArray(value) && value.every((entry) => typeof entry === 'number');
+  return typeof value === type;
+}
+
+function take(message) {
+  const channel = channels.get(message.channelId);
+  const schema = JSON.parse(new TextDecoder().decode(schemas.get(channel.schemaId).data));
+  const value = JSON.parse(new TextDecoder().decode(message.data));
+  for (const key of Object.keys(value))
+    if (!(key in schema.properties) || !fits(value[key], schema.properties[key].type)) found.wrong += 1;
+  for (const key of Object.keys(schema.properties)) if (!(key in value)) found.wrong += 1;
+  found.topics[channel.topic] = (found.topics[channel.topic] ?? 0) + 1;
+  found.schemas[channel.topic] = schema.title;
+  found.last[channel.topic] = { log: String(message.logTime), published: String(message.publishTime), value };
+}
+
+if (mode === '--stream') {
+  const reader = new McapStreamReader({ decompressHandlers });
+  reader.append(await readFile(file));
+  for (let record; (record = reader.nextRecord()); ) {
+    if (record.type === 'Schema') schemas.set(record.id, record);
+    if (record.type === 'Channel') channels.set(record.id, record);
+    if (record.type === 'Message') take(record);
+  }
+} else {
+  const handle = await open(file);
+  const readable = {
+    size: async () => BigInt((await handle.stat()).size),
+    read: async (offset, length) => {
+      const bytes = new Uint8Array(Number(length));
+      await handle.read(bytes, 0, Number(length), Number(offset));
+      return bytes;
+    },
+  };
+  const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+  for (const [id, schema] of reader.schemasById) schemas.set(id, schema);
+  for (const [id, channel] of reader.channelsById) channels.set(id, channel);
+  found.statistics = Number(reader.statistics.messageCount);
+  found.chunks = reader.chunkIndexes.length;
+  for await (const message of reader.readMessages()) take(message);
+}
+console.log(JSON.stringify(found));
