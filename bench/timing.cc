@@ -18,6 +18,7 @@
 
 #include "base/input_error.h"
 #include "control/gain_table_json.h"
+#include "daemon/assembly.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/simulated_actuator.h"
 
@@ -62,7 +63,8 @@ Order order(OrderKind kind) {
 
 Slice run_ours(double seconds, int joints, const GainTable& table) {
   auto states = std::make_unique<decltype(OutboundMemory::states)>();
-  RealtimeLoop loop(bench_config(joints), *states);
+  const DaemonConfig config = bench_config(joints);
+  RealtimeLoop loop(config.loop, assemble_loop(config), *states);
   for (std::size_t i = 0; i < loop.joint_count(); ++i) {
     loop.joint(i).table_slot(0) = {table, 1};
     loop.joint(i).orders().push(order(OrderKind::kUseTable));

@@ -18,6 +18,7 @@
 #include "base/input_error.h"
 #include "control/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
+#include "daemon/assembly.h"
 #include "daemon/drive_check.h"
 
 namespace strainwave {
@@ -112,6 +113,20 @@ std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& conf
   return sources;
 }
 
+// In the writer's thread. A disk that is full or gone shall not fill the log.
+FlightRecordWriter::Report log_flight_records() {
+  constexpr int kComplaints = 5;
+  constexpr std::int64_t kComplaintWindow_ns = 60'000 * kMillisecond_ns;
+  return [complaints = LogLimiter(kComplaints, kComplaintWindow_ns)](bool lost, const std::string& text,
+                                                                     std::int64_t now_ns) mutable {
+    if (!lost) return spdlog::info("{}", text);
+    std::int64_t suppressed = 0;
+    if (!complaints.allow(now_ns, suppressed)) return;
+    if (suppressed > 0) spdlog::warn("{} more lines about flight records were not logged", suppressed);
+    spdlog::warn("{}", text);
+  };
+}
+
 std::vector<std::string> names_of(const DaemonConfig& config) {
   std::vector<std::string> names;
   for (const JointConfig& joint : config.joints) names.push_back(joint.name);
@@ -130,9 +145,10 @@ Supervisor::Supervisor(const DaemonConfig& config)
       inbound_(*new (inbound_file_.address()) InboundMemory),
       wake_fd_(make_wake_fd()),
       signal_fd_(make_signal_fd()),
-      loop_(config, outbound_.states),
-      flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_)),
-      admission_(config.prefix, session_id_, admission_of(config), config.security),
+      loop_(config.loop, assemble_loop(config), outbound_.states),
+      flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_),
+                      log_flight_records()),
+      admission_(config.prefix, session_id_, assemble_admission(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
       gateway_(find_gateway_program(), {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_fd_}),
       books_(config.joints.size()),

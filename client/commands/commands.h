@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "client/link/client.h"
+#include "client/watch/watch_screen.h"
 #include "drivers/injected_fault.h"
 #include "lcmtypes/key_text.h"
 
@@ -33,12 +34,6 @@ void show_timing(Client& client, const Output& output);
 
 /// Joints over time: on a terminal a full screen that also takes keys (client/watch/), otherwise (or plain) a
 /// line for each joint at each interval.
-struct WatchArguments {
-  std::vector<std::string> joints;  ///< empty: all that are heard
-  double interval_s = 0.2;
-  std::optional<double> duration_s;  ///< nothing: until interrupted
-  bool plain = false;
-};
 void watch(Client& client, const Output& output, const WatchArguments& arguments);
 
 /// Writes every message of the prefix, or of `joints` and the daemon as a whole, to an LCM event log.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/printable.h"
 #include "client/link/exit_status.h"
 #include "client/link/interrupt.h"
-#include "client/text/text.h"
 
 namespace strainwave {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/printable.h"
 #include "client/text/message_fields.h"
-#include "client/text/text.h"
 
 namespace strainwave {
 

@@ -67,19 +67,6 @@ double parse_position_rad(std::string_view text) {
       fmt::format("'{}' is not a position: give a finite number in rad, such as 0.1 or -1.5e-3", text));
 }
 
-std::string printable(std::string_view text) {
-  text = text.substr(0, text.find('\0'));
-  std::string safe;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto before = static_cast<unsigned char>(i > 0 ? text[i - 1] : '\0');
-    const bool control =
-        byte < 0x20 || byte == 0x7F || (before == 0xC2 && byte < 0xA0);  // U+0080..U+009F in UTF-8
-    safe += control ? '?' : text[i];
-  }
-  return safe;
-}
-
 std::string clipped(std::string_view line, std::size_t columns) {
   std::size_t seen = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -16,9 +16,6 @@ namespace strainwave {
 /// what was typed; for an angle with a degree mark it says the same angle in rad.
 double parse_position_rad(std::string_view text);
 
-/// `text` up to its first zero byte, without anything that could command a terminal.
-std::string printable(std::string_view text);
-
 /// At most `columns` characters of `line`; bytes of UTF-8 continuation count for nothing.
 std::string clipped(std::string_view line, std::size_t columns);
 

@@ -7,7 +7,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "client/text/text.h"
+#include "base/printable.h"
 
 namespace strainwave {
 

@@ -234,13 +234,4 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   return config;
 }
 
-std::vector<JointAdmission> admission_of(const DaemonConfig& config) {
-  std::vector<JointAdmission> joints;
-  for (const JointConfig& joint : config.joints)
-    joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad,
-                      joint.loop.limits.position_max_rad, joint.loop.controller.torque_limit_Nm,
-                      joint.loop.controller.motion.velocity_rad_s, joint.takes_injected_faults});
-  return joints;
-}
-
 }  // namespace strainwave

@@ -11,28 +11,16 @@
 #include <vector>
 
 #include "control/gain_table.h"
-#include "daemon/admission/admission.h"
 #include "daemon/admission/authorized_keys.h"
 #include "daemon/gateway/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/loop_parts.h"
 #include "daemon/records/flight_record_writer.h"
 #include "drivers/actuator.h"
 #include "drivers/fieldbus.h"
 #include "drivers/temperature_file.h"
 
 namespace strainwave {
-
-/// What to do when the system refuses real-time scheduling or memory locking.
-enum class RealTimePolicy { kEnforce, kIgnore };
-
-struct LoopConfig {
-  double period_s = 0.001;
-  RealTimePolicy real_time = RealTimePolicy::kEnforce;
-  int priority = 80;       ///< SCHED_FIFO
-  int cpu = -1;            ///< pin to this processor; -1: do not
-  int overrun_limit = 10;  ///< cycles in a row that begin late by a period or more
-  double state_rate_Hz = 200.0;
-};
 
 /// What ActuatorReading::drive_error says with `fault`, in words.
 using DriveErrorText = std::string (*)(Fault fault, std::uint32_t drive_error);
@@ -78,8 +66,5 @@ struct DaemonConfig {
 /// Reads `path`. Throws InputError naming file, line, key, value and what is allowed: unreadable or malformed file,
 /// unknown, missing or repeated keys, impossible values, joints of the same name.
 DaemonConfig read_config(const std::filesystem::path& path);
-
-/// What admission needs of it.
-std::vector<JointAdmission> admission_of(const DaemonConfig& config);
 
 }  // namespace strainwave

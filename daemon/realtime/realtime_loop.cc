@@ -4,46 +4,35 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "base/input_error.h"
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
-#include "drivers/thermometer_actuator.h"
 
 namespace strainwave {
 
-RealtimeLoop::RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::states)& states)
-    : config_(config.loop),
-      period_ns_(std::llround(config.loop.period_s * 1e9)),
-      publish_every_(
-          std::max<std::int64_t>(1, std::llround(1.0 / (config.loop.period_s * config.loop.state_rate_Hz)))),
+RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
+                           decltype(OutboundMemory::states)& states)
+    : config_(config),
+      period_ns_(std::llround(config.period_s * 1e9)),
+      publish_every_(std::max<std::int64_t>(1, std::llround(1.0 / (config.period_s * config.state_rate_Hz)))),
       stop_deadline_periods_(0),
       states_(states),
       replies_(std::make_unique<ReplyQueue>()),
       events_(std::make_unique<EventQueue>()),
       statistics_(std::make_unique<LoopTotals>()),
-      overrun_watch_(config.loop.overrun_limit) {
-  for (const BusConfig& bus : config.buses) buses_.push_back(bus.make_bus());
-  for (const JointConfig& joint : config.joints) {
-    auto actuator = joint.bus < 0
-                        ? joint.make_actuator()
-                        : buses_[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
-    if (joint.bus >= 0 && joint.thermometer)
-      actuator = std::make_unique<ThermometerActuator>(std::move(actuator), *joint.thermometer);
-    joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
-                                                  std::move(actuator), *replies_, *events_));
-    if (config.recorder.enabled()) {
-      const auto samples = [&](double duration_s) {
-        return static_cast<std::size_t>(std::llround(duration_s / config.loop.period_s));
-      };
-      recorders_.push_back(std::make_unique<FlightRecorder>(samples(config.recorder.seconds) + 2,
-                                                            samples(config.recorder.post_trigger_s)));
-      joints_.back()->record_into(*recorders_.back());
-    }
+      buses_(std::move(parts.buses)),
+      overrun_watch_(config.overrun_limit) {
+  for (JointParts& joint : parts.joints) {
+    joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.config,
+                                                  std::move(joint.actuator), *replies_, *events_));
+    recorders_.push_back(std::move(joint.recorder));
+    if (recorders_.back() != nullptr) joints_.back()->record_into(*recorders_.back());
     // One more second than the slowest joint may take, which by then has faulted and is off.
-    const double allowed_s = joint.loop.stop_timeout_s + 1.0;
+    const double allowed_s = joint.config.stop_timeout_s + 1.0;
     stop_deadline_periods_ =
-        std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.loop.period_s));
+        std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.period_s));
   }
 }
 

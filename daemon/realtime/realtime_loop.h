@@ -11,11 +11,11 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/config/config.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/loop_parts.h"
 #include "daemon/realtime/overrun_watch.h"
 #include "daemon/realtime/periodic_clock.h"
 
@@ -33,8 +33,8 @@ struct LoopTotals {
 
 class RealtimeLoop {
  public:
-  /// Makes the buses, the drivers and the joints. `states` is where records go. Throws InputError.
-  RealtimeLoop(const DaemonConfig& config, decltype(OutboundMemory::states)& states);
+  /// Takes over the buses and drives. `states` is where records go.
+  RealtimeLoop(const LoopConfig& config, LoopParts parts, decltype(OutboundMemory::states)& states);
   /// Stops and joins.
   ~RealtimeLoop();
   RealtimeLoop(const RealtimeLoop&) = delete;
@@ -55,10 +55,8 @@ class RealtimeLoop {
   void close_buses();
 
   JointLoop& joint(std::size_t index) noexcept { return *joints_[index]; }
-  /// Null when the configuration wants none.
-  FlightRecorder* recorder(std::size_t index) noexcept {
-    return recorders_.empty() ? nullptr : recorders_[index].get();
-  }
+  /// Null when the joint is not recorded.
+  FlightRecorder* recorder(std::size_t index) noexcept { return recorders_[index].get(); }
   std::size_t joint_count() const noexcept { return joints_.size(); }
   /// In the configuration's order.
   const std::vector<std::unique_ptr<Fieldbus>>& buses() const noexcept { return buses_; }

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "base/utime.h"
 #include "daemon/realtime/periodic_clock.h"
@@ -25,8 +25,6 @@ constexpr auto kTurn = std::chrono::milliseconds(50);
 constexpr double kBytesPerMB = 1e6;
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr const char* kUnfinished = ".part";
-constexpr int kComplaints = 5;
-constexpr std::int64_t kComplaintWindow_ns = 60'000'000'000;
 
 std::string error_text(const std::string& what) {
   return what + ": " + std::strerror(errno);
@@ -68,11 +66,8 @@ std::vector<RecordFile> list_records(const fs::path& directory, std::error_code&
 }  // namespace
 
 FlightRecordWriter::FlightRecordWriter(const RecorderConfig& config, double period_s, std::int64_t session_id,
-                                       std::vector<Source> sources)
-    : config_(config),
-      period_s_(period_s),
-      session_id_(session_id),
-      complaints_(kComplaints, kComplaintWindow_ns) {
+                                       std::vector<Source> sources, Report report)
+    : config_(config), period_s_(period_s), session_id_(session_id), report_(std::move(report)) {
   for (Source& source : sources)
     states_.push_back({std::move(source), std::numeric_limits<std::int64_t>::min()});
 }
@@ -117,8 +112,9 @@ void FlightRecordWriter::turn(std::int64_t now_ns) {
 void FlightRecordWriter::handle(State& state, std::int64_t now_ns) {
   const std::string& joint = state.source.joint;
   if (now_ns < state.not_before_ns)
-    return complain(
-        joint + ": flight record dropped: recorder.min_interval_s has not passed since the last one", now_ns);
+    return report_(
+        true, joint + ": flight record dropped: recorder.min_interval_s has not passed since the last one",
+        now_ns);
   const FlightRecorder& recorder = *state.source.recorder;
   const std::int64_t since_fault_us = (now_ns - recorder.sample(recorder.fault_index()).time_ns) / 1000;
   const FlightRecordHeader header{joint, state.source.joint_model, session_id_,
@@ -126,9 +122,9 @@ void FlightRecordWriter::handle(State& state, std::int64_t now_ns) {
   const std::string name = flight_record_name(header, recorder);
   std::string problem;
   if (!write(name, flight_record_text(header, recorder), problem))
-    return complain(joint + ": flight record lost: " + problem, now_ns);
+    return report_(true, joint + ": flight record lost: " + problem, now_ns);
   state.not_before_ns = now_ns + static_cast<std::int64_t>(config_.min_interval_s * kNanosecondsPerSecond);
-  spdlog::info("{}: flight record {}", joint, (config_.directory / name).string());
+  report_(false, joint + ": flight record " + (config_.directory / name).string(), now_ns);
 }
 
 bool FlightRecordWriter::write(const std::string& name, const std::string& text, std::string& problem) {
@@ -179,13 +175,6 @@ bool FlightRecordWriter::make_room(std::uintmax_t size, std::string& problem) {
     --kept;
   }
   return true;
-}
-
-void FlightRecordWriter::complain(const std::string& text, std::int64_t now_ns) {
-  std::int64_t suppressed = 0;
-  if (!complaints_.allow(now_ns, suppressed)) return;
-  if (suppressed > 0) spdlog::warn("{} more lines about flight records were not logged", suppressed);
-  spdlog::warn("{}", text);
 }
 
 }  // namespace strainwave

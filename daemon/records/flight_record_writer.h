@@ -5,12 +5,12 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "daemon/log.h"
 #include "daemon/realtime/flight_recorder.h"
 
 namespace strainwave {
@@ -33,8 +33,10 @@ class FlightRecordWriter {
     std::string joint_model;
     FlightRecorder* recorder;
   };
+  /// Tells of a record that was written, or (`lost`) of one that was not; called from the writer's own thread.
+  using Report = std::function<void(bool lost, const std::string& text, std::int64_t now_ns)>;
   FlightRecordWriter(const RecorderConfig& config, double period_s, std::int64_t session_id,
-                     std::vector<Source> sources);
+                     std::vector<Source> sources, Report report);
   /// Writes what is frozen, then ends the thread.
   ~FlightRecordWriter();
   FlightRecordWriter(const FlightRecordWriter&) = delete;
@@ -54,13 +56,12 @@ class FlightRecordWriter {
   void handle(State& state, std::int64_t now_ns);
   bool write(const std::string& name, const std::string& text, std::string& problem);
   bool make_room(std::uintmax_t size, std::string& problem);
-  void complain(const std::string& text, std::int64_t now_ns);
 
   RecorderConfig config_;
   double period_s_;
   std::int64_t session_id_;
   std::vector<State> states_;
-  LogLimiter complaints_;
+  Report report_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false;

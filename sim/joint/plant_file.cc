@@ -7,7 +7,7 @@
 #include "base/input_error.h"
 #include "base/text_file.h"
 #include "base/toml_section.h"
-#include "sim/studies/scenarios.h"
+#include "sim/joint/setting.h"
 
 namespace strainwave {
 

@@ -1,35 +1,9 @@
 #include "sim/studies/scenarios.h"
 
-#include "sim/joint/reference_plant.h"
-
 namespace strainwave {
 
 std::string_view name(Scenario scenario) {
   return scenario == Scenario::kStaircase ? "staircase" : "ramp";
-}
-
-std::string_view name(Setting setting) {
-  switch (setting) {
-    case Setting::kIdeal:
-      return "ideal";
-    case Setting::kLimited:
-      return "limited";
-    case Setting::kRealistic:
-      break;
-  }
-  return "realistic";
-}
-
-JointPlantConfig setting_plant(Setting setting) {
-  switch (setting) {
-    case Setting::kIdeal:
-      return ideal_plant();
-    case Setting::kLimited:
-      return torque_limited_plant();
-    case Setting::kRealistic:
-      break;
-  }
-  return realistic_plant();
 }
 
 ClosedLoopConfig scenario_config(Scenario scenario, int range, const JointPlantConfig& plant) {

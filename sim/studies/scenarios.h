@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "sim/joint/setting.h"
 #include "sim/studies/closed_loop.h"
 
 namespace strainwave {
@@ -14,20 +15,11 @@ namespace strainwave {
 enum class Scenario { kStaircase, kRamp };
 inline constexpr std::array kScenarios = {Scenario::kStaircase, Scenario::kRamp};
 
-/// Ideal: exact state, no torque limit (the source's). Limited: exact state, peak torque. Realistic: the
-/// datasheet.
-enum class Setting { kIdeal, kLimited, kRealistic };
-inline constexpr std::array kSettings = {Setting::kIdeal, Setting::kLimited, Setting::kRealistic};
-
 /// Lower end of each of the four ranges in rad; the ramp's setpoint.
 inline constexpr std::array kRangeStart_rad = {0.001, 0.01, 0.1, 1.0};
 inline constexpr int kRangeCount = 4;
 
 std::string_view name(Scenario scenario);
-std::string_view name(Setting setting);
-
-/// The reference joint in this setting.
-JointPlantConfig setting_plant(Setting setting);
 
 /// Staircase: starts at the range's lower end, rises by twice that every second, five steps of 1 s. Ramp:
 /// constant setpoint at the lower end for 12 s. `range` in 0..kRangeCount-1.

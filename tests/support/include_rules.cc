@@ -9,29 +9,6 @@ namespace strainwave::testing {
 
 namespace {
 
-struct Folder {
-  std::string_view name;
-  std::vector<std::string_view> may_include;  ///< folders, or single files
-};
-
-/// The arrows. A folder may always include itself; nothing that is
-/// shipped may include tests.
-const std::vector<Folder> kFolders{
-    {"base", {}},
-    {"control", {"base"}},
-    {"design", {"base", "control", "lcmtypes"}},
-    {"sim", {"base", "control", "drivers/actuator.h"}},
-    {"drivers", {"base", "control"}},
-    {"lcmtypes", {"base", "control"}},
-    {"daemon", {"base", "control", "drivers", "lcmtypes"}},
-    {"client", {"base", "control", "lcmtypes", "drivers/injected_fault.h", "drivers/can/can_scan.h"}},
-    {"bench", {"base", "control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
-    {"tests", {"base", "control", "design", "sim", "drivers", "lcmtypes", "daemon", "client", "tests"}},
-};
-
-/// The adapter that puts the simulated plant behind the drivers' seam: the only driver that may see sim/.
-constexpr std::string_view kSimulatedDriver = "drivers/simulated_";
-
 struct Library {
   std::string_view header;              ///< how its headers begin
   std::vector<std::string_view> users;  ///< files (as they begin) that may include it
@@ -73,28 +50,21 @@ std::string_view top_folder(std::string_view path) {
   return path.substr(0, path.find('/'));
 }
 
-const Folder* find_folder(std::string_view name) {
-  const auto found =
-      std::find_if(kFolders.begin(), kFolders.end(), [&](const auto& f) { return f.name == name; });
-  return found == kFolders.end() ? nullptr : &*found;
+/// Whether `file` is what `name` of the table stands for: "folder/" and all below, "folder/begin*" the files there, or itself.
+bool fits(std::string_view name, std::string_view file) {
+  if (name.ends_with('/')) return file.starts_with(name);
+  if (!name.ends_with('*')) return file == name;
+  name.remove_suffix(1);
+  return file.starts_with(name) && file.find('/', name.size()) == std::string_view::npos;
 }
 
-std::string check_our_header(std::string_view file, std::string_view header) {
-  if (header.find('/') == std::string_view::npos || header.find("..") != std::string_view::npos) {
-    return "includes are written from the root: \"" + std::string(header) + "\" is not";
-  }
-  const std::string_view from = top_folder(file);
-  const std::string_view to = top_folder(header);
-  const Folder* folder = find_folder(from);
-  if (folder == nullptr) return "folder " + std::string(from) + " is not in the table of arrows";
-  if (find_folder(to) == nullptr)
-    return "\"" + std::string(header) + "\" is in no folder of the table of arrows";
-  if (from == to) return "";
-  for (const std::string_view allowed : folder->may_include) {
-    if (allowed == to || allowed == header) return "";
-  }
-  if (to == "sim" && file.starts_with(kSimulatedDriver)) return "";
-  return std::string(from) + " must not include " + std::string(header);
+/// What stands in `...` in one cell.
+std::vector<std::string> names_in(const std::string& cell) {
+  static const std::regex kName("`([^`]+)`");
+  std::vector<std::string> names;
+  for (auto it = std::sregex_iterator(cell.begin(), cell.end(), kName); it != std::sregex_iterator(); ++it)
+    names.push_back((*it)[1]);
+  return names;
 }
 
 std::string check_library_header(std::string_view file, std::string_view header) {
@@ -122,48 +92,82 @@ bool is_not_ours(const std::string& folder) {
   return folder.starts_with(".") || folder == "build";
 }
 
-void check_file(const std::filesystem::path& root, const std::filesystem::path& path,
-                std::vector<std::string>& defects) {
+}  // namespace
+
+IncludeRules::IncludeRules(const std::filesystem::path& page) {
+  std::ifstream stream(page);
+  bool in_table = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("| folder |") && line.ends_with("| may include |")) in_table = true;
+    if (!line.starts_with('|')) in_table = false;
+    static const std::regex kRow(R"(\|([^|]*)\|[^|]*\|([^|]*)\|)");
+    std::smatch cells;
+    if (!in_table || !std::regex_match(line, cells, kRow)) continue;
+    for (const std::string& name : names_in(cells[1])) rows_.push_back({name, names_in(cells[2])});
+  }
+}
+
+const IncludeRules::Row* IncludeRules::row_of(std::string_view file) const {
+  const Row* longest = nullptr;
+  for (const Row& row : rows_)
+    if (fits(row.name, file) && (longest == nullptr || row.name.size() > longest->name.size()))
+      longest = &row;
+  return longest;
+}
+
+std::string IncludeRules::check_our_header(std::string_view file, std::string_view header) const {
+  if (header.find('/') == std::string_view::npos || header.find("..") != std::string_view::npos)
+    return "includes are written from the root: \"" + std::string(header) + "\" is not";
+  const Row* row = row_of(file);
+  if (row == nullptr) return std::string(file) + " is in no row of the table of arrows";
+  if (row_of(header) == nullptr) return "\"" + std::string(header) + "\" is in no row of the table of arrows";
+  const auto allows = [&](const std::string& name) { return fits(name, header); };
+  if (allows(row->name) || std::any_of(row->may_include.begin(), row->may_include.end(), allows)) return "";
+  return row->name + " must not include " + std::string(header);
+}
+
+std::string IncludeRules::find_defect(std::string_view file, std::string_view line) const {
+  static const std::regex kInclude(R"(^\s*#\s*(?:include|import)\s*(["<])([^">]+)[">].*$)");
+  std::match_results<std::string_view::const_iterator> match;
+  if (!std::regex_match(line.begin(), line.end(), match, kInclude)) return "";
+  const std::string header = match[2];
+  if (match[1] == "\"") return check_our_header(file, header);
+  if (row_of(header) != nullptr) return "headers of ours stand in quotation marks: <" + header + ">";
+  return check_library_header(file, header);
+}
+
+void IncludeRules::check_file(const std::filesystem::path& root, const std::filesystem::path& path,
+                              std::vector<std::string>& defects) const {
   const std::string file = std::filesystem::relative(path, root).generic_string();
-  if (find_folder(top_folder(file)) == nullptr) {
-    defects.push_back(file + ":1: folder " + std::string(top_folder(file)) +
-                      " is not in the table of arrows");
+  if (row_of(file) == nullptr) {
+    defects.push_back(file + ":1: is in no row of the table of arrows");
     return;
   }
   std::ifstream stream(path);
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
-    const std::string defect = find_include_defect(file, line);
+    const std::string defect = find_defect(file, line);
     if (!defect.empty()) defects.push_back(file + ":" + std::to_string(number) + ": " + defect);
   }
 }
 
-}  // namespace
-
-std::string find_include_defect(std::string_view file, std::string_view line) {
-  static const std::regex kInclude(R"(^\s*#\s*(?:include|import)\s*(["<])([^">]+)[">].*$)");
-  std::match_results<std::string_view::const_iterator> match;
-  if (!std::regex_match(line.begin(), line.end(), match, kInclude)) return "";
-  const std::string header = match[2];
-  if (match[1] == "\"") return check_our_header(file, header);
-  if (find_folder(top_folder(header)) != nullptr && header.find('/') != std::string::npos) {
-    return "headers of ours stand in quotation marks: <" + header + ">";
-  }
-  return check_library_header(file, header);
+std::vector<std::string> IncludeRules::find_defects(const std::filesystem::path& root) const {
+  std::vector<std::string> defects;
+  for (const std::filesystem::path& source : sources_under(root)) check_file(root, source, defects);
+  return defects;
 }
 
-std::vector<std::string> find_include_defects(const std::filesystem::path& root) {
-  std::vector<std::string> defects;
+std::vector<std::filesystem::path> sources_under(const std::filesystem::path& root) {
+  std::vector<std::filesystem::path> sources;
   for (const auto& entry : std::filesystem::directory_iterator(root)) {
-    if (entry.is_regular_file() && is_source(entry.path())) check_file(root, entry.path(), defects);
+    if (entry.is_regular_file() && is_source(entry.path())) sources.push_back(entry.path());
     if (!entry.is_directory() || is_not_ours(entry.path().filename().string())) continue;
-    for (const auto& file : std::filesystem::recursive_directory_iterator(entry.path())) {
-      if (file.is_regular_file() && is_source(file.path())) check_file(root, file.path(), defects);
-    }
+    for (const auto& file : std::filesystem::recursive_directory_iterator(entry.path()))
+      if (file.is_regular_file() && is_source(file.path())) sources.push_back(file.path());
   }
-  std::sort(defects.begin(), defects.end());
-  return defects;
+  std::sort(sources.begin(), sources.end());
+  return sources;
 }
 
 }  // namespace strainwave::testing

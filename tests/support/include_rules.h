@@ -1,5 +1,5 @@
-// Which folder may include what: the arrows of docs/architecture.md as a table, and a reader of #include
-// lines that holds the tree against it.
+// Which folder may include what: the table of docs/architecture.md, and a reader of #include lines that holds the tree against
+// it. Which library may be included where stands in include_rules.cc.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,35 @@
 
 namespace strainwave::testing {
 
-/// What is wrong with `line`, a line of the source file `file` (path from the root, e.g. "daemon/config/config.cc");
-/// empty when nothing is, or when it is no #include line.
-std::string find_include_defect(std::string_view file, std::string_view line);
+class IncludeRules {
+ public:
+  /// Reads the table with the columns "folder" and "may include" of `page`.
+  explicit IncludeRules(const std::filesystem::path& page);
 
-/// One sentence "<file>:<line>: ..." for every defect in the sources under `root`. Sources in a folder that
-/// the table does not know are defects, too. Folders that hold no sources of ours (build, .git) are not read.
-std::vector<std::string> find_include_defects(const std::filesystem::path& root);
+  std::size_t row_count() const noexcept { return rows_.size(); }
+
+  /// What is wrong with `line`, a line of the source file `file` (path from the root, e.g. "daemon/config/config.cc");
+  /// empty when nothing is, or when it is no #include line.
+  std::string find_defect(std::string_view file, std::string_view line) const;
+
+  /// One sentence "<file>:<line>: ..." for every defect in the sources under `root`. Sources in a folder that
+  /// the table does not know are defects, too.
+  std::vector<std::string> find_defects(const std::filesystem::path& root) const;
+
+ private:
+  struct Row {
+    std::string name;
+    std::vector<std::string> may_include;
+  };
+  const Row* row_of(std::string_view file) const;
+  std::string check_our_header(std::string_view file, std::string_view header) const;
+  void check_file(const std::filesystem::path& root, const std::filesystem::path& path,
+                  std::vector<std::string>& defects) const;
+
+  std::vector<Row> rows_;
+};
+
+/// Every C and C++ source under `root`, sorted. Folders that hold no sources of ours (build, .git) are not read.
+std::vector<std::filesystem::path> sources_under(const std::filesystem::path& root);
 
 }  // namespace strainwave::testing

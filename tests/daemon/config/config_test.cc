@@ -47,7 +47,7 @@ TEST_F(ConfigTest, ReadsASoundFile) {
   ASSERT_EQ(config.joints.size(), 1U);
   EXPECT_EQ(config.joints[0].plant.inertia_kgm2, 0.089);
   EXPECT_NE(config.joints[0].make_actuator(), nullptr);
-  EXPECT_EQ(admission_of(config)[0].position_max_rad, 3.2);
+  EXPECT_EQ(assemble_admission(config)[0].position_max_rad, 3.2);
 }
 
 TEST_F(ConfigTest, NamesFileLineKeyAndTheUnitThatWasForgotten) {

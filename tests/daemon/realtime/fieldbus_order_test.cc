@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/fieldbus.h"
@@ -59,19 +60,15 @@ class JournalBus final : public Fieldbus {
 
 TEST(RealtimeLoop, PutsEveryJointOfABusBetweenItsBeginAndItsEnd) {
   Journal journal;
-  DaemonConfig config;
-  config.loop.real_time = RealTimePolicy::kIgnore;
-  config.buses.push_back({"bus", [&] { return std::make_unique<JournalBus>(journal); }});
-  for (std::size_t slot = 0; slot < 2; ++slot) {
-    JointConfig joint;
-    joint.loop = demo_joint().loop;
-    joint.bus = 0;
-    joint.bus_slot = slot;
-    config.joints.push_back(joint);
-  }
+  LoopConfig config;
+  config.real_time = RealTimePolicy::kIgnore;
+  LoopParts parts;
+  parts.buses.push_back(std::make_unique<JournalBus>(journal));
+  for (std::size_t slot = 0; slot < 2; ++slot)
+    parts.joints.push_back({demo_joint().loop, parts.buses[0]->make_actuator(slot), nullptr});
   const auto memory = std::make_unique<OutboundMemory>();
   {
-    RealtimeLoop loop(config, memory->states);
+    RealtimeLoop loop(config, std::move(parts), memory->states);
     loop.start();
     while (loop.statistics().cycles.load() < 20) std::this_thread::yield();
     loop.request_stop();

@@ -46,7 +46,13 @@ class FlightRecordWriterTest : public ::testing::Test {
   void TearDown() override { fs::permissions(temporary_.path(), fs::perms::owner_all); }
 
   FlightRecordWriter writer() {
-    return {config_, 0.001, 4711, {{"elbow", "rhs17-6006", &elbow_}, {"wrist", "rhs17-6006", &wrist_}}};
+    return {config_,
+            0.001,
+            4711,
+            {{"elbow", "rhs17-6006", &elbow_}, {"wrist", "rhs17-6006", &wrist_}},
+            [this](bool lost, const std::string& text, std::int64_t /*now_ns*/) {
+              (lost ? lost_ : written_).push_back(text);
+            }};
   }
   /// A fault after `count` good samples.
   void fault(FlightRecorder& recorder, int count = 50, std::uint8_t number = 13) {
@@ -74,6 +80,8 @@ class FlightRecordWriterTest : public ::testing::Test {
     return total;
   }
 
+  std::vector<std::string> written_;  ///< what the writer told
+  std::vector<std::string> lost_;
   TemporaryFolder temporary_;
   RecorderConfig config_;
   FlightRecorder elbow_{100, 10};
@@ -135,7 +143,13 @@ TEST_F(FlightRecordWriterTest, ReleasesTheMemoryWhateverBecomesOfTheFile) {
   RecorderConfig nowhere = config_;
   nowhere.directory = "/proc/no/such/place";
   fault(elbow_);
-  FlightRecordWriter(nowhere, 0.001, 4711, {{"elbow", "rhs17-6006", &elbow_}}).turn(now_ns_);
+  std::string told;
+  FlightRecordWriter(nowhere, 0.001, 4711, {{"elbow", "rhs17-6006", &elbow_}},
+                     [&](bool lost, const std::string& text, std::int64_t /*now_ns*/) {
+                       if (lost) told = text;
+                     })
+      .turn(now_ns_);
+  EXPECT_NE(told.find("elbow: flight record lost: "), std::string::npos) << told;
   elbow_.write(FlightSample{});
   EXPECT_FALSE(elbow_.frozen());
 }

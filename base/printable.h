@@ -1,0 +1,13 @@
+// Text from outside made fit for a terminal or a log. Not real-time.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace strainwave {
+
+/// `text` up to its first zero byte, without anything that could command a terminal or begin another line: each control
+/// character (C0, DEL, and C1 in UTF-8) is a question mark.
+std::string printable(std::string_view text);
+
+}  // namespace strainwave

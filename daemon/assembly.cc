@@ -1,0 +1,48 @@
+#include "daemon/assembly.h"
+
+#include <cmath>
+#include <memory>
+
+#include "drivers/thermometer_actuator.h"
+
+namespace strainwave {
+
+namespace {
+
+std::unique_ptr<Actuator> make_drive(const JointConfig& joint,
+                                     const std::vector<std::unique_ptr<Fieldbus>>& buses) {
+  if (joint.bus < 0) return joint.make_actuator();
+  auto drive = buses[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
+  if (!joint.thermometer) return drive;
+  return std::make_unique<ThermometerActuator>(std::move(drive), *joint.thermometer);
+}
+
+std::unique_ptr<FlightRecorder> make_recorder(const RecorderConfig& recorder, double period_s) {
+  if (!recorder.enabled()) return nullptr;
+  const auto samples = [&](double duration_s) {
+    return static_cast<std::size_t>(std::llround(duration_s / period_s));
+  };
+  return std::make_unique<FlightRecorder>(samples(recorder.seconds) + 2, samples(recorder.post_trigger_s));
+}
+
+}  // namespace
+
+LoopParts assemble_loop(const DaemonConfig& config) {
+  LoopParts parts;
+  for (const BusConfig& bus : config.buses) parts.buses.push_back(bus.make_bus());
+  for (const JointConfig& joint : config.joints)
+    parts.joints.push_back(
+        {joint.loop, make_drive(joint, parts.buses), make_recorder(config.recorder, config.loop.period_s)});
+  return parts;
+}
+
+std::vector<JointAdmission> assemble_admission(const DaemonConfig& config) {
+  std::vector<JointAdmission> joints;
+  for (const JointConfig& joint : config.joints)
+    joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad,
+                      joint.loop.limits.position_max_rad, joint.loop.controller.torque_limit_Nm,
+                      joint.loop.controller.motion.velocity_rad_s, joint.takes_injected_faults});
+  return joints;
+}
+
+}  // namespace strainwave

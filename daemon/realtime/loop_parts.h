@@ -1,0 +1,38 @@
+// What the loop is made of: its own settings, the buses, and a drive with its settings for each joint. Who makes them from a
+// configuration is daemon/assembly.h; the loop knows none. Not real-time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/joint_loop.h"
+#include "drivers/actuator.h"
+#include "drivers/fieldbus.h"
+
+namespace strainwave {
+
+/// What to do when the system refuses real-time scheduling or memory locking.
+enum class RealTimePolicy { kEnforce, kIgnore };
+
+struct LoopConfig {
+  double period_s = 0.001;
+  RealTimePolicy real_time = RealTimePolicy::kEnforce;
+  int priority = 80;       ///< SCHED_FIFO
+  int cpu = -1;            ///< pin to this processor; -1: do not
+  int overrun_limit = 10;  ///< cycles in a row that begin late by a period or more
+  double state_rate_Hz = 200.0;
+};
+
+struct JointParts {
+  JointLoopConfig config;
+  std::unique_ptr<Actuator> actuator;
+  std::unique_ptr<FlightRecorder> recorder;  ///< null: nothing is recorded
+};
+
+struct LoopParts {
+  std::vector<std::unique_ptr<Fieldbus>> buses;  ///< the joints' drives may refer to them
+  std::vector<JointParts> joints;
+};
+
+}  // namespace strainwave
