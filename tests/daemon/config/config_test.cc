@@ -1,4 +1,5 @@
 #include "daemon/config/config.h"
+#include "daemon/assembly.h"
 
 #include <fstream>
 #include <string>
