@@ -10,7 +10,6 @@
 #include "base/csv.h"
 #include "base/gnuplot.h"
 #include "base/input_error.h"
-#include "base/printable.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -110,8 +109,8 @@ std::string plot_script(const FlightRecordInfo& info, const std::filesystem::pat
       kSettings;
   if (around_s) script += fmt::format("set xrange [{}:{}]\n", -*around_s, *around_s);
   script += fmt::format("set multiplot layout 5,1 title {} font 'sans,14'\n",
-                        gnuplot_quoted(printable(head("joint") + ": fault " + head("fault") + ", " +
-                                                 head("fault_utc") + " (cycle " + head("fault_cycle") + ")")));
+                        gnuplot_quoted(head("joint") + ": fault " + head("fault") + ", " + head("fault_utc") +
+                                       " (cycle " + head("fault_cycle") + ")"));
   script += "set ylabel 'position in rad'\nplot " + curve("setpoint_position_rad", "setpoint", 2) + ", " +
             curve("joint_position_rad", "measured", 1) + "\n";
   script += fmt::format(

@@ -103,6 +103,8 @@ IncludeRules::IncludeRules(const std::filesystem::path& page) {
     static const std::regex kRow(R"(\|([^|]*)\|[^|]*\|([^|]*)\|)");
     std::smatch cells;
     if (!in_table || !std::regex_match(line, cells, kRow)) continue;
+    // A row without a word on what it may include is of a folder without sources.
+    if (cells[2].str().find_first_not_of(' ') == std::string::npos) continue;
     for (const std::string& name : names_in(cells[1])) rows_.push_back({name, names_in(cells[2])});
   }
 }
