@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "client/text/text.h"
+#include "base/printable.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave::json {
