@@ -11,8 +11,8 @@ namespace {
 
 std::unique_ptr<Actuator> make_drive(const JointConfig& joint,
                                      const std::vector<std::unique_ptr<Fieldbus>>& buses) {
-  if (joint.bus < 0) return joint.make_actuator();
-  auto drive = buses[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
+  auto drive = joint.bus < 0 ? joint.make_actuator()
+                             : buses[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
   if (!joint.thermometer) return drive;
   return std::make_unique<ThermometerActuator>(std::move(drive), *joint.thermometer);
 }

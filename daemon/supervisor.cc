@@ -45,10 +45,19 @@ std::int64_t make_session_id() {
   return id & INT64_MAX;
 }
 
+// Every signal that somebody or something may send and that would kill the core, in motion: they all end it in order. What is
+// left (SIGSEGV and its kin) tells that it is broken; SIGKILL and SIGSTOP nobody can refuse.
+constexpr std::array kEndSignals{SIGTERM, SIGINT,    SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR2,   SIGALRM,
+                                 SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGXCPU, SIGSTKFLT, SIGTRAP};
+
 int make_signal_fd() {
   sigset_t signals;
   ::sigemptyset(&signals);
-  for (const int signal : {SIGTERM, SIGINT, SIGCHLD}) ::sigaddset(&signals, signal);
+  ::sigaddset(&signals, SIGCHLD);
+  for (const int signal : kEndSignals) ::sigaddset(&signals, signal);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) ::sigaddset(&signals, signal);
+  // A terminal must not be able to make the loop stand still.
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
   // Blocked before any thread starts, so that all signals arrive here.
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   const int descriptor = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
@@ -79,7 +88,12 @@ std::string advice(const Reply& reply) {
     case Reason::kFaulted:
       return mode + ": see its fault, remove the cause, clear the fault";
     case Reason::kMoving:
-      return mode + ": hold or disable it first, a table is taken over only at standstill";
+      return reply.mode == Mode::kOff
+                 ? mode + " and moves at " + std::to_string(reply.joint_velocity_rad_s) +
+                       " rad/s: it is enabled only at standstill (joint.supervision.standstill_rad_s)"
+                 : mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kEnding:
+      return mode + ", and the daemon brings every joint to rest: start it again";
     case Reason::kStreamExpired:
       return mode +
              ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";

@@ -30,7 +30,7 @@ class Supervisor {
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Runs until SIGTERM or SIGINT has brought every joint to rest.
+  /// Runs until SIGTERM, SIGINT or any other signal that may be sent has brought every joint to rest.
   void run();
 
  private:

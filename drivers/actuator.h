@@ -12,7 +12,7 @@ namespace strainwave {
 /// What the drive itself can do for us now.
 enum class DriveState : std::int32_t {
   kDisabled = 0,  ///< no torque; the joint is free
-  kEnabling = 1,  ///< asked to enable, still on its way (brake, drive state machine)
+  kEnabling = 1,  ///< asked to enable, still on its way
   kEnabled = 2,   ///< torque commands take effect
   kFault = 3,     ///< the drive reports a fault; see ActuatorReading::fault
 };
@@ -42,16 +42,18 @@ struct JointInputs {
 
 /// One period's measurements.
 struct ActuatorReading {
-  double joint_position_rad = 0.0;      ///< accumulated, not wrapped
-  double joint_velocity_rad_s = 0.0;    ///< valid only when has_velocity
-  double torque_applied_Nm = 0.0;       ///< what the drive says it applied last period
-  double temperature_C = 0.0;           ///< latest known value; valid only when has_temperature
-  std::int64_t temperature_age_ns = 0;  ///< since the sensor produced it
+  double joint_position_rad = 0.0;           ///< accumulated, not wrapped
+  double joint_velocity_rad_s = 0.0;         ///< valid only when has_velocity
+  double torque_applied_Nm = 0.0;            ///< what the drive says it applied last period
+  double temperature_C = 0.0;                ///< latest known value; valid only when has_temperature
+  std::int64_t temperature_produced_ns = 0;  ///< when the sensor produced it, CLOCK_MONOTONIC
   DriveState drive_state = DriveState::kDisabled;
   ActuatorFault fault = ActuatorFault::kNone;
   JointInputs inputs;             ///< of this period, even without a fresh position
   std::uint32_t drive_error = 0;  ///< why, in the driver's own numbers; 0: nothing to say
   bool has_position = false;      ///< false: no fresh sample this period, the value is the last one
+  bool position_lost = false;     ///< the count may be wrong: to be homed before it is believed
+  bool brake_shut = false;        ///< torque holds the joint while its brake opens: no motion yet
   bool has_velocity = false;
   bool has_temperature = false;
 };

@@ -38,10 +38,13 @@ SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
       load_torque_Nm_(config.load_torque_Nm),
       enable_delay_periods_(whole_periods(checked_not_negative(config.enable_delay_s, "enable_delay_s"),
                                           config.plant.period_s)),
+      watchdog_periods_(
+          whole_periods(checked_not_negative(config.watchdog_s, "watchdog_s"), config.plant.period_s)),
       temperature_periods_(whole_periods(
           checked_not_negative(config.temperature_period_s, "temperature_period_s"), config.plant.period_s)),
       temperature_noise_C_(checked_not_negative(config.temperature_noise_C, "temperature_noise_C")),
-      random_(config.seed) {
+      random_(config.seed),
+      period_ns_(std::llround(config.plant.period_s * kNanosecondsPerSecond)) {
   if (!std::isfinite(config.load_torque_Nm))
     throw InputError("simulated actuator", "load_torque_Nm", std::to_string(config.load_torque_Nm),
                      "must be finite");
@@ -49,7 +52,13 @@ SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
   sample_temperature();
 }
 
-ActuatorReading SimulatedActuator::read(std::int64_t /*now_ns*/) noexcept {
+ActuatorReading SimulatedActuator::read(std::int64_t now_ns) noexcept {
+  if (!lived_until_ns_) temperature_produced_ns_ = *(lived_until_ns_ = now_ns);
+  // To the nearest whole period: whoever reads once a period is not quite even.
+  while (now_ns - *lived_until_ns_ > period_ns_ / 2) {
+    *lived_until_ns_ += period_ns_;
+    live_through_period();
+  }
   ActuatorReading reading;
   reading.joint_position_rad = plant_.measured_position_rad() - encoder_zero_rad_;
   reading.inputs = inputs_.at(plant_.state().position_rad, plant_.state().position_rad - encoder_zero_rad_);
@@ -58,8 +67,7 @@ ActuatorReading SimulatedActuator::read(std::int64_t /*now_ns*/) noexcept {
   if (reading.has_velocity) reading.joint_velocity_rad_s = plant_.state().velocity_rad_s;
   reading.torque_applied_Nm = plant_.applied_torque_Nm();
   reading.temperature_C = temperature_C_;
-  reading.temperature_age_ns = std::llround(static_cast<double>(temperature_age_periods_) *
-                                            plant_.config().period_s * kNanosecondsPerSecond);
+  reading.temperature_produced_ns = temperature_produced_ns_;
   reading.has_temperature = true;
   reading.drive_state = fault_ == ActuatorFault::kNone ? drive_state_ : DriveState::kFault;
   reading.fault = fault_;
@@ -68,24 +76,35 @@ ActuatorReading SimulatedActuator::read(std::int64_t /*now_ns*/) noexcept {
 
 void SimulatedActuator::write(const ActuatorCommand& command) noexcept {
   if (command.enable && !std::isfinite(command.torque_Nm)) fault_ = ActuatorFault::kWriteRefused;
-  advance_drive(command.enable && fault_ == ActuatorFault::kNone);
-  const bool powered = drive_state_ == DriveState::kEnabled;
-  if (!powered) plant_.clear_pending_torque();
-  plant_.step(powered ? command.torque_Nm : 0.0, load_torque_Nm_);
-  plant_.set_ambient_temperature(ambient_.at(plant_.time_s()));
-  if (++temperature_age_periods_ >= temperature_periods_) sample_temperature();
+  command_ = command;
+  unattended_periods_ = 0;
+  if (!command_.enable) stop_drive();
 }
 
 void SimulatedActuator::stop() noexcept {
+  command_ = {};
+  stop_drive();
+}
+
+void SimulatedActuator::stop_drive() noexcept {
   drive_state_ = DriveState::kDisabled;
   enabling_periods_ = 0;
   plant_.clear_pending_torque();
 }
 
-void SimulatedActuator::advance_drive(bool enable) noexcept {
-  if (!enable) {
-    drive_state_ = DriveState::kDisabled;
-    enabling_periods_ = 0;
+void SimulatedActuator::live_through_period() noexcept {
+  advance_drive();
+  const bool powered = drive_state_ == DriveState::kEnabled;
+  if (!powered) plant_.clear_pending_torque();
+  const bool attended = watchdog_periods_ == 0 || ++unattended_periods_ <= watchdog_periods_;
+  plant_.step(powered && attended ? command_.torque_Nm : 0.0, load_torque_Nm_);
+  plant_.set_ambient_temperature(ambient_.at(plant_.time_s()));
+  if (++temperature_age_periods_ >= temperature_periods_) sample_temperature();
+}
+
+void SimulatedActuator::advance_drive() noexcept {
+  if (!command_.enable || fault_ != ActuatorFault::kNone) {
+    stop_drive();
   } else if (drive_state_ != DriveState::kEnabled) {
     drive_state_ = enabling_periods_ >= enable_delay_periods_ ? DriveState::kEnabled : DriveState::kEnabling;
     ++enabling_periods_;
@@ -96,6 +115,7 @@ void SimulatedActuator::sample_temperature() noexcept {
   temperature_C_ = plant_.sensor_temperature_C();
   if (temperature_noise_C_ > 0.0) temperature_C_ += temperature_noise_C_ * normal_(random_);
   temperature_age_periods_ = 0;
+  temperature_produced_ns_ = lived_until_ns_.value_or(0);
 }
 
 }  // namespace strainwave

@@ -1,12 +1,14 @@
 // The simulated joint behind the seam: a drive with an enable delay, an encoder and a slow temperature sensor
-// around sim/joint/joint_plant.h. Each write() advances the plant by one period; nothing here reads a clock, so the
-// same calls give the same motion. read(), write(), stop() and clear_fault() are real-time safe; the
-// constructor is not.
+// around sim/joint/joint_plant.h. The joint lives by the time that read() is told, not by the calls: what passes between
+// two reads passes for the joint, under the last torque ordered, however long the loop stayed away. Nothing here reads a
+// clock, so the same times and orders give the same motion. read(), write(), stop() and clear_fault() are real-time safe
+// (a read after a long stall takes about a microsecond for each period of it); the constructor is not.
 //
 // It never fails by itself. Faults are injected by a decorator: another Actuator that holds this one.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 
 #include "drivers/actuator.h"
@@ -17,12 +19,13 @@
 namespace strainwave {
 
 struct SimulatedActuatorConfig {
-  JointPlantConfig plant;             ///< with an ideal encoder the reading has the exact velocity as well
-  TemperatureProfile ambient;         ///< over plant time, which starts at 0 with the first write()
-  SimulatedInputsConfig inputs;       ///< by the plant's position
-  bool incremental = false;           ///< the encoder counts from where the joint stands at the start
-  double load_torque_Nm = 0.0;        ///< constant, opposes positive motor torque
-  double enable_delay_s = 0.05;       ///< from the first enabling write() to kEnabled, >= 0
+  JointPlantConfig plant;        ///< with an ideal encoder the reading has the exact velocity as well
+  TemperatureProfile ambient;    ///< over plant time, which starts at 0 with the first read()
+  SimulatedInputsConfig inputs;  ///< by the plant's position
+  bool incremental = false;      ///< the encoder counts from where the joint stands at the start
+  double load_torque_Nm = 0.0;   ///< constant, opposes positive motor torque
+  double enable_delay_s = 0.05;  ///< from the first enabling write() to kEnabled, >= 0; counted in periods
+  double watchdog_s = 0.0;  ///< without a write() for longer there is no torque, >= 0 (0: the last one stays)
   double temperature_period_s = 0.1;  ///< the sensor produces a value this often, >= 0 (0: every period)
   double temperature_noise_C = 0.0;   ///< standard deviation of each value, >= 0
   std::uint64_t seed = 1;             ///< of the noise
@@ -50,7 +53,9 @@ class SimulatedActuator final : public Actuator {
   const JointPlant& plant() const noexcept { return plant_; }
 
  private:
-  void advance_drive(bool enable) noexcept;
+  void live_through_period() noexcept;
+  void advance_drive() noexcept;
+  void stop_drive() noexcept;
   void sample_temperature() noexcept;
 
   JointPlant plant_;
@@ -59,15 +64,21 @@ class SimulatedActuator final : public Actuator {
   double encoder_zero_rad_;
   double load_torque_Nm_;
   long enable_delay_periods_;
+  long watchdog_periods_;
   long temperature_periods_;
   double temperature_noise_C_;
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
 
+  std::int64_t period_ns_;
+  std::optional<std::int64_t> lived_until_ns_;  ///< nothing before the first read
+  ActuatorCommand command_;                     ///< the last one
   DriveState drive_state_ = DriveState::kDisabled;
   ActuatorFault fault_ = ActuatorFault::kNone;
   long enabling_periods_ = 0;
+  long unattended_periods_ = 0;  ///< since the last write()
   long temperature_age_periods_ = 0;
+  std::int64_t temperature_produced_ns_ = 0;
   double temperature_C_ = 0.0;
 };
 

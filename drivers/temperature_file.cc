@@ -123,7 +123,7 @@ void TemperatureFile::read_once() {
     return;
   }
   last_C_ = temperature_C;
-  publish(temperature_C, began_ns);
+  shared_.put({temperature_C, began_ns, true});
 }
 
 // Exactly 85 degC is believed only of a sensor that was about as hot before.
@@ -132,19 +132,8 @@ bool TemperatureFile::is_power_on_value(double number, double temperature_C) con
          !(last_C_ && std::abs(*last_C_ - temperature_C) < kNearPowerOn_C);
 }
 
-void TemperatureFile::publish(double temperature_C, std::int64_t produced_ns) noexcept {
-  const std::uint32_t sequence = sequence_.load();
-  sequence_.store(sequence + 1);
-  shared_temperature_C_.store(temperature_C);
-  shared_produced_ns_.store(produced_ns);
-  sequence_.store(sequence + 2);
-}
-
 const TemperatureFile::Sample& TemperatureFile::newest() noexcept {
-  const std::uint32_t before = sequence_.load();
-  if (before == 0 || before % 2 != 0) return newest_;
-  const Sample copy{shared_temperature_C_.load(), shared_produced_ns_.load(), true};
-  if (sequence_.load() == before) newest_ = copy;
+  (void)shared_.take(newest_);
   return newest_;
 }
 

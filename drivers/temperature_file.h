@@ -17,6 +17,8 @@
 #include <string_view>
 #include <thread>
 
+#include "base/latest_value.h"
+
 namespace strainwave {
 
 /// What the file holds.
@@ -62,16 +64,11 @@ class TemperatureFile {
   void run(const std::stop_token& stop);
   void read_once();
   bool is_power_on_value(double number, double temperature_C) const noexcept;
-  void publish(double temperature_C, std::int64_t produced_ns) noexcept;
 
   TemperatureFileConfig config_;
   std::optional<double> last_C_;  ///< the thread's
 
-  // Odd while the thread writes. A loop that meets it so keeps what it had: it may have interrupted the
-  // writer.
-  std::atomic<std::uint32_t> sequence_{0};
-  std::atomic<double> shared_temperature_C_{0.0};
-  std::atomic<std::int64_t> shared_produced_ns_{0};
+  LatestValue<Sample> shared_;
   std::atomic<std::int64_t> errors_{0};
   Sample newest_;  ///< the loop's
 

@@ -2,7 +2,6 @@
 // place of the drive's own. read(), write(), stop() and clear_fault() are real-time safe; the constructor is not.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -22,7 +21,7 @@ class ThermometerActuator final : public Actuator {
     const TemperatureFile::Sample& sample = thermometer_.newest();
     reading.has_temperature = sample.valid;
     reading.temperature_C = sample.temperature_C;
-    reading.temperature_age_ns = std::max<std::int64_t>(0, now_ns - sample.produced_ns);
+    reading.temperature_produced_ns = sample.produced_ns;
     return reading;
   }
   void write(const ActuatorCommand& command) noexcept override { actuator_->write(command); }

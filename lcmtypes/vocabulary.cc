@@ -18,6 +18,8 @@ std::string_view to_text(Mode mode) noexcept {
       return "faulted";
     case Mode::kHoming:
       return "homing";
+    case Mode::kReleasing:
+      return "releasing";
   }
   return "unknown";
 }
@@ -66,6 +68,16 @@ std::string_view to_text(Fault fault) noexcept {
       return "homing failed";
     case Fault::kLimitSwitch:
       return "limit switch";
+    case Fault::kLoopStalled:
+      return "loop stalled";
+    case Fault::kPeriodsMissed:
+      return "too many periods missed";
+    case Fault::kBlocked:
+      return "joint is blocked";
+    case Fault::kOverload:
+      return "load too large";
+    case Fault::kTemperatureLost:
+      return "temperature lost";
   }
   return "unknown";
 }
@@ -152,6 +164,8 @@ std::string_view to_text(Reason reason) noexcept {
       return "limit switch in that direction";
     case Reason::kNoHoming:
       return "no homing configured";
+    case Reason::kEnding:
+      return "daemon is ending";
   }
   return "unknown";
 }
@@ -228,6 +242,16 @@ std::string_view configuration_key(Fault fault) noexcept {
       return "joint.on_fault";
     case Fault::kHomingFailed:
       return "joint.homing";
+    case Fault::kLoopStalled:
+      return "daemon.stall_limit_s";
+    case Fault::kPeriodsMissed:
+      return "daemon.missed_share_limit";
+    case Fault::kBlocked:
+      return "joint.supervision.blocked_s";
+    case Fault::kOverload:
+      return "joint.limits.load_Nm";
+    case Fault::kTemperatureLost:
+      return "joint.temperature.on_loss";
     case Fault::kNone:
     case Fault::kWriteRefused:
     case Fault::kDriveFault:

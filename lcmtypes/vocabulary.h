@@ -18,7 +18,8 @@ enum class Mode : std::int32_t {
   kTracking = 3,
   kStopping = 4,
   kFaulted = 5,
-  kHoming = 6
+  kHoming = 6,
+  kReleasing = 7
 };
 
 /// state_v1.fault: latched, the joint is stopped.
@@ -44,6 +45,11 @@ enum class Fault : std::int32_t {
   kGroup = 18,
   kHomingFailed = 19,
   kLimitSwitch = 20,
+  kLoopStalled = 21,
+  kPeriodsMissed = 22,
+  kBlocked = 23,
+  kOverload = 24,
+  kTemperatureLost = 25,
 };
 
 /// state_v1.notices: a bit set; the joint goes on, limited.
@@ -89,6 +95,7 @@ enum class Reason : std::int32_t {
   kNotHomed = 26,
   kAtLimitSwitch = 27,
   kNoHoming = 28,
+  kEnding = 29,
 };
 inline constexpr int kReasonCount = 32;
 

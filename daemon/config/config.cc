@@ -32,7 +32,11 @@ LoopConfig read_loop(TomlSection& section) {
                        : RealTimePolicy::kEnforce;
   loop.priority = static_cast<int>(section.integer_or("priority", loop.priority, 1, 98));
   loop.cpu = static_cast<int>(section.integer_or("cpu", loop.cpu, -1, 1023));
-  loop.overrun_limit = static_cast<int>(section.integer_or("overrun_limit", loop.overrun_limit, 1, 1000000));
+  OverrunLimits& overruns = loop.overruns;
+  overruns.in_a_row = static_cast<int>(section.integer_or("overrun_limit", overruns.in_a_row, 1, 1000000));
+  overruns.stall_s = section.number_or("stall_limit_s", std::max(overruns.stall_s, 2.0 * loop.period_s),
+                                       {2.0 * loop.period_s, 1e6});
+  overruns.missed_share = section.number_or("missed_share_limit", overruns.missed_share, {0.0, 1.0});
   loop.state_rate_Hz = section.number_or("state_rate_Hz", loop.state_rate_Hz, {0.1, 1.0 / loop.period_s});
   return loop;
 }
@@ -81,6 +85,7 @@ void read_limits(TomlSection section, JointLoopConfig& loop) {
   limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
   loop.controller.torque_limit_Nm = section.number("torque_Nm", kPositive);
   limits.hot_C = section.number_or("temperature_C", 80.0, {-50.0, 200.0});
+  limits.load_Nm = section.number_or("load_Nm", loop.controller.torque_limit_Nm, kPositive);
   section.refuse_unknown_keys();
 }
 
@@ -95,6 +100,12 @@ void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   check.max_age_s = section.number_or("max_age_s", check.max_age_s, {1e-3, 3600.0});
   check.max_constant_s = section.number_or("max_constant_s", check.max_constant_s, {0.0, 86400.0});
   check.recovery_s = section.number_or("recovery_s", check.recovery_s, {0.0, 3600.0});
+  check.loss_is_fault = section.choice_or("on_loss", "fallback", {"fallback", "fault"}) == "fault";
+  // What is above max_C is not believed: the limit must be reached before.
+  if (loop.limits.hot_C >= check.max_C)
+    section.fail("max_C",
+                 "a temperature above joint.limits.temperature_C = " + std::to_string(loop.limits.hot_C) +
+                     " is allowed: a joint at its limit must be believed");
   section.refuse_unknown_keys();
 }
 
@@ -102,18 +113,21 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
   loop.start_timeout_s = section.number_or("start_timeout_s", loop.start_timeout_s, {0.01, 60.0});
   loop.stop_timeout_s = section.number_or("stop_timeout_s", loop.stop_timeout_s, {0.01, 60.0});
   loop.standstill_rad_s = section.number_or("standstill_rad_s", loop.standstill_rad_s, {1e-6, 1.0});
+  loop.blocked_s = section.number_or("blocked_s", loop.blocked_s, {0.01, 60.0});
   loop.missed_readings_limit =
       static_cast<int>(section.integer_or("missed_readings_limit", loop.missed_readings_limit, 0, 1000));
   section.refuse_unknown_keys();
 }
 
-void read_features(TomlSection section, JointControllerConfig& controller) {
+void read_features(TomlSection section, JointLoopConfig& loop) {
+  JointControllerConfig& controller = loop.controller;
   controller.use_observer = section.boolean_or("observer", controller.use_observer);
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);
   controller.use_landing = section.boolean_or("landing", controller.use_landing);
   controller.encoder_deviation_counts =
       section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
+  loop.initial_load_Nm = section.number_or("initial_load_Nm", loop.initial_load_Nm, {-1e6, 1e6});
   controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
   section.refuse_unknown_keys();
 }
@@ -135,7 +149,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.loop.fault_stops_group && joint.group.empty())
     section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
-  read_features(section.section_or_empty("control"), joint.loop.controller);
+  read_features(section.section_or_empty("control"), joint.loop);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
   if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
   if (joint.thermometer && joint.driver == "simulated")

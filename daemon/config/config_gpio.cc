@@ -194,7 +194,6 @@ HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, do
   read_amplifier(section.section("amplifier"), motor, joint.plant.gear_ratio, gpio);
   read_brake(section.section_or_empty("brake"), gpio);
   const double counts_per_rad = read_encoder(section.section("encoder"), period_s, joint, gpio);
-  gpio.thermometer = joint.thermometer;
 
   JointControllerConfig& controller = joint.loop.controller;
   controller.encoder_resolution_rad = 1.0 / counts_per_rad;

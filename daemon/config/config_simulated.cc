@@ -88,6 +88,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   config.ambient = read_profile(section);
   config.load_torque_Nm = section.number_or("load_torque_Nm", 0.0, {-1e3, 1e3});
   config.enable_delay_s = section.number_or("enable_delay_s", config.enable_delay_s, {0.0, 10.0});
+  config.watchdog_s = section.number_or("watchdog_s", config.watchdog_s, {0.0, 10.0});
   config.temperature_period_s =
       section.number_or("temperature_period_s", config.temperature_period_s, {0.0, 60.0});
   config.temperature_noise_C =

@@ -6,8 +6,9 @@
 namespace strainwave {
 
 struct CycleTime {
-  std::int64_t now_ns = 0;  ///< CLOCK_MONOTONIC when the period began
-  std::int64_t cycle = 0;   ///< periods since the loop began, those left out included
+  std::int64_t now_ns = 0;           ///< CLOCK_MONOTONIC: the instant that this period stands for
+  std::int64_t cycle = 0;            ///< periods since the loop began, those left out included
+  std::int64_t elapsed_periods = 1;  ///< since the period before; more where the loop has left some out
 };
 
 }  // namespace strainwave

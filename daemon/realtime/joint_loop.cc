@@ -12,6 +12,8 @@ namespace {
 
 /// A speed this close to its limit is at it.
 constexpr double kAtLimit = 1.0 - 1e-9;
+/// So little of its way changes the torque of gravity by a hundredth at most.
+constexpr double kSamePlace_rad = 0.01;
 
 Fault fault_of(ActuatorFault fault) noexcept {
   switch (fault) {
@@ -56,7 +58,10 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       schedule_(config.temperature_update_period_s, config.controller.period_s, index),
       zero_(config.homing.required),
       homing_(config.homing),
-      controller_(config.controller) {
+      controller_(config.controller),
+      motion_watch_({config.limits.following_error_rad, config.limits.load_Nm, config.blocked_s,
+                     config.standstill_rad_s}),
+      held_{config.initial_load_Nm, {}} {
   record_.joint_index = index;
 }
 
@@ -77,6 +82,11 @@ void JointLoop::step(const CycleTime& time) noexcept {
 
 void JointLoop::read_drive(const CycleTime& time) noexcept {
   watch_.take(actuator_->read(time.now_ns), mode_.controlled(), motion_.joint_velocity_rad_s, time);
+  if (reading().position_lost) zero_.forget();
+  if (watch_.fresh() && !mode_.controlled())
+    speed_gauge_.see(reading().joint_position_rad, time.now_ns);
+  else
+    speed_gauge_.forget();
 }
 
 void JointLoop::check_reading(const CycleTime& time) noexcept {
@@ -89,11 +99,11 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
 }
 
 void JointLoop::check_temperature(const CycleTime& time) noexcept {
-  temperature_.update(reading().has_temperature, reading().temperature_C,
-                      time.now_ns - reading().temperature_age_ns, time.now_ns);
-  const bool hot =
-      temperature_.status() == TemperatureStatus::kValid && temperature_.used_C() > config_.limits.hot_C;
-  if (hot && !mode_.is(Mode::kOff)) raise_fault(Fault::kTemperatureLimit, time);
+  temperature_.update(reading().has_temperature, reading().temperature_C, reading().temperature_produced_ns,
+                      time.now_ns);
+  if (mode_.is(Mode::kOff)) return;
+  if (temperature_.hotter_than(config_.limits.hot_C)) return raise_fault(Fault::kTemperatureLimit, time);
+  if (temperature_.lost()) raise_fault(Fault::kTemperatureLost, time);
 }
 
 void JointLoop::expire_setpoint(const CycleTime& time) noexcept {
@@ -106,6 +116,10 @@ void JointLoop::control(const CycleTime& time) noexcept {
     motion_ = JointStep{};
     return;
   }
+  // While the joint stands at its place the brake holds it, whatever the torque: nothing can be learned from that, and nothing is
+  // to be done but to hold the load that is known. The first count that it moves is the control law's.
+  const bool braked = mode_.is(Mode::kReleasing) && reading().joint_position_rad == controller_.target_rad();
+  if (braked) controller_.start(reading().joint_position_rad, 0.0, load_here_Nm());
   JointMeasurement measurement;
   measurement.joint_position_rad = reading().joint_position_rad;
   measurement.joint_velocity_rad_s = reading().joint_velocity_rad_s;
@@ -113,6 +127,8 @@ void JointLoop::control(const CycleTime& time) noexcept {
       schedule_.follow_C(temperature_.used_C(), time.cycle, motion_.gains_in_use != GainsInUse::kPrimary);
   measurement.has_velocity = reading().has_velocity;
   measurement.temperature_valid = temperature_.usable();
+  measurement.elapsed_periods =
+      static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, kMaxElapsedPeriods));
   motion_ = controller_.step(measurement);
   refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
@@ -144,19 +160,25 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
     return raise_fault(Fault::kLimitSwitch, time);
   if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
     return raise_fault(Fault::kSpeedLimit, time);
-  if (std::abs(motion_.reference.position_rad - position_rad) > limits.following_error_rad)
-    raise_fault(Fault::kFollowingError, time);
+  // Until the brake is open the joint stands whatever it is ordered.
+  if (mode_.is(Mode::kReleasing)) return motion_watch_.begin(time.now_ns);
+  const Fault fault = motion_watch_.judge(motion_, position_rad, time.now_ns);
+  if (fault != Fault::kNone) raise_fault(fault, time);
 }
 
 void JointLoop::advance_mode(const CycleTime& time) noexcept {
   switch (mode()) {
     case Mode::kStarting:
-      if (reading().drive_state == DriveState::kEnabled && watch_.fresh()) {
-        controller_.start(reading().joint_position_rad);
-        (void)change_mode(ModeEvent::kDriveReady, time);
-      } else if (mode_.seconds(time.now_ns) > config_.start_timeout_s) {
+      if (reading().drive_state == DriveState::kEnabled && watch_.fresh())
+        take_over(time);
+      else if (mode_.seconds(time.now_ns) > config_.start_timeout_s)
         raise_fault(Fault::kStartTimeout, time);
-      }
+      return;
+    case Mode::kReleasing:
+      if (!reading().brake_shut)
+        (void)change_mode(ModeEvent::kDriveReady, time);
+      else if (mode_.seconds(time.now_ns) > config_.start_timeout_s)
+        raise_fault(Fault::kStartTimeout, time);
       return;
     case Mode::kTracking:
       // A stream rests at its last setpoint until the next one comes or it expires.
@@ -175,6 +197,23 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
     case Mode::kFaulted:
       return;
   }
+}
+
+// With the motion that there is, and with the torque that holds the load: what held it until now lets go after this period.
+void JointLoop::take_over(const CycleTime& time) noexcept {
+  const double measured_rad_s = measured_velocity_rad_s();
+  const double velocity_rad_s = std::abs(measured_rad_s) > config_.standstill_rad_s ? measured_rad_s : 0.0;
+  controller_.start(reading().joint_position_rad, velocity_rad_s, load_here_Nm());
+  motion_watch_.begin(time.now_ns);
+  (void)change_mode(reading().brake_shut ? ModeEvent::kTorqueReady : ModeEvent::kDriveReady, time);
+  control(time);
+}
+
+// A joint that is found elsewhere may carry something else.
+double JointLoop::load_here_Nm() const noexcept {
+  const bool here =
+      !held_.position_rad || std::abs(reading().joint_position_rad - *held_.position_rad) < kSamePlace_rad;
+  return here ? held_.torque_Nm : 0.0;
 }
 
 void JointLoop::command_drive(const CycleTime& time) noexcept {
@@ -206,6 +245,16 @@ void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   (void)events_.push({index_, time.cycle, from, mode(), mode_.fault(), mode_.drive_error()});
   if (from == Mode::kHoming) homing_.abort();
   if (mode_.is(Mode::kStopping)) controller_.stop();
+  // At rest: what the joint carries is known now, and something else holds it from here on.
+  if (from == Mode::kStopping && mode_.is(Mode::kOff))
+    held_ = {motion_.phase == MotionPhase::kResting ? motion_.output.torque_Nm
+                                                    : motion_.estimate.disturbance.load_Nm,
+             reading().joint_position_rad};
+}
+
+void JointLoop::end(const CycleTime& time) noexcept {
+  service_ = Service::kEnding;
+  (void)change_mode(ModeEvent::kDisableOrdered, time);
 }
 
 void JointLoop::tell(const CycleTime& time) noexcept {

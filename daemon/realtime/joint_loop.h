@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "control/joint_controller.h"
 #include "daemon/gateway/shared_memory.h"
@@ -14,9 +15,11 @@
 #include "daemon/realtime/homing.h"
 #include "daemon/realtime/joint_mode.h"
 #include "daemon/realtime/joint_zero.h"
+#include "daemon/realtime/motion_watch.h"
 #include "daemon/realtime/ordered_target.h"
 #include "daemon/realtime/orders.h"
 #include "daemon/realtime/reading_watch.h"
+#include "daemon/realtime/speed_gauge.h"
 #include "daemon/realtime/temperature_check.h"
 #include "daemon/realtime/temperature_schedule.h"
 #include "drivers/actuator.h"
@@ -30,8 +33,9 @@ struct JointLimits {
   double position_max_rad = 0.0;
   double position_margin_rad = 0.0;  ///< fault beyond position_min - margin and position_max + margin
   double overspeed_rad_s = 0.0;      ///< fault
-  double following_error_rad = 0.0;  ///< fault: |reference - position|
+  double following_error_rad = 0.0;  ///< fault: |what the orders make of the reference - position|
   double hot_C = 0.0;                ///< fault above
+  double load_Nm = 0.0;              ///< fault: the estimated load is larger for blocked_s
 };
 
 struct JointLoopConfig {
@@ -45,6 +49,9 @@ struct JointLoopConfig {
   double start_timeout_s = 2.0;               ///< from enable to the drive's readiness
   double stop_timeout_s = 3.0;                ///< from disable to standstill
   double standstill_rad_s = 0.01;
+  double blocked_s = 0.5;  ///< at the torque limit without progress, before it is a fault
+  double initial_load_Nm =
+      0.0;  ///< what holds the joint until it is first enabled holds this; later the estimate
   int missed_readings_limit = 5;  ///< periods without a fresh position before it is a fault
 };
 
@@ -75,7 +82,8 @@ class JointLoop {
   void raise_fault(Fault fault, const CycleTime& time) noexcept;
   /// Zero torque and disable, at once; the last act of the loop.
   void stop_drive() noexcept { actuator_->stop(); }
-  void order_disable(const CycleTime& time) noexcept { (void)change_mode(ModeEvent::kDisableOrdered, time); }
+  /// The loop ends: the joint comes to rest, and from now on every order that could set it moving is refused. May be repeated.
+  void end(const CycleTime& time) noexcept;
   /// Whether the joint has faulted in this cycle in a way that stops its group.
   bool stops_group(const CycleTime& time) const noexcept {
     return config_.fault_stops_group && mode() == Mode::kFaulted && mode_.began(time.now_ns) &&
@@ -87,6 +95,12 @@ class JointLoop {
   const StateRecord& record() const noexcept { return record_; }
 
  private:
+  enum class Service { kServing, kEnding };
+  /// The torque that held the joint when it last rested under control, and where that was; before, the configuration's.
+  struct HeldLoad {
+    double torque_Nm = 0.0;
+    std::optional<double> position_rad;
+  };
   // The steps of a period, in their order.
   void take_orders(const CycleTime& time) noexcept;
   void read_drive(const CycleTime& time) noexcept;
@@ -95,6 +109,8 @@ class JointLoop {
   void expire_setpoint(const CycleTime& time) noexcept;
   void advance_homing(const CycleTime& time) noexcept;
   void control(const CycleTime& time) noexcept;
+  void take_over(const CycleTime& time) noexcept;
+  double load_here_Nm() const noexcept;
   void check_motion(const CycleTime& time) noexcept;
   void advance_mode(const CycleTime& time) noexcept;
   void command_drive(const CycleTime& time) noexcept;
@@ -119,6 +135,11 @@ class JointLoop {
   void mode_changed(Mode from, const CycleTime& time) noexcept;
   void notice(Notice notice) noexcept { notices_ |= static_cast<std::int32_t>(notice); }
   const ActuatorReading& reading() const noexcept { return watch_.reading(); }
+  /// As the control law has it, or the drive, or by the positions.
+  double measured_velocity_rad_s() const noexcept {
+    if (mode_.controlled()) return motion_.joint_velocity_rad_s;
+    return reading().has_velocity ? reading().joint_velocity_rad_s : speed_gauge_.velocity_rad_s();
+  }
 
   std::int64_t index_;
   JointLoopConfig config_;
@@ -139,6 +160,10 @@ class JointLoop {
   JointZero zero_;
   Homing homing_;
   JointController controller_;
+  MotionWatch motion_watch_;
+  SpeedGauge speed_gauge_;  ///< while nothing is controlled
+  HeldLoad held_;
+  Service service_ = Service::kServing;
   JointStep motion_;          ///< of this period
   std::int32_t notices_ = 0;  ///< of this period
   StateRecord record_{};

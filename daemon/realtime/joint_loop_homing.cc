@@ -22,6 +22,7 @@ void JointLoop::obey_homing(const Homing::Order& order) noexcept {
 
 Reason JointLoop::home(const CycleTime& time) noexcept {
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
+  if (service_ == Service::kEnding) return Reason::kEnding;
   if (!homing_.possible()) return Reason::kNoHoming;
   if (!change_mode(ModeEvent::kHomeOrdered, time)) return Reason::kWrongMode;
   zero_.forget();

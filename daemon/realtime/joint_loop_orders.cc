@@ -22,7 +22,7 @@ void JointLoop::take_orders(const CycleTime& time) noexcept {
   while (orders_.pop(order)) {
     const Reason reason = obey(order, time);
     // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
-    if (order.id != 0) (void)replies_.push({order.id, reason, mode()});
+    if (order.id != 0) (void)replies_.push({order.id, reason, mode(), measured_velocity_rad_s()});
   }
 }
 
@@ -50,10 +50,13 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
 
 Reason JointLoop::enable(const CycleTime& time) noexcept {
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
+  if (service_ == Service::kEnding) return Reason::kEnding;
   if (!controller_.has_table()) return Reason::kNoTable;
   // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
   if (mode_.is(Mode::kOff) && !watch_.fresh() && reading().fault == ActuatorFault::kNone)
     return Reason::kDriveNotReady;
+  if (mode_.is(Mode::kOff) && std::abs(measured_velocity_rad_s()) > config_.standstill_rad_s)
+    return Reason::kMoving;
   if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
   ordered_.forget();
   return Reason::kAccepted;
@@ -72,6 +75,7 @@ Reason JointLoop::use_table(const TableSlot& slot) noexcept {
 
 Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
+  if (service_ == Service::kEnding) return Reason::kEnding;
   // A late packet of a stream that has ended must not set the joint moving again.
   if (order.valid_for_s > 0.0 && !ordered_.takes_stream()) return Reason::kStreamExpired;
   if (!zero_.known()) return Reason::kNotHomed;

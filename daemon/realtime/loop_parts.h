@@ -7,6 +7,7 @@
 
 #include "daemon/realtime/flight_recorder.h"
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/overrun_watch.h"
 #include "drivers/actuator.h"
 #include "drivers/fieldbus.h"
 
@@ -18,9 +19,9 @@ enum class RealTimePolicy { kEnforce, kIgnore };
 struct LoopConfig {
   double period_s = 0.001;
   RealTimePolicy real_time = RealTimePolicy::kEnforce;
-  int priority = 80;       ///< SCHED_FIFO
-  int cpu = -1;            ///< pin to this processor; -1: do not
-  int overrun_limit = 10;  ///< cycles in a row that begin late by a period or more
+  int priority = 80;  ///< SCHED_FIFO
+  int cpu = -1;       ///< pin to this processor; -1: do not
+  OverrunLimits overruns;
   double state_rate_Hz = 200.0;
 };
 

@@ -1,6 +1,7 @@
 // The modes of a joint and what leads from one to another: a pure function with its table in one place. Real-time safe.
 //
-//   Off -> Starting -> Holding <-> Tracking -> Stopping -> Off, Holding <-> Homing, and Faulted from anywhere.
+//   Off -> Starting -> (Releasing ->) Holding <-> Tracking -> Stopping -> Off, Holding <-> Homing, and Faulted from anywhere.
+// Releasing: the position is held under torque while the brake opens; no motion is accepted before it is open.
 // Faulted is left only by an explicit clear, and only to Off: nothing resumes motion by itself.
 #pragma once
 
@@ -12,7 +13,8 @@ namespace strainwave {
 
 enum class ModeEvent {
   kEnableOrdered,     ///< a command to enable
-  kDriveReady,        ///< the drive takes torque commands
+  kTorqueReady,       ///< the drive takes torque commands, its brake is shut
+  kDriveReady,        ///< the drive takes torque commands, and nothing else holds the joint
   kSetpointAccepted,  ///< a move or a stream begins or goes on
   kHomeOrdered,       ///< a command to find the home position
   kArrived,           ///< the reference rests at its end; after kHomeOrdered: where homing ended
@@ -27,8 +29,7 @@ std::optional<Mode> next_mode(Mode mode, ModeEvent event) noexcept;
 
 /// True while the drive is to be enabled.
 constexpr bool wants_drive_enabled(Mode mode) noexcept {
-  return mode == Mode::kStarting || mode == Mode::kHolding || mode == Mode::kTracking ||
-         mode == Mode::kStopping || mode == Mode::kHoming;
+  return mode != Mode::kOff && mode != Mode::kFaulted;
 }
 
 /// True while the control law sets the torque.

@@ -35,7 +35,8 @@ struct Order {
 struct Reply {
   std::int64_t id = 0;
   Reason reason = Reason::kAccepted;
-  Mode mode = Mode::kOff;  ///< at that moment
+  Mode mode = Mode::kOff;             ///< at that moment
+  double joint_velocity_rad_s = 0.0;  ///< likewise
 };
 
 /// A change worth a line in the log.

@@ -31,9 +31,12 @@ PeriodicClock::Wake PeriodicClock::wait() noexcept {
   const timespec until{next_ns_ / kNanosecondsPerSecond, next_ns_ % kNanosecondsPerSecond};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
-  wake.planned_ns = next_ns_;
+  wake.due_ns = next_ns_;
   wake.woke_ns = monotonic_now_ns();
-  next_ns_ += period_ns_;
+  const std::int64_t overslept = (wake.woke_ns - wake.due_ns + period_ns_ / 2) / period_ns_;
+  wake.skipped += overslept;
+  wake.instant_ns = wake.due_ns + overslept * period_ns_;
+  next_ns_ = wake.instant_ns + period_ns_;
   return wake;
 }
 

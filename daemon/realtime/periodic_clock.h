@@ -15,9 +15,12 @@ void busy_wait(std::int64_t duration_ns) noexcept;
 class PeriodicClock {
  public:
   struct Wake {
-    std::int64_t planned_ns = 0;  ///< when the cycle should have begun
-    std::int64_t woke_ns = 0;     ///< when it did
-    std::int64_t skipped = 0;     ///< whole periods left out because the cycle before ran past their start
+    std::int64_t due_ns = 0;   ///< when it was to wake up
+    std::int64_t woke_ns = 0;  ///< when it did
+    std::int64_t instant_ns =
+        0;  ///< which of the periods' instants this cycle stands for: the one nearest to woke_ns
+    std::int64_t skipped =
+        0;  ///< periods left out: the cycle before ran past their start, or the wake-up came too late
   };
 
   explicit PeriodicClock(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
@@ -25,7 +28,8 @@ class PeriodicClock {
   /// The first cycle begins one period from now.
   void start() noexcept { next_ns_ = monotonic_now_ns() + period_ns_; }
 
-  /// Sleeps until the next cycle begins. A cycle that is already over is skipped, never squeezed in.
+  /// Sleeps until the next cycle begins. A cycle that is already over is skipped, never squeezed in. Instants are whole periods
+  /// apart; those skipped since the last cycle are told with the cycle that follows them, whatever delayed it.
   Wake wait() noexcept;
 
  private:

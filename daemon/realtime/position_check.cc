@@ -23,17 +23,20 @@ constexpr int kSettlingPeriods = 5;
 
 bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven,
                               std::int64_t now_ns) noexcept {
-  const bool jump = driven && has_last_ && jumped(position_rad, now_ns);
+  const bool jump = driven && has_last_ && jumped(position_rad, elapsed_s(now_ns));
   if (!driven || !has_last_) begin_stretch();
-  const bool motionless = driven && has_last_ && stuck(position_rad, torque_Nm);
+  const bool motionless = driven && has_last_ && stuck(position_rad, torque_Nm, elapsed_s(now_ns));
   last_position_rad_ = position_rad;
   last_ns_ = now_ns;
   has_last_ = true;
   return !jump && !motionless;
 }
 
-bool PositionCheck::jumped(double position_rad, std::int64_t now_ns) const noexcept {
-  const double elapsed_s = std::max(config_.period_s, static_cast<double>(now_ns - last_ns_) * 1e-9);
+double PositionCheck::elapsed_s(std::int64_t now_ns) const noexcept {
+  return std::max(config_.period_s, static_cast<double>(now_ns - last_ns_) * 1e-9);
+}
+
+bool PositionCheck::jumped(double position_rad, double elapsed_s) const noexcept {
   const double allowed_rad = kJumpFactor * config_.overspeed_rad_s * elapsed_s +
                              kJumpCounts * config_.resolution_rad + kJumpFloor_rad;
   return std::abs(position_rad - last_position_rad_) > allowed_rad;
@@ -45,7 +48,7 @@ void PositionCheck::begin_stretch() noexcept {
   owed_motion_rad_ = 0.0;
 }
 
-bool PositionCheck::stuck(double position_rad, double torque_Nm) noexcept {
+bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_s) noexcept {
   if (position_rad != last_position_rad_) {
     begin_stretch();
     return false;
@@ -64,8 +67,8 @@ bool PositionCheck::stuck(double position_rad, double torque_Nm) noexcept {
     owed_velocity_rad_s_ = 0.0;  // it may have come to rest again
     return false;
   }
-  owed_velocity_rad_s_ += excess_Nm / inertia_kgm2_ * config_.period_s;
-  owed_motion_rad_ += owed_velocity_rad_s_ * config_.period_s;
+  owed_velocity_rad_s_ += excess_Nm / inertia_kgm2_ * elapsed_s;
+  owed_motion_rad_ += owed_velocity_rad_s_ * elapsed_s;
   return owed_motion_rad_ > std::max(kStuckCounts * config_.resolution_rad, kStuckFloor_rad);
 }
 

@@ -36,8 +36,9 @@ class PositionCheck {
   bool plausible(double position_rad, double torque_Nm, bool driven, std::int64_t now_ns) noexcept;
 
  private:
-  bool jumped(double position_rad, std::int64_t now_ns) const noexcept;
-  bool stuck(double position_rad, double torque_Nm) noexcept;
+  bool jumped(double position_rad, double elapsed_s) const noexcept;
+  bool stuck(double position_rad, double torque_Nm, double elapsed_s) noexcept;
+  double elapsed_s(std::int64_t now_ns) const noexcept;
   void begin_stretch() noexcept;
 
   PositionCheckConfig config_;

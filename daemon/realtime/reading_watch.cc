@@ -17,15 +17,18 @@ const ActuatorReading& ReadingWatch::take(const ActuatorReading& reading, bool c
                                           double velocity_rad_s, const CycleTime& time) noexcept {
   freshness_ = judge(reading);
   const double last_position_rad = reading_.joint_position_rad;
+  const double elapsed_s = static_cast<double>(time.elapsed_periods) * period_s_;
   reading_ = reading;
   if (!fresh()) {
     // Where the joint must be by now: a position that stands still and then jumps would look like a blocked joint.
-    reading_.joint_position_rad = last_position_rad + (controlled ? velocity_rad_s * period_s_ : 0.0);
+    reading_.joint_position_rad = last_position_rad + (controlled ? velocity_rad_s * elapsed_s : 0.0);
     reading_.has_velocity = false;
     reading_.torque_applied_Nm = 0.0;
   }
-  missed_ = fresh() ? 0 : std::min(missed_ + 1, missed_limit_ + 1);
-  const bool driven = reading.drive_state == DriveState::kEnabled && controlled;
+  const std::int64_t missed = missed_ + time.elapsed_periods;
+  missed_ = fresh() ? 0 : static_cast<int>(std::min<std::int64_t>(missed, missed_limit_ + 1));
+  // A brake that is shut holds the joint whatever the torque.
+  const bool driven = reading.drive_state == DriveState::kEnabled && controlled && !reading.brake_shut;
   const bool possible = !fresh() || position_check_.plausible(reading.joint_position_rad,
                                                               reading.torque_applied_Nm, driven, time.now_ns);
   if ((freshness_ == Freshness::kMalformed || !possible) && reading_.fault == ActuatorFault::kNone)

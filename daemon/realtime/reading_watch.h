@@ -12,7 +12,7 @@ namespace strainwave {
 
 class ReadingWatch {
  public:
-  /// Up to `missed_limit` periods in a row may pass without a fresh position.
+  /// Up to `missed_limit` periods in a row, those that the loop left out included, may pass without a fresh position.
   ReadingWatch(const PositionCheckConfig& position, int missed_limit) noexcept
       : position_check_(position), period_s_(position.period_s), missed_limit_(missed_limit) {}
 

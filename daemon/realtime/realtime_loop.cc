@@ -23,7 +23,7 @@ RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
       events_(std::make_unique<EventQueue>()),
       statistics_(std::make_unique<LoopTotals>()),
       buses_(std::move(parts.buses)),
-      overrun_watch_(config.overrun_limit) {
+      overrun_watch_(config.overruns, config.period_s) {
   for (JointParts& joint : parts.joints) {
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.config,
                                                   std::move(joint.actuator), *replies_, *events_));
@@ -75,7 +75,8 @@ void RealtimeLoop::run() noexcept {
   for (;;) {
     const PeriodicClock::Wake wake = clock.wait();
     time.cycle += 1 + wake.skipped;
-    time.now_ns = wake.woke_ns;
+    time.elapsed_periods = 1 + wake.skipped;
+    time.now_ns = wake.instant_ns;
     account_wake(wake, time);
     bring_to_rest_when_asked(time);
     for (const auto& bus : buses_) bus->begin_cycle(time.now_ns);
@@ -106,19 +107,20 @@ void RealtimeLoop::stop_drives() noexcept {
 }
 
 void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept {
-  statistics_->wakeup_latency.add(wake.woke_ns - wake.planned_ns);
+  statistics_->wakeup_latency.add(wake.woke_ns - wake.due_ns);
   if (previous_wake_ns_ != 0)
     statistics_->period_error.add(std::abs(wake.woke_ns - previous_wake_ns_ - period_ns_));
   previous_wake_ns_ = wake.woke_ns;
   statistics_->overruns.store(statistics_->overruns.load(std::memory_order_relaxed) + wake.skipped,
                               std::memory_order_relaxed);
-  if (overrun_watch_.too_many(wake.skipped)) fault_driven_joints(joints_, Fault::kOverruns, time);
+  const Fault fault = overrun_watch_.judge(wake.skipped);
+  if (fault != Fault::kNone) fault_driven_joints(joints_, fault, time);
 }
 
 void RealtimeLoop::bring_to_rest_when_asked(const CycleTime& time) noexcept {
   if (!stop_requested_.load(std::memory_order_acquire)) return;
   if (stop_since_cycle_ < 0) stop_since_cycle_ = time.cycle;
-  for (const auto& joint : joints_) joint->order_disable(time);
+  for (const auto& joint : joints_) joint->end(time);
 }
 
 void RealtimeLoop::publish(const CycleTime& time) noexcept {

@@ -14,7 +14,8 @@ double seconds_between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
 }  // namespace
 
 double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
-  return seen_ ? seconds_between(measured_ns_, now_ns) : -1.0;
+  // A thread beside the loop may have asked its sensor after this period's instant.
+  return seen_ ? std::max(0.0, seconds_between(measured_ns_, now_ns)) : -1.0;
 }
 
 bool TemperatureCheck::is_stuck(std::int64_t now_ns) const noexcept {

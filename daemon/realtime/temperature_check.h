@@ -14,6 +14,7 @@ struct TemperatureCheckConfig {
   double max_step_C = 6.0;      ///< a reading may differ by this much from the recent past whatever the rate
   double max_age_s = 5.0;       ///< older values are not used
   double max_constant_s = 0.0;  ///< a sensor that shows the same number for longer is stuck; 0: not checked
+  bool loss_is_fault = false;   ///< a joint under control that loses its temperature stops
   double recovery_s = 2.0;  ///< after a loss the signal must be good for this long before it is used again
 };
 
@@ -30,6 +31,10 @@ class TemperatureCheck {
   /// The last plausible value; meaningful only once a value has been plausible.
   double used_C() const noexcept { return accepted_C_; }
   double measured_C() const noexcept { return measured_C_; }
+  /// Whether the sensor's last number is above `limit_C`, plausible or not: what is too hot to be believed may be too hot.
+  bool hotter_than(double limit_C) const noexcept { return seen_ && measured_C_ > limit_C; }
+  /// Whether the loss of the signal is to stop the joint.
+  bool lost() const noexcept { return config_.loss_is_fault && status_ != TemperatureStatus::kValid; }
   double age_s(std::int64_t now_ns) const noexcept;
 
  private:

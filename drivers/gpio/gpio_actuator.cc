@@ -24,7 +24,6 @@ ActuatorReading GpioActuator::read(std::int64_t now_ns) noexcept {
   lines_failed_ = !parts_.lines->read(active_);
   read_position(reading);
   read_inputs(reading);
-  read_temperature(reading);
   reading.torque_applied_Nm = last_output_.torque_applied_Nm;
   // Of several causes the one that people must know first.
   if (const ActuatorFault fault = fault_of_inputs(); fault != ActuatorFault::kNone) reading.fault = fault;
@@ -61,14 +60,6 @@ void GpioActuator::read_inputs(ActuatorReading& reading) noexcept {
   for (int i = 0; i < count; ++i) index_.pulse(edges[static_cast<std::size_t>(i)].time_ns);
   if (reading.has_position) index_.sample(reading.joint_position_rad, now_ns_);
   index_.fill(reading.inputs);
-}
-
-void GpioActuator::read_temperature(ActuatorReading& reading) noexcept {
-  if (!parts_.thermometer) return;
-  const TemperatureFile::Sample& sample = parts_.thermometer->newest();
-  reading.has_temperature = sample.valid;
-  reading.temperature_C = sample.temperature_C;
-  reading.temperature_age_ns = std::max<std::int64_t>(0, now_ns_ - sample.produced_ns);
 }
 
 ActuatorFault GpioActuator::fault_of_inputs() const noexcept {

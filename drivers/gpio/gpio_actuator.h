@@ -17,7 +17,6 @@
 #include "drivers/gpio/index_capture.h"
 #include "drivers/gpio/pwm_channel.h"
 #include "drivers/gpio/torque_output.h"
-#include "drivers/temperature_file.h"
 
 namespace strainwave {
 
@@ -29,13 +28,12 @@ struct GpioMotionConfig {
   double period_s = 0.001;
 };
 
-/// The parts, made by whoever knows the configuration; `index` and `thermometer` may be null.
+/// The parts, made by whoever knows the configuration; `index` may be null.
 struct GpioParts {
   std::unique_ptr<DigitalLines> lines;
   std::unique_ptr<PwmChannel> pwm;
   std::unique_ptr<CountSource> counts;
   std::unique_ptr<EdgeEvents> index;
-  std::unique_ptr<TemperatureFile> thermometer;
 };
 
 class GpioActuator final : public Actuator {
@@ -53,7 +51,6 @@ class GpioActuator final : public Actuator {
  private:
   void read_position(ActuatorReading& reading) noexcept;
   void read_inputs(ActuatorReading& reading) noexcept;
-  void read_temperature(ActuatorReading& reading) noexcept;
   ActuatorFault fault_of_inputs() const noexcept;
   void put_out(const TorqueOutput::Output& torque, const DriveSequence::Outputs& sequence) noexcept;
 

@@ -27,7 +27,6 @@ std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config) {
   if (const auto& index = line_of(config, LineRole::kIndex))
     parts.index = std::make_unique<EdgeEvents>(std::array{*index}, EdgeKind::kActive, config.consumer(),
                                                config.where + ".index");
-  if (config.thermometer) parts.thermometer = std::make_unique<TemperatureFile>(*config.thermometer);
   parts.pwm = std::make_unique<PwmChannel>(config.pwm, TorqueOutput(config.torque).idle_duty(),
                                            config.where + ".pwm");
   return std::make_unique<GpioActuator>(std::move(parts), config.motion, config.torque, config.sequence);

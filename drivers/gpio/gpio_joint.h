@@ -23,7 +23,6 @@ struct GpioJointConfig {
   GpioMotionConfig motion;
   TorqueOutputConfig torque;
   DriveSequenceConfig sequence;
-  std::optional<TemperatureFileConfig> thermometer;
 
   /// As whom the lines are held; the kernel keeps 31 characters.
   std::string consumer() const { return ("strainwaved " + joint).substr(0, 31); }

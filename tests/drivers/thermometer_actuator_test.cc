@@ -31,7 +31,7 @@ class HotDrive final : public Actuator {
   void clear_fault() noexcept override {}
 };
 
-TEST(ThermometerActuator, ShowsTheThermometersTemperatureWithItsAgeAndEverythingElseOfTheDrive) {
+TEST(ThermometerActuator, ShowsTheThermometersTemperatureWithItsInstantAndEverythingElseOfTheDrive) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "temp1_input") << "-12500\n";
   TemperatureFileConfig thermometer;
@@ -46,7 +46,7 @@ TEST(ThermometerActuator, ShowsTheThermometersTemperatureWithItsAgeAndEverything
   }
   ASSERT_TRUE(reading.has_temperature);
   EXPECT_EQ(reading.temperature_C, -12.5);
-  EXPECT_EQ(reading.temperature_age_ns, 2'000'000'000);
+  EXPECT_EQ(reading.temperature_produced_ns, kNow_ns);
   EXPECT_EQ(reading.joint_position_rad, 0.5);
 }
 

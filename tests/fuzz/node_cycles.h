@@ -38,11 +38,11 @@ class CheckedBus final : public CanTransmitter {
   bool takes_frames_ = true;
 };
 
-inline void check_reading(const ActuatorReading& reading) {
+inline void check_reading(const ActuatorReading& reading, std::int64_t now_ns) {
   STRAINWAVE_FUZZ_CHECK(std::isfinite(reading.joint_position_rad));
   STRAINWAVE_FUZZ_CHECK(std::isfinite(reading.joint_velocity_rad_s));
   STRAINWAVE_FUZZ_CHECK(std::isfinite(reading.torque_applied_Nm));
-  STRAINWAVE_FUZZ_CHECK(reading.temperature_age_ns >= 0);
+  STRAINWAVE_FUZZ_CHECK(reading.temperature_produced_ns <= now_ns);
 }
 
 /// `has_torque`: whether a frame that the node sends orders torque.
@@ -59,7 +59,7 @@ inline void run_cycles(CanNode& node, FuzzInput& input, std::int64_t now_ns,
       node.receive(input.frame(ids[input.byte() % ids.size()]));
     node.note_bus((order & 0x40U) != 0 ? NodeFault{ActuatorFault::kLinkLost, 1U << 24U} : NodeFault{});
     const ActuatorReading reading = node.read(now_ns);
-    check_reading(reading);
+    check_reading(reading, now_ns);
     if ((order & 0x10U) != 0) node.stop();
     if ((order & 0x20U) != 0) node.clear_fault();
     const bool fault = reading.fault != ActuatorFault::kNone && (order & 0x20U) == 0;

@@ -20,7 +20,7 @@ struct Word {
 constexpr Word<Mode> kModes[] = {{0, Mode::kOff, "off"},           {1, Mode::kStarting, "starting"},
                                  {2, Mode::kHolding, "holding"},   {3, Mode::kTracking, "tracking"},
                                  {4, Mode::kStopping, "stopping"}, {5, Mode::kFaulted, "faulted"},
-                                 {6, Mode::kHoming, "homing"}};
+                                 {6, Mode::kHoming, "homing"},     {7, Mode::kReleasing, "releasing"}};
 
 constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {1, Fault::kReadFailed, "position reading failed"},
@@ -42,7 +42,12 @@ constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {17, Fault::kTemperatureLimit, "temperature limit"},
                                    {18, Fault::kGroup, "another joint of the group faulted"},
                                    {19, Fault::kHomingFailed, "homing failed"},
-                                   {20, Fault::kLimitSwitch, "limit switch"}};
+                                   {20, Fault::kLimitSwitch, "limit switch"},
+                                   {21, Fault::kLoopStalled, "loop stalled"},
+                                   {22, Fault::kPeriodsMissed, "too many periods missed"},
+                                   {23, Fault::kBlocked, "joint is blocked"},
+                                   {24, Fault::kOverload, "load too large"},
+                                   {25, Fault::kTemperatureLost, "temperature lost"}};
 
 constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited"},
                                      {2, Notice::kTemperatureClamped, "temperature outside the table"},
@@ -82,7 +87,8 @@ constexpr Word<Reason> kReasons[] = {
     {25, Reason::kStreamExpired, "setpoint stream has expired"},
     {26, Reason::kNotHomed, "joint is not homed"},
     {27, Reason::kAtLimitSwitch, "limit switch in that direction"},
-    {28, Reason::kNoHoming, "no homing configured"}};
+    {28, Reason::kNoHoming, "no homing configured"},
+    {29, Reason::kEnding, "daemon is ending"}};
 
 constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {2, Action::kDisable, "disable"},

@@ -31,7 +31,7 @@ BenchJoint demo_joint() {
   controller.motor = {motor.peak_Nm, motor.stall_Nm, motor.slope_Nms_rad};
   controller.torque_limit_Nm = kReferencePeakTorque_Nm;
   controller.motion = {6.0, 150.0, 150.0};
-  joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0};
+  joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0, kReferencePeakTorque_Nm};
   return joint;
 }
 
@@ -41,8 +41,9 @@ const GainTable& demo_table() {
   return table;
 }
 
-JointBench::JointBench(const std::vector<BenchJoint>& joints, int overrun_limit)
-    : period_ns_(std::llround(joints.at(0).loop.controller.period_s * 1e9)), overruns_(overrun_limit) {
+JointBench::JointBench(const std::vector<BenchJoint>& joints, const OverrunLimits& overruns)
+    : period_ns_(std::llround(joints.at(0).loop.controller.period_s * 1e9)),
+      overruns_(overruns, joints.at(0).loop.controller.period_s) {
   time_.now_ns = 1'000'000'000;
   burned_ns = 0;
   for (const BenchJoint& joint : joints) {
@@ -58,11 +59,17 @@ JointBench::JointBench(const std::vector<BenchJoint>& joints, int overrun_limit)
 void JointBench::step() {
   const std::int64_t skipped = std::exchange(burned_ns, 0) / period_ns_;
   skipped_periods_ += skipped;
+  time_.elapsed_periods = 1 + skipped;
   time_.cycle += 1 + skipped;
   time_.now_ns += (1 + skipped) * period_ns_;
-  if (overruns_.too_many(skipped)) fault_driven_joints(joints_, Fault::kOverruns, time_);
+  if (const Fault fault = overruns_.judge(skipped); fault != Fault::kNone)
+    fault_driven_joints(joints_, fault, time_);
   for (const auto& joint : joints_) joint->step(time_);
   stop_faulted_groups(joints_, time_);
+}
+
+void JointBench::stall(std::int64_t periods) {
+  burned_ns += periods * period_ns_;
 }
 
 void JointBench::run(double duration_s) {

@@ -62,12 +62,14 @@ class WatchedActuator final : public Actuator {
 
 class JointBench {
  public:
-  explicit JointBench(const std::vector<BenchJoint>& joints, int overrun_limit = 10);
+  explicit JointBench(const std::vector<BenchJoint>& joints, const OverrunLimits& overruns = {});
 
   /// One period of every joint. A drive that burns more than a period makes the next ones be skipped, as in
   /// the daemon.
   void step();
   void run(double duration_s);
+  /// Before the next step the loop is away for so many periods.
+  void stall(std::int64_t periods);
   /// Steps until `condition` holds; how many steps that took, or -1 after `limit` of them.
   std::int64_t step_until(const std::function<bool()>& condition, std::int64_t limit);
 

@@ -196,13 +196,15 @@ DriveState Node::drive_state() const noexcept {
 void Node::fill_temperature(ActuatorReading& reading) const noexcept {
   if (!config_.temperature) return;
   if (config_.temperature->way == TemperatureObject::Way::kSdo) {
-    reading.has_temperature =
-        sdo_temperature_.get(now_ns_, reading.temperature_C, reading.temperature_age_ns);
+    TemperatureSample sample;
+    reading.has_temperature = sdo_temperature_.take(sample);
+    reading.temperature_C = sample.temperature_C;
+    reading.temperature_produced_ns = sample.produced_ns;
     return;
   }
   reading.has_temperature = has_pdo_temperature_;
   reading.temperature_C = pdo_temperature_C_;
-  reading.temperature_age_ns = now_ns_ - pdo_temperature_ns_;
+  reading.temperature_produced_ns = pdo_temperature_ns_;
 }
 
 void Node::write(const ActuatorCommand& command) noexcept {

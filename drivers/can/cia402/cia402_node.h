@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "base/latest_value.h"
 #include "drivers/can/can_detail.h"
 #include "drivers/can/can_node.h"
 #include "drivers/can/canopen/canopen.h"
 #include "drivers/can/cia402/cia402_config.h"
 #include "drivers/can/cia402/power_sequence.h"
-#include "drivers/can/packed_temperature.h"
 #include "drivers/can/set_up_state.h"
+#include "drivers/temperature_sample.h"
 
 namespace strainwave::cia402 {
 
@@ -73,7 +74,7 @@ class Node final : public CanNode {
   TorqueScale torque_scale_;
   std::uint16_t initial_error_ = 0;
   SetUpState setup_;
-  PackedTemperature sdo_temperature_;
+  LatestValue<TemperatureSample> sdo_temperature_;  ///< from the background thread
   // Background thread alone.
   std::int64_t temperature_due_ns_ = 0;
   bool temperature_failed_ = false;

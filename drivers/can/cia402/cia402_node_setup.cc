@@ -99,8 +99,8 @@ void Node::read_temperature(CanPort& port, std::vector<std::string>& messages) {
   temperature_due_ns_ = now_ns + nanoseconds(object.period_s);
   try {
     canopen::SdoClient client(port, config_.node_id, config_.name);
-    sdo_temperature_.put(temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))),
-                         now_ns);
+    sdo_temperature_.put(
+        {temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))), now_ns});
     if (temperature_failed_) messages.push_back(config_.name + ": the temperature can be read again");
     temperature_failed_ = false;
   } catch (const InputError& error) {

@@ -170,7 +170,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.torque_applied_Nm = closed_loop() ? torque_sent_Nm_ : 0.0;
   reading.has_temperature = has_temperature_;
   reading.temperature_C = temperature_C_;
-  reading.temperature_age_ns = now_ns_ - temperature_ns_;
+  reading.temperature_produced_ns = temperature_ns_;
   if (shown.fault != ActuatorFault::kNone && command_.enable)
     reading.drive_state = DriveState::kFault;
   else if (command_.enable)

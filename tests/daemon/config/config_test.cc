@@ -83,6 +83,29 @@ TEST_F(ConfigTest, RefusesLimitsThatCross) {
                   {"position_max_rad", "above position_min_rad"});
 }
 
+TEST_F(ConfigTest, RefusesATemperatureLimitThatNoBelievableReadingReaches) {
+  for (const char* limit : {"90", "95"})
+    expect_mentions(error_after("torque_Nm = 34", std::string("torque_Nm = 34\ntemperature_C = ") + limit),
+                    {"joint[0].temperature.max_C", "joint.limits.temperature_C"});
+  EXPECT_NO_THROW(read(replaced(kSound, "torque_Nm = 34", "torque_Nm = 34\ntemperature_C = 89")));
+}
+
+TEST_F(ConfigTest, BoundsTheLoadByTheTorqueUnlessTold) {
+  EXPECT_EQ(read(kSound).joints[0].loop.limits.load_Nm, 34.0);
+  EXPECT_EQ(
+      read(replaced(kSound, "torque_Nm = 34", "torque_Nm = 34\nload_Nm = 12")).joints[0].loop.limits.load_Nm,
+      12.0);
+}
+
+TEST_F(ConfigTest, AllowsNoStallLimitWithinWhichNoPeriodCanBeMissed) {
+  expect_mentions(error_after("period_s = 0.001", "period_s = 0.001\nstall_limit_s = 0.001"),
+                  {"daemon.stall_limit_s"});
+  EXPECT_EQ(
+      read(replaced(kSound, "period_s = 0.001", "period_s = 0.02\nstate_rate_Hz = 40")).loop.overruns.stall_s,
+      0.04)
+      << "by default at least two periods";
+}
+
 TEST_F(ConfigTest, RefusesTwoJointsOfTheSameName) {
   std::string text = kSound;
   text += std::string(kSound).substr(std::string(kSound).find("[[joint]]"));

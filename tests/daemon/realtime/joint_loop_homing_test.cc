@@ -189,8 +189,9 @@ TEST_F(JointLoopHoming, LeavesALimitSwitchOnlyTheWayItCame) {
 TEST_F(JointLoopHoming, GivesNoTorqueIntoALimitSwitch) {
   BenchJoint joint = joint_with_switch_in_its_way();
   joint.drive.plant.initial_position_rad = 0.52;
-  joint.drive.load_torque_Nm = 12.0;  // pulls away from the switch: holding it needs positive torque
   hold(joint);
+  // Pulls away from the switch: holding it needs positive torque.
+  bench_->drive(0).simulated().set_load_torque_Nm(12.0);
   for (int i = 0; i < 2000 && bench_->has_notice(0, Notice::kAtLimitSwitch); ++i) {
     EXPECT_LE(bench_->drive(0).command().torque_Nm, 0.0);
     bench_->step();

@@ -31,6 +31,10 @@ class JointLoopLimits : public ::testing::Test {
     config_.start_timeout_s = 0.1;
     config_.stop_timeout_s = 0.2;
     config_.missed_readings_limit = 5;
+    make();
+  }
+  void make() {
+    cycle_ = 0;
     auto drive = std::make_unique<ScriptedActuator>();
     drive_ = drive.get();
     drive_->reading.has_position = true;
@@ -42,13 +46,18 @@ class JointLoopLimits : public ::testing::Test {
   }
   void step() {
     drive_->reading.joint_position_rad += drifting_rad_s_ * 0.001;
-    loop_->step({1'000'000'000 + ++cycle_ * 1'000'000, cycle_});
+    const std::int64_t now_ns = 1'000'000'000 + ++cycle_ * 1'000'000;
+    drive_->reading.temperature_produced_ns = now_ns;
+    loop_->step({now_ns, cycle_});
+  }
+  /// Long enough to be seen not to move.
+  void stand() {
+    for (int i = 0; i < 200; ++i) step();
   }
   Reason order(OrderKind kind) {
     loop_->orders().push({1, kind, 0, 0.0, 0.0, {}});
     step();
-    Reply reply;
-    return replies_.pop(reply) ? reply.reason : Reason::kTimedOut;
+    return replies_.pop(last_reply_) ? last_reply_.reason : Reason::kTimedOut;
   }
   void hold() {
     ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
@@ -71,6 +80,7 @@ class JointLoopLimits : public ::testing::Test {
   JointLoopConfig config_;
   ScriptedActuator* drive_ = nullptr;
   std::unique_ptr<JointLoop> loop_;
+  Reply last_reply_;
   std::int64_t cycle_ = 0;
   double drifting_rad_s_ = 0.0;
 };
@@ -198,6 +208,7 @@ TEST_F(JointLoopLimits, LatchTheStopTimeout) {
 TEST_F(JointLoopLimits, LatchThePositionLimit) {
   drive_->reading.joint_position_rad =
       config_.limits.position_max_rad + config_.limits.position_margin_rad - 0.001;
+  stand();
   hold();
   step();
   EXPECT_EQ(fault(), Fault::kNone);
@@ -206,14 +217,94 @@ TEST_F(JointLoopLimits, LatchThePositionLimit) {
   EXPECT_EQ(fault(), Fault::kPositionLimit);
 }
 
-TEST_F(JointLoopLimits, LatchTheTemperatureLimitButNotForAnImplausibleValue) {
-  config_.limits.hot_C = 80.0;
-  hold();
-  drive_->reading.temperature_C = 85.0;
+TEST_F(JointLoopLimits, LatchTheTemperatureLimitInOneCycleWhateverThePlausibility) {
+  // Within the sensor's range but too sudden, just above the range, far above it.
+  for (const double temperature_C : {85.0, 90.5, 200.0}) {
+    drive_->reading.drive_state = DriveState::kDisabled;
+    drive_->reading.temperature_C = 25.0;
+    hold();
+    drive_->reading.temperature_C = temperature_C;
+    EXPECT_EQ(cycles_until_fault(1), 1) << temperature_C;
+    EXPECT_EQ(fault(), Fault::kTemperatureLimit) << temperature_C;
+    drive_->reading.drive_state = DriveState::kDisabled;
+    ASSERT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
+  }
+}
+
+TEST_F(JointLoopLimits, NeverLetATooHotJointBeControlled) {
+  drive_->reading.temperature_C = 95.0;
   step();
-  EXPECT_EQ(fault(), Fault::kNone) << "60 degC more in a millisecond are no heat";
-  for (int i = 0; i < 60000 && fault() == Fault::kNone; ++i) step();
-  EXPECT_EQ(fault(), Fault::kTemperatureLimit) << "but lasting they are";
+  order(OrderKind::kEnable);
+  EXPECT_EQ(loop_->mode(), Mode::kFaulted);
+  EXPECT_EQ(fault(), Fault::kTemperatureLimit);
+  EXPECT_FALSE(drive_->last.enable);
+}
+
+TEST_F(JointLoopLimits, MakeALossOfTemperatureAFaultWhereThatIsConfigured) {
+  for (const bool loss_is_fault : {false, true}) {
+    config_.temperature.loss_is_fault = loss_is_fault;
+    config_.temperature.max_age_s = 0.1;
+    make();
+    hold();
+    drive_->reading.has_temperature = false;
+    const int cycles = cycles_until_fault(1000);
+    if (loss_is_fault) {
+      EXPECT_NEAR(cycles, 100, 2);
+      EXPECT_EQ(fault(), Fault::kTemperatureLost);
+    } else {
+      EXPECT_EQ(cycles, 0);
+      EXPECT_EQ(loop_->record().state.gains_in_use, static_cast<int>(GainsInUse::kFallback));
+    }
+  }
+}
+
+TEST_F(JointLoopLimits, RefuseToEnableAJointThatMovesAndSayHowFast) {
+  drifting_rad_s_ = 3.6;
+  for (int i = 0; i < 200; ++i) step();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kMoving);
+  EXPECT_NEAR(last_reply_.joint_velocity_rad_s, 3.6, 1e-6);
+  EXPECT_EQ(loop_->mode(), Mode::kOff);
+  EXPECT_FALSE(drive_->last.enable);
+  drifting_rad_s_ = 0.0;
+  stand();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+}
+
+TEST_F(JointLoopLimits, BeginWithTheMotionThatTheJointHasWhenItsDriveBecomesReady) {
+  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  drifting_rad_s_ = 0.5;  // somebody pushes it while the drive starts
+  for (int i = 0; i < 90; ++i) step();
+  drive_->reading.drive_state = DriveState::kEnabled;
+  step();
+  ASSERT_EQ(loop_->mode(), Mode::kHolding);
+  const state_v1& first = loop_->record().state;
+  EXPECT_NEAR(first.setpoint_velocity_rad_s, 0.5, 0.2) << "it comes to rest from there";
+  EXPECT_NEAR(first.setpoint_position_rad, first.joint_position_rad, 1e-3);
+}
+
+TEST_F(JointLoopLimits, ShowTheControllersOwnSetpointFromTheFirstRecordOn) {
+  drive_->reading.joint_position_rad = 1.25;
+  stand();
+  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  drive_->reading.drive_state = DriveState::kEnabled;
+  for (int i = 0; i < 5; ++i) {
+    step();
+    ASSERT_EQ(loop_->mode(), Mode::kHolding);
+    EXPECT_DOUBLE_EQ(loop_->record().state.setpoint_position_rad, 1.25) << i;
+    EXPECT_DOUBLE_EQ(loop_->record().state.target_position_rad, 1.25) << i;
+  }
+}
+
+TEST_F(JointLoopLimits, RefuseEveryOrderThatCouldMoveAJointWhileTheDaemonEnds) {
+  hold();
+  loop_->end({1'000'000'000 + (cycle_ + 1) * 1'000'000, cycle_ + 1});
+  EXPECT_EQ(loop_->mode(), Mode::kStopping);
+  EXPECT_EQ(order(OrderKind::kSetpoint), Reason::kEnding);
+  EXPECT_EQ(order(OrderKind::kHome), Reason::kEnding);
+  for (int i = 0; i < 100 && loop_->mode() != Mode::kOff; ++i) step();
+  ASSERT_EQ(loop_->mode(), Mode::kOff);
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kEnding);
+  EXPECT_EQ(loop_->mode(), Mode::kOff);
 }
 
 TEST_F(JointLoopLimits, RefuseNumbersThatAreNone) {

@@ -8,11 +8,12 @@ namespace strainwave {
 namespace {
 
 constexpr std::array kModes{Mode::kOff,      Mode::kStarting, Mode::kHolding, Mode::kTracking,
-                            Mode::kStopping, Mode::kFaulted,  Mode::kHoming};
-constexpr std::array kEvents{
-    ModeEvent::kEnableOrdered, ModeEvent::kDriveReady,     ModeEvent::kSetpointAccepted,
-    ModeEvent::kArrived,       ModeEvent::kDisableOrdered, ModeEvent::kStopped,
-    ModeEvent::kFaultRaised,   ModeEvent::kFaultCleared,   ModeEvent::kHomeOrdered};
+                            Mode::kStopping, Mode::kFaulted,  Mode::kHoming,  Mode::kReleasing};
+constexpr std::array kEvents{ModeEvent::kEnableOrdered,    ModeEvent::kDriveReady,
+                             ModeEvent::kSetpointAccepted, ModeEvent::kArrived,
+                             ModeEvent::kDisableOrdered,   ModeEvent::kStopped,
+                             ModeEvent::kFaultRaised,      ModeEvent::kFaultCleared,
+                             ModeEvent::kHomeOrdered,      ModeEvent::kTorqueReady};
 
 TEST(ModeMachine, FaultsFromEveryMode) {
   for (const Mode mode : kModes) EXPECT_EQ(next_mode(mode, ModeEvent::kFaultRaised), Mode::kFaulted);
@@ -53,6 +54,14 @@ TEST(ModeMachine, LooksForHomeOnlyFromHoldingAndOnlyByAnOrder) {
         EXPECT_EQ(event, ModeEvent::kHomeOrdered);
         EXPECT_EQ(mode, Mode::kHolding);
       }
+}
+
+TEST(ModeMachine, TakesNoMotionBeforeTheBrakeIsOpen) {
+  EXPECT_EQ(next_mode(Mode::kStarting, ModeEvent::kTorqueReady), Mode::kReleasing);
+  EXPECT_FALSE(next_mode(Mode::kReleasing, ModeEvent::kSetpointAccepted));
+  EXPECT_FALSE(next_mode(Mode::kReleasing, ModeEvent::kHomeOrdered));
+  EXPECT_EQ(next_mode(Mode::kReleasing, ModeEvent::kDriveReady), Mode::kHolding);
+  EXPECT_TRUE(is_controlled(Mode::kReleasing)) << "the torque holds the position";
 }
 
 TEST(ModeMachine, TakesNoSetpointWhileItLooksForHome) {

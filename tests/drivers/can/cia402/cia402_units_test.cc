@@ -9,7 +9,6 @@
 #include "base/input_error.h"
 #include "drivers/can/bus_load.h"
 #include "drivers/can/cia402/cia402_config.h"
-#include "drivers/can/packed_temperature.h"
 
 namespace strainwave::cia402 {
 namespace {
@@ -112,22 +111,6 @@ TEST(TemperatureObject, IsReadWithItsTypeScaleAndOffset) {
   object.type = NumberType::kUint8;
   object.offset_C = -40.0;
   EXPECT_NEAR(temperature_C(object, 65), 25.0, 1e-12);
-}
-
-TEST(PackedTemperature, ArrivesWholeWithItsAge) {
-  PackedTemperature cell;
-  double temperature_C = 0.0;
-  std::int64_t age_ns = 0;
-  EXPECT_FALSE(cell.get(0, temperature_C, age_ns));
-  const std::int64_t wrap_ns = (std::int64_t{1} << 32) * 1'000'000;
-  for (const std::int64_t time_ns : {std::int64_t{5'000'000'000}, wrap_ns - 1'000'000}) {
-    cell.put(-12.5, time_ns);
-    ASSERT_TRUE(cell.get(time_ns + 2'000'000'000, temperature_C, age_ns));
-    EXPECT_EQ(temperature_C, -12.5);
-    EXPECT_EQ(age_ns, 2'000'000'000);
-  }
-  cell.get(wrap_ns - 50'000'000, temperature_C, age_ns);
-  EXPECT_EQ(age_ns, 0) << "a cycle that began before the value came";
 }
 
 // The longest frame, stuffed as badly as it can be: after five equal bits a sixth, and every four from there.

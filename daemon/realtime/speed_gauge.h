@@ -1,0 +1,46 @@
+// How fast a joint moves that nobody controls: a difference over long enough that an encoder's count weighs little. Real-time
+// safe; time is an argument.
+//
+//   velocity = (position - position before) / (now - then),   then: 50 to 100 ms ago
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace strainwave {
+
+class SpeedGauge {
+ public:
+  /// One fresh position.
+  void see(double position_rad, std::int64_t now_ns) noexcept {
+    if (seen_ == Seen::kNothing) before_ = last_ = {position_rad, now_ns};
+    if (now_ns - last_.at_ns >= kSpan_ns) {
+      before_ = last_;
+      last_ = {position_rad, now_ns};
+    }
+    seen_ = now_ns > before_.at_ns ? Seen::kMotion : Seen::kPosition;
+    now_ = {position_rad, now_ns};
+  }
+  /// Somebody controls the joint, or it cannot be read: what was seen says nothing about what follows.
+  void forget() noexcept { seen_ = Seen::kNothing; }
+
+  /// 0 before two positions have been seen.
+  double velocity_rad_s() const noexcept {
+    if (seen_ != Seen::kMotion) return 0.0;
+    return (now_.position_rad - before_.position_rad) * 1e9 / static_cast<double>(now_.at_ns - before_.at_ns);
+  }
+
+ private:
+  static constexpr std::int64_t kSpan_ns = 50'000'000;
+  enum class Seen { kNothing, kPosition, kMotion };
+  struct Place {
+    double position_rad = 0.0;
+    std::int64_t at_ns = 0;
+  };
+  Seen seen_ = Seen::kNothing;
+  Place before_;
+  Place last_;
+  Place now_;
+};
+
+}  // namespace strainwave
