@@ -1,0 +1,98 @@
+// A joint that cannot move, and whoever goes on ordering it to: it must not push for ever. Virtual time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+BenchJoint joint_with_friction(double scale) {
+  BenchJoint joint = demo_joint();
+  for (FrictionParameters* part :
+       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
+    part->static_Nm *= scale;
+    part->coulomb_Nm *= scale;
+  }
+  return joint;
+}
+
+/// Friction of some 200 N.m: nothing that the motor can do moves it.
+BenchJoint jammed_joint() {
+  return joint_with_friction(50.0);
+}
+
+struct Stream {
+  double begin_rad = 0.0;
+  double speed_rad_s = 0.0;  ///< 0: every setpoint is the end
+  double end_rad = 1.0;
+};
+
+class BlockedJoint : public ::testing::Test {
+ protected:
+  /// A setpoint each 10 ms for `duration_s`, or until the joint faults; seconds that it took.
+  double stream(JointBench& bench, const Stream& stream, double duration_s) {
+    for (int sent = 0; sent < static_cast<int>(duration_s * 100.0); ++sent) {
+      const double way_rad = stream.speed_rad_s * 0.01 * sent;
+      const double target_rad =
+          stream.speed_rad_s > 0.0 ? std::min(stream.end_rad, stream.begin_rad + way_rad) : stream.end_rad;
+      if (bench.fault(0) != Fault::kNone) return 0.01 * sent;
+      (void)bench.move(0, target_rad, 0.05);
+      bench.run(0.009);
+    }
+    return duration_s;
+  }
+  static bool is_expected(Fault fault) {
+    constexpr std::array kExpected{Fault::kFollowingError, Fault::kBlocked, Fault::kImplausibleReading};
+    return std::find(kExpected.begin(), kExpected.end(), fault) != kExpected.end();
+  }
+};
+
+TEST_F(BlockedJoint, FaultsWithinASecondHoweverItIsStreamedTo) {
+  for (const Stream& form : {Stream{0.0, 0.0, 1.0}, Stream{0.0, 1.0, 1.0}, Stream{0.0, 0.0, -0.15}}) {
+    JointBench bench({jammed_joint()});
+    bench.bring_to_hold(0);
+    bench.run(0.3);
+    const double took_s = stream(bench, form, 20.0);
+    EXPECT_LT(took_s, 1.0) << form.end_rad << " at " << form.speed_rad_s;
+    EXPECT_TRUE(is_expected(bench.fault(0))) << to_text(bench.fault(0));
+    EXPECT_FALSE(bench.drive(0).command().enable);
+  }
+}
+
+TEST_F(BlockedJoint, FaultsByItsTorqueWhereNoFollowingErrorIsLargeEnough) {
+  BenchJoint joint = jammed_joint();
+  joint.loop.limits.following_error_rad = 10.0;
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  bench.run(0.3);
+  EXPECT_LT(stream(bench, {0.0, 0.0, 1.0}, 20.0), 1.5);
+  EXPECT_TRUE(is_expected(bench.fault(0))) << to_text(bench.fault(0));
+}
+
+TEST_F(BlockedJoint, FaultsAfterASingleMove) {
+  JointBench bench({jammed_joint()});
+  bench.bring_to_hold(0);
+  ASSERT_EQ(bench.move(0, 1.0), Reason::kAccepted);
+  EXPECT_GE(bench.step_until([&] { return bench.fault(0) != Fault::kNone; }, 1000), 0);
+}
+
+TEST_F(BlockedJoint, IsNotWhatAHeavyLoadedOrAStiffJointIs) {
+  BenchJoint loaded = demo_joint();
+  loaded.loop.limits.following_error_rad = 0.2;
+  for (BenchJoint joint : {loaded, joint_with_friction(1.5)}) {
+    JointBench bench({joint});
+    bench.bring_to_hold(0);
+    bench.drive(0).simulated().set_load_torque_Nm(8.0);
+    bench.run(1.0);
+    EXPECT_EQ(stream(bench, {bench.state(0).joint_position_rad, 1.0, 1.0}, 3.0), 3.0)
+        << to_text(bench.fault(0));
+    EXPECT_NEAR(bench.state(0).joint_position_rad, 1.0, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,90 @@
+// A loop that is not always there: periods left out, stalls, and a joint that goes on under the last torque meanwhile. Virtual
+// time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr OverrunLimits kAnything{1'000'000, 1e6, 1.0};
+
+/// A joint that moves at 2 rad/s, at a steady speed.
+class StalledLoop : public ::testing::Test {
+ protected:
+  void move(const OverrunLimits& limits) {
+    BenchJoint joint = demo_joint();
+    joint.loop.controller.motion.velocity_rad_s = 2.0;
+    bench_ = std::make_unique<JointBench>(std::vector{joint}, limits);
+    bench_->bring_to_hold(0);
+    bench_->run(0.3);
+    ASSERT_EQ(bench_->move(0, 3.0), Reason::kAccepted);
+    bench_->run(0.6);
+    ASSERT_NEAR(bench_->state(0).joint_velocity_rad_s, 2.0, 0.05);
+  }
+  const JointState& truth() { return bench_->drive(0).simulated().plant().state(); }
+  std::unique_ptr<JointBench> bench_;
+};
+
+TEST_F(StalledLoop, DoesNotMistakeOneOrTwoSkippedPeriodsForAJumpOfTheJoint) {
+  for (const int skipped : {1, 2, 5}) {
+    move(kAnything);
+    const double torque_Nm = bench_->state(0).torque_commanded_Nm;
+    double setpoint_rad = bench_->state(0).setpoint_position_rad;
+    bench_->stall(skipped);
+    for (int i = 0; i < 100; ++i) {
+      bench_->step();
+      ASSERT_EQ(bench_->fault(0), Fault::kNone) << to_text(bench_->fault(0));
+      EXPECT_NEAR(bench_->state(0).joint_velocity_rad_s, truth().velocity_rad_s, 0.1) << skipped << ", " << i;
+      EXPECT_NEAR(bench_->state(0).torque_commanded_Nm, torque_Nm, 3.0) << skipped << ", " << i;
+      EXPECT_GE(bench_->state(0).setpoint_position_rad, setpoint_rad) << "never backwards";
+      setpoint_rad = bench_->state(0).setpoint_position_rad;
+    }
+    bench_->run(3.0);
+    EXPECT_NEAR(bench_->state(0).joint_position_rad, 3.0, 1e-3) << skipped;
+  }
+}
+
+TEST_F(StalledLoop, GoesOnAtTheSpeedThatItWasOrderedThroughSkippedPeriods) {
+  move(kAnything);
+  const double setpoint_rad = bench_->state(0).setpoint_position_rad;
+  bench_->stall(3);
+  bench_->step();
+  EXPECT_NEAR(bench_->state(0).setpoint_position_rad - setpoint_rad, 4 * 0.002, 1e-9);
+}
+
+TEST_F(StalledLoop, IsAFaultAfterThreeSeconds) {
+  move({});
+  const double position_rad = truth().position_rad;
+  bench_->stall(3000);
+  bench_->step();
+  EXPECT_EQ(bench_->fault(0), Fault::kLoopStalled);
+  EXPECT_EQ(bench_->state(0).torque_commanded_Nm, 0.0);
+  EXPECT_FALSE(bench_->drive(0).command().enable);
+  EXPECT_GT(truth().position_rad, position_rad + 1.0) << "the joint has not waited for the loop";
+}
+
+TEST_F(StalledLoop, IsAFaultBeforeItHasBeenAwayForTwentyMillisecondsManyTimes) {
+  // Each stall by itself is allowed here.
+  move({10, 0.1, 0.1});
+  int stalls = 0;
+  for (; stalls < 232 && bench_->fault(0) == Fault::kNone; ++stalls) {
+    bench_->stall(20);
+    bench_->run(0.002);
+  }
+  EXPECT_EQ(bench_->fault(0), Fault::kPeriodsMissed);
+  EXPECT_LE(stalls, 6);
+}
+
+TEST_F(StalledLoop, IsNoFaultWhileAllJointsAreOff) {
+  JointBench bench({demo_joint()});
+  bench.stall(3000);
+  bench.run(0.1);
+  EXPECT_EQ(bench.mode(0), Mode::kOff);
+}
+
+}  // namespace
+}  // namespace strainwave::testing
