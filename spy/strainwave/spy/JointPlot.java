@@ -28,7 +28,8 @@ public final class JointPlot extends JPanel {
   private static final double RAD_TO_MRAD = 1e3;
   private static final Color BLUE = new Color(0x1f, 0x5f, 0xa8);
   /** The numbers of state_v1.mode; see docs/messages.md. */
-  private static final String[] MODES = {"off", "starting", "holding", "tracking", "stopping", "faulted", "homing", "releasing"};
+  private static final String[] MODES = {
+      "off", "starting", "holding", "tracking", "stopping", "faulted", "homing", "releasing"};
 
   private final JointFeed feed;
   private final JLabel line = new JLabel("no state received yet");
