@@ -1,0 +1,52 @@
+#include "control/fuzzy_friction.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "control/gain_table_json.h"
+
+namespace strainwave {
+namespace {
+
+FuzzyFriction shipped() {
+  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json").friction;
+}
+
+TEST(FuzzyFriction, IsOddInVelocityAtEveryTemperature) {
+  const FuzzyFriction friction = shipped();
+  for (double temperature_C = -30.0; temperature_C < 80.0; temperature_C += 1.7) {
+    const FrictionParameters blended = friction.blend(friction.weights(temperature_C));
+    for (double velocity_rad_s = 1e-12; velocity_rad_s < 1e6; velocity_rad_s *= 3.0)
+      EXPECT_EQ(friction.torque_Nm(blended, velocity_rad_s), -friction.torque_Nm(blended, -velocity_rad_s));
+    EXPECT_EQ(friction.torque_Nm(blended, 0.0), 0.0);
+  }
+}
+
+TEST(FuzzyFriction, ABlendLiesBetweenItsRules) {
+  const FuzzyFriction friction = shipped();
+  double least_Nm = std::numeric_limits<double>::infinity();
+  double most_Nm = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(friction.rule_count); ++i) {
+    least_Nm = std::min(least_Nm, friction.rules[i].friction.static_Nm);
+    most_Nm = std::max(most_Nm, friction.rules[i].friction.static_Nm);
+  }
+  for (double temperature_C = -100.0; temperature_C < 200.0; temperature_C += 0.9) {
+    const double static_Nm = friction.blend(friction.weights(temperature_C)).static_Nm;
+    EXPECT_GE(static_Nm, least_Nm * (1.0 - 1e-14)) << temperature_C;
+    EXPECT_LE(static_Nm, most_Nm * (1.0 + 1e-14)) << temperature_C;
+  }
+}
+
+TEST(FuzzyFriction, AtACrawlItIsStaticFrictionAndAtSpeedCoulombPlusViscous) {
+  const FuzzyFriction friction = shipped();
+  const FrictionParameters parameters{4.4, 3.6, 2.3};
+  const double crawl_share = friction.velocity.zero_weight(0.0);
+  EXPECT_NEAR(friction.torque_Nm(parameters, 1e-9), crawl_share * 4.4 + (1.0 - crawl_share) * 3.6, 1e-6);
+  EXPECT_NEAR(friction.torque_Nm(parameters, 5.0), 3.6 + 2.3 * 5.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace strainwave
