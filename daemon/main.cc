@@ -2,12 +2,9 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <iostream>
 
-#include "base/input_error.h"
-#include "base/manual/manual.h"
+#include "base/manual/command_line.h"
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
@@ -15,8 +12,8 @@
 
 namespace {
 
-/// 0 when every line can be used.
-int show_lines(const strainwave::DaemonConfig& config) {
+/// True when every line can be used.
+bool show_lines(const strainwave::DaemonConfig& config) {
   bool good = true;
   bool any = false;
   for (const strainwave::JointConfig& joint : config.joints) {
@@ -25,7 +22,11 @@ int show_lines(const strainwave::DaemonConfig& config) {
     good = joint.describe_lines(std::cout) && good;
   }
   if (!any) std::cout << "no joint of this configuration has digital lines\n";
-  return good ? 0 : 1;
+  return good;
+}
+
+strainwave::ExitStatus as_status(bool good) {
+  return good ? strainwave::ExitStatus::kDone : strainwave::ExitStatus::kRefused;
 }
 
 }  // namespace
@@ -42,27 +43,22 @@ int main(int argc, char** argv) {
   bool check_drives = false;
   app.add_flag("--check-drives", check_drives,
                "do to the drives all that start-up does, enable none, and end");
-  app.set_version_flag("--version", STRAINWAVE_VERSION);
-  strainwave::add_manual_option(app, "strainwaved");
-  CLI11_PARSE(app, argc, argv);
+  strainwave::configure_program(app, "strainwaved");
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
-  try {
+  return strainwave::run_program(app, argc, argv, [&] {
     const strainwave::DaemonConfig config = strainwave::read_config(config_path);
     if (check_only) {
       std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix
                 << '\n';
-      return 0;
+      return strainwave::ExitStatus::kDone;
     }
-    if (check_lines) return show_lines(config);
-    if (check_drives) return strainwave::check_drives(config, std::cout) ? 0 : 1;
+    if (check_lines) return as_status(show_lines(config));
+    if (check_drives) return as_status(strainwave::check_drives(config, std::cout));
     strainwave::start_logging();
     strainwave::Supervisor supervisor(config);
     supervisor.run();
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "strainwaved: " << error.what() << '\n';
-    return 1;
-  }
+    return strainwave::ExitStatus::kDone;
+  });
 }

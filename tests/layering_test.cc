@@ -35,7 +35,6 @@ TEST(Layering, IsReadFromThePage) {
 TEST(Layering, FollowsTheArrows) {
   EXPECT_TRUE(allowed("control/friction.cc", "#include \"control/friction.h\""));
   EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/gain_table.h\""));
-  EXPECT_TRUE(allowed("sim/joint/joint_plant.h", "#include \"drivers/actuator.h\""));
   EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
   EXPECT_TRUE(allowed("client/link/client.h", "#include \"lcmtypes/channels.h\""));
@@ -50,7 +49,7 @@ TEST(Layering, RefusesEveryArrowThatIsNotThere) {
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/link/client.h\""));
   EXPECT_FALSE(allowed("control/friction.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("control/friction.cc", "#include \"design/lmi.h\""));
-  EXPECT_FALSE(allowed("sim/joint/joint_plant.cc", "#include \"drivers/simulated_actuator.h\""));
+  EXPECT_FALSE(allowed("sim/joint/joint_plant.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config/config.h\""));
   EXPECT_FALSE(allowed("client/link/client.cc", "#include \"daemon/config/config.h\""));

@@ -13,7 +13,7 @@ void can_scan(const Output& output, const std::string& interface_name) {
 void can_check(const Output& output, const std::filesystem::path& config) {
   output.stream.flush();
   if (run_sibling("strainwaved", {"--config", config.string(), "--check-drives"}) != 0)
-    throw ClientError(ExitStatus::kFile, config.string() + ": start-up would refuse it, see above");
+    throw ClientError(ExitStatus::kUsage, config.string() + ": start-up would refuse it, see above");
 }
 
 }  // namespace strainwave

@@ -4,28 +4,21 @@
 
 #include <filesystem>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "client/link/client.h"
+#include "client/text/output.h"
 #include "client/watch/watch_screen.h"
 #include "drivers/injected_fault.h"
 #include "lcmtypes/key_text.h"
 
 namespace strainwave {
 
-/// Where a command writes what it found; errors travel as exceptions.
-struct Output {
-  std::ostream& stream;
-  bool terminal = false;  ///< a person looks at it
-};
-
 /// All joints as a table, or every field of one.
 struct StatusArguments {
   std::optional<std::string> joint;
-  bool json = false;
 };
 void show_status(Client& client, const Output& output, const StatusArguments& arguments);
 
@@ -91,20 +84,24 @@ struct PlotRecordArguments {
 };
 void plot_record(const Output& output, const PlotRecordArguments& arguments);
 
-/// Orders to one joint. enable() and disable() return once the joint holds or is off.
+/// Orders to one joint. enable() and disable() return once the joint holds or is off. What is so already is no error, and
+/// nothing is sent for it, except for a disable.
 void enable(Client& client, const Output& output, const std::string& joint);
 void disable(Client& client, const Output& output, const std::string& joint);
+/// All joints that are heard of the prefix: every one is told before any is waited for.
+void disable_all(Client& client, const Output& output);
 void hold(Client& client, const Output& output, const std::string& joint);
 void clear_fault(Client& client, const Output& output, const std::string& joint);
 /// Returns once the joint holds, homed.
 void home(Client& client, const Output& output, const std::string& joint);
 
-/// Moves to `position_rad`; with `wait`, returns once the joint holds there.
+/// Moves to `position_rad`; with `wait`, returns once the joint is within `tolerance_rad` of it and stays there.
 struct MoveArguments {
   std::string joint;
   double position_rad = 0.0;
   bool wait = false;
   double speed_limit_rad_s = 0.0;  ///< 0: as fast as the joint may
+  double tolerance_rad = 1e-3;
 };
 void move(Client& client, const Output& output, const MoveArguments& arguments);
 

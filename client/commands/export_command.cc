@@ -1,6 +1,7 @@
 // export: an LCM event log into CSV. Needs neither LCM nor a daemon.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
@@ -19,53 +20,84 @@ namespace {
 
 std::ofstream create(const std::filesystem::path& path, bool overwrite) {
   if (!overwrite && std::filesystem::exists(path))
-    throw ClientError(ExitStatus::kFile, path.string() + " exists: choose another name, or say --overwrite");
+    throw ClientError(ExitStatus::kUsage, path.string() + " exists: choose another name, or say --overwrite");
   std::ofstream file(path);
   if (!file)
-    throw ClientError(ExitStatus::kFile,
+    throw ClientError(ExitStatus::kUsage,
                       path.string() + " cannot be written: does its folder exist, is it yours?");
   return file;
 }
 
 void require_complete(std::ofstream& file, const std::filesystem::path& path) {
   if (!file.flush())
-    throw ClientError(ExitStatus::kFile, path.string() + " is incomplete: writing failed; is the disk full?");
+    throw ClientError(ExitStatus::kUsage,
+                      path.string() + " is incomplete: writing failed; is the disk full?");
 }
 
-/// The states of all joints in one file, as the joint's name and the message's fields.
+/// What has to be known of a log before its first line is written.
+struct LogSpan {
+  std::int64_t first_us = 0;  ///< when its first message was received
+  int weights = 0;            ///< that its states use, at most
+};
+
+LogSpan span_of(const std::filesystem::path& log) {
+  EventLogReader reader(log);
+  LogSpan span;
+  bool begun = false;
+  for (LogEvent event; reader.next(event);) {
+    const auto name = parse_channel(event.channel);
+    if (!name) continue;
+    if (!begun) span.first_us = event.received_us;
+    begun = true;
+    if (name->kind != channel_kind::kState) continue;
+    if (const auto state = decode_exactly<state_v1>(event.data))
+      span.weights = std::max(span.weights, weights_in_use(*state));
+  }
+  return span;
+}
+
+double time_s(const LogEvent& event, const LogSpan& span) {
+  return 1e-6 * static_cast<double>(event.received_us - span.first_us);
+}
+
+/// The states of all joints in one file.
 class StateExport {
  public:
-  StateExport(const std::filesystem::path& path, bool overwrite)
-      : path_(path), file_(create(path, overwrite)) {
-    file_ << csv_header() << '\n';
+  StateExport(const std::filesystem::path& path, bool overwrite, const LogSpan& span)
+      : path_(path), file_(create(path, overwrite)), span_(span) {
+    file_ << "joint,time_s" << state_csv_columns(span.weights) << '\n';
   }
   bool take(const ChannelName& name, const LogEvent& event) {
     const auto state =
         name.kind == channel_kind::kState ? decode_exactly<state_v1>(event.data) : std::nullopt;
-    if (state) file_ << csv_row(name.joint, *state) << '\n';
+    if (state)
+      file_ << fmt::format("{},{:.6f}", name.joint, time_s(event, span_))
+            << state_csv_values(*state, span_.weights) << '\n';
     if (state) ++counts_[name.joint];
     return state.has_value();
   }
   void finish(const Output& output) {
     require_complete(file_, path_);
     for (const auto& [joint, count] : counts_)
-      output.stream << fmt::format("{}: {} states in {}\n", joint, count, path_.string());
+      say(output, fmt::format("{}: {} states in {}", joint, count, path_.string()),
+          {{"joint", joint}, {"states", std::int64_t{count}}, {"file", path_.string()}});
   }
 
  private:
   std::filesystem::path path_;
   std::ofstream file_;
+  LogSpan span_;
   std::map<std::string, long> counts_;
 };
 
 /// One file per channel: when the message was received, then its fields.
 class ChannelExport {
  public:
-  ChannelExport(const std::filesystem::path& folder, bool overwrite)
-      : folder_(folder), overwrite_(overwrite) {
+  ChannelExport(const std::filesystem::path& folder, bool overwrite, const LogSpan& span)
+      : folder_(folder), overwrite_(overwrite), span_(span) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw ClientError(ExitStatus::kFile, folder.string() + " cannot be made: " + error.message());
+    if (error) throw ClientError(ExitStatus::kUsage, folder.string() + " cannot be made: " + error.message());
   }
   bool take(const ChannelName& name, const LogEvent& event) {
     if (name.kind == channel_kind::kState) return write<state_v1>(event);
@@ -81,7 +113,8 @@ class ChannelExport {
   void finish(const Output& output) {
     for (auto& [channel, file] : files_) {
       require_complete(file.stream, file.path);
-      output.stream << fmt::format("{}: {} messages in {}\n", channel, file.count, file.path.string());
+      say(output, fmt::format("{}: {} messages in {}", channel, file.count, file.path.string()),
+          {{"channel", channel}, {"messages", std::int64_t{file.count}}, {"file", file.path.string()}});
     }
   }
 
@@ -100,28 +133,47 @@ class ChannelExport {
       // parse_channel() has seen to it that the name is a plain file name.
       const std::filesystem::path path = folder_ / (event.channel + ".csv");
       found = files_.emplace(event.channel, File{path, create(path, overwrite_)}).first;
-      found->second.stream << "received_us" << csv_columns<Message>() << '\n';
+      found->second.stream << "received_us,time_s" << columns<Message>() << '\n';
     }
-    found->second.stream << event.received_us << csv_values(*message) << '\n';
+    found->second.stream << fmt::format("{},{:.6f}", event.received_us, time_s(event, span_))
+                         << values(*message) << '\n';
     ++found->second.count;
     return true;
   }
 
+  template <typename Message>
+  std::string columns() const {
+    if constexpr (std::same_as<Message, state_v1>)
+      return state_csv_columns(span_.weights);
+    else
+      return csv_columns<Message>();
+  }
+  template <typename Message>
+  std::string values(const Message& message) const {
+    if constexpr (std::same_as<Message, state_v1>)
+      return state_csv_values(message, span_.weights);
+    else
+      return csv_values(message);
+  }
+
   std::filesystem::path folder_;
   bool overwrite_;
+  LogSpan span_;
   std::map<std::string, File> files_;
 };
 
 /// Every message of ours in one MCAP file.
 class McapExport {
  public:
-  McapExport(const std::filesystem::path& path, bool overwrite) : path_(path), log_(checked(path, overwrite)) {}
+  McapExport(const std::filesystem::path& path, bool overwrite)
+      : path_(path), log_(checked(path, overwrite)) {}
   bool take(const ChannelName& name, const LogEvent& event) {
     return log_.take(name, event.channel, event.received_us, event.data);
   }
   void finish(const Output& output) {
     log_.finish();
-    output.stream << fmt::format("{} messages in {}\n", log_.messages(), path_.string());
+    say(output, fmt::format("{} messages in {}", log_.messages(), path_.string()),
+        {{"messages", static_cast<std::int64_t>(log_.messages())}, {"file", path_.string()}});
   }
 
  private:
@@ -142,20 +194,21 @@ void export_into(Export into, const Output& output, const std::filesystem::path&
     if (!name || !into.take(*name, event)) ++others;
   }
   into.finish(output);
-  if (others > 0) output.stream << fmt::format("{} other messages were left out\n", others);
-  if (reader.truncated()) output.stream << "the log's last message is cut off\n";
+  if (others > 0)
+    say(output, fmt::format("{} other messages were left out", others), {{"left_out", std::int64_t{others}}});
+  if (reader.truncated()) say(output, "the log's last message is cut off", {{"truncated", true}});
 }
 
 }  // namespace
 
 void export_log(const Output& output, const ExportArguments& arguments) {
-  const EventLogReader readable(arguments.log);  // before anything is created
+  const LogSpan span = span_of(arguments.log);  // before anything is created
   if (arguments.mcap)
     export_into(McapExport(arguments.out, arguments.overwrite), output, arguments.log);
   else if (arguments.out.extension() == ".csv")
-    export_into(StateExport(arguments.out, arguments.overwrite), output, arguments.log);
+    export_into(StateExport(arguments.out, arguments.overwrite, span), output, arguments.log);
   else
-    export_into(ChannelExport(arguments.out, arguments.overwrite), output, arguments.log);
+    export_into(ChannelExport(arguments.out, arguments.overwrite, span), output, arguments.log);
 }
 
 }  // namespace strainwave

@@ -8,7 +8,7 @@ namespace strainwave {
 void gpio_check(const Output& output, const std::filesystem::path& config) {
   output.stream.flush();
   if (run_sibling("strainwaved", {"--config", config.string(), "--check-lines"}) != 0)
-    throw ClientError(ExitStatus::kFile, config.string() + ": not every line can be used, see above");
+    throw ClientError(ExitStatus::kUsage, config.string() + ": not every line can be used, see above");
 }
 
 }  // namespace strainwave

@@ -127,7 +127,8 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   const JointView& view = client.wait_for_joint(joint);
   const limits_v1 limits = wait_for_limits(client, joint);
   const IdentifyPlan plan = plan_identification(arguments, limits, view.state.joint_position_rad);
-  output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_C, to_text(plan));
+  if (!output.json)
+    output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_C, to_text(plan));
   output.stream.flush();
   if (arguments.dry_run) return;
   require_ready(view, joint);
@@ -136,15 +137,19 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   wait_for_limits_in(client, log, joint);
   run_guarded(client, joint, [&] {
     Identification(client, joint, plan).run([&](const Sweep& sweep) {
-      output.stream << fmt::format("{}: {:.4f} rad/s done, {:.1f} degC\n", joint, sweep.speed_rad_s,
-                                   view.state.temperature_C);
+      say(output,
+          fmt::format("{}: {:.4f} rad/s done, {:.1f} degC", joint, sweep.speed_rad_s,
+                      view.state.temperature_C),
+          {{"joint", joint},
+           {"speed_rad_s", sweep.speed_rad_s},
+           {"temperature_C", view.state.temperature_C}});
       output.stream.flush();
     });
   });
   hold(client, output, joint);
   log.finish();
-  output.stream << fmt::format("{}: now strainwave-design fit --log {}\n", arguments.file.string(),
-                               arguments.file.string());
+  say(output, fmt::format("{0}: now strainwave-design fit --log {0}", arguments.file.string()),
+      {{"joint", joint}, {"file", arguments.file.string()}});
 }
 
 }  // namespace strainwave

@@ -50,13 +50,14 @@ void inject(Client& client, const Output& output, const InjectArguments& argumen
   const std::string name(to_text(arguments.kind));
   const Answer answer = client.request(arguments.joint, channel_kind::kInject, message);
   require_accepted(answer, arguments.joint, "injecting " + name);
-  if (arguments.kind == InjectedFault::kNone)
-    output.stream << arguments.joint << ": every injected fault ended\n";
-  else if (arguments.for_s > 0.0)
-    output.stream << fmt::format("{}: {} for {} s\n", arguments.joint, name, arguments.for_s);
-  else
-    output.stream << fmt::format("{}: {}; to end it: strainwavectl inject {} none\n", arguments.joint, name,
-                                 arguments.joint);
+  const std::string& joint = arguments.joint;
+  const std::string text =
+      arguments.kind == InjectedFault::kNone ? fmt::format("{}: every injected fault ended", joint)
+      : arguments.for_s > 0.0
+          ? fmt::format("{}: {} for {} s", joint, name, arguments.for_s)
+          : fmt::format("{0}: {1}; to end it: strainwavectl inject {0} none", joint, name);
+  say(output, text,
+      {{"joint", joint}, {"injected", name}, {"for_s", arguments.for_s}, {"amount", arguments.amount}});
 }
 
 }  // namespace strainwave

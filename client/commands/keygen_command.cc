@@ -27,10 +27,13 @@ std::string default_comment() {
 void keygen(const Output& output, const KeygenArguments& arguments) {
   const AuthorizedKey key = write_new_key(arguments.out, arguments.role,
                                           arguments.comment ? *arguments.comment : default_comment());
-  output.stream << fmt::format(
-      "{0}: the secret key; keep it to yourself, use it with --key {0} or STRAINWAVE_KEY={0}\n"
-      "{0}.pub: its public line, for the file that the daemon's security.authorized_keys names:\n{1}\n",
-      arguments.out.string(), to_line(key));
+  const std::string file = arguments.out.string();
+  say(output,
+      fmt::format(
+          "{0}: the secret key; keep it to yourself, use it with --key {0} or STRAINWAVE_KEY={0}\n"
+          "{0}.pub: its public line, for the file that the daemon's security.authorized_keys names:\n{1}",
+          file, to_line(key)),
+      {{"secret_key", file}, {"public_key", file + ".pub"}, {"line", to_line(key)}});
 }
 
 }  // namespace strainwave

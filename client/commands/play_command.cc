@@ -35,7 +35,7 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
     setpoints.push_back({at_s, *setpoint});
   }
   if (setpoints.empty())
-    throw ClientError(ExitStatus::kFile,
+    throw ClientError(ExitStatus::kUsage,
                       fmt::format("{} holds no setpoints of {}", arguments.log.string(), arguments.joint));
   return setpoints;
 }
@@ -94,11 +94,14 @@ void play(Client& client, const Output& output, const PlayArguments& arguments) 
         ExitStatus::kUsage,
         "play: recorded setpoints are sent only as new orders of somebody: say who with --key FILE");
   const std::vector<TimedSetpoint> setpoints = read_setpoints(arguments);
-  output.stream << fmt::format("{}: {} setpoints over {:.1f} s\n", arguments.joint, setpoints.size(),
-                               setpoints.back().at_s);
+  say(output,
+      fmt::format("{}: {} setpoints over {:.1f} s", arguments.joint, setpoints.size(), setpoints.back().at_s),
+      {{"joint", arguments.joint},
+       {"setpoints", static_cast<std::int64_t>(setpoints.size())},
+       {"duration_s", setpoints.back().at_s}});
   output.stream.flush();
   run_guarded(client, arguments.joint, [&] { send_all(client, arguments.joint, setpoints); });
-  output.stream << arguments.joint << ": all sent\n";
+  say(output, arguments.joint + ": all sent", {{"joint", arguments.joint}, {"sent", true}});
 }
 
 }  // namespace strainwave

@@ -14,9 +14,10 @@ void plot_record(const Output& output, const PlotRecordArguments& arguments) {
       arguments.out ? *arguments.out : std::filesystem::path(arguments.file.string() + ".png");
   run_gnuplot(plot_script(info, arguments.file, png, arguments.around_s));
   if (!std::filesystem::exists(png))
-    throw ClientError(ExitStatus::kFile, fmt::format("{} could not be drawn", png.string()));
-  output.stream << fmt::format("{}: joint {}, fault {}\n", png.string(), info.head.at("joint"),
-                               info.head.at("fault"));
+    throw ClientError(ExitStatus::kUsage, fmt::format("{} could not be drawn", png.string()));
+  say(output,
+      fmt::format("{}: joint {}, fault {}", png.string(), info.head.at("joint"), info.head.at("fault")),
+      {{"file", png.string()}, {"joint", info.head.at("joint")}, {"fault", info.head.at("fault")}});
 }
 
 }  // namespace strainwave

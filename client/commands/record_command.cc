@@ -22,14 +22,14 @@ class McapRecording {
   bool good() const noexcept { return good_; }
   const std::map<std::string, long>& counts() const noexcept { return counts_; }
   void finish() {
-    if (!error_.empty()) throw ClientError(ExitStatus::kFile, error_);
+    if (!error_.empty()) throw ClientError(ExitStatus::kUsage, error_);
     log_.finish();
   }
 
  private:
   static const std::filesystem::path& checked(const RecordArguments& arguments) {
     if (!arguments.overwrite && std::filesystem::exists(arguments.file))
-      throw ClientError(ExitStatus::kFile,
+      throw ClientError(ExitStatus::kUsage,
                         arguments.file.string() + " exists: choose another name, or say --overwrite");
     return arguments.file;
   }
@@ -69,7 +69,8 @@ void record_into(Log& log, Client& client, const Output& output, const RecordArg
   wait_for_end(client, log, Deadline(arguments.duration_s.value_or(kNoEnd_s)));
   log.finish();
   for (const auto& [channel, count] : log.counts())
-    output.stream << fmt::format("{}: {} messages in {}\n", channel, count, arguments.file.string());
+    say(output, fmt::format("{}: {} messages in {}", channel, count, arguments.file.string()),
+        {{"channel", channel}, {"messages", std::int64_t{count}}, {"file", arguments.file.string()}});
 }
 
 }  // namespace

@@ -24,9 +24,9 @@ int run_sibling(const std::string& name, const std::vector<std::string>& argumen
   pid_t child = -1;
   if (const int failure = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ);
       failure != 0)
-    throw ClientError(ExitStatus::kFile, program +
-                                             " cannot be run: " + std::generic_category().message(failure) +
-                                             ": install it beside strainwavectl");
+    throw ClientError(ExitStatus::kUsage, program +
+                                              " cannot be run: " + std::generic_category().message(failure) +
+                                              ": install it beside strainwavectl");
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for " + name);

@@ -13,7 +13,7 @@ void show_status(Client& client, const Output& output, const StatusArguments& ar
   } else {
     joints = client.wait_for_heard();
   }
-  if (arguments.json) {
+  if (output.json) {
     output.stream << to_json(client.states(), joints) << '\n';
     return;
   }

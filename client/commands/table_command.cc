@@ -21,7 +21,8 @@ void load_table(Client& client, const Output& output, const LoadTableArguments& 
     try {
       const Answer answer = client.request(joint, channel_kind::kTable, message);
       require_accepted(answer, joint, fmt::format("table '{}'", table.name.view()));
-      output.stream << fmt::format("{}: table '{}' loaded\n", joint, table.name.view());
+      say(output, fmt::format("{}: table '{}' loaded", joint, table.name.view()),
+          {{"joint", joint}, {"loaded", true}, {"table", std::string(table.name.view())}});
     } catch (const ClientError& error) {
       if (error.status() == ExitStatus::kInterrupted) throw;
       failure.emplace(failure ? failure->status() : error.status(),

@@ -32,6 +32,21 @@ std::string describe(const timing_v1& timing) {
   return text;
 }
 
+std::vector<ResultField> fields_of(const timing_v1& timing) {
+  std::int64_t refused = 0;
+  for (const std::int64_t count : timing.rejects) refused += count;
+  return {{"real_time", timing.real_time == 1},
+          {"period_s", timing.period_s},
+          {"joint_count", std::int64_t{timing.joint_count}},
+          {"cycles", std::int64_t{timing.cycles}},
+          {"overruns", std::int64_t{timing.overruns}},
+          {"wakeup_latency_max_ns", std::int64_t{timing.wakeup_latency_max_ns}},
+          {"execution_time_max_ns", std::int64_t{timing.execution_time_max_ns}},
+          {"page_faults", std::int64_t{timing.page_faults}},
+          {"state_records_dropped", std::int64_t{timing.state_records_dropped}},
+          {"rejects", refused}};
+}
+
 }  // namespace
 
 void show_timing(Client& client, const Output& output) {
@@ -44,7 +59,10 @@ void show_timing(Client& client, const Output& output) {
         fmt::format("no timing message on {} in {} s: it comes once a second while strainwaved runs",
                     timing_channel(prefix), client.options().timeout_s));
   }
-  output.stream << describe(timings.find(prefix)->message);
+  const timing_v1& timing = timings.find(prefix)->message;
+  std::string text = describe(timing);
+  text.pop_back();  // the last line's end, which is written for every result
+  say(output, text, fields_of(timing));
 }
 
 }  // namespace strainwave

@@ -5,6 +5,7 @@
 
 #include "client/commands/commands.h"
 #include "client/link/exit_status.h"
+#include "client/text/state_json.h"
 #include "client/text/text.h"
 #include "client/watch/watch_screen.h"
 
@@ -34,10 +35,11 @@ bool wait_interval(Client& client, const Deadline& interval) {
 void watch_lines(Client& client, const Output& output, const WatchArguments& arguments) {
   const std::optional<Deadline> end =
       arguments.duration_s ? std::optional<Deadline>(*arguments.duration_s) : std::nullopt;
-  output.stream << state_header() << '\n';
+  if (!output.json) output.stream << state_header() << '\n';
   do {
     const std::vector<JointName> names = chosen(client, arguments.joints);
-    for (const JointName& name : names) {
+    if (output.json) output.stream << to_json(client.states(), names, -1) << '\n';
+    for (const JointName& name : output.json ? std::vector<JointName>{} : names) {
       const JointView& view = *client.states().find(name.prefix, name.joint);
       output.stream << state_row(display_name(name, names), view, seconds_between(view.received, now()))
                     << '\n';
@@ -52,7 +54,7 @@ void watch_lines(Client& client, const Output& output, const WatchArguments& arg
 void watch(Client& client, const Output& output, const WatchArguments& arguments) {
   for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
   if (arguments.joints.empty()) client.wait_for_heard();
-  if (output.terminal && !arguments.plain)
+  if (output.terminal && !arguments.plain && !output.json)
     watch_screen(client, arguments);
   else
     watch_lines(client, output, arguments);

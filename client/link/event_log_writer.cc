@@ -12,10 +12,10 @@ namespace {
 
 lcm_eventlog_t* create(const std::filesystem::path& file, bool overwrite) {
   if (!overwrite && std::filesystem::exists(file))
-    throw ClientError(ExitStatus::kFile, file.string() + " exists: choose another name, or say --overwrite");
+    throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
   lcm_eventlog_t* const log = ::lcm_eventlog_create(file.c_str(), "w");
   if (log == nullptr)
-    throw ClientError(ExitStatus::kFile,
+    throw ClientError(ExitStatus::kUsage,
                       file.string() + " cannot be written: does its folder exist, is it yours?");
   return log;
 }
@@ -51,7 +51,7 @@ void EventLogWriter::on_message(const lcm::ReceiveBuffer* buffer, const std::str
 void EventLogWriter::finish() {
   good_ = good_ && std::fflush(log_->f) == 0;
   if (!good_)
-    throw ClientError(ExitStatus::kFile, name_ + " is incomplete: writing failed; is the disk full?");
+    throw ClientError(ExitStatus::kUsage, name_ + " is incomplete: writing failed; is the disk full?");
 }
 
 }  // namespace strainwave

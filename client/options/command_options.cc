@@ -27,6 +27,19 @@ CLI::Validator positive_validator(const std::string& what) {
           ""};
 }
 
+/// States come 200 times a second, or as seldom as ten times: a shorter wait hears nothing and blames the daemon.
+CLI::Validator time_out_validator() {
+  constexpr double kShortest_s = 0.1;
+  constexpr double kLongest_s = 3600.0;
+  return {[](const std::string& text) {
+            double value = 0.0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && value >= kShortest_s && value <= kLongest_s;
+            return good ? std::string() : "'" + text + "' is not a time-out: 0.1 to 3600 seconds are allowed";
+          },
+          ""};
+}
+
 }  // namespace
 
 CLI::Option* add_joint(CLI::App& command, std::string& joint) {
@@ -63,9 +76,12 @@ void add_common_options(CLI::App& app, Invocation& invocation) {
   app.add_option("--key", invocation.options.key_file, "the secret key to sign orders with (see keygen)")
       ->envname("STRAINWAVE_KEY")
       ->type_name("FILE");
-  add_seconds(app, "--timeout_s", invocation.options.timeout_s,
-              "longest wait for a state, an answer or a change of mode")
-      ->capture_default_str();
+  app.add_option("--timeout_s", invocation.options.timeout_s,
+                 "longest wait for a state, an answer or a change of mode")
+      ->check(time_out_validator())
+      ->capture_default_str()
+      ->type_name("SECONDS");
+  app.add_flag("--json", invocation.json, "print JSON objects, for scripts");
 }
 
 }  // namespace strainwave

@@ -20,6 +20,7 @@ namespace strainwave {
 struct Invocation {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   ClientOptions options;
+  bool json = false;
   std::function<void(Client&, const Output&)> command;
   std::function<void(const Output&)> local_command;  ///< instead of `command`: needs neither LCM nor a daemon
 };

@@ -11,12 +11,10 @@ namespace {
 void add_status(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("status", "what every joint does now, or every field of one joint");
   auto joint = std::make_shared<std::string>();
-  auto json = std::make_shared<bool>(false);
   add_joint(*command, *joint);
-  command->add_flag("--json", *json, "as JSON, for scripts");
-  command->callback([&invocation, joint, json] {
-    invocation.command = [joint, json](Client& client, const Output& output) {
-      show_status(client, output, {joint->empty() ? std::nullopt : std::optional(*joint), *json});
+  command->callback([&invocation, joint] {
+    invocation.command = [joint](Client& client, const Output& output) {
+      show_status(client, output, {joint->empty() ? std::nullopt : std::optional(*joint)});
     };
   });
 }
@@ -28,7 +26,8 @@ void add_timing(CLI::App& app, Invocation& invocation) {
 
 void add_watch(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand(
-      "watch", "a full screen of joints over time; keys stop, enable, hold and clear; q ends");
+      "watch",
+      "a full screen of joints over time; keys stop, enable, hold, clear and jog; ? explains, q ends");
   auto arguments = std::make_shared<WatchArguments>();
   add_joints(*command, arguments->joints, "joints; none: all");
   add_seconds(*command, "--interval_s", arguments->interval_s,

@@ -23,6 +23,21 @@ void add_order(CLI::App& app, Invocation& invocation, const std::string& name, c
   });
 }
 
+void add_disable(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("disable", "stop and switch the drive off");
+  auto joint = std::make_shared<std::string>();
+  auto all = std::make_shared<bool>(false);
+  CLI::Option* name = add_joint(*command, *joint);
+  command->add_flag("--all", *all, "every joint that is heard of the prefix")->excludes(name);
+  command->callback([&invocation, joint, all] {
+    if (joint->empty() && !*all)
+      throw ClientError(ExitStatus::kUsage, "disable: JOINT is required, or --all for every joint");
+    invocation.command = [joint, all](Client& client, const Output& output) {
+      *all ? disable_all(client, output) : disable(client, output, *joint);
+    };
+  });
+}
+
 void add_move(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("move", "move one joint to a position");
   auto arguments = std::make_shared<MoveArguments>();
@@ -31,7 +46,10 @@ void add_move(CLI::App& app, Invocation& invocation) {
   command->add_option("POSITION_rad", *position, "where to, in rad, joint side")->required()->type_name("");
   add_positive(*command, "--speed_rad_s", arguments->speed_limit_rad_s, "RAD/S",
                "no faster than this; otherwise as fast as the joint may");
-  command->add_flag("--wait", arguments->wait, "return once the joint holds there");
+  command->add_flag("--wait", arguments->wait,
+                    "return once the joint is there and stays; says how long it took");
+  add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
+      ->capture_default_str();
   command->callback([&invocation, arguments, position] {
     arguments->position_rad = parse_position_rad(*position);
     invocation.command = [arguments](Client& client, const Output& output) {
@@ -93,7 +111,7 @@ void add_inject(CLI::App& app, Invocation& invocation) {
 
 void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_order(app, invocation, "enable", "switch the drive on and hold the position", enable);
-  add_order(app, invocation, "disable", "stop and switch the drive off", disable);
+  add_disable(app, invocation);
   add_move(app, invocation);
   add_order(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);

@@ -1,5 +1,5 @@
-// Recorded states as CSV: the first column names the joint, the others are the message's fields under their
-// own names (an array as name_0, name_1, ...). Numbers read back to the same bits. Not real-time.
+// Recorded states as CSV: the message's fields under their own names (an array as name_0, name_1, ...), of the weights only
+// those that some state uses, and behind mode and fault their words. Numbers read back to the same bits. Not real-time.
 #pragma once
 
 #include <strainwave/state_v1.hpp>
@@ -7,8 +7,12 @@
 
 namespace strainwave {
 
-/// Both without the line's end.
-std::string csv_header();
-std::string csv_row(const std::string& joint, const state_v1& state);
+/// Weights of `state` that mean something.
+int weights_in_use(const state_v1& state);
+
+/// Each column with a comma before it; `weights`: the most that any row uses.
+std::string state_csv_columns(int weights);
+/// Each value with a comma before it. A weight beyond those of the state is empty.
+std::string state_csv_values(const state_v1& state, int weights);
 
 }  // namespace strainwave

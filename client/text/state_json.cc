@@ -23,19 +23,20 @@ nlohmann::ordered_json joint_json(const JointName& whose, const JointView& view)
   json["fault_text"] = to_text(static_cast<Fault>(view.state.fault));
   json["gains_in_use_text"] = to_text(static_cast<GainsInUse>(view.state.gains_in_use));
   json["temperature_status_text"] = to_text(static_cast<TemperatureStatus>(view.state.temperature_status));
+  json["error_rad"] = tracking_error_rad(view);
   json["notes"] = state_notes(view, age_s);
   return json;
 }
 
 }  // namespace
 
-std::string to_json(const StateView& states, const std::vector<JointName>& joints) {
+std::string to_json(const StateView& states, const std::vector<JointName>& joints, int indent) {
   nlohmann::ordered_json json{{"joints", nlohmann::ordered_json::array()}};
   for (const JointName& name : joints) {
     if (const JointView* view = states.find(name.prefix, name.joint))
       json["joints"].push_back(joint_json(name, *view));
   }
-  return json.dump(2);
+  return json.dump(indent);
 }
 
 }  // namespace strainwave

@@ -10,6 +10,7 @@ namespace strainwave {
 
 /// {"joints": [{"prefix": ..., "joint": ..., "age_s": ..., <fields>, "mode_text": ..., "fault_text": ...,
 /// "notes": ...}]}. A value that is not finite becomes null. Joints that were not heard are left out.
-std::string to_json(const StateView& states, const std::vector<JointName>& joints);
+/// `indent`: blanks for each level, or -1 for one line.
+std::string to_json(const StateView& states, const std::vector<JointName>& joints, int indent = 2);
 
 }  // namespace strainwave

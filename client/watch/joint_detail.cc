@@ -25,13 +25,13 @@ class Lines {
   Lines(Screen& screen, int first, int end) : screen_(screen), row_(first), end_(end) {}
   int row() const { return row_; }
 
-  /// Breaks at blanks; what follows stands under `label`'s text.
-  void put(std::string_view label, const std::string& text, Style style = Style::kPlain) {
+  /// Breaks at blanks, into `most` lines; what follows stands under `label`'s text.
+  void put(std::string_view label, const std::string& text, Style style = Style::kPlain, int most = 3) {
     constexpr int kIndent = 9;
     const auto room = static_cast<std::size_t>(std::max(10, screen_.columns() - kIndent));
     std::string_view rest = text;
     for (bool begun = false; !rest.empty() || !begun; begun = true) {
-      if (row_ >= end_) return;
+      if (row_ >= end_ || most-- == 0) return;
       if (!begun) screen_.put(row_, 0, label, Style::kDim);
       std::string_view line = rest.substr(0, clipped(rest, room).size());
       if (const auto blank = line.rfind(' '); line.size() < rest.size() && blank != line.npos && blank > 0)
@@ -103,7 +103,7 @@ void put_text(const WatchModel& model, const WatchedJoint& joint, Lines& lines) 
   for (std::size_t i = 0; i < std::min(kRefusalsShown, model.refusals.size()); ++i)
     lines.put(i == 0 ? "refused" : "",
               fmt::format("{:.0f} s ago: {}", model.refusals[i].age_s, model.refusals[i].text),
-              Style::kWarning);
+              Style::kWarning, 1);
   if (const std::string rejects = rejects_text(model, joint); !rejects.empty())
     lines.put("rejects", rejects + " (since the daemon's start, from anybody)");
 }

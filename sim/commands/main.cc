@@ -1,11 +1,9 @@
 // strainwave-sim: the closed loop without real time. See `strainwave-sim --help`.
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <iostream>
 #include <system_error>
 
 #include "base/input_error.h"
-#include "base/manual/manual.h"
+#include "base/manual/command_line.h"
 #include "sim/commands/commands.h"
 
 namespace strainwave {
@@ -26,21 +24,13 @@ std::filesystem::path shared_folder(const std::filesystem::path& name) {
 
 int main(int argc, char** argv) {
   CLI::App program("Simulates a strain-wave joint under control, faster than real time.");
-  program.set_version_flag("--version", STRAINWAVE_VERSION);
+  strainwave::configure_program(program, "strainwave-sim");
   program.require_subcommand(1);
   strainwave::add_chapter6_command(program);
   strainwave::add_run_command(program);
   strainwave::add_bound_command(program);
   strainwave::add_robustness_command(program);
   strainwave::add_heat_command(program);
-  strainwave::add_manual_option(program, "strainwave-sim");
-  try {
-    program.parse(argc, argv);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error);
-  } catch (const std::exception& error) {
-    std::cerr << "strainwave-sim: " << error.what() << '\n';
-    return 1;
-  }
+  // Each command runs in its callback, as part of the parse.
+  return strainwave::run_program(program, argc, argv, [] { return strainwave::ExitStatus::kDone; });
 }

@@ -60,14 +60,14 @@ TEST_F(DesignProgram, VerifyEndsWith1ForATamperedTable) {
 TEST_F(DesignProgram, AnInfeasibleRequestLeavesAMessageAndNoFile) {
   EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --max-torque_Nm 0.001 --out " +
                 file("table.json")),
-            1);
+            2);
   EXPECT_NE(output_.find("--max-torque_Nm"), std::string::npos) << output_;
   EXPECT_FALSE(std::filesystem::exists(file("table.json")));
 }
 
 TEST_F(DesignProgram, BadInputIsNamed) {
   EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --period_s -1 --out " + file("t.json")),
-            1);
+            2);
   EXPECT_NE(output_.find("period_s"), std::string::npos) << output_;
   EXPECT_EQ(run("gains --friction /nonexistent.json --out " + file("t.json")), 1);
   EXPECT_NE(output_.find("/nonexistent.json"), std::string::npos) << output_;

@@ -11,9 +11,10 @@ import strainwave.state_v1;
 /** Receives one joint's states on LCM's thread and keeps, until they are taken, those worth drawing. */
 final class JointFeed implements LCMSubscriber {
   /** A state and when it came, in seconds of this machine's monotonic clock. */
-  record Sample(double received_s, state_v1 state) {
+  record Sample(double received_s, state_v1 state, double period_s) {
+    /** At the instant when the position was measured: one period before this state's setpoint. */
     double error_rad() {
-      return state.setpoint_position_rad - state.joint_position_rad;
+      return state.setpoint_position_rad - period_s * state.setpoint_velocity_rad_s - state.joint_position_rad;
     }
   }
 
@@ -26,6 +27,8 @@ final class JointFeed implements LCMSubscriber {
   private final String channel;
   private final List<Sample> samples = new ArrayList<>();
   private double slotEnds_s = Double.NEGATIVE_INFINITY;
+  /** The first state of the session, to know the loop's period by. */
+  private state_v1 first;
 
   JointFeed(LCM lcm, String channel) {
     this.lcm = lcm;
@@ -41,10 +44,18 @@ final class JointFeed implements LCMSubscriber {
   public void messageReceived(LCM from, String onChannel, LCMDataInputStream in) {
     final double now_s = System.nanoTime() * 1e-9;
     try {
-      add(new Sample(now_s, new state_v1(in)));
+      final state_v1 state = new state_v1(in);
+      add(new Sample(now_s, state, period_s(state)));
     } catch (IOException malformed) {
       // Not a state: the viewer's own table counts it as undecodable.
     }
+  }
+
+  private double period_s(state_v1 state) {
+    if (first == null || first.session_id != state.session_id) first = state;
+    final double cycles = (double) state.cycle - first.cycle;
+    final double duration_s = 1e-6 * ((double) state.utime - first.utime);
+    return cycles > 0 && duration_s > 0 ? duration_s / cycles : 0.0;
   }
 
   synchronized void add(Sample sample) {

@@ -52,6 +52,9 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   daemon.modes_after_answer = {Mode::kHolding};
   enable(client, output, "elbow");
   hold(client, output, "elbow");
+  daemon.publish_state(Mode::kFaulted);
+  while (connection.handle(0)) {
+  }
   clear_fault(client, output, "elbow");
   revert_table(client, output, "elbow");
   daemon.modes_after_answer = {Mode::kHoming, Mode::kHolding};
@@ -108,7 +111,7 @@ TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
 
 TEST_F(CommandsTest, GpioCheckSaysWhereItsHelperMustBe) {
   // Beside this test's program there is no strainwaved.
-  EXPECT_EQ(status_of([&] { gpio_check(output, "gpio.toml"); }), ExitStatus::kFile);
+  EXPECT_EQ(status_of([&] { gpio_check(output, "gpio.toml"); }), ExitStatus::kUsage);
   EXPECT_TRUE(message_has("strainwaved")) << message;
   EXPECT_TRUE(message_has("install it beside strainwavectl")) << message;
 }
@@ -158,9 +161,53 @@ TEST_F(CommandsTest, MoveWaitsUntilTheJointHoldsAtTheTarget) {
   daemon.publish_state(Mode::kHolding);
   // The first state left the daemon before it took the order.
   daemon.modes_after_answer = {Mode::kHolding, Mode::kTracking, Mode::kTracking, Mode::kHolding};
-  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kDone);
-  EXPECT_TRUE(output_has("arrived at 0.5 rad"));
+  daemon.after_answer = [&] { daemon.state.joint_position_rad = 0.4995; };
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kDone) << message;
+  EXPECT_TRUE(output_has("arrived at 0.5 rad in ")) << stream.str();
+  EXPECT_TRUE(output_has("error 5.00e-04 rad")) << stream.str();
   EXPECT_EQ(client.find("elbow")->messages, 5);
+}
+
+TEST_F(CommandsTest, MoveDoesNotCallItArrivedOutsideOfTheTolerance) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kHolding};
+  daemon.after_answer = [&] { daemon.state.joint_position_rad = 0.49; };
+  EXPECT_NE(move_and_wait(0.5), ExitStatus::kDone);
+  EXPECT_FALSE(output_has("arrived"));
+}
+
+TEST_F(CommandsTest, EnableAndClearFaultAreDoneAlreadyWhenThereIsNothingToDo) {
+  daemon.publish_state(Mode::kHolding);
+  enable(client, output, "elbow");
+  EXPECT_TRUE(output_has("elbow: enabled already, holding at")) << stream.str();
+  clear_fault(client, output, "elbow");
+  EXPECT_TRUE(output_has("elbow: has no fault")) << stream.str();
+  EXPECT_TRUE(daemon.heard().empty()) << "nothing was sent";
+}
+
+TEST_F(CommandsTest, AStopThatNobodyAnswersWasSentAllTheSame) {
+  EXPECT_EQ(status_of([&] { disable(client, output, "ghost"); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("ghost: the stop was sent 4 times, and nothing answered")) << message;
+}
+
+TEST_F(CommandsTest, DisableAllGoesOnAfterAFailure) {
+  FakeDaemon wrist(connection, "SW", "wrist");
+  daemon.publish_state(Mode::kHolding);
+  wrist.publish_state(Mode::kHolding);
+  daemon.drop = 100;
+  wrist.modes_after_answer = {Mode::kOff};
+  EXPECT_EQ(status_of([&] { disable_all(client, output); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("elbow: the stop was sent")) << message;
+  EXPECT_TRUE(output_has("wrist: disabled"));
+}
+
+TEST_F(CommandsTest, ResultsAreOneJsonObjectALineWhenAskedFor) {
+  output.json = true;
+  daemon.publish_state(Mode::kHolding);
+  hold(client, output, "elbow");
+  enable(client, output, "elbow");
+  EXPECT_TRUE(output_has("{\"joint\":\"elbow\",\"accepted\":true}\n")) << stream.str();
+  EXPECT_TRUE(output_has("\"already\":true}\n")) << stream.str();
 }
 
 TEST_F(CommandsTest, MoveEndsWithTheFaultThatEndedIt) {
@@ -229,7 +276,7 @@ TEST_F(CommandsTest, StatusShowsEveryJointOrEveryFieldOfOne) {
   EXPECT_TRUE(output_has("elbow"));
   EXPECT_TRUE(output_has("wrist"));
   stream.str("");
-  show_status(client, output, {"elbow", false});
+  show_status(client, output, {"elbow"});
   EXPECT_TRUE(output_has("torque_feedforward_Nm"));
   EXPECT_FALSE(output_has("wrist"));
 }
@@ -238,7 +285,8 @@ TEST_F(CommandsTest, StatusAsJsonWritesNullForWhatIsNotFinite) {
   daemon.state.temperature_C = std::numeric_limits<double>::quiet_NaN();
   daemon.state.session_id = 0x7fff'ffff'ffff'fff1;
   daemon.publish_state(Mode::kHolding);
-  show_status(client, output, {"elbow", true});
+  output.json = true;
+  show_status(client, output, {"elbow"});
   EXPECT_TRUE(output_has("\"temperature_C\": null")) << stream.str();
   EXPECT_TRUE(output_has("\"session_id\": 9223372036854775793")) << stream.str();
   EXPECT_TRUE(output_has("\"mode_text\": \"holding\"")) << stream.str();
@@ -293,7 +341,7 @@ TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
   const auto attempt = [&](bool overwrite) {
     return status_of([&] { record(client, output, {{"elbow"}, file, 0.01, overwrite}); });
   };
-  EXPECT_EQ(attempt(false), ExitStatus::kFile);
+  EXPECT_EQ(attempt(false), ExitStatus::kUsage);
   std::string first;
   std::getline(std::ifstream(file), first);
   EXPECT_EQ(first, "precious");
@@ -305,7 +353,7 @@ TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
   EXPECT_EQ(status_of([&] {
               record(client, output, {{"elbow"}, "/nonexistent/a.lcm", 0.01, false});
             }),
-            ExitStatus::kFile);
+            ExitStatus::kUsage);
 }
 
 /// memq:// drops what nobody has subscribed to yet: sends the message once a first one, the trigger, is

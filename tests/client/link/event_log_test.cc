@@ -66,6 +66,7 @@ TEST_F(EventLogs, ExportWritesOneFilePerChannel) {
   testing::EventLogFile log(folder_ / "a.lcm");
   state_v1 state{};
   state.joint_position_rad = 0.25;
+  state.rule_count = 3;
   log.add(100, "SW.elbow.STATE", state);
   log.add(200, "SW.elbow.STATE", state);
   log.add(300, "SW.wrist.TEMPERATURE", temperature_v1{});
@@ -75,8 +76,8 @@ TEST_F(EventLogs, ExportWritesOneFilePerChannel) {
   export_log(output_, {folder_ / "a.lcm", folder_ / "csv", false});
   const auto states = lines_of(folder_ / "csv" / "SW.elbow.STATE.csv");
   ASSERT_EQ(states.size(), 3U);
-  EXPECT_EQ(states[0], "received_us" + csv_columns<state_v1>());
-  EXPECT_TRUE(states[2].starts_with("200,"));
+  EXPECT_EQ(states[0], "received_us,time_s" + state_csv_columns(3)) << "the most weights that a state uses";
+  EXPECT_TRUE(states[2].starts_with("200,0.000100,")) << states[2];
   EXPECT_NE(states[2].find(",0.25,"), std::string::npos);
   EXPECT_EQ(lines_of(folder_ / "csv" / "SW.wrist.TEMPERATURE.csv").size(), 2U);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "csv" / "SW.wrist.STATE.csv"));
@@ -91,9 +92,9 @@ TEST_F(EventLogs, ExportToOneCsvWritesTheStatesOfAllJoints) {
   export_log(output_, {folder_ / "a.lcm", folder_ / "a.csv", false});
   const auto lines = lines_of(folder_ / "a.csv");
   ASSERT_EQ(lines.size(), 3U);
-  EXPECT_EQ(lines[0], csv_header());
-  EXPECT_TRUE(lines[1].starts_with("elbow,0,"));
-  EXPECT_TRUE(lines[2].starts_with("wrist,0,"));
+  EXPECT_EQ(lines[0], "joint,time_s" + state_csv_columns(0));
+  EXPECT_TRUE(lines[1].starts_with("elbow,0.000000,0,"));
+  EXPECT_TRUE(lines[2].starts_with("wrist,0.000000,0,"));
   EXPECT_THROW(export_log(output_, {folder_ / "a.lcm", folder_ / "a.csv", false}), ClientError);
 }
 

@@ -1,0 +1,30 @@
+// What the command lines of all programs have in common: version, manual, exit statuses, and the words of their errors.
+// Not real-time.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "base/exit_status.h"
+
+namespace CLI {
+class App;
+}
+
+namespace strainwave {
+
+/// Gives `app` its name, --version, the hidden --manual, and the exit statuses below its help. `app` must outlive the parse.
+void configure_program(CLI::App& app, const std::string& program);
+
+/// Parses the words after the program's name ("-.5" counts as "-0.5"). Nothing: go on. Otherwise the program ends: help and
+/// version on `out`, or on `err` one line "program: what was given, what is allowed, the nearest right word".
+std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::string> words, std::ostream& out,
+                                             std::ostream& err);
+
+/// Parses, then calls `action` and says on `err` why it threw: InputError is kUsage, anything else kNoAnswer.
+int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitStatus()>& action);
+
+}  // namespace strainwave

@@ -1,0 +1,26 @@
+// Where a command writes what it found or did: a sentence for people, or with --json one object for scripts. Errors travel as
+// exceptions. Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace strainwave {
+
+struct Output {
+  std::ostream& stream;
+  bool terminal = false;  ///< a person looks at it
+  bool json = false;
+};
+
+/// Names carry units, as everywhere. A number that is not finite becomes null.
+using ResultField = std::pair<const char*, std::variant<bool, std::int64_t, double, std::string>>;
+
+/// Writes one line: `text`, or the fields as a JSON object.
+void say(const Output& output, const std::string& text, const std::vector<ResultField>& fields);
+
+}  // namespace strainwave
