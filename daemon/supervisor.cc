@@ -4,7 +4,6 @@
 #include <signal.h>
 #include <sodium.h>
 #include <spdlog/spdlog.h>
-#include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -62,12 +61,6 @@ int make_signal_fd() {
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   const int descriptor = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
-  return descriptor;
-}
-
-int make_wake_fd() {
-  const int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
   return descriptor;
 }
 
@@ -157,17 +150,18 @@ Supervisor::Supervisor(const DaemonConfig& config)
       inbound_file_(MemoryFile::create("strainwave-inbound", sizeof(InboundMemory), false)),
       outbound_(*new (outbound_file_.address()) OutboundMemory),
       inbound_(*new (inbound_file_.address()) InboundMemory),
-      wake_fd_(make_wake_fd()),
       signal_fd_(make_signal_fd()),
       loop_(config.loop, assemble_loop(config), outbound_.states),
       flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_),
                       log_flight_records()),
       admission_(config.prefix, session_id_, assemble_admission(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
-      gateway_(find_gateway_program(), {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_fd_}),
+      gateway_(find_gateway_program(),
+               {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_.gateway_end()}),
       books_(config.joints.size()),
       latest_(config.joints.size()),
       refusal_log_(20, 10'000 * kMillisecond_ns),
+      dropped_log_(1, 10'000 * kMillisecond_ns),
       stranger_answers_(kStrangerAnswersPer_s, kStrangerAnswersAtOnce),
       incoming_(std::make_unique<WireMessage>()) {
   fill_shared_memory();
@@ -175,7 +169,6 @@ Supervisor::Supervisor(const DaemonConfig& config)
 }
 
 Supervisor::~Supervisor() {
-  ::close(wake_fd_);
   ::close(signal_fd_);
 }
 
@@ -265,10 +258,9 @@ void Supervisor::turn(std::int64_t now_ns) {
 void Supervisor::wait(std::int64_t wait_ms) {
   // While the loop owes a reply, look often: it has no way to wake anybody.
   const int timeout_ms = pending_.empty() ? static_cast<int>(wait_ms) : 1;
-  std::array<pollfd, 2> descriptors{{{wake_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
+  std::array<pollfd, 2> descriptors{{{wake_.core_end(), POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
   if (::poll(descriptors.data(), descriptors.size(), timeout_ms) <= 0) return;
-  std::uint64_t wakes = 0;
-  if ((descriptors[0].revents & POLLIN) != 0 && ::read(wake_fd_, &wakes, sizeof wakes) < 0) return;
+  wake_.take();
   signalfd_siginfo signal{};
   while (::read(signal_fd_, &signal, sizeof signal) == sizeof signal) {
     if (signal.ssi_signo == SIGCHLD || stopping_) continue;
@@ -280,14 +272,24 @@ void Supervisor::wait(std::int64_t wait_ms) {
 }
 
 void Supervisor::take_messages(std::int64_t now_ns) {
-  const std::uint64_t written = inbound_.written.load(std::memory_order_acquire);
-  // A gateway that lies about its counter loses what it sent and harms nobody.
-  if (written - inbound_taken_ > InboundMemory::kMessages) inbound_taken_ = written;
-  for (; inbound_taken_ != written; ++inbound_taken_) {
-    *incoming_ = inbound_.messages[inbound_taken_ % InboundMemory::kMessages];
-    outbound_.inbound_taken.store(inbound_taken_ + 1, std::memory_order_release);
-    dispatch(admission_.consider(*incoming_, now_ns), now_ns);
-  }
+  // A bound on a turn, or a gateway that never stops writing would keep everything else waiting.
+  for (std::size_t i = 0; i < 2 * InboundLane::kMessages; ++i)
+    if (!take_message(inbound_.stops, stops_taken_, outbound_.stops_taken, now_ns) &&
+        !take_message(inbound_.orders, orders_taken_, outbound_.orders_taken, now_ns))
+      return;
+}
+
+// The next message of `lane`, of which `taken` have been taken, as the gateway is `told`. False when there is none.
+bool Supervisor::take_message(const InboundLane& lane, std::uint64_t& taken, std::atomic<std::uint64_t>& told,
+                              std::int64_t now_ns) {
+  const std::uint64_t written = lane.written.load(std::memory_order_acquire);
+  // A gateway that lies about its counter loses what it sent and harms nobody, nor the one that comes after it.
+  if (written - taken > InboundLane::kMessages) told.store(taken = written, std::memory_order_release);
+  if (taken == written) return false;
+  *incoming_ = lane.messages[taken % InboundLane::kMessages];
+  told.store(++taken, std::memory_order_release);
+  dispatch(admission_.consider(*incoming_, now_ns), now_ns);
+  return true;
 }
 
 void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
@@ -410,6 +412,7 @@ void Supervisor::watch_gateway(std::int64_t now_ns) {
     }
   }
   end_hung_gateway(now_ns);
+  log_dropped_datagrams(now_ns);
   const std::uint64_t foreign = inbound_.foreign_states.load(std::memory_order_relaxed);
   if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
     spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix",
@@ -428,6 +431,24 @@ void Supervisor::end_hung_gateway(std::int64_t now_ns) {
   gateway_moved_ns_ = now_ns;
   spdlog::error("the gateway has done nothing for 2 s: ending it");
   gateway_.kill();
+}
+
+void Supervisor::log_dropped_datagrams(std::int64_t now_ns) {
+  const auto count = [](const std::atomic<std::uint64_t>& value) {
+    return value.load(std::memory_order_relaxed);
+  };
+  const std::uint64_t malformed = count(inbound_.malformed);
+  const std::uint64_t too_long = count(inbound_.too_long);
+  const std::uint64_t interrupted = count(inbound_.interrupted);
+  const std::uint64_t crowded_out = count(inbound_.crowded_out);
+  const std::uint64_t dropped = malformed + too_long + interrupted + crowded_out;
+  std::int64_t suppressed = 0;
+  if (dropped == dropped_seen_ || !dropped_log_.allow(now_ns, suppressed)) return;
+  dropped_seen_ = dropped;
+  spdlog::warn(
+      "dropped by the gateway since its start: {} malformed datagrams, {} too long, {} messages with missing "
+      "fragments, {} messages too many at once",
+      malformed, too_long, interrupted, crowded_out);
 }
 
 void Supervisor::publish_timing(std::int64_t now_ns) {

@@ -15,6 +15,7 @@
 #include "daemon/config/config.h"
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/gateway/shared_memory.h"
+#include "daemon/gateway/wake_pipe.h"
 #include "daemon/instance_lock.h"
 #include "daemon/log.h"
 #include "daemon/realtime/realtime_loop.h"
@@ -46,6 +47,8 @@ class Supervisor {
   void turn(std::int64_t now_ns);
   void wait(std::int64_t wait_ms);
   void take_messages(std::int64_t now_ns);
+  bool take_message(const InboundLane& lane, std::uint64_t& taken, std::atomic<std::uint64_t>& told,
+                    std::int64_t now_ns);
   void dispatch(Verdict verdict, std::int64_t now_ns);
   bool prepare_table(Verdict& verdict);
   void take_replies(std::int64_t now_ns);
@@ -54,6 +57,7 @@ class Supervisor {
   void take_states(std::int64_t now_ns);
   void watch_gateway(std::int64_t now_ns);
   void end_hung_gateway(std::int64_t now_ns);
+  void log_dropped_datagrams(std::int64_t now_ns);
   void answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns);
   void publish_timing(std::int64_t now_ns);
   void tell_systemd(std::int64_t now_ns);
@@ -66,7 +70,7 @@ class Supervisor {
   MemoryFile inbound_file_;
   OutboundMemory& outbound_;
   InboundMemory& inbound_;
-  int wake_fd_;
+  WakePipe wake_;
   int signal_fd_;
   RealtimeLoop loop_;
   FlightRecordWriter flight_records_;
@@ -77,11 +81,14 @@ class Supervisor {
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
   std::vector<StateRecord> latest_;          ///< of each joint
   LogLimiter refusal_log_;
+  LogLimiter dropped_log_;
   ServiceNotifier service_;
   TokenBucket stranger_answers_;  ///< to those who did not prove who they are
   std::unique_ptr<WireMessage> incoming_;
   std::int64_t next_order_id_ = 1;
-  std::uint64_t inbound_taken_ = 0;
+  std::uint64_t stops_taken_ = 0;
+  std::uint64_t orders_taken_ = 0;
+  std::uint64_t dropped_seen_ = 0;
   std::uint64_t state_cursor_ = 0;
   std::uint64_t foreign_states_seen_ = 0;
   std::uint64_t gateway_turns_ = 0;

@@ -3,7 +3,7 @@
 #include <cerrno>
 
 #include "client/link/exit_status.h"
-#include "client/link/multicast_check.h"
+#include "lcmtypes/multicast_check.h"
 
 namespace strainwave {
 

@@ -13,16 +13,18 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <memory>
 #include <system_error>
 
+#include "daemon/gateway/gateway_process.h"
 #include "daemon/gateway/sanitized.h"
 
 namespace strainwave {
 
 namespace {
 
-/// LCM keeps up to 16 MiB of fragments and its buffers; the rest is programs and stacks.
+/// What it shares with the core and its buffers are some 20 MiB; the rest is programs and stacks.
 constexpr rlim_t kAddressSpaceBytes = 512UL << 20;
 
 [[noreturn]] void fail(const char* what, int error = errno) {
@@ -67,75 +69,60 @@ void silence_standard_streams() {
 
 using Filter = std::unique_ptr<void, decltype(&::seccomp_release)>;
 
-void add_rule(const Filter& filter, std::uint32_t action, int system_call) {
-  if (const int result = ::seccomp_rule_add(filter.get(), action, system_call, 0))
-    fail("filtering system calls", -result);
+void must(int result, const char* what) {
+  if (result != 0) fail(what, -result);
 }
 
-void add_rule(const Filter& filter, std::uint32_t action, int system_call, const scmp_arg_cmp& condition) {
-  if (const int result = ::seccomp_rule_add(filter.get(), action, system_call, 1, condition))
-    fail("filtering system calls", -result);
+void allow(const Filter& filter, int system_call) {
+  must(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, system_call, 0), "allowing a system call");
 }
 
-// Before LCM opens its socket nothing hostile has been read; from then on it could be. Setting LCM up needs files and a
-// thread, but no other process: as the daemon's own user the gateway could otherwise signal it or write its memory.
-void keep_from_other_processes() {
-  const Filter filter(::seccomp_init(SCMP_ACT_ALLOW), &::seccomp_release);
-  if (filter == nullptr) fail("keeping from other processes", ENOMEM);
+void allow_if(const Filter& filter, int system_call, const scmp_arg_cmp& condition) {
+  must(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, system_call, 1, condition), "allowing a system call");
+}
+
+// Receiving, sending and waiting, on the sockets that are there. Names that an architecture does not have are left out by
+// libseccomp; on 32-bit ones the C library asks for the time in 64 bits first.
+void allow_receiving_and_sending(const Filter& filter) {
   for (const int call :
-       {SCMP_SYS(kill), SCMP_SYS(tkill), SCMP_SYS(rt_sigqueueinfo), SCMP_SYS(rt_tgsigqueueinfo),
-        SCMP_SYS(pidfd_open), SCMP_SYS(pidfd_getfd), SCMP_SYS(pidfd_send_signal), SCMP_SYS(ptrace),
-        SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev), SCMP_SYS(process_madvise), SCMP_SYS(execve),
-        SCMP_SYS(execveat), SCMP_SYS(fork), SCMP_SYS(vfork), SCMP_SYS(io_uring_setup), SCMP_SYS(bpf),
-        SCMP_SYS(userfaultfd)})
-    add_rule(filter, SCMP_ACT_KILL_PROCESS, call);
-  const auto own_pid = static_cast<scmp_datum_t>(::getpid());
-  const scmp_arg_cmp another = SCMP_A0(SCMP_CMP_NE, own_pid);
-  add_rule(filter, SCMP_ACT_KILL_PROCESS, SCMP_SYS(tgkill), another);
-  if (const int result = ::seccomp_load(filter.get())) fail("keeping from other processes", -result);
+       {SCMP_SYS(recvmmsg), SCMP_SYS(recvmmsg_time64), SCMP_SYS(sendmsg), SCMP_SYS(poll), SCMP_SYS(ppoll),
+        SCMP_SYS(ppoll_time64), SCMP_SYS(clock_gettime), SCMP_SYS(clock_gettime64), SCMP_SYS(gettimeofday),
+        SCMP_SYS(getppid), SCMP_SYS(restart_syscall), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigreturn),
+        SCMP_SYS(exit_group)})
+    allow(filter, call);
+  // LCM's library locks, though one thread alone never waits.
+  allow(filter, SCMP_SYS(futex));
+  allow(filter, SCMP_SYS(futex_time64));
+  // Waking the core, and a library's complaints, which lead nowhere.
+  for (const int descriptor : {kGatewayWakeFd, STDERR_FILENO})
+    allow_if(filter, SCMP_SYS(write), SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(descriptor)));
 }
 
-void allow_what_receiving_and_sending_needs(const Filter& filter) {
-  for (const int call : {SCMP_SYS(read), SCMP_SYS(write), SCMP_SYS(recvmsg), SCMP_SYS(recvfrom),
-                         SCMP_SYS(sendmsg), SCMP_SYS(sendto), SCMP_SYS(poll), SCMP_SYS(ppoll),
-                         SCMP_SYS(select), SCMP_SYS(pselect6), SCMP_SYS(_newselect), SCMP_SYS(close)})
-    add_rule(filter, SCMP_ACT_ALLOW, call);
-  for (const int call :
-       {SCMP_SYS(futex), SCMP_SYS(clock_gettime), SCMP_SYS(clock_nanosleep), SCMP_SYS(nanosleep),
-        SCMP_SYS(gettimeofday), SCMP_SYS(time), SCMP_SYS(sched_yield), SCMP_SYS(restart_syscall),
-        SCMP_SYS(rt_sigreturn), SCMP_SYS(rt_sigprocmask), SCMP_SYS(getpid), SCMP_SYS(getppid),
-        SCMP_SYS(gettid), SCMP_SYS(exit), SCMP_SYS(exit_group)})
-    add_rule(filter, SCMP_ACT_ALLOW, call);
-  for (const int call : {SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(madvise)})
-    add_rule(filter, SCMP_ACT_ALLOW, call);
-  // Memory, but none that can be run.
+// Memory, but none that can be run.
+void allow_memory(const Filter& filter) {
+  for (const int call : {SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap)}) allow(filter, call);
   const scmp_arg_cmp not_executable = SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0);
-  add_rule(filter, SCMP_ACT_ALLOW, SCMP_SYS(mmap), not_executable);
-  add_rule(filter, SCMP_ACT_ALLOW, SCMP_SYS(mmap2), not_executable);
-  add_rule(filter, SCMP_ACT_ALLOW, SCMP_SYS(mprotect), not_executable);
-  // abort() signals itself, nobody else.
-  const scmp_arg_cmp itself = SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()));
-  add_rule(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), itself);
+  for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mmap2), SCMP_SYS(mprotect)})
+    allow_if(filter, call, not_executable);
 }
 
-// What libraries may try and can do without: the C library's perror(), malloc's names for memory, GLib's
-// curiosity.
-void refuse_what_libraries_try(const Filter& filter) {
-  for (const int call :
-       {SCMP_SYS(dup), SCMP_SYS(fcntl), SCMP_SYS(fstat), SCMP_SYS(newfstatat), SCMP_SYS(prctl),
-        SCMP_SYS(open), SCMP_SYS(openat), SCMP_SYS(sched_getaffinity), SCMP_SYS(getrandom)})
-    add_rule(filter, SCMP_ACT_ERRNO(EPERM), call);
+Filter make_filter() {
+  Filter filter(::seccomp_init(SCMP_ACT_KILL_PROCESS), &::seccomp_release);
+  if (filter == nullptr) fail("filtering system calls", ENOMEM);
+  return filter;
+}
+
+void fill(const Filter& filter) {
+  allow_receiving_and_sending(filter);
+  allow_memory(filter);
 }
 
 void filter_system_calls() {
-  const Filter filter(::seccomp_init(SCMP_ACT_KILL_PROCESS), &::seccomp_release);
-  if (filter == nullptr) fail("filtering system calls", ENOMEM);
-  // LCM's reader is a thread of its own, and already there.
-  if (const int result = ::seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1))
-    fail("filtering system calls", -result);
-  allow_what_receiving_and_sending_needs(filter);
-  refuse_what_libraries_try(filter);
-  if (const int result = ::seccomp_load(filter.get())) fail("loading the filter of system calls", -result);
+  const Filter filter = make_filter();
+  // Should there ever be another thread, it is under the filter, too.
+  must(::seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1), "filtering system calls");
+  fill(filter);
+  must(::seccomp_load(filter.get()), "loading the filter of system calls");
 }
 
 }  // namespace
@@ -144,7 +131,17 @@ bool has_system_call_filter() noexcept {
   return !kSanitized;
 }
 
-void confine_before_setup(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor) {
+void export_system_call_filter(std::uint32_t architecture, int descriptor) {
+  const Filter filter = make_filter();
+  if (architecture != ::seccomp_arch_native()) {
+    must(::seccomp_arch_add(filter.get(), architecture), "filtering for another architecture");
+    must(::seccomp_arch_remove(filter.get(), SCMP_ARCH_NATIVE), "filtering for another architecture");
+  }
+  fill(filter);
+  must(::seccomp_export_bpf(filter.get(), descriptor), "exporting the filter of system calls");
+}
+
+void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor) {
   if (::close_range(first_descriptor, ~0U, 0) != 0) fail("closing descriptors");
   empty_bounding_set();
   become_user(uid, gid);
@@ -153,10 +150,9 @@ void confine_before_setup(std::int64_t uid, std::int64_t gid, unsigned int first
   if (!kSanitized && ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0) fail("forbidding inspection");
   for (const auto resource : {RLIMIT_CORE, RLIMIT_RTPRIO, RLIMIT_MEMLOCK, RLIMIT_MSGQUEUE})
     limit(resource, 0);
-  if (!kSanitized) keep_from_other_processes();
 }
 
-void confine_after_setup() {
+void confine() {
   silence_standard_streams();
   ::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails, no more
   limit(RLIMIT_FSIZE, 0);

@@ -1,7 +1,7 @@
-// Takes from the gateway everything it does not need, in two steps: before LCM is set up (user, capabilities,
-// descriptors) and after it (new processes, files, memory, system calls). What remains is to receive and send
-// datagrams on the sockets it has. Both steps throw std::system_error when the system refuses: better no
-// gateway than an open one. Not real-time.
+// Takes from the gateway everything it does not need, in two steps: who it is, before it opens anything; and what it may ask of
+// the system, when all is open and bound and before it reads the first datagram. What remains is to receive and send on
+// the sockets it has. Both steps throw std::system_error when the system refuses: better no gateway than an open one. Not
+// real-time.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,17 @@ namespace strainwave {
 /// Whether the filter of system calls is part of this build. The sanitizers' runtime needs calls it forbids.
 bool has_system_call_filter() noexcept;
 
-/// Becomes user `uid` and group `gid` without further groups (unless -1), gives up every capability for good,
-/// closes every descriptor from `first_descriptor` on, and can from now on neither reach nor start another process.
-/// One thread only.
-void confine_before_setup(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
+/// Becomes user `uid` and group `gid` without further groups (unless -1), gives up every capability for good, and closes
+/// every descriptor from `first_descriptor` on. One thread only.
+void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
 
-/// Silences the standard streams (LCM writes a line for each malformed datagram: nobody may fill a log this
-/// way), forbids new processes and growing files, bounds memory, and leaves the system calls of receiving and
-/// sending. All threads.
-void confine_after_setup();
+/// Silences the standard streams (whoever takes the gateway over writes no line into a log), forbids new processes and
+/// growing files, bounds memory, and leaves the system calls of receiving and sending: any other ends the process. All
+/// threads.
+void confine();
+
+/// Writes that filter, as a program of struct sock_filter, to `descriptor`: for `architecture` (SCMP_ARCH_...), which
+/// need not be this machine's.
+void export_system_call_filter(std::uint32_t architecture, int descriptor);
 
 }  // namespace strainwave

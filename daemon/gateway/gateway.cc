@@ -4,23 +4,34 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
+#include <system_error>
 
 #include "base/utime.h"
+#include "daemon/gateway/order_lane.h"
 #include "lcmtypes/channels.h"
+#include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr int kOrderQueue = 256;
-constexpr int kMessagesPerTurn = 256;
+constexpr std::size_t kDatagramsPerTurn = 256;
+/// Some client's largest burst, for several clients at once.
+constexpr std::size_t kWaitingOrders = 256;
+constexpr std::size_t kWaitingStops = 64;
+/// The largest message, and in front of it a header and a channel.
+constexpr std::size_t kLargestDatagram = WireMessage::kMaxBytes + 20 + kMaxChannelLength + 1;
 
-constexpr const char* kRemedy =
-    ": LCM needs a multicast route. On one machine: ip link set lo multicast on; "
-    "ip route replace 239.255.76.67/32 dev lo src 127.0.0.1 (the service does this at boot). "
-    "Or set daemon.lcm_url to an interface that has one.";
+// Moves messages into a lane while it has room. Whether there were any.
+bool fill(InboundLane& lane, const std::atomic<std::uint64_t>& taken, OrderQueue& queue) noexcept {
+  const std::uint64_t begin = lane.written.load(std::memory_order_relaxed);
+  std::uint64_t index = begin;
+  while (index - taken.load(std::memory_order_acquire) < InboundLane::kMessages &&
+         queue.pop(lane.messages[index % InboundLane::kMessages]))
+    lane.written.store(++index, std::memory_order_release);
+  return index != begin;
+}
 
 }  // namespace
 
@@ -29,63 +40,84 @@ Gateway::Gateway(const OutboundMemory& outbound, InboundMemory& inbound, int wak
       inbound_(inbound),
       wake_fd_(wake_fd),
       lcm_(std::string(outbound.lcm_url.view())),
+      reassembly_(WireMessage::kMaxBytes),
+      stops_(kWaitingStops),
+      orders_(kWaitingOrders),
       state_cursor_(outbound.states.written()),
       message_cursor_(outbound.messages.written()) {
+  open_network();
+}
+
+void Gateway::open_network() {
   const std::string url(outbound_.lcm_url.view());
-  if (!lcm_.good()) {
-    problem_ = "LCM cannot be opened at " + url + kRemedy;
+  const auto address = parse_udpm_url(url);
+  if (!address) {
+    problem_ = "daemon.lcm_url '" + url + "' is not of the kind udpm://GROUP:PORT?ttl=N";
     return;
   }
-  const std::string prefix(outbound_.prefix.view());
-  for (const auto kind :
-       {channel_kind::kSetpoint, channel_kind::kCommand, channel_kind::kTable, channel_kind::kInject}) {
-    lcm::Subscription* subscription = lcm_.subscribe(channel_pattern(prefix, kind), &Gateway::on_order, this);
-    if (subscription == nullptr) {
-      problem_ = "LCM cannot receive at " + url + kRemedy;
-      return;
-    }
-    subscription->setQueueCapacity(kOrderQueue);
+  if (const auto problem = find_multicast_problem(url)) {
+    problem_ = "LCM is not available on '" + url + "': " + *problem;
+    return;
   }
-  lcm_.subscribe(channel_pattern(prefix, channel_kind::kState), &Gateway::on_state, this);
+  try {
+    if (!lcm_.good()) throw std::system_error(ENETUNREACH, std::generic_category(), "opening LCM's sender");
+    socket_ = std::make_unique<LcmSocket>(*address, kLargestDatagram);
+  } catch (const std::system_error& error) {
+    problem_ = "LCM cannot be opened on '" + url + "': " + error.what();
+  }
 }
 
 void Gateway::turn(int wait_ms) {
-  receive(wait_ms);
+  pollfd descriptor{socket_->descriptor(), POLLIN, 0};
+  if (::poll(&descriptor, 1, wait_ms) > 0) receive();
+  hand_over();
   publish_states();
   publish_messages();
 }
 
-void Gateway::receive(int wait_ms) {
-  pollfd descriptor{lcm_.getFileno(), POLLIN, 0};
-  int wait = wait_ms;
-  for (int i = 0; i < kMessagesPerTurn; ++i) {
-    if (::poll(&descriptor, 1, wait) <= 0) return;
-    lcm_.handle();
-    wait = 0;
+void Gateway::receive() {
+  std::size_t received = 0;
+  while (received < kDatagramsPerTurn) {
+    const std::size_t batch = socket_->receive(
+        [this](const LcmSource& from, std::span<const std::uint8_t> datagram) { sort(from, datagram); });
+    if (batch == 0) break;
+    received += batch;
+    hand_over();
+  }
+  const LcmReassembly::Counts& counts = reassembly_.counts();
+  inbound_.malformed.store(counts.malformed, std::memory_order_relaxed);
+  inbound_.too_long.store(counts.too_long, std::memory_order_relaxed);
+  inbound_.interrupted.store(counts.interrupted, std::memory_order_relaxed);
+  inbound_.crowded_out.store(stops_.crowded_out() + orders_.crowded_out(), std::memory_order_relaxed);
+}
+
+void Gateway::sort(const LcmSource& from, std::span<const std::uint8_t> datagram) {
+  const auto message = reassembly_.take(from, datagram);
+  if (!message) return;
+  switch (lane_of(outbound_.prefix.view(), message->channel, message->bytes)) {
+    case OrderLane::kStop:
+      return stops_.push(from, message->channel, message->bytes);
+    case OrderLane::kOrder:
+      return orders_.push(from, message->channel, message->bytes);
+    case OrderLane::kState:
+      return note_state(message->bytes);
+    case OrderLane::kNone:
+      return;
   }
 }
 
-void Gateway::on_order(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  if (buffer->data_size > WireMessage::kMaxBytes || channel.size() > kMaxChannelLength) return;
-  const std::uint64_t index = inbound_.written.load(std::memory_order_relaxed);
-  if (index - outbound_.inbound_taken.load(std::memory_order_acquire) >= InboundMemory::kMessages) {
-    inbound_.overflow.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
-  WireMessage& slot = inbound_.messages[index % InboundMemory::kMessages];
-  slot.channel = FixedString<64>(channel);
-  slot.size = buffer->data_size;
-  std::memcpy(slot.bytes.data(), buffer->data, buffer->data_size);
-  inbound_.written.store(index + 1, std::memory_order_release);
-  const std::uint64_t one = 1;
-  if (::write(wake_fd_, &one, sizeof one) != sizeof one) return;  // the core also looks by itself
-}
-
-void Gateway::on_state(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/) {
-  const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
-  const auto state = decode_exactly<state_v1>({bytes, buffer->data_size});
+void Gateway::note_state(std::span<const std::uint8_t> bytes) {
+  const auto state = decode_exactly<state_v1>(bytes);
   if (state && state->session_id != outbound_.session_id)
     inbound_.foreign_states.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Gateway::hand_over() {
+  const bool stops = fill(inbound_.stops, outbound_.stops_taken, stops_);
+  const bool orders = fill(inbound_.orders, outbound_.orders_taken, orders_);
+  if (!stops && !orders) return;
+  const char byte = 0;
+  if (::write(wake_fd_, &byte, 1) != 1) return;  // it is full of wakes: the core will look
 }
 
 void Gateway::publish_states() {

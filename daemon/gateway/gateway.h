@@ -1,31 +1,40 @@
-// The gateway: the only process of the daemon with a network socket. It passes raw bytes from LCM to the core and
-// publishes what the core wrote; it judges nothing and knows no secret, so that losing it loses nothing. Not real-time.
+// The gateway: the only process of the daemon with a network socket. It passes raw bytes from LCM's network to the core and
+// publishes what the core wrote; it judges nothing and knows no secret, so that losing it loses nothing. What comes in is
+// read by our own receiver: LCM's library only sends. Stops go first, and sources take turns. Not real-time.
 #pragma once
 
 #include <cstdint>
 #include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <span>
 #include <string>
 
+#include "daemon/gateway/lcm_reassembly.h"
+#include "daemon/gateway/lcm_socket.h"
+#include "daemon/gateway/order_queue.h"
 #include "daemon/gateway/shared_memory.h"
 
 namespace strainwave {
 
 class Gateway {
  public:
-  /// `wake_fd`: an eventfd that tells the core that a message waits.
+  /// Opens and binds everything, and reads nothing that came in: that begins with turn(). `wake_fd`: the end of a pipe
+  /// that tells the core that a message waits; it does not block.
   Gateway(const OutboundMemory& outbound, InboundMemory& inbound, int wake_fd);
 
   /// Whether LCM could be set up; if not, why and what to do.
   bool good() const noexcept { return problem_.empty(); }
   const std::string& problem() const noexcept { return problem_; }
 
-  /// Receives for at most `wait_ms`, then publishes what is new.
+  /// Waits at most `wait_ms` for datagrams, takes a bounded number of them, then publishes what is new.
   void turn(int wait_ms);
 
  private:
-  void on_order(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void receive(int wait_ms);
+  void open_network();
+  void receive();
+  void sort(const LcmSource& from, std::span<const std::uint8_t> datagram);
+  void note_state(std::span<const std::uint8_t> bytes);
+  void hand_over();
   void publish_states();
   void publish_messages();
 
@@ -33,6 +42,10 @@ class Gateway {
   InboundMemory& inbound_;
   int wake_fd_;
   lcm::LCM lcm_;
+  std::unique_ptr<LcmSocket> socket_;
+  LcmReassembly reassembly_;
+  OrderQueue stops_;
+  OrderQueue orders_;
   std::string problem_;
   std::uint64_t state_cursor_;
   std::uint64_t message_cursor_;

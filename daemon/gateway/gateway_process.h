@@ -22,7 +22,7 @@ class GatewayProcess {
   struct Descriptors {
     int outbound;
     int inbound;
-    int wake;
+    int wake;  ///< WakePipe::gateway_end()
   };
   /// Opens `program` and keeps it: after an upgrade of the package, the running core goes on with the gateway it knows.
   GatewayProcess(std::string program, Descriptors descriptors);

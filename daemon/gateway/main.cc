@@ -27,7 +27,7 @@ int run() {
     std::fputs("strainwave-gateway: the shared memory is not strainwaved's\n", stderr);
     return 1;
   }
-  confine_before_setup(outbound.gateway_uid, outbound.gateway_gid, kGatewayFirstFreeFd);
+  give_up_privileges(outbound.gateway_uid, outbound.gateway_gid, kGatewayFirstFreeFd);
   // Without its core it has no purpose. (After the change of user, which clears this.)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const auto core_lives = [&] { return ::getppid() == outbound.core_pid; };
@@ -36,13 +36,15 @@ int run() {
     std::fprintf(stderr, "strainwave-gateway: %s\n", gateway.problem().c_str());
     return kGatewayExitNoLcm;
   }
-  confine_after_setup();
+  // Everything is open and bound, and nothing that came in has been read: that begins with the first turn.
+  confine();
   inbound.ready.store(1, std::memory_order_release);
   while (core_lives()) {
     gateway.turn(kTurn_ms);
     inbound.turns.fetch_add(1, std::memory_order_relaxed);
   }
-  return 0;
+  // No more is allowed; ending without a core needs no more either.
+  ::_exit(0);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303033;  // "SWMEM003"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303034;  // "SWMEM004"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {
@@ -50,20 +50,31 @@ struct OutboundMemory {
   std::array<FixedString<32>, kMaxJoints> joint_names{};
   BroadcastRing<StateRecord, kStateRecords> states;
   BroadcastRing<WireMessage, kMessages> messages;
-  std::atomic<std::uint64_t> inbound_taken{0};  ///< how many inbound messages the core has taken
+  std::atomic<std::uint64_t> stops_taken{0};   ///< how many messages the core has taken from inbound.stops
+  std::atomic<std::uint64_t> orders_taken{0};  ///< likewise from inbound.orders
+};
+
+/// Messages on their way to the core. Short: who waits in front of it, waits where sources take turns.
+struct InboundLane {
+  static constexpr std::size_t kMessages = 32;
+
+  std::atomic<std::uint64_t> written{0};  ///< how many messages were put in
+  std::array<WireMessage, kMessages> messages{};
 };
 
 /// Written by the gateway only.
 struct InboundMemory {
-  static constexpr std::size_t kMessages = 128;
-
-  std::atomic<std::uint64_t> ready{0};     ///< 1 once LCM works
-  std::atomic<std::uint64_t> turns{0};     ///< rises while the gateway lives
-  std::atomic<std::uint64_t> written{0};   ///< how many messages were put in
-  std::atomic<std::uint64_t> overflow{0};  ///< messages lost because the core was slow
+  std::atomic<std::uint64_t> ready{0};  ///< 1 once LCM works
+  std::atomic<std::uint64_t> turns{0};  ///< rises while the gateway lives
+  InboundLane stops;                    ///< the core empties this one before it looks at the other
+  InboundLane orders;
+  // What the gateway did not hand over, since it was started.
+  std::atomic<std::uint64_t> malformed{0};    ///< datagrams that are not LCM's
+  std::atomic<std::uint64_t> too_long{0};     ///< of messages longer than any of ours
+  std::atomic<std::uint64_t> interrupted{0};  ///< fragmented messages that were given up
+  std::atomic<std::uint64_t> crowded_out{0};  ///< messages for which the queue had no room
   std::atomic<std::uint64_t> state_records_dropped{0};
   std::atomic<std::uint64_t> foreign_states{0};  ///< STATE messages on our channels from another session
-  std::array<WireMessage, kMessages> messages{};
 };
 
 /// An anonymous memory file, mapped. Throws std::system_error. Not real-time.

@@ -441,7 +441,7 @@ TEST_F(HostileSystem, TheGatewayRunsWithoutPrivilegesInEveryThread) {
     }
     ++threads;
   }
-  EXPECT_GE(threads, 2) << "LCM's reader is a thread of its own";
+  EXPECT_EQ(threads, 1) << "LCM's library has begun to receive: it does so in a thread of its own";
 }
 
 TEST_F(HostileSystem, StartedByRootTheGatewayIsAnotherUserWithNothingOpenButItsChannels) {
@@ -455,8 +455,7 @@ TEST_F(HostileSystem, StartedByRootTheGatewayIsAnotherUserWithNothingOpenButItsC
   for (const auto& entry : std::filesystem::directory_iterator(process + "/fd")) {
     const std::string target = std::filesystem::read_symlink(entry.path());
     const bool known = target == "/dev/null" || target.starts_with("/memfd:strainwave-") ||
-                       target.starts_with("socket:") || target.starts_with("pipe:") ||
-                       target == "anon_inode:[eventfd]";
+                       target.starts_with("socket:") || target.starts_with("pipe:");
     EXPECT_TRUE(known) << target;
   }
 }

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "client/link/multicast_check.h"
+#include "lcmtypes/multicast_check.h"
 #include "client/options/command_line.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/wire.h"

@@ -1,6 +1,6 @@
-// Does a multicast datagram that this PC sends come back to it? LCM needs that, and its own test of it takes
-// ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it
-// disturbs nobody. Not real-time.
+// Where LCM's datagrams go, and whether one that this PC sends comes back to it. LCM needs that, and its own test of it
+// takes ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it disturbs
+// nobody, and reads nothing that comes. Not real-time.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,7 @@ namespace strainwave {
 struct MulticastAddress {
   std::string group;
   int port = 0;
+  int ttl = 0;  ///< hops that a datagram may make; 0: it stays on its machine
 };
 std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url);
 

@@ -1,4 +1,4 @@
-#include "client/link/multicast_check.h"
+#include "lcmtypes/multicast_check.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -68,13 +69,29 @@ std::string echo_failure(in_addr group) {
   return "a datagram sent to the group did not come back; a firewall may drop it";
 }
 
+// As LCM reads it: the last of several counts, and what is no number is 0.
+int ttl_of(std::string_view options) {
+  int ttl = 0;
+  while (!options.empty()) {
+    options.remove_prefix(1);  // ? or &
+    const std::string_view option = options.substr(0, options.find('&'));
+    options.remove_prefix(option.size());
+    constexpr std::string_view kKey = "ttl=";
+    if (!option.starts_with(kKey)) continue;
+    ttl = 0;
+    std::from_chars(option.data() + kKey.size(), option.data() + option.size(), ttl);
+  }
+  return ttl;
+}
+
 }  // namespace
 
 std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url) {
   if (!lcm_url.starts_with(kScheme)) return std::nullopt;
   lcm_url.remove_prefix(kScheme.size());
+  const std::string_view options = lcm_url.substr(std::min(lcm_url.find('?'), lcm_url.size()));
   lcm_url = lcm_url.substr(0, lcm_url.find('?'));
-  MulticastAddress address{"239.255.76.67", 7667};
+  MulticastAddress address{"239.255.76.67", 7667, ttl_of(options)};
   const std::size_t colon = lcm_url.find(':');
   if (const std::string_view group = lcm_url.substr(0, colon); !group.empty()) address.group = group;
   if (colon != std::string_view::npos) {

@@ -1,4 +1,4 @@
-#include "client/link/multicast_check.h"
+#include "lcmtypes/multicast_check.h"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +19,13 @@ TEST(MulticastAddress, HasLcmsDefaultsForWhatIsLeftOut) {
     EXPECT_EQ(address->group, "239.255.76.67") << url;
     EXPECT_EQ(address->port, 7667) << url;
   }
+}
+
+TEST(MulticastAddress, HasLcmsTimeToLiveWhichIsZeroUnlessItIsGiven) {
+  EXPECT_EQ(parse_udpm_url("udpm://239.255.76.67:7667?ttl=1")->ttl, 1);
+  EXPECT_EQ(parse_udpm_url("udpm://239.255.76.67:7667?recv_buf_size=5&ttl=2")->ttl, 2);
+  for (const char* url : {"udpm://", "udpm://239.255.76.67:7667?ttl=0", "udpm://239.255.76.67:7667?xttl=1"})
+    EXPECT_EQ(parse_udpm_url(url)->ttl, 0) << url;
 }
 
 TEST(MulticastAddress, IsNoneForAnotherKindOfUrl) {

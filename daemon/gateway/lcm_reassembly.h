@@ -1,0 +1,91 @@
+// Whole messages from LCM's datagrams. All memory is taken when it is made: a fixed number of slots, each with room for the
+// largest message, so that no number on the wire decides about memory. Needs no clock.
+//
+// A source (address and port) has one slot, as LCM sends the fragments of one message after the other. Fragments may
+// come in any order and more than once. When every slot is taken, the oldest one of the *host* with the most slots is given
+// up, the newcomer counted: whoever opens many can only push out his own. All of 127.0.0.0/8 is one host.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/fixed_string.h"
+#include "daemon/gateway/lcm_wire.h"
+#include "lcmtypes/channels.h"
+
+namespace strainwave {
+
+/// Who sent a datagram: IPv4 address and port, in the host's byte order.
+struct LcmSource {
+  std::uint32_t address = 0;
+  std::uint16_t port = 0;
+  bool operator==(const LcmSource&) const = default;
+};
+
+struct LcmMessage {
+  std::string_view channel;
+  std::span<const std::uint8_t> bytes;
+};
+
+class LcmReassembly {
+ public:
+  static constexpr std::size_t kSlots = 32;
+  /// LCM's smallest fragments carry 1423 bytes (Apple's systems); more fragments than this are no message of ours.
+  static constexpr std::size_t kMaxFragments = 256;
+
+  struct Counts {
+    std::uint64_t malformed =
+        0;  ///< datagrams that are not LCM's, and messages whose fragments do not fit together
+    std::uint64_t too_long = 0;  ///< datagrams of messages above the largest
+    std::uint64_t interrupted =
+        0;  ///< messages given up: their source began another one, or others needed the slot
+  };
+
+  /// Room for messages of at most `largest_message_bytes`.
+  explicit LcmReassembly(std::size_t largest_message_bytes);
+
+  /// Takes a datagram. Returns the message that it completes; what it points to is valid until the next call and as
+  /// long as `datagram`.
+  std::optional<LcmMessage> take(const LcmSource& from, std::span<const std::uint8_t> datagram);
+
+  const Counts& counts() const noexcept { return counts_; }
+
+ private:
+  enum class SlotState {
+    kFree,
+    kCollecting,
+    kDone  ///< delivered or refused: late copies of its fragments begin nothing
+  };
+  struct Part {
+    std::uint32_t offset = 0;
+    std::uint32_t bytes = 0;
+    bool here = false;
+  };
+  struct Slot {
+    SlotState state = SlotState::kFree;
+    LcmSource source;
+    std::uint64_t begun = 0;  ///< order in which messages began
+    std::uint32_t sequence = 0;
+    std::uint32_t message_bytes = 0;
+    std::uint16_t count = 0;
+    std::uint16_t parts_here = 0;
+    FixedString<kMaxChannelLength + 1> channel;
+    std::array<Part, kMaxFragments> parts{};
+    std::vector<std::uint8_t> bytes;
+  };
+  std::optional<LcmMessage> take_fragment(const LcmSource& from, const LcmDatagram& fragment);
+  Slot& slot_for(const LcmSource& from, const LcmDatagram& fragment);
+  Slot& slot_to_give_up(std::uint32_t newcomer);
+  static bool fits_together(const Slot& slot) noexcept;
+
+  std::size_t largest_message_bytes_;
+  std::array<Slot, kSlots> slots_;
+  std::uint64_t begun_ = 0;
+  Counts counts_;
+};
+
+}  // namespace strainwave

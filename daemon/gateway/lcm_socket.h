@@ -1,0 +1,46 @@
+// The socket that LCM's datagrams come in on. It hears one group on one interface: the one that the route to the group
+// names, which is also the one that LCM sends on. Datagrams to this machine's own address never reach it, and what is longer than
+// any message of ours the kernel drops before it takes room in the socket's queue. Memory is taken when it is made.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "daemon/gateway/lcm_reassembly.h"
+#include "lcmtypes/multicast_check.h"
+
+namespace strainwave {
+
+class LcmSocket {
+ public:
+  static constexpr std::size_t kBatch = 32;
+
+  /// Joins the group. With a ttl of 0 nothing from another machine is heard, even where the route leads to a real
+  /// interface. Throws std::system_error.
+  LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes);
+  ~LcmSocket();
+  LcmSocket(const LcmSocket&) = delete;
+  LcmSocket& operator=(const LcmSocket&) = delete;
+
+  int descriptor() const noexcept { return descriptor_; }
+  /// Hands at most kBatch datagrams that are here to `take`. Returns how many there were; never waits.
+  std::size_t receive(const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take);
+
+ private:
+  void join(const MulticastAddress& address);
+  void filter(bool this_machine_only);
+
+  int descriptor_;
+  std::size_t largest_bytes_;
+  std::vector<std::uint8_t> buffers_;
+  std::vector<sockaddr_in> sources_;
+  std::vector<iovec> places_;
+  std::vector<mmsghdr> headers_;
+};
+
+}  // namespace strainwave

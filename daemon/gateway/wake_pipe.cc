@@ -1,0 +1,30 @@
+#include "daemon/gateway/wake_pipe.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace strainwave {
+
+WakePipe::WakePipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0)
+    throw std::system_error(errno, std::generic_category(), "making the gateway's wake");
+  core_end_ = ends[0];
+  gateway_end_ = ends[1];
+}
+
+WakePipe::~WakePipe() {
+  ::close(core_end_);
+  ::close(gateway_end_);
+}
+
+void WakePipe::take() noexcept {
+  std::array<char, 4096> wakes;
+  if (::read(core_end_, wakes.data(), wakes.size()) <= 0) return;
+}
+
+}  // namespace strainwave
