@@ -19,6 +19,7 @@
 #include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
 #include "daemon/drive_check.h"
+#include "daemon/realtime/realtime_setup.h"
 
 namespace strainwave {
 
@@ -163,6 +164,7 @@ Supervisor::Supervisor(const DaemonConfig& config)
       refusal_log_(20, 10'000 * kMillisecond_ns),
       dropped_log_(1, 10'000 * kMillisecond_ns),
       stranger_answers_(kStrangerAnswersPer_s, kStrangerAnswersAtOnce),
+      stop_answers_(kStrangerAnswersPer_s, kStrangerAnswersAtOnce),
       incoming_(std::make_unique<WireMessage>()) {
   fill_shared_memory();
   load_initial_tables();
@@ -233,6 +235,7 @@ void Supervisor::run() {
   else
     spdlog::warn("no real time: {}", loop_.real_time_refusal());
   if (!loop_.sleep_state_refusal().empty()) spdlog::warn("{}", loop_.sleep_state_refusal());
+  if (const std::string warning = compaction_warning(); !warning.empty()) spdlog::warn("{}", warning);
   spdlog::info("prefix {}, {} joint(s), period {} s, session {}", config_.prefix, config_.joints.size(),
                config_.loop.period_s, session_id_);
   while (!loop_.finished()) {
@@ -322,7 +325,9 @@ void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
 }
 
 void Supervisor::answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns) {
-  if (to.authentic || stranger_answers_.try_take(now_ns)) answers_.answer(to, reason, text);
+  // What a stranger may order is a stop. That it was obeyed has a share of its own, which no flood of refusals uses up.
+  TokenBucket& share = reason == Reason::kAccepted ? stop_answers_ : stranger_answers_;
+  if (to.authentic || share.try_take(now_ns)) answers_.answer(to, reason, text);
 }
 
 // Puts the table into a slot that the loop does not use, or names the slot to return to.

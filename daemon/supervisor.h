@@ -84,6 +84,7 @@ class Supervisor {
   LogLimiter dropped_log_;
   ServiceNotifier service_;
   TokenBucket stranger_answers_;  ///< to those who did not prove who they are
+  TokenBucket stop_answers_;      ///< to those of them who were obeyed
   std::unique_ptr<WireMessage> incoming_;
   std::int64_t next_order_id_ = 1;
   std::uint64_t stops_taken_ = 0;

@@ -20,7 +20,7 @@ void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_d
 /// threads.
 void confine();
 
-/// Writes that filter, as a program of struct sock_filter, to `descriptor`: for `architecture` (SCMP_ARCH_...), which
+/// Writes that filter, as a program of struct sock_filter, to `descriptor`: for `architecture` (AUDIT_ARCH_...), which
 /// need not be this machine's.
 void export_system_call_filter(std::uint32_t architecture, int descriptor);
 

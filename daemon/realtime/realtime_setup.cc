@@ -4,10 +4,12 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <array>
 #include <cerrno>
+#include <fstream>
 #include <system_error>
 
 namespace strainwave {
@@ -30,12 +32,23 @@ __attribute__((noinline)) void touch_stack() {
 }  // namespace
 
 std::string lock_memory() {
+  // The kernel makes and splits huge pages behind the loop's back, and whoever touches one meanwhile waits.
+  if (::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) != 0)
+    return "transparent huge pages cannot be switched off (" + error_text(errno) + ")";
   // Freed memory stays mapped and large blocks come from the heap: no page appears or disappears later.
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return "";
   return "memory cannot be locked (" + error_text(errno) +
          "): run under the service, as root, or raise the limit with `ulimit -l unlimited`";
+}
+
+std::string compaction_warning(const std::string& setting_path) {
+  std::ifstream setting(setting_path);
+  int allowed = 0;
+  if (!(setting >> allowed) || allowed == 0) return "";
+  return "the kernel may move locked memory, and the loop would wait for it: sysctl "
+         "vm.compact_unevictable_allowed=0";
 }
 
 std::string make_thread_real_time(int priority, int cpu) {

@@ -5,9 +5,13 @@
 
 namespace strainwave {
 
-/// Locks all memory, present and future, and tells malloc to keep it. Empty when granted, else what was refused and
+/// Locks all memory, present and future, does without transparent huge pages, and tells malloc to keep it. Empty when granted, else what was refused and
 /// what to do.
 std::string lock_memory();
+
+/// What to do about a kernel that moves locked pages to make room for large ones; empty when it does not, or does not say
+/// (the unit hides /proc/sys).
+std::string compaction_warning(const std::string& setting_path = "/proc/sys/vm/compact_unevictable_allowed");
 
 /// Makes the calling thread SCHED_FIFO with `priority`, pinned to `cpu` unless negative, and touches its stack. Empty
 /// when granted, else what was refused and what to do.

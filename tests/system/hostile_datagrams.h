@@ -33,6 +33,7 @@ class HostileDatagrams {
   std::mt19937_64 random_;
   std::uint32_t sequence_ = 0;
   std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint8_t> second_;  ///< of a pair that has begun
 };
 
 /// Sends `count` of them to LCM's usual group and port, at most `per_s` a second on the average, half to the group and

@@ -307,7 +307,7 @@ TEST_F(HostileSystem, AMillionHostileDatagramsDisturbNeitherTheLoopNorItsTorque)
               static_cast<long long>(datagrams()), attack_s, watch.restarts(), watch.longest_absence_s());
   EXPECT_EQ(attacker.status(), 0) << "not all datagrams were sent";
   expect_undisturbed(attacked, calm, attack_s);
-  EXPECT_LT(watch.longest_absence_s(), 1.0);
+  EXPECT_EQ(watch.restarts(), 0);
   std::this_thread::sleep_for(seconds(1));
   expect_orders_obeyed();
   TestClient client;

@@ -3,9 +3,9 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
-#include <seccomp.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/ptrace.h>
@@ -188,7 +188,7 @@ class ExportedFilter {
 
 // Numbers of Linux's arch/arm/tools/syscall.tbl: a 32-bit C library asks for times of 64 bits first.
 TEST_F(Confinement, AllowsOn32BitArmWhatItsCLibraryCalls) {
-  const ExportedFilter filter(SCMP_ARCH_ARM);
+  const ExportedFilter filter(AUDIT_ARCH_ARM);
   for (const int number :
        {403 /* clock_gettime64 */, 263 /* clock_gettime */, 417 /* recvmmsg_time64 */, 365 /* recvmmsg */,
         414 /* ppoll_time64 */, 168 /* poll */, 422 /* futex_time64 */, 240 /* futex */, 296 /* sendmsg */,
@@ -198,7 +198,7 @@ TEST_F(Confinement, AllowsOn32BitArmWhatItsCLibraryCalls) {
 }
 
 TEST_F(Confinement, EndsOn32BitArmWhoeverCallsAnythingElse) {
-  const ExportedFilter filter(SCMP_ARCH_ARM);
+  const ExportedFilter filter(AUDIT_ARCH_ARM);
   for (const int number :
        {281 /* socket */, 322 /* openat */, 55 /* fcntl */, 221 /* fcntl64 */, 120 /* clone */,
         435 /* clone3 */, 37 /* kill */, 26 /* ptrace */, 377 /* process_vm_writev */,

@@ -1,0 +1,142 @@
+// The flooder: ten thousand crafted datagrams a second, among them the fragments that crash LCM's library. Every stop is
+// obeyed and acknowledged, and the gateway lives. Where time is virtual, within 50 ms each.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+#include "lcmtypes/vocabulary.h"
+#include "tests/support/daemon_fixture.h"
+#include "tests/support/lcm_datagrams.h"
+#include "tests/system/hostile_datagrams.h"
+
+namespace strainwave::testing {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int kPer_ms = 10;
+constexpr int kStops = 100;
+constexpr double kBound_ms = 50.0;
+
+/// Floods the group from several ports until it is killed. The crashing fragments go to a channel of orders: LCM's library
+/// only looks at fragments of channels that somebody listens to, and whoever listens with it would die.
+[[noreturn]] void flood(std::uint64_t seed) {
+  sockaddr_in group{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(7667);
+  ::inet_pton(AF_INET, "239.255.76.67", &group.sin_addr);
+  std::array<int, 8> sockets{};
+  for (int& socket : sockets) socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  HostileDatagrams datagrams(seed);
+  std::uint32_t sequence = 0;
+  const auto send = [&](int socket, const Bytes& datagram) {
+    ::sendto(socket, datagram.data(), datagram.size(), 0,
+             static_cast<const sockaddr*>(static_cast<const void*>(&group)), sizeof group);
+  };
+  auto due = Clock::now();
+  for (std::size_t turn = 0;; ++turn) {
+    const int socket = sockets[turn % sockets.size()];
+    for (const Bytes& datagram : crashing_fragments("SW.elbow.COMMAND", ++sequence)) send(socket, datagram);
+    for (int i = 2; i < kPer_ms; ++i) send(socket, datagrams.next());
+    due += milliseconds(1);
+    std::this_thread::sleep_until(due);
+  }
+}
+
+class Flooder {
+ public:
+  explicit Flooder(std::uint64_t seed) : pid_(::fork()) {
+    if (pid_ == 0) flood(seed);
+  }
+  ~Flooder() {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  Flooder(const Flooder&) = delete;
+  Flooder& operator=(const Flooder&) = delete;
+
+ private:
+  pid_t pid_;
+};
+
+class FlooderTest : public DaemonTest {
+ protected:
+  void SetUp() override {
+    daemon_.emplace(folder_, configuration());
+    ASSERT_TRUE(client_.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
+    ASSERT_TRUE(client_.load("elbow", shipped_table()).accepted);
+    gateway_ = daemon_->gateway_pid();
+  }
+  /// Orders are sent again when they get lost: it is the stops that must not.
+  bool hold_position() {
+    for (int i = 0; i < 50; ++i) {
+      client_.lcm().publish("SW.elbow.COMMAND", &enable());
+      if (client_.wait_for_mode("elbow", Mode::kHolding, milliseconds(200))) return true;
+    }
+    return false;
+  }
+  /// How long until a stop was acknowledged and seen in the states, in ms; above a thousand: never.
+  double stop_ms() {
+    const command_v1 stop = client_.make_command("elbow", Action::kDisable);
+    const auto sent = Clock::now();
+    client_.lcm().publish("SW.elbow.COMMAND", &stop);
+    const Answer answer = client_.wait_for_answer(stop.sequence, seconds(5));
+    EXPECT_TRUE(answer.accepted) << answer.text;
+    EXPECT_TRUE(client_.wait_for_mode("elbow", Mode::kOff, seconds(5)));
+    return std::chrono::duration<double, std::milli>(Clock::now() - sent).count();
+  }
+
+  std::optional<DaemonProcess> daemon_;
+  TestClient client_;
+  pid_t gateway_ = -1;
+
+ private:
+  const command_v1& enable() {
+    enable_ = client_.make_command("elbow", Action::kEnable);
+    return enable_;
+  }
+  command_v1 enable_{};
+};
+
+TEST_F(FlooderTest, EveryStopIsObeyedAndAcknowledgedAndTheGatewayLives) {
+  const Flooder flooder(20261121);
+  client_.pump(milliseconds(200));
+  double longest_ms = 0.0;
+  for (int i = 0; i < kStops; ++i) {
+    ASSERT_TRUE(hold_position()) << i << daemon_->log();
+    longest_ms = std::max(longest_ms, stop_ms());
+    ASSERT_FALSE(HasFailure()) << "stop " << i;
+  }
+  std::printf("%d stops, the longest took %.2f ms\n", kStops, longest_ms);
+  if (in_virtual_time()) {
+    EXPECT_LT(longest_ms, kBound_ms);
+  }
+  EXPECT_EQ(daemon_->gateway_pid(), gateway_) << daemon_->log();
+  EXPECT_EQ(daemon_->log().find("the gateway ended"), std::string::npos);
+  EXPECT_NE(daemon_->log().find("malformed datagrams"), std::string::npos) << "the flood did not come in";
+}
+
+TEST_F(FlooderTest, TheDaemonEndsInOrderWhenItIsToldTo) {
+  const Flooder flooder(20261122);
+  ASSERT_TRUE(hold_position()) << daemon_->log();
+  const auto told = Clock::now();
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait_for_end(seconds(20)), 0) << daemon_->log();
+  std::printf("ended after %.1f ms\n",
+              std::chrono::duration<double, std::milli>(Clock::now() - told).count());
+}
+
+}  // namespace
+}  // namespace strainwave::testing
