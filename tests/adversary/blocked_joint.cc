@@ -45,8 +45,12 @@ class BlockedJoint : public ::testing::Test {
     }
     return duration_s;
   }
+  /// So that nobody can take the sensor for stuck, which would be a fault of another kind.
+  static void let_counts_flicker(JointBench& bench) {
+    ASSERT_EQ(bench.inject(0, {InjectedFault::kSensorNoisy, 0.0, 0.0, 2e-5}), Reason::kAccepted);
+  }
   static bool is_expected(Fault fault) {
-    constexpr std::array kExpected{Fault::kFollowingError, Fault::kBlocked, Fault::kImplausibleReading};
+    constexpr std::array kExpected{Fault::kFollowingError, Fault::kBlocked};
     return std::find(kExpected.begin(), kExpected.end(), fault) != kExpected.end();
   }
 };
@@ -55,6 +59,7 @@ TEST_F(BlockedJoint, FaultsWithinASecondHoweverItIsStreamedTo) {
   for (const Stream& form : {Stream{0.0, 0.0, 1.0}, Stream{0.0, 1.0, 1.0}, Stream{0.0, 0.0, -0.15}}) {
     JointBench bench({jammed_joint()});
     bench.bring_to_hold(0);
+    let_counts_flicker(bench);
     bench.run(0.3);
     const double took_s = stream(bench, form, 20.0);
     EXPECT_LT(took_s, 1.0) << form.end_rad << " at " << form.speed_rad_s;
@@ -68,6 +73,7 @@ TEST_F(BlockedJoint, FaultsByItsTorqueWhereNoFollowingErrorIsLargeEnough) {
   joint.loop.limits.following_error_rad = 10.0;
   JointBench bench({joint});
   bench.bring_to_hold(0);
+  let_counts_flicker(bench);
   bench.run(0.3);
   EXPECT_LT(stream(bench, {0.0, 0.0, 1.0}, 20.0), 1.5);
   EXPECT_TRUE(is_expected(bench.fault(0))) << to_text(bench.fault(0));
