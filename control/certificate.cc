@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
-
-#include "control/ts_plant.h"
+#include <sstream>
+#include <vector>
 
 namespace strainwave {
 
@@ -15,23 +16,19 @@ using BoundedMatrix = std::array<BoundedVector, kMaxStates>;
 
 // Only the leading n x n block counts. Controllers without an integrator are moved up and left by one state.
 struct Problem {
+  std::size_t first = 0;
   std::size_t n = 0;
-  std::size_t rules = 0;  // of the plant
-  bool scheduled = false;
+  std::size_t rules = 0;  // of the controller
   double torque_weight = 0.0;
-  double decay_rate = 1.0;
-  std::array<double, kMaxStates> state_weights{};
-  std::array<BoundedDynamics, kMaxRules> dynamics{};
+  Bounded squared_rate = 1.0;
+  BoundedVector state_weights{};
   std::array<BoundedVector, kMaxRules> F{};
   std::array<BoundedMatrix, kMaxRules> P{};
-
-  // A temperature-free controller has one F and one P for every rule.
-  std::size_t of(std::size_t plant_rule) const noexcept { return scheduled ? plant_rule : 0; }
 };
 
-bool fits(const FeedbackGains& gains, int plant_rules) noexcept {
+bool fits(const FeedbackGains& gains, std::size_t plant_rules) noexcept {
   if (plant_rules < 2 || plant_rules > kMaxRules) return false;
-  if (gains.rule_count != 1 && gains.rule_count != plant_rules) return false;
+  if (gains.rule_count != 1 && gains.rule_count != static_cast<int>(plant_rules)) return false;
   if (!(gains.decay_rate > 0.0 && gains.decay_rate <= 1.0) || !(gains.weights.torque >= 0.0)) return false;
   if (!(gains.weights.integral >= 0.0) || !(gains.weights.position >= 0.0) ||
       !(gains.weights.velocity >= 0.0))
@@ -43,44 +40,33 @@ bool fits(const FeedbackGains& gains, int plant_rules) noexcept {
   return true;
 }
 
-Problem make_problem(const FeedbackGains& gains, const PlantIdentity& plant,
-                     const FuzzyFriction& friction) noexcept {
-  const std::size_t first = gains.has_integrator ? 0 : 1;
+Problem make_problem(const FeedbackGains& gains) noexcept {
   Problem problem;
-  problem.n = kMaxStates - first;
-  problem.rules = static_cast<std::size_t>(plant_rule_count(friction));
-  problem.scheduled = gains.scheduled();
+  problem.first = gains.has_integrator ? 0 : 1;
+  problem.n = kMaxStates - problem.first;
+  problem.rules = static_cast<std::size_t>(gains.rule_count);
   problem.torque_weight = gains.weights.torque;
-  problem.decay_rate = gains.decay_rate;
+  problem.squared_rate = Bounded(gains.decay_rate) * gains.decay_rate;
   const std::array<double, kMaxStates> weights{gains.weights.integral, gains.weights.position,
                                                gains.weights.velocity};
-  std::copy(weights.begin() + static_cast<std::ptrdiff_t>(first), weights.end(),
-            problem.state_weights.begin());
-
+  for (std::size_t a = 0; a < problem.n; ++a) problem.state_weights[a] = weights[problem.first + a];
   for (std::size_t j = 0; j < problem.rules; ++j) {
-    const double viscous_Nms_rad = plant_rule_viscous_Nms_rad(friction, static_cast<int>(j));
-    const BoundedDynamics full = bounded_dynamics(plant, viscous_Nms_rad, gains.has_integrator != 0);
     for (std::size_t a = 0; a < problem.n; ++a) {
-      problem.dynamics[j].B[a] = full.B[first + a];
-      for (std::size_t b = 0; b < problem.n; ++b) problem.dynamics[j].A[a][b] = full.A[first + a][first + b];
-    }
-  }
-  for (std::size_t j = 0; j < static_cast<std::size_t>(gains.rule_count); ++j) {
-    for (std::size_t a = 0; a < problem.n; ++a) {
-      problem.F[j][a] = gains.F[j][first + a];
+      problem.F[j][a] = gains.F[j][problem.first + a];
       for (std::size_t b = 0; b < problem.n; ++b)
-        problem.P[j][a][b] = gains.P[j][(first + a) * kMaxStates + first + b];
+        problem.P[j][a][b] = gains.P[j][(problem.first + a) * kMaxStates + problem.first + b];
     }
   }
   return problem;
 }
 
-// The closed loop of plant rule `rule` under gain `F`: A + B F.
-BoundedMatrix closed_loop(const Problem& problem, std::size_t rule, const BoundedVector& F) noexcept {
+// A + B F.
+BoundedMatrix closed_loop(const Problem& problem, const BoundedDynamics& plant,
+                          const BoundedVector& F) noexcept {
   BoundedMatrix H{};
   for (std::size_t a = 0; a < problem.n; ++a) {
     for (std::size_t b = 0; b < problem.n; ++b) {
-      H[a][b] = problem.dynamics[rule].A[a][b] + problem.dynamics[rule].B[a] * F[b];
+      H[a][b] = plant.A[problem.first + a][problem.first + b] + plant.B[problem.first + a] * F[b];
     }
   }
   return H;
@@ -103,91 +89,135 @@ BoundedMatrix congruence(const BoundedMatrix& H, const BoundedMatrix& P, std::si
   return result;
 }
 
-// P_j - H' P_l H / r^2 - W - F_j' R F_j, with the sums over the two rules of a cross pair (j == k: a plain
-// pair, once).
-PositiveDefiniteResult test_inequality(const Problem& problem, const BoundedMatrix& H, std::size_t j,
-                                       std::size_t k, std::size_t l) noexcept {
-  const bool cross = j != k;
-  const Bounded copies = cross ? 2.0 : 1.0;
-  const Bounded squared_rate = Bounded(problem.decay_rate) * problem.decay_rate;
-  const BoundedMatrix next = congruence(H, problem.P[problem.of(l)], problem.n);
-  const auto rule_terms = [&problem](std::size_t rule, std::size_t a, std::size_t b) {
-    const std::size_t own = problem.of(rule);
-    return problem.P[own][a][b] - problem.F[own][a] * problem.torque_weight * problem.F[own][b];
-  };
+PositiveDefiniteResult test(const Problem& problem, const BoundedMatrix& matrix) noexcept {
   StateMatrix value = StateMatrix::Zero();
   StateMatrix error = StateMatrix::Zero();
   for (std::size_t a = 0; a < problem.n; ++a) {
     for (std::size_t b = 0; b < problem.n; ++b) {
-      const Bounded stage = (a == b) ? Bounded(problem.state_weights[a]) : Bounded();
-      Bounded entry = rule_terms(j, a, b);
-      if (cross) entry = entry + rule_terms(k, a, b);
-      entry = entry - copies * (next[a][b] / squared_rate + stage);
-      value(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = entry.value;
-      error(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = entry.error;
+      value(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = matrix[a][b].value;
+      error(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = matrix[a][b].error;
     }
   }
   return test_positive_definite(value, error, static_cast<int>(problem.n));
 }
 
-PositiveDefiniteResult test_lyapunov(const Problem& problem, std::size_t j) noexcept {
-  StateMatrix value = StateMatrix::Zero();
+// P_j, less the stage cost W + F_j' R F_j if it counts.
+BoundedMatrix allowance(const Problem& problem, std::size_t j, bool with_cost) noexcept {
+  BoundedMatrix left = problem.P[j];
+  if (!with_cost) return left;
   for (std::size_t a = 0; a < problem.n; ++a) {
-    for (std::size_t b = 0; b < problem.n; ++b) {
-      value(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
-          problem.P[problem.of(j)][a][b].value;
-    }
+    left[a][a] = left[a][a] - problem.state_weights[a];
+    for (std::size_t b = 0; b < problem.n; ++b)
+      left[a][b] = left[a][b] - problem.F[j][a] * problem.torque_weight * problem.F[j][b];
   }
-  return test_positive_definite(value, StateMatrix::Zero(), static_cast<int>(problem.n));
+  return left;
 }
 
-void keep_worst(CertificateReport& report, const PositiveDefiniteResult& result, std::size_t j, std::size_t k,
-                std::size_t l) noexcept {
+// allowed - copies H' P_l H / r^2 > 0.
+PositiveDefiniteResult test_step(const Problem& problem, const BoundedMatrix& allowed, double copies,
+                                 const BoundedMatrix& H, std::size_t l) noexcept {
+  const BoundedMatrix next = congruence(H, problem.P[l], problem.n);
+  BoundedMatrix difference{};
+  for (std::size_t a = 0; a < problem.n; ++a) {
+    for (std::size_t b = 0; b < problem.n; ++b)
+      difference[a][b] = allowed[a][b] - copies * next[a][b] / problem.squared_rate;
+  }
+  return test(problem, difference);
+}
+
+void keep_worst(CertificateReport& report, const PositiveDefiniteResult& result,
+                const WorstInequality& which) noexcept {
   report.certified = report.certified && result.certain;
   if (result.margin < report.worst.margin) {
-    report.worst = {static_cast<int>(j), static_cast<int>(k), static_cast<int>(l), result.margin};
+    report.worst = which;
+    report.worst.margin = result.margin;
   }
 }
 
-void test_cross_pairs(const Problem& problem, CertificateReport& report) noexcept {
-  for (std::size_t j = 0; j < problem.rules; ++j) {
-    for (std::size_t k = j + 1; k < problem.rules; ++k) {
-      BoundedMatrix H = closed_loop(problem, j, problem.F[problem.of(k)]);
-      const BoundedMatrix mirrored = closed_loop(problem, k, problem.F[problem.of(j)]);
-      for (std::size_t a = 0; a < problem.n; ++a) {
-        for (std::size_t b = 0; b < problem.n; ++b) H[a][b] = Bounded(0.5) * (H[a][b] + mirrored[a][b]);
-      }
-      for (std::size_t l = 0; l < problem.rules; ++l) {
-        keep_worst(report, test_inequality(problem, H, j, k, l), j, k, l);
-        ++report.cross_pair_count;
-      }
+// One rule of the plant under one gain, to every next rule.
+void test_rule(const Problem& problem, const BoundedDynamics& plant, std::size_t i, std::size_t j,
+               CertificateReport& report) noexcept {
+  const bool own = problem.rules == 1 || i == j;
+  const BoundedMatrix H = closed_loop(problem, plant, problem.F[j]);
+  const BoundedMatrix allowed = allowance(problem, j, own);
+  PositiveDefiniteResult& worst = report.worst_next[i][j];
+  worst = {true, std::numeric_limits<double>::infinity()};
+  for (std::size_t l = 0; l < problem.rules; ++l) {
+    const PositiveDefiniteResult result = test_step(problem, allowed, 1.0, H, l);
+    keep_worst(report, result,
+               {own ? Inequality::kPair : Inequality::kMistaken, static_cast<int>(i), static_cast<int>(j),
+                static_cast<int>(l), 0.0});
+    ++report.inequalities;
+    worst = {worst.certain && result.certain, std::min(worst.margin, result.margin)};
+  }
+}
+
+void test_crossed(const Problem& problem, std::span<const BoundedDynamics> plant, std::size_t j,
+                  std::size_t k, CertificateReport& report) noexcept {
+  BoundedMatrix H = closed_loop(problem, plant[j], problem.F[k]);
+  const BoundedMatrix mirrored = closed_loop(problem, plant[k], problem.F[j]);
+  BoundedMatrix allowed = allowance(problem, j, true);
+  const BoundedMatrix other = allowance(problem, k, true);
+  for (std::size_t a = 0; a < problem.n; ++a) {
+    for (std::size_t b = 0; b < problem.n; ++b) {
+      H[a][b] = Bounded(0.5) * (H[a][b] + mirrored[a][b]);
+      allowed[a][b] = allowed[a][b] + other[a][b];
     }
+  }
+  for (std::size_t l = 0; l < problem.rules; ++l) {
+    keep_worst(report, test_step(problem, allowed, 2.0, H, l),
+               {Inequality::kCrossed, static_cast<int>(k), static_cast<int>(j), static_cast<int>(l), 0.0});
+    ++report.inequalities;
   }
 }
 
 }  // namespace
 
-CertificateReport certify(const FeedbackGains& gains, const PlantIdentity& plant,
-                          const FuzzyFriction& friction) noexcept {
+std::string describe(const WorstInequality& worst) {
+  std::ostringstream text;
+  text << std::setprecision(3);
+  if (std::isfinite(worst.margin)) {
+    text << worst.margin;
+  } else {
+    text << "none (not positive on its diagonal)";
+  }
+  if (worst.kind == Inequality::kCrossed) {
+    text << ", rules " << worst.from << " and " << worst.plant << " blended";
+  } else {
+    text << ", plant rule " << worst.plant << " under gain rule " << worst.from;
+  }
+  text << ", to rule " << worst.to;
+  return text.str();
+}
+
+CertificateReport certify(const FeedbackGains& gains, std::span<const BoundedDynamics> plant_rules) {
   CertificateReport report;
   report.worst.margin = -std::numeric_limits<double>::infinity();
-  if (!fits(gains, plant_rule_count(friction))) return report;
-  const Problem problem = make_problem(gains, plant, friction);
+  if (!fits(gains, plant_rules.size())) return report;
+  const Problem problem = make_problem(gains);
 
   report.certified = true;
-  report.rule_count = static_cast<int>(problem.rules);
+  report.plant_rules = static_cast<int>(plant_rules.size());
+  report.gain_rules = gains.rule_count;
   report.worst.margin = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < problem.rules; ++j) {
-    keep_worst(report, test_lyapunov(problem, j), j, j, j);
-    const BoundedMatrix H = closed_loop(problem, j, problem.F[problem.of(j)]);
-    for (std::size_t l = 0; l < problem.rules; ++l) {
-      report.pairs[j][l] = test_inequality(problem, H, j, j, l);
-      keep_worst(report, report.pairs[j][l], j, j, l);
-    }
+    const int rule = static_cast<int>(j);
+    keep_worst(report, test(problem, problem.P[j]), {Inequality::kPair, rule, rule, rule, 0.0});
+    for (std::size_t i = 0; i < plant_rules.size(); ++i) test_rule(problem, plant_rules[i], i, j, report);
+    for (std::size_t k = j + 1; k < problem.rules; ++k) test_crossed(problem, plant_rules, j, k, report);
   }
-  // One gain for every rule, or one B: the cross pairs follow from the pairs.
-  if (problem.scheduled && plant.sampling == Sampling::kZeroOrderHold) test_cross_pairs(problem, report);
   return report;
+}
+
+CertificateReport certify(const FeedbackGains& gains, const PlantIdentity& plant,
+                          const FuzzyFriction& friction) {
+  std::vector<BoundedDynamics> rules;
+  if (friction.rule_count > kMaxTemperatureRules) return certify(gains, rules);  // fits nothing
+  for (int i = 0; i < plant_rule_count(friction); ++i) {
+    rules.push_back(
+        bounded_dynamics(plant, plant_rule_viscous_Nms_rad(friction, i), gains.has_integrator != 0));
+  }
+  return certify(gains, rules);
 }
 
 }  // namespace strainwave

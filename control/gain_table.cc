@@ -17,7 +17,10 @@ constexpr double kMaxGearRatio = 1e4;
 constexpr double kMinPeriod_s = 1e-5;
 constexpr double kMaxPeriod_s = 1.0;
 constexpr double kMaxTorque_Nm = 1e5;
-constexpr double kMaxFriction = 1e5;
+constexpr double kMaxViscous_Nms_rad = 1e5;
+// Slower than any joint can be told to move: an encoder of a million counts passes one in six seconds.
+constexpr double kMinVelocityWidth_rad_s = 1e-6;
+constexpr double kMaxVelocity_rad_s = 1e6;
 constexpr double kMaxGain = 1e9;
 constexpr double kMaxWeight = 1e12;
 constexpr double kMaxLyapunov = 1e15;
@@ -70,12 +73,30 @@ void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
   inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMaxInertia_kgm2);
   inspector.positive("plant.gear_ratio", plant.gear_ratio, kMaxGearRatio);
   inspector.in_range("plant.period_s", plant.period_s, kMinPeriod_s, kMaxPeriod_s);
-  inspector.require(plant.sampling == Sampling::kForwardEuler || plant.sampling == Sampling::kZeroOrderHold,
-                    "plant.sampling = " + std::to_string(static_cast<std::int32_t>(plant.sampling)) +
-                        ": must be 0 (forward Euler) or 1 (zero-order hold)");
 }
 
-void inspect_friction(Inspector& inspector, const FuzzyFriction& friction) {
+// Friction is fed forward beside the certified feedback: it must be friction, and less than the motor can give.
+void inspect_rule_friction(Inspector& inspector, const FrictionParameters& friction, double torque_limit_Nm,
+                           const std::string& key) {
+  inspector.require(friction.static_Nm >= 0.0 && friction.static_Nm < torque_limit_Nm,
+                    key + "static_Nm = " + number(friction.static_Nm) +
+                        ": must be from 0 to below torque_limit_Nm = " + number(torque_limit_Nm) +
+                        ", or the motor could never move the joint");
+  inspector.in_range(key + "coulomb_Nm", friction.coulomb_Nm, 0.0, friction.static_Nm);
+  inspector.in_range(key + "viscous_Nms_rad", friction.viscous_Nms_rad, 0.0, kMaxViscous_Nms_rad);
+}
+
+void inspect_velocity_memberships(Inspector& inspector, const VelocityMemberships& velocity) {
+  const std::string key = "friction.velocity.";
+  inspector.in_range(key + "zero_center_rad_s", velocity.zero_center_rad_s, 0.0, kMaxVelocity_rad_s);
+  inspector.in_range(key + "zero_width_rad_s", velocity.zero_width_rad_s, kMinVelocityWidth_rad_s,
+                     kMaxVelocity_rad_s);
+  inspector.in_range(key + "high_center_rad_s", velocity.high_center_rad_s, 0.0, kMaxVelocity_rad_s);
+  inspector.in_range(key + "high_width_rad_s", velocity.high_width_rad_s, kMinVelocityWidth_rad_s,
+                     kMaxVelocity_rad_s);
+}
+
+void inspect_friction(Inspector& inspector, const FuzzyFriction& friction, double torque_limit_Nm) {
   inspector.in_range("friction.rule_count", friction.rule_count, 1, kMaxTemperatureRules);
   inspector.in_range("friction.temperature_min_C", friction.temperature_min_C, kMinTemperature_C,
                      kMaxTemperature_C);
@@ -83,18 +104,13 @@ void inspect_friction(Inspector& inspector, const FuzzyFriction& friction) {
                      kMaxTemperature_C);
   inspector.require(friction.temperature_min_C < friction.temperature_max_C,
                     "friction.temperature_max_C: must be above friction.temperature_min_C");
-  inspector.in_range("friction.velocity.zero_center_rad_s", friction.velocity.zero_center_rad_s, 0.0, 1e6);
-  inspector.positive("friction.velocity.zero_width_rad_s", friction.velocity.zero_width_rad_s, 1e6);
-  inspector.in_range("friction.velocity.high_center_rad_s", friction.velocity.high_center_rad_s, 0.0, 1e6);
-  inspector.positive("friction.velocity.high_width_rad_s", friction.velocity.high_width_rad_s, 1e6);
+  inspect_velocity_memberships(inspector, friction.velocity);
   for (int i = 0; inspector.ok() && i < friction.rule_count; ++i) {
     const TemperatureRule& rule = friction.rules[static_cast<std::size_t>(i)];
     const std::string key = "friction.rules[" + std::to_string(i) + "].";
     inspector.in_range(key + "center_C", rule.center_C, kMinTemperature_C, kMaxTemperature_C);
     inspector.in_range(key + "width_C", rule.width_C, 1e-3, 1e4);
-    inspector.in_range(key + "static_Nm", rule.friction.static_Nm, 0.0, kMaxFriction);
-    inspector.in_range(key + "coulomb_Nm", rule.friction.coulomb_Nm, 0.0, kMaxFriction);
-    inspector.in_range(key + "viscous_Nms_rad", rule.friction.viscous_Nms_rad, 0.0, kMaxFriction);
+    inspect_rule_friction(inspector, rule.friction, torque_limit_Nm, key);
     const bool ascending = i == 0 || friction.rules[static_cast<std::size_t>(i - 1)].center_C < rule.center_C;
     inspector.require(ascending, key + "center_C = " + number(rule.center_C) + ": centres must ascend");
   }
@@ -161,8 +177,8 @@ std::optional<std::string> find_defect(const GainTable& table) {
                                                           std::to_string(kGainTableFormat));
   inspector.text("name", table.name, false);
   inspect_plant(inspector, table.plant);
-  inspect_friction(inspector, table.friction);
   inspector.positive("torque_limit_Nm", table.torque_limit_Nm, kMaxTorque_Nm);
+  inspect_friction(inspector, table.friction, table.torque_limit_Nm);
   const int plant_rules = 1 + table.friction.rule_count;
   inspect_gains(inspector, table.primary, plant_rules, "primary");
   inspect_gains(inspector, table.fallback, plant_rules, "fallback");
@@ -170,6 +186,9 @@ std::optional<std::string> find_defect(const GainTable& table) {
                     "fallback.rule_count: must be 1: it runs without temperature");
   inspector.require(table.fallback.has_integrator == table.primary.has_integrator,
                     "fallback.has_integrator: must be that of primary, for a change-over without a bump");
+  const auto sampling = static_cast<std::int32_t>(table.provenance.sampling);
+  inspector.require(sampling == 0 || sampling == 1, "provenance.sampling = " + std::to_string(sampling) +
+                                                        ": must be 0 (forward Euler) or 1 (zero-order hold)");
   inspector.text("provenance.created_utc", table.provenance.created_utc, true);
   inspector.text("provenance.tool", table.provenance.tool, true);
   inspector.text("provenance.friction_sha256", table.provenance.friction_sha256, true);

@@ -22,14 +22,11 @@ namespace strainwave {
 inline constexpr int kMaxStates = 3;
 /// The zero-velocity rule and one high-velocity rule per temperature rule.
 inline constexpr int kMaxRules = 1 + kMaxTemperatureRules;
-inline constexpr int kGainTableFormat = 1;
+inline constexpr int kGainTableFormat = 2;
 
 using StateVector = Eigen::Vector3d;
 using StateMatrix = Eigen::Matrix3d;
 using GainRow = Eigen::RowVector3d;
-
-/// How the continuous plant was sampled for the design. The integral of the error is a plain sum in both.
-enum class Sampling : std::int32_t { kForwardEuler = 0, kZeroOrderHold = 1 };
 
 /// What a table was designed for. The daemon refuses a table whose identity is not its joint's.
 struct PlantIdentity {
@@ -37,7 +34,6 @@ struct PlantIdentity {
   double inertia_kgm2 = 0.0;    ///< J > 0, at the joint side
   double gear_ratio = 0.0;      ///< N > 0
   double period_s = 0.0;        ///< ts > 0
-  Sampling sampling = Sampling::kForwardEuler;
 };
 
 /// Weights of the quadratic cost sum x'Wx + u'Ru with W = diag(integral, position, velocity), R = torque.
@@ -73,8 +69,12 @@ struct FeedbackGains {
   bool scheduled() const noexcept { return rule_count > 1; }
 };
 
-/// Where a table came from. Nothing in the loop reads it.
+/// How the plant was sampled for the design: as the loop does it, or as the source did.
+enum class Sampling : std::int32_t { kForwardEuler = 0, kZeroOrderHold = 1 };
+
+/// Where a table came from. Nothing in the loop reads it, and no proof does.
 struct Provenance {
+  Sampling sampling = Sampling::kZeroOrderHold;
   FixedString<32> created_utc;      ///< ISO 8601
   FixedString<32> tool;             ///< program and version
   FixedString<72> friction_sha256;  ///< of the friction file that the rules came from, in hex

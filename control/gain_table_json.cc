@@ -21,8 +21,7 @@ ordered_json plant_to_json(const PlantIdentity& plant) {
   return {{"joint_model", plant.joint_model.view()},
           {"inertia_kgm2", plant.inertia_kgm2},
           {"gear_ratio", plant.gear_ratio},
-          {"period_s", plant.period_s},
-          {"sampling", plant.sampling == Sampling::kForwardEuler ? kForwardEulerName : kZeroOrderHoldName}};
+          {"period_s", plant.period_s}};
 }
 
 ordered_json gains_to_json(const FeedbackGains& gains) {
@@ -45,6 +44,15 @@ ordered_json gains_to_json(const FeedbackGains& gains) {
           {"rules", std::move(rules)}};
 }
 
+ordered_json provenance_to_json(const Provenance& provenance) {
+  const bool euler = provenance.sampling == Sampling::kForwardEuler;
+  return {{"sampling", euler ? kForwardEulerName : kZeroOrderHoldName},
+          {"created_utc", provenance.created_utc.view()},
+          {"tool", provenance.tool.view()},
+          {"friction_sha256", provenance.friction_sha256.view()},
+          {"note", provenance.note.view()}};
+}
+
 template <std::size_t N>
 FixedString<N> text_field(StrictObject& object, const std::string& key) {
   return FixedString<N>(object.text(key, N - 1));
@@ -56,12 +64,6 @@ PlantIdentity plant_from_json(StrictObject object) {
   plant.inertia_kgm2 = object.number("inertia_kgm2");
   plant.gear_ratio = object.number("gear_ratio");
   plant.period_s = object.number("period_s");
-  const std::string sampling = object.text("sampling", 32);
-  if (sampling != kForwardEulerName && sampling != kZeroOrderHoldName) {
-    throw InputError(object.where("sampling") + " = " + sampling + ": must be " + kForwardEulerName + " or " +
-                     kZeroOrderHoldName);
-  }
-  plant.sampling = sampling == kForwardEulerName ? Sampling::kForwardEuler : Sampling::kZeroOrderHold;
   object.finish();
   return plant;
 }
@@ -96,6 +98,12 @@ FeedbackGains gains_from_json(StrictObject object) {
 
 Provenance provenance_from_json(StrictObject object) {
   Provenance provenance;
+  const std::string sampling = object.text("sampling", 32);
+  if (sampling != kForwardEulerName && sampling != kZeroOrderHoldName) {
+    throw InputError(object.where("sampling") + " = " + sampling + ": must be " + kForwardEulerName + " or " +
+                     kZeroOrderHoldName);
+  }
+  provenance.sampling = sampling == kForwardEulerName ? Sampling::kForwardEuler : Sampling::kZeroOrderHold;
   provenance.created_utc = text_field<32>(object, "created_utc");
   provenance.tool = text_field<32>(object, "tool");
   provenance.friction_sha256 = text_field<72>(object, "friction_sha256");
@@ -114,11 +122,7 @@ std::string to_json(const GainTable& table) {
                                  {"torque_limit_Nm", table.torque_limit_Nm},
                                  {"primary", gains_to_json(table.primary)},
                                  {"fallback", gains_to_json(table.fallback)},
-                                 {"provenance",
-                                  {{"created_utc", table.provenance.created_utc.view()},
-                                   {"tool", table.provenance.tool.view()},
-                                   {"friction_sha256", table.provenance.friction_sha256.view()},
-                                   {"note", table.provenance.note.view()}}}};
+                                 {"provenance", provenance_to_json(table.provenance)}};
   return document.dump(2) + "\n";
 }
 

@@ -25,15 +25,13 @@ double phi2(double z) noexcept {
 
 }  // namespace
 
-SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
-                                 bool has_integrator) noexcept {
-  const BoundedDynamics bounded = bounded_dynamics(plant, viscous_Nms_rad, has_integrator);
+SampledDynamics BoundedDynamics::values() const noexcept {
   SampledDynamics dynamics;
   for (std::size_t i = 0; i < kMaxStates; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    dynamics.B(row) = bounded.B[i].value;
+    dynamics.B(row) = B[i].value;
     for (std::size_t j = 0; j < kMaxStates; ++j)
-      dynamics.A(row, static_cast<Eigen::Index>(j)) = bounded.A[i][j].value;
+      dynamics.A(row, static_cast<Eigen::Index>(j)) = A[i][j].value;
   }
   return dynamics;
 }
@@ -48,12 +46,6 @@ BoundedDynamics bounded_dynamics(const PlantIdentity& plant, double viscous_Nms_
     dynamics.A[0][0] = 1.0;
     dynamics.A[0][1] = period;
   }
-  if (plant.sampling == Sampling::kForwardEuler) {
-    dynamics.A[1][2] = period;
-    dynamics.A[2][2] = Bounded(1.0) - period * viscous_Nms_rad / inertia;
-    dynamics.B[2] = period / inertia;
-    return dynamics;
-  }
   // exp, expm1 and the series are good to a few half ulps relative (phi2's difference loses at most a factor
   // 4 beyond z = 1), and the rounding of z itself costs no more than |z| half ulps times 3: 64 ulps is a wide
   // bound for z up to 5, and it grows with z beyond.
@@ -66,6 +58,11 @@ BoundedDynamics bounded_dynamics(const PlantIdentity& plant, double viscous_Nms_
   dynamics.B[1] = period * period * approximate(phi2(z)) / inertia;
   dynamics.B[2] = period * first / inertia;
   return dynamics;
+}
+
+SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
+                                 bool has_integrator) noexcept {
+  return bounded_dynamics(plant, viscous_Nms_rad, has_integrator).values();
 }
 
 int plant_rule_count(const FuzzyFriction& friction) noexcept {

@@ -17,19 +17,22 @@ struct SampledDynamics {
   StateVector B = StateVector::Zero();
 };
 
-/// One rule: a joint of `plant` with viscous coefficient `viscous_Nms_rad`, sampled by the plant's own
-/// method. Forward Euler: [theta, w] -> (I + ts Ac, ts Bc). Zero-order hold: the exact solution. The integral
-/// row is the sum that the controller computes: integral[k+1] = integral[k] + ts * error[k].
-SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
-                                 bool has_integrator) noexcept;
-
-/// The same with a bound on the rounding of every entry, for proofs; inertia, period and viscous are taken as
-/// exact.
+/// The same with a bound on the rounding of every entry, for proofs.
 struct BoundedDynamics {
   std::array<std::array<Bounded, kMaxStates>, kMaxStates> A{};
   std::array<Bounded, kMaxStates> B{};
+
+  SampledDynamics values() const noexcept;
 };
+
+/// One rule: a joint of `plant` with viscous coefficient `viscous_Nms_rad`, sampled as the loop does it: the
+/// torque is held for a period (zero-order hold), and this is the exact solution. The integral row is the sum
+/// that the controller computes: integral[k+1] = integral[k] + ts * error[k]. Inertia, period and viscous are
+/// taken as exact.
 BoundedDynamics bounded_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
+                                 bool has_integrator) noexcept;
+/// Its values alone.
+SampledDynamics sampled_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
                                  bool has_integrator) noexcept;
 
 /// Number of rules of the plant: the zero-velocity rule and one per temperature rule.

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "base/input_error.h"
 #include "control/ts_plant.h"
 #include "design/controller_lmi.h"
+#include "design/euler_plant.h"
 
 namespace strainwave {
 
 namespace {
 
 constexpr double kLargestMargin = 0.5;
+constexpr double kFirstMistakenShare = 0.01;  // a hundredth, a tenth, then all of the cost
 
 // C1 and C2 drop the first state.
 Eigen::Index first_state(Controller controller) {
@@ -19,8 +22,9 @@ Eigen::Index first_state(Controller controller) {
 }
 
 std::string number(double value) {
-  std::string text = std::to_string(value);
-  return std::abs(value) >= 1e-3 ? text : std::to_string(value * 1e6) + "e-6";
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 void require(bool condition, const std::string& key, double value, const std::string& allowed) {
@@ -56,13 +60,22 @@ std::vector<StateLimit> state_limits(Controller controller, const DesignRequest&
   return limits;
 }
 
+std::vector<BoundedDynamics> plant_rules(Controller controller, const DesignRequest& request) {
+  const auto sample = request.sampling == Sampling::kForwardEuler ? euler_dynamics : bounded_dynamics;
+  std::vector<BoundedDynamics> rules;
+  for (int j = 0; j < plant_rule_count(request.friction); ++j) {
+    rules.push_back(
+        sample(request.plant, plant_rule_viscous_Nms_rad(request.friction, j), has_integrator(controller)));
+  }
+  return rules;
+}
+
 ControllerProblem make_problem(Controller controller, const DesignRequest& request) {
   const Eigen::Index first = first_state(controller);
   const Eigen::Index n = kMaxStates - first;
   ControllerProblem problem;
-  for (int j = 0; j < plant_rule_count(request.friction); ++j) {
-    const SampledDynamics dynamics = sampled_dynamics(
-        request.plant, plant_rule_viscous_Nms_rad(request.friction, j), has_integrator(controller));
+  for (const BoundedDynamics& rule : plant_rules(controller, request)) {
+    const SampledDynamics dynamics = rule.values();
     problem.A.push_back(dynamics.A.bottomRightCorner(n, n));
     problem.B.push_back(dynamics.B.tail(n));
   }
@@ -71,6 +84,7 @@ ControllerProblem make_problem(Controller controller, const DesignRequest& reque
   problem.input_weight = (1.0 + request.margin) * request.weights.torque;
   problem.initial_states = reduced_states(controller, request.initial_states);
   problem.decay_rate = request.decay_rate;
+  problem.mistaken_share = request.mistaken_share;
   problem.scheduled = is_scheduled(controller);
   const double tightened = 1.0 / std::sqrt(1.0 + request.margin);
   if (request.max_torque_Nm) problem.input_limit = tightened * *request.max_torque_Nm;
@@ -83,18 +97,31 @@ ControllerProblem make_problem(Controller controller, const DesignRequest& reque
   return problem;
 }
 
-std::string infeasible_message(Controller controller, const DesignRequest& request,
-                               const std::string& explanation) {
-  std::string message =
-      std::string("gains: no ") + name_of(controller) + " exists for this request: " + explanation + ".";
-  if (request.max_torque_Nm) message += " Allow more torque (--max-torque_Nm), or a smaller --x0.";
+// What could be asked for instead.
+std::string advice(const DesignRequest& request) {
+  std::string text;
+  if (request.max_torque_Nm) text += " Allow more torque (--max-torque_Nm), or a smaller --x0.";
   if (request.max_position_rad || request.max_velocity_rad_s || request.max_integral_rad_s) {
-    message +=
+    text +=
         " Relax --max-position_rad, --max-velocity_rad_s or --max-integral_rad_s, which must at least "
         "contain --x0.";
   }
-  if (request.decay_rate < 1.0) message += " Ask for a slower decay (--decay-rate nearer to 1).";
-  return message;
+  if (request.decay_rate < 1.0) text += " Ask for a slower decay (--decay-rate nearer to 1).";
+  if (request.sampling == Sampling::kForwardEuler)
+    text +=
+        " Forward Euler misjudges a joint whose friction brakes it within a few periods (period * viscous / "
+        "inertia near 1): --sampling zoh does not.";
+  return text;
+}
+
+std::string failure_message(Controller controller, const DesignRequest& request,
+                            const ControllerSolution& solution) {
+  const std::string name = name_of(controller);
+  if (solution.impossible)
+    return "gains: no " + name + " exists for this request: its matrix inequalities contradict each other." +
+           advice(request);
+  return "gains: the solver failed on " + name + ": " + solution.explanation +
+         ". Whether a solution exists is not known." + advice(request);
 }
 
 // x' P_j x <= lambda for the initial states, so that |row x|^2 <= limit^2 follows from limit^2 P_j / lambda -
@@ -184,13 +211,7 @@ void check_request(const DesignRequest& request) {
 DesignedGains solve_gains(Controller controller, const DesignRequest& request) {
   check_request(request);
   const ControllerSolution solution = solve_controller(make_problem(controller, request));
-  if (solution.status == SdpStatus::kInfeasible) {
-    throw InputError(infeasible_message(controller, request, solution.explanation));
-  }
-  if (solution.status != SdpStatus::kSolved) {
-    throw InputError(
-        infeasible_message(controller, request, "none was found (" + solution.explanation + ")"));
-  }
+  if (solution.status != SdpStatus::kSolved) throw InputError(failure_message(controller, request, solution));
   DesignedGains designed;
   FeedbackGains& gains = designed.gains;
   gains.controller = std::string_view(name_of(controller));
@@ -210,7 +231,7 @@ DesignedGains solve_gains(Controller controller, const DesignRequest& request) {
   gains.cost_bound = cost_bound(gains, request.initial_states);
   designed.lambda = solution.lambda;
   designed.violation = solution.violation;
-  designed.certificate = certify(gains, request.plant, request.friction);
+  designed.certificate = certify(gains, plant_rules(controller, request));
   designed.bounds_hold = bounds_hold(controller, request, gains);
   return designed;
 }
@@ -220,21 +241,33 @@ DesignedGains design_gains(Controller controller, const DesignRequest& request) 
   for (;;) {
     DesignedGains designed = solve_gains(controller, attempt);
     if (designed.certificate.certified && designed.bounds_hold) return designed;
-    const bool cross_pairs_failed = designed.certificate.worst.from != designed.certificate.worst.from_other;
-    if (cross_pairs_failed && attempt.margin > 0.0 && 2.0 * attempt.margin <= kLargestMargin) {
-      attempt.margin *= 2.0;
+    const bool mistaken = designed.certificate.worst.kind != Inequality::kPair;
+    if (mistaken && is_scheduled(controller) && attempt.mistaken_share < 1.0) {
+      attempt.mistaken_share = std::max(kFirstMistakenShare, 10.0 * attempt.mistaken_share);
       continue;
     }
-    const WorstPair& worst = designed.certificate.worst;
     throw InputError(std::string("gains: ") + name_of(controller) + " was designed but " +
                      (designed.certificate.certified
                           ? "its limits are not proved"
-                          : "is not certified (rule " + std::to_string(worst.from) + " to " +
-                                std::to_string(worst.to) + ")") +
+                          : "is not certified (margin " + describe(designed.certificate.worst) + ")") +
                      " at margin " + number(attempt.margin) +
                      "; nothing is written. Use a larger --margin (0.01 is the default).");
   }
 }
+
+namespace {
+
+FeedbackGains design_fallback(Controller primary, const DesignRequest& request) {
+  try {
+    return design_gains(fallback_of(primary), request).gains;
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + " " + name_of(fallback_of(primary)) +
+                     " is the fallback of " + name_of(primary) +
+                     ", which was found: one gain for every temperature.");
+  }
+}
+
+}  // namespace
 
 GainTable design_table(Controller primary, const TableRequest& request) {
   GainTable table;
@@ -245,9 +278,9 @@ GainTable design_table(Controller primary, const TableRequest& request) {
   table.provenance.created_utc = std::string_view(request.created_utc);
   table.provenance.tool = std::string_view("strainwave-design " STRAINWAVE_VERSION);
   table.provenance.friction_sha256 = std::string_view(request.friction_sha256);
+  table.provenance.sampling = request.design.sampling;
   table.primary = design_gains(primary, request.design).gains;
-  table.fallback = primary == fallback_of(primary) ? table.primary
-                                                   : design_gains(fallback_of(primary), request.design).gains;
+  table.fallback = primary == fallback_of(primary) ? table.primary : design_fallback(primary, request.design);
   if (const auto defect = find_defect(table)) throw InputError("gains: " + *defect);
   return table;
 }

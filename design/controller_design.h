@@ -28,15 +28,18 @@ constexpr Controller fallback_of(Controller controller) {
 
 struct DesignRequest {
   PlantIdentity plant;
+  Sampling sampling =
+      Sampling::kZeroOrderHold;  ///< forward Euler: to reproduce the source, not for a machine
   FuzzyFriction friction;
   CostWeights weights;  ///< nominal; the integral's counts only for C3 and C4
   /// Initial states [integral rad.s, error rad, velocity rad/s] whose convex hull the bounds hold for; the
   /// integral is ignored for C1 and C2.
   std::vector<StateVector> initial_states;
-  double margin = 0.01;     ///< the design's weights and limits are tightened by this fraction, so that the
-                            ///< certificate has room
-  double decay_rate = 1.0;  ///< V falls at least by its square each sample
-  std::optional<double> max_torque_Nm;     ///< of the feedback (Theorem 2), for every initial state
+  double margin = 0.01;  ///< the design's weights and limits are tightened by this fraction, so that the
+                         ///< certificate has room
+  double mistaken_share = 0.0;          ///< see ControllerProblem; design_gains() sets it where it is needed
+  double decay_rate = 1.0;              ///< V falls at least by its square each sample
+  std::optional<double> max_torque_Nm;  ///< of the feedback (Theorem 2), for every initial state
   std::optional<double> max_position_rad;  ///< of the position error (Theorem 3)
   std::optional<double> max_velocity_rad_s;
   std::optional<double> max_integral_rad_s;
@@ -52,20 +55,20 @@ void check_request(const DesignRequest& request);
 struct DesignedGains {
   FeedbackGains
       gains;  ///< weights are the nominal ones; cost_bound = max over rules and initial states of x0' P_j x0
-  CertificateReport certificate;  ///< of `gains` at the nominal weights
+  CertificateReport certificate;  ///< of `gains` at the nominal weights, on the plant as `sampling` says
   double lambda = 0.0;            ///< the SDP's objective, at the inflated weights
   double violation = 0.0;         ///< of its inequalities
   bool bounds_hold =
       false;  ///< P_j of every rule proves the requested limits (true when none were requested)
 };
 
-/// Solves the LMIs. Throws InputError with a reason when they are infeasible or the solver fails. Does not
-/// insist on the certificate.
+/// Solves the LMIs. Throws InputError: that there is no solution, where that is proved, else that the solver
+/// failed. Does not insist on the certificate.
 DesignedGains solve_gains(Controller controller, const DesignRequest& request);
 
-/// The same, and throws InputError unless certificate and limits hold. Under a zero-order hold the LMIs leave
-/// out the cross pairs of the certificate (they are not linear in the unknowns); if those fail, the margin is
-/// doubled, up to a half.
+/// The same, and throws InputError unless certificate and limits hold. The first attempt asks for the pairs of
+/// the certificate only. Where others fail, the next ask for mistaken rules, too, with a hundredth, a tenth and
+/// at last all of the cost: from that everything follows, and every rule has the same gain.
 DesignedGains design_gains(Controller controller, const DesignRequest& request);
 
 /// A whole table: `primary` and its fallback, both certified.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/riccati.h"
+
 namespace strainwave {
 
 namespace {
@@ -63,35 +65,42 @@ void require_bounds(LmiProblem& lmi, const ControllerProblem& problem, const Aff
   }
 }
 
+// V falls from rule j to every next rule when the plant is of rule i, by `share` of the stage cost.
+void require_decrease(LmiProblem& lmi, const ControllerProblem& problem, const Unknowns& unknowns,
+                      std::size_t i, std::size_t j, double share) {
+  const Eigen::Index n = problem.state_weights.size();
+  const Eigen::MatrixXd root_W = (share * problem.state_weights).cwiseSqrt().asDiagonal();
+  const double root_R = std::sqrt(share * problem.input_weight);
+  AffineMatrix lambda_I(n, n);
+  for (Eigen::Index a = 0; a < n; ++a) lambda_I.add_block(a, a, unknowns.lambda);
+  const AffineMatrix& G = unknowns.G[j];
+  const AffineMatrix& M = unknowns.M[j];
+  const AffineMatrix next =
+      (1.0 / problem.decay_rate) * (problem.A[i] * G + Eigen::MatrixXd(problem.B[i]) * M);
+  for (const AffineMatrix& Q_next : unknowns.Q) {
+    lmi.require_positive(symmetric_blocks({{G + G.transpose() - unknowns.Q[j]},  //
+                                           {next, Q_next},                       //
+                                           {root_W * G, {}, lambda_I},           //
+                                           {root_R * M, {}, {}, unknowns.lambda}}));
+  }
+}
+
 LmiProblem build(const ControllerProblem& problem, Unknowns& unknowns) {
   LmiProblem lmi;
   const Eigen::Index n = problem.state_weights.size();
   const std::size_t rules = problem.A.size();
-  const std::size_t gains = problem.scheduled ? rules : 1;
-  const Eigen::MatrixXd root_W = problem.state_weights.cwiseSqrt().asDiagonal();
-  const double root_R = std::sqrt(problem.input_weight);
-  const double inverse_rate = 1.0 / problem.decay_rate;
-
   unknowns.lambda = lmi.scalar();
-  AffineMatrix lambda_I(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) lambda_I.add_block(i, i, unknowns.lambda);
-  for (std::size_t j = 0; j < gains; ++j) {
+  for (std::size_t j = 0; j < (problem.scheduled ? rules : 1); ++j) {
     unknowns.Q.push_back(lmi.symmetric(n));
     unknowns.G.push_back(lmi.matrix(n, n));
     unknowns.M.push_back(lmi.matrix(1, n));
     require_bounds(lmi, problem, unknowns.Q[j], unknowns.G[j], unknowns.M[j]);
   }
-  for (std::size_t j = 0; j < rules; ++j) {
-    const std::size_t own = problem.scheduled ? j : 0;
-    const AffineMatrix& Q = unknowns.Q[own];
-    const AffineMatrix& G = unknowns.G[own];
-    const AffineMatrix& M = unknowns.M[own];
-    const AffineMatrix next = inverse_rate * (problem.A[j] * G + Eigen::MatrixXd(problem.B[j]) * M);
-    for (std::size_t l = 0; l < gains; ++l) {
-      lmi.require_positive(symmetric_blocks({{G + G.transpose() - Q},     //
-                                             {next, unknowns.Q[l]},       //
-                                             {root_W * G, {}, lambda_I},  //
-                                             {root_R * M, {}, {}, unknowns.lambda}}));
+  for (std::size_t i = 0; i < rules; ++i) {
+    for (std::size_t j = 0; j < unknowns.Q.size(); ++j) {
+      const bool own = !problem.scheduled || i == j;
+      const double share = own ? 1.0 : problem.mistaken_share;
+      if (share > 0.0) require_decrease(lmi, problem, unknowns, i, j, share);
     }
   }
   lmi.minimise(unknowns.lambda);
@@ -118,33 +127,59 @@ ControllerSolution solve_in_units(const ControllerProblem& problem, const Units&
   return solution;
 }
 
-// S = diag(P)^(-1/2), with the largest diagonal over the rules. False when P is not usable.
+// S = diag(P)^(-1/2) and the cost's unit from `diagonal` of P and the cost. False when they are not usable.
+bool balance(const Eigen::VectorXd& diagonal, double cost, Units& units) {
+  if (!(cost > 0.0) || !std::isfinite(cost)) return false;
+  if (!diagonal.allFinite() || !(diagonal.minCoeff() > 0.0)) return false;
+  units.cost = cost;
+  units.state = (diagonal / cost).cwiseInverse().cwiseSqrt();
+  return true;
+}
+
+// The largest diagonal over the rules.
 bool rebalance(const ControllerSolution& solution, Units& units) {
-  if (solution.P.empty() || !(solution.lambda > 0.0) || !std::isfinite(solution.lambda)) return false;
+  if (solution.P.empty()) return false;
   Eigen::VectorXd diagonal = solution.P.front().diagonal();
   for (const Eigen::MatrixXd& P : solution.P) diagonal = diagonal.cwiseMax(P.diagonal());
-  if (!diagonal.allFinite() || !(diagonal.minCoeff() > 0.0)) return false;
-  units.cost = solution.lambda;
-  units.state = (diagonal / solution.lambda).cwiseInverse().cwiseSqrt();
-  return true;
+  return balance(diagonal, solution.lambda, units);
+}
+
+double largest_cost(const ControllerProblem& problem, const Eigen::MatrixXd& P) {
+  double largest = 0.0;
+  for (const Eigen::VectorXd& v : problem.initial_states) largest = std::max(largest, v.dot(P * v));
+  return largest;
+}
+
+// What one rule alone would cost without limits; the weights themselves where that has no answer.
+Units first_units(const ControllerProblem& problem) {
+  const std::size_t middle = problem.A.size() / 2;
+  const double rate = problem.decay_rate;
+  const auto riccati = solve_riccati(problem.A[middle] / rate, problem.B[middle] / rate,
+                                     problem.state_weights, problem.input_weight);
+  Units units;
+  if (!riccati || !balance(riccati->diagonal(), largest_cost(problem, *riccati), units))
+    balance(problem.state_weights, largest_cost(problem, problem.state_weights.asDiagonal()), units);
+  units.input =
+      problem.input_limit > 0.0 ? problem.input_limit : std::sqrt(units.cost / problem.input_weight);
+  return units;
 }
 
 }  // namespace
 
 ControllerSolution solve_controller(const ControllerProblem& problem, const SdpOptions& options) {
-  Units units;
-  // lambda is at least the cost of the first sample.
-  units.cost = 0.0;
-  for (const Eigen::VectorXd& v : problem.initial_states) {
-    units.cost = std::max(units.cost, v.dot(problem.state_weights.asDiagonal() * v));
+  const Units first_guess = first_units(problem);
+  ControllerSolution solution = solve_in_units(problem, first_guess, options);
+  Units units = first_guess;
+  if (rebalance(solution, units)) {
+    ControllerSolution second = solve_in_units(problem, units, options);
+    if (second.status == SdpStatus::kSolved || solution.status != SdpStatus::kSolved)
+      solution = std::move(second);
   }
-  units.state = (problem.state_weights / units.cost).cwiseInverse().cwiseSqrt();
-  units.input =
-      problem.input_limit > 0.0 ? problem.input_limit : std::sqrt(units.cost / problem.input_weight);
-  ControllerSolution first = solve_in_units(problem, units, options);
-  if (first.status == SdpStatus::kInfeasible || first.status == SdpStatus::kUnbounded) return first;
-  if (!rebalance(first, units)) return first;
-  return solve_in_units(problem, units, options);
+  if (solution.status == SdpStatus::kSolved) return solution;
+  Unknowns unknowns;
+  const LmiProblem lmi = build(in_units(problem, first_guess), unknowns);
+  solution.impossible = infeasibility_bound(lmi, options) >= kProvedSize;
+  return solution;
 }
 
 }  // namespace strainwave

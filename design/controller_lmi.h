@@ -19,7 +19,8 @@
 // gives what the search converges to. W and R are factored so that their inverses, 1e4 and 1e6, do not
 // appear.
 //
-// A temperature-free controller has one F, G, Q for every rule.
+// A temperature-free controller has one F, G, Q for every rule. With `mistaken_share` the third inequality is also
+// asked for plant rules i != j under gain j, with W and R times that share: a wrong temperature.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,10 +47,14 @@ struct ControllerProblem {
   double input_limit = 0.0;                     ///< umax, 0: none
   std::vector<OutputBound> output_bounds;
   bool scheduled = true;  ///< one gain per rule; false: one for all
+  /// Share of the stage cost by which V must fall where plant and gain have different rules; 0: not asked.
+  double mistaken_share = 0.0;
 };
 
 struct ControllerSolution {
   SdpStatus status = SdpStatus::kCrashed;
+  /// It is proved that there is no solution, up to unknowns kProvedSize times those of a single rule's optimum.
+  bool impossible = false;
   std::string explanation;
   double lambda = 0.0;
   std::vector<Eigen::RowVectorXd> F;  ///< one per rule, or one
@@ -57,9 +62,11 @@ struct ControllerSolution {
   double violation = 0.0;             ///< of the last (balanced) solve's inequalities
 };
 
-/// Solves in balanced units: x = S z, first with S = W^(-1/2), then with S = diag(P)^(-1/2) of that result;
-/// the cost is scaled so that lambda is near 1. Neither the units of the states nor that of the cost change
-/// the result. Two solves.
+inline constexpr double kProvedSize = 1e6;
+
+/// Solves in balanced units: x = S z, first with S = diag(P)^(-1/2) of the Riccati equation of a middle rule,
+/// then of that result; the cost is scaled so that lambda is near 1. Neither the units of the states nor that
+/// of the cost change the result. Two solves, and a third that looks for a proof when they fail.
 ControllerSolution solve_controller(const ControllerProblem& problem, const SdpOptions& options = {});
 
 }  // namespace strainwave

@@ -96,6 +96,15 @@ AffineMatrix LmiProblem::symmetric(Eigen::Index size) {
   return result;
 }
 
+AffineMatrix LmiProblem::relax() {
+  const AffineMatrix t = scalar();
+  for (AffineMatrix& inequality : inequalities_) {
+    for (Eigen::Index i = 0; i < inequality.rows(); ++i) inequality.add_block(i, i, t);
+  }
+  require_positive(t + AffineMatrix(Eigen::MatrixXd::Ones(1, 1)));
+  return t;
+}
+
 double LmiProblem::violation(const Eigen::VectorXd& unknowns) const {
   double worst = -std::numeric_limits<double>::infinity();
   for (const AffineMatrix& inequality : inequalities_) {

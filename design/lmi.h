@@ -60,6 +60,8 @@ class LmiProblem {
   AffineMatrix symmetric(Eigen::Index size);
 
   void require_positive(AffineMatrix inequality) { inequalities_.push_back(std::move(inequality)); }
+  /// A new unknown t, added to every inequality as t I and bounded below by -1.
+  AffineMatrix relax();
   /// `objective` is 1x1; its constant does not matter.
   void minimise(const AffineMatrix& objective) { objective_ = objective; }
 

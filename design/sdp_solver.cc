@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -82,14 +83,19 @@ SdpResult judge(const LmiProblem& problem, const SdpOptions& options, const std:
   const auto phase = static_cast<SdpaPhase>(static_cast<int>(answer[0]));
   result.iterations = static_cast<int>(answer[1]);
   result.unknowns = Eigen::VectorXd::Map(answer.data() + kSdpaHeader, problem.unknown_count());
+  const double* next = answer.data() + kSdpaHeader + problem.unknown_count();
+  for (const AffineMatrix& inequality : problem.inequalities()) {
+    result.duals.emplace_back(Eigen::MatrixXd::Map(next, inequality.rows(), inequality.rows()));
+    next += inequality.rows() * inequality.rows();
+  }
   result.violation = problem.violation(result.unknowns);
   result.objective = problem.objective().at(result.unknowns)(0, 0);
   const double gap = answer[2];
   const bool feasible = result.violation <= options.tolerance;
   const bool close = gap <= options.accepted_gap;
   if (phase == SdpaPhase::kInfeasible) {
-    result.status = SdpStatus::kInfeasible;
-    result.explanation = "the matrix inequalities have no solution";
+    result.status = SdpStatus::kInaccurate;
+    result.explanation = "the solver found no solution";
   } else if (phase == SdpaPhase::kUnbounded) {
     result.status = SdpStatus::kUnbounded;
     result.explanation = "the objective has no lower bound";
@@ -104,7 +110,33 @@ SdpResult judge(const LmiProblem& problem, const SdpOptions& options, const std:
   return result;
 }
 
+// The nearest positive semidefinite matrix.
+Eigen::MatrixXd positive_part(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (matrix + matrix.transpose()));
+  const Eigen::VectorXd eigenvalues = solver.eigenvalues().cwiseMax(0.0);
+  return solver.eigenvectors() * eigenvalues.asDiagonal() * solver.eigenvectors().transpose();
+}
+
 }  // namespace
+
+double infeasibility_bound(const LmiProblem& problem, const SdpOptions& options) {
+  LmiProblem relaxed = problem;
+  const AffineMatrix t = relaxed.relax();
+  relaxed.minimise(t);
+  const SdpResult result = solve_sdp(relaxed, options);
+  double constant = 0.0;
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(problem.unknown_count());
+  for (std::size_t b = 0; b < result.duals.size() && b < problem.inequalities().size(); ++b) {
+    if (!result.duals[b].allFinite()) return 0.0;
+    const Eigen::MatrixXd Y = positive_part(result.duals[b]);
+    const AffineMatrix& inequality = problem.inequalities()[b];
+    constant += Y.cwiseProduct(inequality.constant()).sum();
+    for (const auto& [unknown, coefficient] : inequality.coefficients())
+      slopes(unknown) += Y.cwiseProduct(coefficient).sum();
+  }
+  if (!(constant < 0.0)) return 0.0;
+  return -constant / slopes.cwiseAbs().maxCoeff();
+}
 
 SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options) {
   std::array<int, 2> ends{};
@@ -119,7 +151,7 @@ SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options) {
   }
   if (child == 0) run_child(problem, options, ends[1]);
   ::close(ends[1]);
-  std::vector<double> answer(kSdpaHeader + static_cast<std::size_t>(problem.unknown_count()));
+  std::vector<double> answer(sdpa_answer_size(problem));
   const ReadOutcome outcome = read_answer(ends[0], options.time_limit_s, answer);
   ::close(ends[0]);
   if (outcome != ReadOutcome::kWhole) ::kill(child, SIGKILL);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "design/lmi.h"
 
@@ -14,9 +15,9 @@ namespace strainwave {
 
 enum class SdpStatus {
   kSolved,      ///< optimal to the solver's accuracy, and the inequalities hold to `tolerance`
-  kInfeasible,  ///< no unknowns satisfy the inequalities (solver's opinion)
   kUnbounded,   ///< the objective has no lower bound (solver's opinion)
-  kInaccurate,  ///< the solver stopped early, or its result violates the inequalities
+  kInaccurate,  ///< the solver stopped early, believes that there is no solution, or its result violates the
+                ///< inequalities
   kCrashed,     ///< the solver's process died or could not be started
   kTimeout,     ///< no result within the time limit
 };
@@ -34,11 +35,19 @@ struct SdpResult {
   SdpStatus status = SdpStatus::kCrashed;
   Eigen::VectorXd unknowns;  ///< empty unless the solver returned a point
   double objective = 0.0;
-  double violation = 0.0;  ///< of `unknowns`, as LmiProblem::violation()
+  double violation = 0.0;              ///< of `unknowns`, as LmiProblem::violation()
+  std::vector<Eigen::MatrixXd> duals;  ///< one per inequality; empty like `unknowns`
   int iterations = 0;
   std::string explanation;  ///< for a person, in words
 };
 
 SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options = {});
+
+/// How large the unknowns x of any solution would have to be: sum |x_i| >= the result, infinity at best, 0 when
+/// nothing is proved. Proof: matrices Y_b >= 0 with sum_b <Y_b, C_b> = -1 over the constants C_b of the
+/// inequalities C_b + sum_i x_i A_bi >= 0. If x satisfied them, then 0 <= -1 + sum_i x_i sum_b <Y_b, A_bi>. The
+/// Y_b come from the solver (the dual of: minimise t, inequalities + t I >= 0, which has a solution whatever
+/// `problem` is); the sums are formed here.
+double infeasibility_bound(const LmiProblem& problem, const SdpOptions& options = {});
 
 }  // namespace strainwave

@@ -42,6 +42,13 @@ SdpaPhase classify(SDPA& sdpa) {
 
 }  // namespace
 
+std::size_t sdpa_answer_size(const LmiProblem& problem) {
+  std::size_t size = kSdpaHeader + static_cast<std::size_t>(problem.unknown_count());
+  for (const AffineMatrix& inequality : problem.inequalities())
+    size += static_cast<std::size_t>(inequality.rows() * inequality.rows());
+  return size;
+}
+
 std::vector<double> call_sdpa(const LmiProblem& problem, double gap_tolerance) {
   SDPA sdpa;
   sdpa.setDisplay(nullptr);
@@ -73,6 +80,11 @@ std::vector<double> call_sdpa(const LmiProblem& problem, double gap_tolerance) {
                              gap};
   const double* unknowns = sdpa.getResultXVec();
   answer.insert(answer.end(), unknowns, unknowns + problem.unknown_count());
+  for (int b = 0; b < blocks; ++b) {
+    const Eigen::Index size = problem.inequalities()[static_cast<std::size_t>(b)].rows();
+    const double* dual_matrix = sdpa.getResultYMat(b + 1);
+    answer.insert(answer.end(), dual_matrix, dual_matrix + size * size);
+  }
   return answer;
 }
 

@@ -10,8 +10,9 @@ namespace strainwave {
 
 enum class SdpaPhase { kPoint = 0, kInfeasible = 1, kUnbounded = 2 };
 
-/// [phase, iterations, relative gap], then the unknowns.
+/// [phase, iterations, relative gap], then the unknowns, then the dual matrix of each inequality, row by row.
 inline constexpr std::size_t kSdpaHeader = 3;
+std::size_t sdpa_answer_size(const LmiProblem& problem);
 
 std::vector<double> call_sdpa(const LmiProblem& problem, double gap_tolerance);
 

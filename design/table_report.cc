@@ -1,6 +1,7 @@
 #include "design/table_report.h"
 
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -48,38 +49,34 @@ std::string gains_text(const FeedbackGains& gains, const char* role) {
 std::string margins_text(const FeedbackGains& gains, const CertificateReport& report) {
   std::string text =
       format("%s: %s", str(gains.controller).c_str(), report.certified ? "certified" : "NOT CERTIFIED");
-  if (report.rule_count == 0) return text + ": gains and friction rules do not fit each other\n";
-  const WorstPair& worst = report.worst;
+  if (report.plant_rules == 0) return text + ": gains and friction rules do not fit each other\n";
+  text += "; smallest margin " + describe(report.worst) + "\n";
   text +=
-      worst.from == worst.from_other
-          ? format("; smallest margin %.3g, from rule %d to rule %d\n", worst.margin, worst.from, worst.to)
-          : format("; smallest margin %.3g, from rules %d and %d blended to rule %d\n", worst.margin,
-                   worst.from, worst.from_other, worst.to);
-  text +=
-      "  margin (smallest eigenvalue after balancing, less all rounding errors); row: rule before, column: "
-      "rule after\n      ";
-  const auto count = static_cast<std::size_t>(report.rule_count);
-  for (std::size_t l = 0; l < count; ++l) text += format("%11zu", l);
+      "  margin (smallest eigenvalue after balancing, less all rounding errors; the worst over the next "
+      "rule)\n"
+      "  row: rule of the plant, column: rule of the controller; a wrong temperature is beside the diagonal\n"
+      "      ";
+  const auto rows = static_cast<std::size_t>(report.plant_rules);
+  const auto columns = static_cast<std::size_t>(report.gain_rules);
+  for (std::size_t j = 0; j < columns; ++j) text += format("%11zu", j);
   text += "\n";
-  for (std::size_t j = 0; j < count; ++j) {
-    text += format("  %3zu ", j);
-    for (std::size_t l = 0; l < count; ++l) {
-      const PositiveDefiniteResult& pair = report.pairs[j][l];
-      text += format("  %8.2e%c", pair.margin, pair.certain ? ' ' : '!');
+  for (std::size_t i = 0; i < rows; ++i) {
+    text += format("  %3zu ", i);
+    for (std::size_t j = 0; j < columns; ++j) {
+      const PositiveDefiniteResult& result = report.worst_next[i][j];
+      text += std::isfinite(result.margin) ? format("  %8.2e%c", result.margin, result.certain ? ' ' : '!')
+                                           : "      none!";
     }
     text += "\n";
   }
-  if (report.cross_pair_count > 0)
-    text += format("  and %d cross pairs of the blend\n", report.cross_pair_count);
-  return text;
+  return text + format("  %d inequalities, with those of blended rules\n", report.inequalities);
 }
 
 std::string description(const GainTable& table) {
   const PlantIdentity& plant = table.plant;
   std::string text = format("Gain table \"%s\" (format %d)\n", str(table.name).c_str(), table.format);
-  text += format("  for joint %s: inertia %g kg m^2 at the joint, ratio %g, period %g s, %s\n",
-                 str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s,
-                 plant.sampling == Sampling::kForwardEuler ? "forward Euler" : "zero-order hold");
+  text += format("  for joint %s: inertia %g kg m^2 at the joint, ratio %g, period %g s\n",
+                 str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s);
   text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
                  table.friction.temperature_min_C, table.friction.temperature_max_C);
   text += "\nfriction rules (joint side)\n";
@@ -90,8 +87,10 @@ std::string description(const GainTable& table) {
                    rule.friction.static_Nm, rule.friction.coulomb_Nm, rule.friction.viscous_Nms_rad);
   }
   text += "\n" + gains_text(table.primary, "primary") + "\n" + gains_text(table.fallback, "fallback");
-  text += format("\ncreated %s by %s\nfriction file sha256 %s\n", str(table.provenance.created_utc).c_str(),
-                 str(table.provenance.tool).c_str(), str(table.provenance.friction_sha256).c_str());
+  text += format("\ncreated %s by %s, %s\nfriction file sha256 %s\n",
+                 str(table.provenance.created_utc).c_str(), str(table.provenance.tool).c_str(),
+                 table.provenance.sampling == Sampling::kForwardEuler ? "forward Euler" : "zero-order hold",
+                 str(table.provenance.friction_sha256).c_str());
   if (!table.provenance.note.view().empty()) text += "note: " + str(table.provenance.note) + "\n";
   return text;
 }

@@ -8,7 +8,8 @@
 
 namespace strainwave {
 
-/// The margin of every pair of rules as a table, rows: rule before the step, columns: rule after it.
+/// The margins as a table, rows: rule of the plant, columns: rule of the controller, each the worst over the next
+/// rule.
 std::string margins_text(const FeedbackGains& gains, const CertificateReport& report);
 
 /// What the table is for, its rules, gains, and where it came from.

@@ -49,11 +49,11 @@ void visit_table(const Copy& copy, Table& table, Message& message) {
   copy(table.plant.inertia_kgm2, message.inertia_kgm2);
   copy(table.plant.gear_ratio, message.gear_ratio);
   copy(table.plant.period_s, message.period_s);
-  copy(table.plant.sampling, message.sampling);
   visit_friction(copy, table.friction, message);
   copy(table.torque_limit_Nm, message.torque_limit_Nm);
   visit_gains(copy, table.primary, message.primary);
   visit_gains(copy, table.fallback, message.fallback);
+  copy(table.provenance.sampling, message.sampling);
   copy(table.provenance.created_utc.bytes, message.created_utc);
   copy(table.provenance.tool.bytes, message.tool);
   copy(table.provenance.friction_sha256.bytes, message.friction_sha256);

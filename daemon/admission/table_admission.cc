@@ -21,8 +21,7 @@ TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const Pl
                          const FuzzyFriction& friction) {
   const CertificateReport report = certify(gains, plant, friction);
   std::ostringstream text;
-  text << which << " gains " << gains.controller.view() << ": worst pair of rules (" << report.worst.from
-       << ", " << report.worst.to << "), margin " << report.worst.margin;
+  text << which << " gains " << gains.controller.view() << ": margin " << describe(report.worst);
   if (report.certified) return {Reason::kAccepted, text.str()};
   text << ": stability is not proved for this joint; design the table for it with strainwave-design gains";
   return {Reason::kTableNotCertified, text.str()};
@@ -47,11 +46,9 @@ TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, 
          << ": the table may not ask for more";
     return {Reason::kTableDefect, text.str()};
   }
-  PlantIdentity plant = expected;
-  plant.sampling = table.plant.sampling;
-  const TableVerdict primary = judge_gains("primary", table.primary, plant, table.friction);
+  const TableVerdict primary = judge_gains("primary", table.primary, expected, table.friction);
   if (primary.reason != Reason::kAccepted) return primary;
-  const TableVerdict fallback = judge_gains("fallback", table.fallback, plant, table.friction);
+  const TableVerdict fallback = judge_gains("fallback", table.fallback, expected, table.friction);
   return fallback.reason != Reason::kAccepted ? fallback : primary;
 }
 

@@ -97,19 +97,20 @@ void ExtendedLoopController::reset() noexcept {
   started_ = false;
 }
 
-std::vector<GainTable> read_controller_tables(const std::filesystem::path& directory) {
-  std::vector<GainTable> tables;
+Chapter6Tables read_chapter6_tables(const std::filesystem::path& directory) {
+  Chapter6Tables tables;
   for (const char* file : {"c1.json", "c2.json", "c3.json", "c4.json"})
-    tables.push_back(read_gain_table(directory / file));
+    tables.source.push_back(read_gain_table(directory / file));
+  tables.shipped = read_gain_table(directory / "rhs17-6006.json");
   return tables;
 }
 
-std::vector<Contender> chapter6_contenders(const std::vector<GainTable>& tables) {
+std::vector<Contender> chapter6_contenders(const Chapter6Tables& tables) {
   std::vector<Contender> contenders;
-  for (std::size_t i = 0; i < tables.size(); ++i)
-    contenders.push_back(plain_contender("C" + std::to_string(i + 1), tables[i]));
+  for (std::size_t i = 0; i < tables.source.size(); ++i)
+    contenders.push_back(plain_contender("C" + std::to_string(i + 1), tables.source[i]));
   contenders.push_back(pid_contender());
-  contenders.push_back(extended_contender("C4+", tables.back()));
+  contenders.push_back(extended_contender("C4+", tables.shipped));
   return contenders;
 }
 

@@ -52,10 +52,15 @@ class ExtendedLoopController final : public LoopController {
   bool started_ = false;
 };
 
-/// c1.json .. c4.json of `directory`, in that order. Throws InputError.
-std::vector<GainTable> read_controller_tables(const std::filesystem::path& directory);
+struct Chapter6Tables {
+  std::vector<GainTable> source;  ///< C1..C4, designed as the source does: by forward Euler, from his rules
+  GainTable shipped;              ///< what a daemon runs: certified as sampled and held, from the catalogue
+};
 
-/// PID, C1..C4 and "C4+" (the extended C4) from read_controller_tables()' result.
-std::vector<Contender> chapter6_contenders(const std::vector<GainTable>& tables);
+/// c1.json .. c4.json and rhs17-6006.json of `directory`. Throws InputError.
+Chapter6Tables read_chapter6_tables(const std::filesystem::path& directory);
+
+/// PID and C1..C4 of the source, and "C4+": the shipped table in the daemon's controller.
+std::vector<Contender> chapter6_contenders(const Chapter6Tables& tables);
 
 }  // namespace strainwave

@@ -117,5 +117,45 @@ TEST(GainTable, IdentityComparesModelInertiaRatioAndPeriod) {
   EXPECT_NE(find_identity_mismatch(table, other)->find("another"), std::string::npos);
 }
 
+std::string defect_of(const std::function<void(GainTable&)>& change) {
+  GainTable table = reference_table();
+  change(table);
+  return find_defect(table).value_or("");
+}
+
+TEST(GainTable, FrictionIsFrictionAndBelowTheTorqueLimit) {
+  const auto friction = [](double factor) {
+    return defect_of([factor](GainTable& table) {
+      for (TemperatureRule& rule : table.friction.rules) {
+        rule.friction.static_Nm *= factor;
+        rule.friction.coulomb_Nm *= factor;
+        rule.friction.viscous_Nms_rad *= factor;
+      }
+    });
+  };
+  EXPECT_EQ(friction(1.0), "");
+  for (const double factor : {1000.0, 8.0, -1.0})
+    EXPECT_NE(friction(factor).find("friction.rules[0].static_Nm"), std::string::npos) << friction(factor);
+  const std::string below_coulomb =
+      defect_of([](GainTable& t) { t.friction.rules[3].friction.static_Nm = 1.0; });
+  EXPECT_NE(below_coulomb.find("friction.rules[3].coulomb_Nm"), std::string::npos) << below_coulomb;
+  const std::string pushing =
+      defect_of([](GainTable& t) { t.friction.rules[1].friction.viscous_Nms_rad = -0.1; });
+  EXPECT_NE(pushing.find("friction.rules[1].viscous_Nms_rad"), std::string::npos) << pushing;
+}
+
+TEST(GainTable, MembershipsOfSpeedHaveAWidth) {
+  for (const double width : {1e-320, 1e-9, 0.0, -1.0}) {
+    EXPECT_NE(defect_of([width](GainTable& t) {
+                t.friction.velocity.zero_width_rad_s = width;
+              }).find("zero_width_rad_s"),
+              std::string::npos);
+    EXPECT_NE(defect_of([width](GainTable& t) {
+                t.friction.velocity.high_width_rad_s = width;
+              }).find("high_width_rad_s"),
+              std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace strainwave

@@ -7,12 +7,11 @@
 namespace strainwave {
 namespace {
 
-PlantIdentity joint(Sampling sampling) {
+PlantIdentity joint() {
   PlantIdentity plant;
   plant.inertia_kgm2 = 0.089;
   plant.gear_ratio = 50.0;
   plant.period_s = 1e-3;
-  plant.sampling = sampling;
   return plant;
 }
 
@@ -34,7 +33,7 @@ StateVector integrate(StateVector state, double torque_Nm, const PlantIdentity& 
 }
 
 TEST(TsPlant, ZeroOrderHoldIsTheSolutionOfTheDifferentialEquation) {
-  const PlantIdentity plant = joint(Sampling::kZeroOrderHold);
+  const PlantIdentity plant = joint();
   for (const double viscous : {0.0, 1e-9, 0.27, 2.33, 80.0, 500.0}) {
     const SampledDynamics dynamics = sampled_dynamics(plant, viscous, false);
     const StateVector start(0.0, 0.2, 3.0);
@@ -45,34 +44,13 @@ TEST(TsPlant, ZeroOrderHoldIsTheSolutionOfTheDifferentialEquation) {
   }
 }
 
-TEST(TsPlant, ForwardEulerIsOneStepOfTheSlope) {
-  const PlantIdentity plant = joint(Sampling::kForwardEuler);
-  const SampledDynamics dynamics = sampled_dynamics(plant, 2.0, true);
-  StateMatrix A;
-  A << 1.0, 1e-3, 0.0, 0.0, 1.0, 1e-3, 0.0, 0.0, 1.0 - 1e-3 * 2.0 / 0.089;
-  EXPECT_TRUE(dynamics.A.isApprox(A, 1e-15));
-  EXPECT_TRUE(dynamics.B.isApprox(StateVector(0.0, 0.0, 1e-3 / 0.089), 1e-15));
-}
-
-TEST(TsPlant, BothSamplingsAgreeToFirstOrderInThePeriod) {
-  PlantIdentity euler = joint(Sampling::kForwardEuler);
-  PlantIdentity exact = joint(Sampling::kZeroOrderHold);
-  euler.period_s = exact.period_s = 1e-6;
-  const SampledDynamics a = sampled_dynamics(euler, 2.0, true);
-  const SampledDynamics b = sampled_dynamics(exact, 2.0, true);
-  EXPECT_LT((a.A - b.A).norm(), 1e-9);
-  EXPECT_LT((a.B - b.B).norm(), 1e-9);
-}
-
 TEST(TsPlant, WithoutAnIntegratorItsRowAndColumnAreZero) {
-  for (const Sampling sampling : {Sampling::kForwardEuler, Sampling::kZeroOrderHold}) {
-    const SampledDynamics dynamics = sampled_dynamics(joint(sampling), 1.0, false);
-    EXPECT_TRUE(dynamics.A.row(0).isZero(0.0) && dynamics.A.col(0).isZero(0.0) && dynamics.B(0) == 0.0);
-  }
+  const SampledDynamics dynamics = sampled_dynamics(joint(), 1.0, false);
+  EXPECT_TRUE(dynamics.A.row(0).isZero(0.0) && dynamics.A.col(0).isZero(0.0) && dynamics.B(0) == 0.0);
 }
 
 TEST(TsPlant, SeriesAndClosedFormMeetWhereTheyChange) {
-  const PlantIdentity plant = joint(Sampling::kZeroOrderHold);
+  const PlantIdentity plant = joint();
   const double border = plant.inertia_kgm2 / plant.period_s;  // ts Fv / J = 1
   const double below = sampled_dynamics(plant, border * (1.0 - 1e-12), false).B(1);
   const double above = sampled_dynamics(plant, border * (1.0 + 1e-12), false).B(1);
@@ -80,7 +58,7 @@ TEST(TsPlant, SeriesAndClosedFormMeetWhereTheyChange) {
 }
 
 TEST(TsPlant, ErrorBoundsCoverLongDouble) {
-  const PlantIdentity plant = joint(Sampling::kZeroOrderHold);
+  const PlantIdentity plant = joint();
   for (const double viscous : {0.1, 2.3, 50.0, 89.0, 120.0, 400.0}) {
     const BoundedDynamics dynamics = bounded_dynamics(plant, viscous, true);
     const long double ts = plant.period_s, J = plant.inertia_kgm2, a = viscous / J;

@@ -57,6 +57,15 @@ TEST_F(DesignProgram, VerifyEndsWith1ForATamperedTable) {
   EXPECT_NE(output_.find("NOT CERTIFIED"), std::string::npos);
 }
 
+TEST_F(DesignProgram, ATableByForwardEulerIsForTheSourceOnly) {
+  ASSERT_EQ(
+      run("gains --sampling euler --friction " + kData + "fuzzy_rules_table5.csv --out " + file("t.json")), 0)
+      << output_;
+  EXPECT_NE(output_.find("reproducing the source only"), std::string::npos) << output_;
+  EXPECT_EQ(output_.find("certified"), std::string::npos) << output_;
+  EXPECT_EQ(run("verify " + file("t.json")), 1);
+}
+
 TEST_F(DesignProgram, AnInfeasibleRequestLeavesAMessageAndNoFile) {
   EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --max-torque_Nm 0.001 --out " +
                 file("table.json")),

@@ -26,13 +26,23 @@ TEST(SdpSolver, FindsAKnownOptimum) {
   EXPECT_LE(result.violation, 1e-7);
 }
 
-TEST(SdpSolver, SaysThatAProblemIsInfeasible) {
+TEST(SdpSolver, ProvesNothingOfAProblemThatHasASolution) {
+  LmiProblem lmi;
+  const AffineMatrix x = lmi.scalar(), y = lmi.scalar();
+  lmi.require_positive(x + constant(-50.0));  // x >= 50
+  lmi.require_positive(symmetric_blocks({{x}, {constant(1.0), y}}));
+  lmi.minimise(y);
+  EXPECT_LE(infeasibility_bound(lmi), 51.0);
+}
+
+TEST(SdpSolver, ProvesThatAProblemIsInfeasible) {
   LmiProblem lmi;
   const AffineMatrix x = lmi.scalar();
   lmi.require_positive(x + constant(-2.0));        // x >= 2
   lmi.require_positive(-1.0 * x + constant(1.0));  // x <= 1
   lmi.minimise(x);
-  EXPECT_EQ(solve_sdp(lmi).status, SdpStatus::kInfeasible);
+  EXPECT_NE(solve_sdp(lmi).status, SdpStatus::kSolved);
+  EXPECT_GT(infeasibility_bound(lmi), 1e6);
 }
 
 TEST(SdpSolver, SaysThatAProblemIsUnbounded) {

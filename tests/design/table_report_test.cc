@@ -8,7 +8,7 @@ namespace strainwave {
 namespace {
 
 GainTable reference_table() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
+  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
 }
 
 TEST(TableReport, MarksThePairThatFails) {

@@ -37,7 +37,7 @@ class Logs : public DaemonTest {
     daemon_.emplace(folder_, text);
     client_.emplace();
     ASSERT_TRUE(client_->wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
-    ASSERT_EQ(ctl("load-table elbow " STRAINWAVE_SOURCE_DIR "/data/tables/c4.json"), 0) << output_;
+    ASSERT_EQ(ctl("load-table elbow " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"), 0) << output_;
     ASSERT_EQ(ctl("enable elbow"), 0) << output_;
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }

@@ -52,6 +52,23 @@ TEST_F(TableAdmission, RefusesEverySingleGainWhoseSignIsTurned) {
   EXPECT_EQ(judge(), Reason::kTableNotCertified);
 }
 
+TEST_F(TableAdmission, RefusesTheSourcesTablesWhateverTheySayOfTheirSampling) {
+  table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
+  EXPECT_EQ(judge(), Reason::kTableNotCertified);
+  table_.provenance.sampling = Sampling::kZeroOrderHold;
+  EXPECT_EQ(judge(), Reason::kTableNotCertified);
+}
+
+TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
+  for (TemperatureRule& rule : table_.friction.rules) {
+    rule.friction.static_Nm *= 1000.0;
+    rule.friction.coulomb_Nm *= 1000.0;
+  }
+  const TableVerdict verdict = judge_table(table_, joint_, torque_limit_Nm_);
+  EXPECT_EQ(verdict.reason, Reason::kTableDefect);
+  EXPECT_NE(verdict.text.find("static_Nm"), std::string::npos) << verdict.text;
+}
+
 TEST_F(TableAdmission, TheDigestNamesTheContent) {
   const std::int64_t digest = table_digest(table_);
   EXPECT_NE(digest, 0);

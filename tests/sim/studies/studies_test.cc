@@ -19,7 +19,7 @@ namespace {
 const std::filesystem::path kData = std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data";
 
 const Chapter6& chapter6() {
-  static const Chapter6 chapter = run_chapter6(chapter6_contenders(read_controller_tables(kData / "tables")));
+  static const Chapter6 chapter = run_chapter6(chapter6_contenders(read_chapter6_tables(kData / "tables")));
   return chapter;
 }
 
