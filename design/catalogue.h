@@ -20,6 +20,7 @@ struct FrictionPoint {
 struct FrictionData {
   std::vector<FrictionPoint> points;     ///< temperatures ascending
   std::vector<double> motor_speeds_rpm;  ///< at which the catalogue states torques
+  bool has_starting_torque = false;      ///< or static friction; false: it was given beside the file
   std::string sha256;                    ///< of the catalogue file
 };
 
@@ -32,8 +33,8 @@ struct FrictionData {
 /// - parameters: temperature_C, viscous_Ncm_per_rpm, coulomb_Ncm, static_Ncm, used as they are, with the
 /// speeds of the
 ///   catalogue of the source (500, 1000, 2000, 3500 RPM).
-/// Throws InputError: fewer than three temperatures, not ascending, unknown columns, torque that is not
-/// positive.
+/// Throws InputError: fewer than three temperatures, not ascending, unknown columns, two of one speed, torque that
+/// is not positive, friction that is none (Coulomb below 0, static below Coulomb), numbers no gear can have.
 FrictionData read_catalogue(const std::filesystem::path& path, double starting_torque_Ncm);
 
 }  // namespace strainwave

@@ -1,4 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -134,6 +137,27 @@ void report(const char* model, const FitRecord& fit) {
       model, fit.cost_source, fit.cost_torque, fit.generations, static_cast<long long>(fit.evaluations));
 }
 
+// A sound catalogue's worst residual is 7 times the median one; a cell that is ten times too large makes it 18 and more.
+constexpr double kOutlierRatio = 12.0;
+
+void report_outliers(const char* model, const FitRecord& fit) {
+  const std::array<const char*, 4> names{"", "static friction", "Coulomb friction", "viscous friction"};
+  for (std::size_t parameter = 1; parameter < names.size(); ++parameter) {
+    std::vector<double> sizes;
+    for (const auto& row : fit.residuals) sizes.push_back(std::abs(row[parameter]));
+    const auto worst = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
+    const double largest = sizes[worst];
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::ranges::nth_element(sizes, middle);
+    if (!(largest > kOutlierRatio * *middle)) continue;
+    std::printf(
+        "  %-12s WARNING: the %s at %g degC is %.3g from the fit, %.0f times the median residual: an "
+        "outlier? "
+        "It spoils the whole fit.\n",
+        model, names[parameter], fit.residuals[worst][0], largest, largest / *middle);
+  }
+}
+
 int fit(const Options& options) {
   const Job job = make_job(options);
   FrictionFile file;
@@ -145,8 +169,14 @@ int fit(const Options& options) {
   write_text_file(options.out, to_json(file));
   std::printf("%s: %s, minimising the %s cost%s\n", options.out.c_str(), options.method.c_str(),
               options.weighting.c_str(), options.unconstrained ? ", unconstrained" : "");
+  if (!job.data.has_starting_torque)
+    std::printf(
+        "  no column starting_torque_Ncm: %g N.cm is taken at every temperature (--starting-torque_Ncm)\n",
+        options.starting_torque_Ncm);
   if (file.exponential) report("exponential", file.exponential->fit);
   if (file.fuzzy) report("fuzzy", file.fuzzy->fit);
+  if (file.exponential) report_outliers("exponential", file.exponential->fit);
+  if (file.fuzzy) report_outliers("fuzzy", file.fuzzy->fit);
   return 0;
 }
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "base/input_error.h"
 #include "base/csv.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 namespace {
@@ -67,6 +67,27 @@ TEST_F(CatalogueFile, RefusesWhatIsNotACatalogue) {
   EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm,speed\n0,1,2\n").find("speed"), std::string::npos);
   EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm\n0,1\n5,1\n10,1\n").find("two or more speeds"),
             std::string::npos);
+}
+
+TEST_F(CatalogueFile, RefusesWhatIsNoFriction) {
+  const std::string torque = "temperature_C,torque_500rpm_Ncm,torque_1000rpm_Ncm,starting_torque_Ncm\n";
+  EXPECT_EQ(message_of(torque + "0,1,2,1\n5,1,2,1\n10,1,2,1\n"), "");
+  for (const char* const bad : {"5,1,2,1e308", "5,1,2,-0.5", "5,1,5,1", "5,1e300,2,1"})
+    EXPECT_NE(message_of(torque + "0,1,2,1\n" + bad + "\n10,1,2,1\n").find(".csv:3:"), std::string::npos)
+        << bad;
+  EXPECT_NE(message_of(torque + "-300,1,2,1\n5,1,2,1\n10,1,2,1\n").find("-273.15"), std::string::npos);
+  EXPECT_NE(message_of("temperature_C,torque_500rpm_Ncm,torque_500.0rpm_Ncm\n0,1,2\n5,1,2\n10,1,2\n")
+                .find("torque_500.0rpm_Ncm"),
+            std::string::npos);
+  const std::string parameters = "temperature_C,viscous_Ncm_per_rpm,coulomb_Ncm,static_Ncm\n";
+  EXPECT_EQ(message_of(parameters + "0,0.1,2,3\n5,0.1,2,3\n10,0.1,2,3\n"), "");
+  EXPECT_NE(message_of(parameters + "0,0.1,2,3\n5,0.1,2,1.9\n10,0.1,2,3\n").find("static friction"),
+            std::string::npos);
+}
+
+TEST_F(CatalogueFile, AByteOrderMarkIsNoPartOfTheFirstColumn) {
+  EXPECT_EQ(message_of("\xEF\xBB\xBFtemperature_C,torque_1rpm_Ncm,torque_2rpm_Ncm\n0,1,2\n5,1,2\n10,1,2\n"),
+            "");
 }
 
 TEST_F(CatalogueFile, AColumnOfStartingTorqueCountsBeforeTheOption) {

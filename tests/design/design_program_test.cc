@@ -48,6 +48,19 @@ TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {
   EXPECT_TRUE(made.fallback.gain(0).isApprox(shipped.fallback.gain(0), 1e-6));
 }
 
+TEST_F(DesignProgram, FitWarnsOfACellThatIsTenTimesTooLargeAndOfNoneInTheCatalogue) {
+  std::string text = read_text_file(kData + "no_load_torque.csv");
+  const std::string fit = " --model exponential --method least-squares --out " + file("friction.json");
+  ASSERT_EQ(run("fit " + kData + "no_load_torque.csv" + fit), 0) << output_;
+  EXPECT_EQ(output_.find("WARNING"), std::string::npos) << output_;
+  const std::string row = "10,3.8,5.7,8.9,12.4";
+  const auto at = text.find(row);
+  ASSERT_NE(at, std::string::npos);
+  write_text_file(file("bad.csv"), text.replace(at, row.size(), "10,3.8,57.0,8.9,12.4"));
+  ASSERT_EQ(run("fit " + file("bad.csv") + fit), 0) << output_;
+  EXPECT_NE(output_.find("at 10 degC"), std::string::npos) << output_;
+}
+
 TEST_F(DesignProgram, VerifyEndsWith1ForATamperedTable) {
   std::string text = read_text_file(kData + "tables/c4.json");
   GainTable table = gain_table_from_json(text, "test");
