@@ -17,7 +17,7 @@ void physics_substep(benchmark::State& bench) {
   const JointParameters joint = reference_joint();
   JointInput input;
   input.friction = joint.friction.at(-10.0);
-  input.motor = torque_envelope(reference_motor());
+  input.motor = MotorLimits::from_motor(reference_motor());
   JointState state;
   const double speed_rad_s = static_cast<double>(bench.range(0)) * 1e-3;
   input.torque_Nm = 10.0;

@@ -1,7 +1,6 @@
 #include "control/motor_limits.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace strainwave {
 
@@ -10,15 +9,6 @@ namespace {
 // what the torque limit gives without friction and load.
 constexpr double kLeastShare = 0.02;
 }  // namespace
-
-double MotorLimits::available_Nm(double velocity_rad_s) const noexcept {
-  return std::max(0.0, std::min(peak_torque_Nm, stall_torque_Nm - torque_per_speed_Nms_rad * velocity_rad_s));
-}
-
-double MotorLimits::limit_Nm(double torque_Nm, double velocity_rad_s) const noexcept {
-  const double along = torque_Nm < 0.0 ? -velocity_rad_s : velocity_rad_s;
-  return std::copysign(std::min(std::abs(torque_Nm), available_Nm(along)), torque_Nm);
-}
 
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
                               const JointDisturbance& disturbance, double torque_limit_Nm, double reserve,

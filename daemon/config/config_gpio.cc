@@ -1,5 +1,6 @@
 #include "daemon/config/config_gpio.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -64,27 +65,21 @@ PwmConfig read_pwm(TomlSection section) {
   return pwm;
 }
 
-/// Of the motor's own shaft.
-struct Motor {
-  double torque_constant_Nm_A = 0.0;
-  double efficiency = 1.0;
-  double peak_current_A = 0.0;
-  double resistance_ohm = 0.0;  ///< 0: not told
-  double back_emf_Vs_rad = 0.0;
-};
-
-Motor read_motor(TomlSection section) {
-  Motor motor;
-  motor.torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
-  motor.efficiency = section.number_or("efficiency", motor.efficiency, {0.01, 1.0});
-  motor.peak_current_A = section.number("peak_current_A", kPositive);
+// The keys are of the motor's own shaft; what comes out is at the joint.
+MotorData read_motor(TomlSection section, double gear_ratio) {
+  const double torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
+  MotorData motor;
+  motor.torque_constant_Nm_A =
+      torque_constant_Nm_A * gear_ratio * section.number_or("efficiency", 1.0, {0.01, 1.0});
+  motor.peak_torque_Nm = section.number("peak_current_A", kPositive) * motor.torque_constant_Nm_A;
   if (section.has("resistance_ohm")) motor.resistance_ohm = section.number("resistance_ohm", kPositive);
-  motor.back_emf_Vs_rad = section.number_or("back_emf_Vs_rad", motor.torque_constant_Nm_A, {0.0, 1e6});
+  motor.back_emf_Vs_rad = section.number_or("back_emf_Vs_rad", torque_constant_Nm_A, {0.0, 1e6}) * gear_ratio;
   section.refuse_unknown_keys();
   return motor;
 }
 
-void read_amplifier(TomlSection section, const Motor& motor, double gear_ratio, GpioJointConfig& gpio) {
+// What `motor` can do with this amplifier.
+MotorLimits read_amplifier(TomlSection section, MotorData motor, GpioJointConfig& gpio) {
   TorqueOutputConfig& torque = gpio.torque;
   const bool voltage = section.choice("kind", {"current", "voltage"}) == "voltage";
   torque.amplifier = voltage ? AmplifierKind::kVoltage : AmplifierKind::kCurrent;
@@ -96,13 +91,14 @@ void read_amplifier(TomlSection section, const Motor& motor, double gear_ratio, 
     section.fail("bridge",
                  "\"sign_magnitude\" with a joint.gpio.direction line, or \"locked_antiphase\" without one, "
                  "is allowed");
-  torque.torque_constant_Nm_A = motor.torque_constant_Nm_A * gear_ratio * motor.efficiency;
-  torque.back_emf_Vs_rad = motor.back_emf_Vs_rad * gear_ratio;
-  torque.resistance_ohm = motor.resistance_ohm;
   if (voltage && motor.resistance_ohm <= 0.0)
     section.fail("kind", "\"voltage\" needs joint.gpio.motor.resistance_ohm");
-  if (!voltage) torque.full_scale_A = section.number("full_scale_A", kPositive);
-  if (voltage || section.has("supply_V")) torque.supply_V = section.number("supply_V", kPositive);
+  if (!voltage) {
+    torque.full_scale_Nm = section.number("full_scale_A", kPositive) * motor.torque_constant_Nm_A;
+    motor.peak_torque_Nm = std::min(motor.peak_torque_Nm, torque.full_scale_Nm);
+  }
+  if (voltage || section.has("supply_V")) motor.supply_V = section.number("supply_V", kPositive);
+  torque.motor = MotorLimits::from_motor(motor);
   torque.duty_min = section.number_or("duty_min", torque.duty_min, {0.0, 0.99});
   torque.duty_max = section.number_or("duty_max", torque.duty_max, {torque.duty_min + 0.01, 1.0});
   torque.slew_Nm_s = section.number_or("slew_Nm_s", torque.slew_Nm_s, {0.0, 1e9});
@@ -110,6 +106,7 @@ void read_amplifier(TomlSection section, const Motor& motor, double gear_ratio, 
   torque.reversed = section.boolean_or("reversed", torque.reversed);
   gpio.sequence.enable_delay_s = section.number_or("enable_delay_s", 0.0, kDelay_s);
   section.refuse_unknown_keys();
+  return torque.motor;
 }
 
 void read_brake(TomlSection section, GpioJointConfig& gpio) {
@@ -166,20 +163,6 @@ double read_encoder(TomlSection section, double period_s, const JointConfig& joi
   return counts_per_rad;
 }
 
-MotorLimits motor_limits(const Motor& motor, const TorqueOutputConfig& torque) {
-  MotorLimits limits;
-  const double peak_A =
-      torque.full_scale_A > 0.0 ? std::min(motor.peak_current_A, torque.full_scale_A) : motor.peak_current_A;
-  limits.peak_torque_Nm = peak_A * torque.torque_constant_Nm_A;
-  limits.stall_torque_Nm = std::numeric_limits<double>::infinity();
-  if (torque.supply_V > 0.0 && motor.resistance_ohm > 0.0) {
-    limits.stall_torque_Nm = torque.torque_constant_Nm_A * torque.supply_V / motor.resistance_ohm;
-    limits.torque_per_speed_Nms_rad =
-        torque.torque_constant_Nm_A * torque.back_emf_Vs_rad / motor.resistance_ohm;
-  }
-  return limits;
-}
-
 }  // namespace
 
 HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s,
@@ -189,15 +172,15 @@ HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, do
   gpio.where = where;
   gpio.lines = read_lines(section);
   gpio.pwm = read_pwm(section.section("pwm"));
-  const Motor motor = read_motor(section.section("motor"));
+  const MotorData motor = read_motor(section.section("motor"), joint.plant.gear_ratio);
   gpio.torque.period_s = period_s;
-  read_amplifier(section.section("amplifier"), motor, joint.plant.gear_ratio, gpio);
+  const MotorLimits limits = read_amplifier(section.section("amplifier"), motor, gpio);
   read_brake(section.section_or_empty("brake"), gpio);
   const double counts_per_rad = read_encoder(section.section("encoder"), period_s, joint, gpio);
 
   JointControllerConfig& controller = joint.loop.controller;
   controller.encoder_resolution_rad = 1.0 / counts_per_rad;
-  controller.motor = motor_limits(motor, gpio.torque);
+  controller.motor = limits;
   if (controller.torque_limit_Nm > controller.motor.peak_torque_Nm * (1.0 + 1e-9)) {
     std::ostringstream most;
     most << controller.motor.peak_torque_Nm;

@@ -98,8 +98,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   JointControllerConfig& controller = joint.loop.controller;
   controller.encoder_resolution_rad = config.plant.encoder.resolution_rad();
   controller.delay_samples = config.plant.delay_samples;
-  controller.motor = {config.plant.motor.peak_Nm, config.plant.motor.stall_Nm,
-                      config.plant.motor.slope_Nms_rad};
+  controller.motor = config.plant.motor;
   const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
   joint.takes_injected_faults = true;
   joint.make_actuator = [config, faults] {

@@ -12,21 +12,19 @@ TorqueOutput::TorqueOutput(const TorqueOutputConfig& config) noexcept
           std::max<std::int64_t>(1, std::llround(std::ceil(config.dead_time_s / config.period_s - 1e-9)))) {}
 
 double TorqueOutput::share_of(double torque_Nm, double joint_velocity_rad_s) const noexcept {
-  const double current_A = torque_Nm / config_.torque_constant_Nm_A;
+  const MotorLimits& motor = config_.motor;
   const double share =
       config_.amplifier == AmplifierKind::kCurrent
-          ? current_A / config_.full_scale_A
-          : (config_.resistance_ohm * current_A + config_.back_emf_Vs_rad * joint_velocity_rad_s) /
-                config_.supply_V;
+          ? torque_Nm / config_.full_scale_Nm
+          : (torque_Nm + motor.torque_per_speed_Nms_rad * joint_velocity_rad_s) / motor.stall_torque_Nm;
   return std::clamp(share, -1.0, 1.0);
 }
 
 double TorqueOutput::torque_of(double share, double joint_velocity_rad_s) const noexcept {
-  const double current_A = config_.amplifier == AmplifierKind::kCurrent
-                               ? share * config_.full_scale_A
-                               : (share * config_.supply_V - config_.back_emf_Vs_rad * joint_velocity_rad_s) /
-                                     config_.resistance_ohm;
-  return current_A * config_.torque_constant_Nm_A;
+  const MotorLimits& motor = config_.motor;
+  return config_.amplifier == AmplifierKind::kCurrent
+             ? share * config_.full_scale_Nm
+             : share * motor.stall_torque_Nm - motor.torque_per_speed_Nms_rad * joint_velocity_rad_s;
 }
 
 double TorqueOutput::limit_slew(double torque_Nm) noexcept {

@@ -1,16 +1,18 @@
 // From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
-// real-time safe. Joint side. Source of the motor's equations: data/rhs17_datasheet.csv and sim/joint/motor.h.
+// real-time safe. Joint side. Source of the motor's line: control/motor_limits.h.
 //
-//   current:  the amplifier makes a current from the duty;
-//               T = Kt I,  I = full scale * share
-//   voltage:  the bridge makes a voltage; inductance neglected;
-//               T = Kt (u - Ke w) / R,  u = supply * share
-// Kt at the joint = motor's Kt * gear ratio * efficiency. `share` runs from -1 to 1 and becomes a duty:
+// The amplifier makes a current from the duty:
+//   T = full scale * share
+// The bridge makes a voltage, inductance neglected:
+//   T = stall * share - slope * w
+// `share` runs from -1 to 1 and becomes a duty:
 //   sign-magnitude:      duty = min + |share| (max - min), a line tells the direction, idle is min
 //   locked anti-phase:   duty = middle + share (max - min) / 2, idle is the middle
 #pragma once
 
 #include <cstdint>
+
+#include "control/motor_limits.h"
 
 namespace strainwave {
 
@@ -20,12 +22,9 @@ enum class BridgeKind { kSignMagnitude, kLockedAntiphase };
 struct TorqueOutputConfig {
   AmplifierKind amplifier = AmplifierKind::kCurrent;
   BridgeKind bridge = BridgeKind::kSignMagnitude;
-  double torque_constant_Nm_A = 0.0;  ///< joint side, efficiency included, > 0
-  double full_scale_A = 0.0;          ///< kCurrent: at the largest duty, > 0
-  double supply_V = 0.0;              ///< kVoltage, > 0
-  double resistance_ohm = 0.0;        ///< kVoltage, > 0
-  double back_emf_Vs_rad = 0.0;       ///< kVoltage, joint side, >= 0
-  double duty_min = 0.0;              ///< 0 <= duty_min < duty_max <= 1
+  double full_scale_Nm = 0.0;  ///< kCurrent: at the largest duty, > 0
+  MotorLimits motor;           ///< kVoltage: its stall torque, finite, and its slope
+  double duty_min = 0.0;       ///< 0 <= duty_min < duty_max <= 1
   double duty_max = 1.0;
   double slew_Nm_s = 0.0;    ///< fastest change of torque; 0: at once
   double dead_time_s = 0.0;  ///< without torque before the direction line changes

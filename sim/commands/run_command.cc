@@ -60,7 +60,7 @@ void run(const Options& options) {
   const Contender contender = contender_of_kind(options.controller, table);
   const ClosedLoopResult result = run_closed_loop(config, *contender.make(config.plant));
   TextTable statistics = statistics_table(contender.name, result.statistics);
-  if (std::isfinite(config.plant.motor.peak_Nm)) {
+  if (std::isfinite(config.plant.motor.peak_torque_Nm)) {
     const double limit = run_time_optimal(config).statistics.pi2;
     statistics.rows.push_back({"PI2 of the physical limit", number(limit, 6)});
     statistics.rows.push_back({"PI2 over the limit", number(result.statistics.pi2 / limit, 6)});

@@ -26,9 +26,9 @@ JointPlantConfig checked(const JointPlantConfig& c) {
   require(c.joint.stribeck.exponent >= 0.5 && std::isfinite(c.joint.stribeck.exponent), "stribeck_exponent",
           c.joint.stribeck.exponent, "must be finite and >= 0.5");
   require(positive(c.joint.friction.decay_C), "decay_C", c.joint.friction.decay_C, "must be finite and > 0");
-  require(c.motor.peak_Nm >= 0.0, "peak_torque_Nm", c.motor.peak_Nm, "must be >= 0");
-  require(c.motor.stall_Nm >= 0.0, "stall_torque_Nm", c.motor.stall_Nm, "must be >= 0");
-  require(finite_and_not_negative(c.motor.slope_Nms_rad), "torque_slope_Nms_rad", c.motor.slope_Nms_rad,
+  require(c.motor.peak_torque_Nm >= 0.0, "peak_torque_Nm", c.motor.peak_torque_Nm, "must be >= 0");
+  require(c.motor.stall_torque_Nm >= 0.0, "stall_torque_Nm", c.motor.stall_torque_Nm, "must be >= 0");
+  require(finite_and_not_negative(c.motor.torque_per_speed_Nms_rad), "torque_per_speed_Nms_rad", c.motor.torque_per_speed_Nms_rad,
           "must be finite and >= 0");
   require(finite_and_not_negative(c.encoder.counts_per_joint_revolution),
           "encoder_counts_per_joint_revolution", c.encoder.counts_per_joint_revolution,

@@ -15,7 +15,7 @@ inline constexpr int kMaxDelaySamples = 16;
 
 struct JointPlantConfig {
   JointParameters joint;
-  TorqueEnvelope motor;             ///< default: no limit
+  MotorLimits motor;                ///< default: no limit
   Encoder encoder;                  ///< default: ideal
   ThermalParameters thermal;        ///< default: no heating, no lag
   double winding_loss_W_Nm2 = 0.0;  ///< R / Kt^2: heat of holding a torque

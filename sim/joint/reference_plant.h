@@ -31,8 +31,8 @@ constexpr JointParameters reference_joint() {
 }
 
 /// Torque constant, supply and back-EMF of the datasheet.
-constexpr MotorParameters reference_motor() {
-  return {kReferencePeakTorque_Nm, 75.0, 4.8, 9.6, 1.0};
+constexpr MotorData reference_motor() {
+  return {kReferencePeakTorque_Nm, 9.6, 1.0 / kRadPerSecondPerRpm, 4.8, 75.0};
 }
 
 /// Thermal resistance and time constant of the datasheet; the sensor follows at once.
@@ -40,31 +40,25 @@ constexpr ThermalParameters reference_thermal() {
   return {1.2, 960.0, 0.0};
 }
 
-/// R / Kt^2 of the datasheet.
-constexpr double reference_winding_loss_W_Nm2() {
-  const MotorParameters motor = reference_motor();
-  return motor.resistance_ohm / (motor.torque_constant_Nm_A * motor.torque_constant_Nm_A);
-}
-
 /// The source's setting: exact state, no torque limit, no delay.
 inline JointPlantConfig ideal_plant() {
   JointPlantConfig config;
   config.joint = reference_joint();
-  config.winding_loss_W_Nm2 = reference_winding_loss_W_Nm2();
+  config.winding_loss_W_Nm2 = reference_motor().winding_loss_W_Nm2();
   return config;
 }
 
 /// Exact state, but no more torque than the actuator's peak.
 inline JointPlantConfig torque_limited_plant() {
   JointPlantConfig config = ideal_plant();
-  config.motor = peak_torque_only(kReferencePeakTorque_Nm);
+  config.motor.peak_torque_Nm = kReferencePeakTorque_Nm;
   return config;
 }
 
 /// The datasheet's: encoder only, one period of computation, peak torque, supply and back-EMF.
 inline JointPlantConfig realistic_plant() {
   JointPlantConfig config = ideal_plant();
-  config.motor = torque_envelope(reference_motor());
+  config.motor = MotorLimits::from_motor(reference_motor());
   config.encoder.counts_per_joint_revolution = kReferenceCountsPerRevolution;
   config.delay_samples = 1;
   return config;

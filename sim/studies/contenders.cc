@@ -25,8 +25,9 @@ constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
 constexpr double kNoTorqueLimit_Nm = 1e4;
 
 double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {
-  return std::isfinite(plant.motor.peak_Nm) ? std::min(plant.motor.peak_Nm, table.torque_limit_Nm)
-                                            : kNoTorqueLimit_Nm;
+  return std::isfinite(plant.motor.peak_torque_Nm)
+             ? std::min(plant.motor.peak_torque_Nm, table.torque_limit_Nm)
+             : kNoTorqueLimit_Nm;
 }
 
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
@@ -36,7 +37,8 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
   config.delay_samples = plant.delay_samples;
   config.torque_limit_Nm = table.torque_limit_Nm;
-  config.motor = {config.torque_limit_Nm, plant.motor.stall_Nm, plant.motor.slope_Nms_rad};
+  config.motor = plant.motor;
+  config.motor.peak_torque_Nm = config.torque_limit_Nm;
   config.motion = kNoMotionLimits;
   config.use_observer = features.observer;
   config.use_shaping = features.shaping;
@@ -50,7 +52,7 @@ Contender plain_contender(const std::string& name, const GainTable& table) {
   return {name, [table](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
             require_period(table, plant);
             return std::make_unique<FeedbackLoopController>(table.primary, table.friction, table.plant,
-                                                            plant.motor.peak_Nm);
+                                                            plant.motor.peak_torque_Nm);
           }};
 }
 

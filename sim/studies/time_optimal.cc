@@ -53,7 +53,7 @@ class Move {
   double switching_time_s() const {
     const JointInput start = input(first_, direction_);
     if (!(direction_ * (start.torque_Nm - start.load_torque_Nm) > start.friction.static_Nm))
-      throw InputError("time-optimal motion", "peak_torque_Nm", std::to_string(config_.plant.motor.peak_Nm),
+      throw InputError("time-optimal motion", "peak_torque_Nm", std::to_string(config_.plant.motor.peak_torque_Nm),
                        "must exceed static friction and load, or the joint cannot move");
     const auto miss_rad = [&](double switch_s) {
       return direction_ * (simulate(switch_s, nullptr).position_rad - to_rad_);
@@ -71,14 +71,14 @@ class Move {
 
   JointInput input(std::size_t k, double torque_sign) const {
     const double time_s = static_cast<double>(k) * config_.plant.period_s;
-    return {torque_sign * config_.plant.motor.peak_Nm, config_.load_torque_Nm.at(time_s),
+    return {torque_sign * config_.plant.motor.peak_torque_Nm, config_.load_torque_Nm.at(time_s),
             config_.plant.joint.friction.at(config_.ambient.at(time_s)), config_.plant.motor};
   }
 
   TracePoint sample(std::size_t k, const JointState& state, double torque_sign) const {
     const double time_s = static_cast<double>(k) * config_.plant.period_s;
     const double torque_Nm =
-        config_.plant.motor.limit_Nm(torque_sign * config_.plant.motor.peak_Nm, state.velocity_rad_s);
+        config_.plant.motor.limit_Nm(torque_sign * config_.plant.motor.peak_torque_Nm, state.velocity_rad_s);
     return {time_s,    config_.setpoint_rad.at(time_s), state.position_rad, state.velocity_rad_s, torque_Nm,
             torque_Nm, config_.ambient.at(time_s)};
   }
@@ -108,7 +108,7 @@ class Move {
 
 TimeOptimalResult run_time_optimal(const ClosedLoopConfig& config) {
   const JointPlant checked(config.plant);
-  if (!std::isfinite(config.plant.motor.peak_Nm))
+  if (!std::isfinite(config.plant.motor.peak_torque_Nm))
     throw InputError("time-optimal motion", "peak_torque_Nm", "infinite",
                      "must be finite: else every move takes no time");
   const auto count = static_cast<std::size_t>(std::ceil(config.duration_s / config.plant.period_s - 1e-9));

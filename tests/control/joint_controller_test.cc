@@ -22,7 +22,7 @@ JointControllerConfig realistic_config() {
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
   config.delay_samples = plant.delay_samples;
   config.torque_limit_Nm = kReferencePeakTorque_Nm;
-  config.motor = {plant.motor.peak_Nm, plant.motor.stall_Nm, plant.motor.slope_Nms_rad};
+  config.motor = plant.motor;
   config.motion = {100.0, 1e4, 1e4};
   return config;
 }

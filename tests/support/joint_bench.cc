@@ -27,8 +27,7 @@ BenchJoint demo_joint() {
   JointControllerConfig& controller = joint.loop.controller;
   controller.encoder_resolution_rad = joint.drive.plant.encoder.resolution_rad();
   controller.delay_samples = joint.drive.plant.delay_samples;
-  const TorqueEnvelope& motor = joint.drive.plant.motor;
-  controller.motor = {motor.peak_Nm, motor.stall_Nm, motor.slope_Nms_rad};
+  controller.motor = joint.drive.plant.motor;
   controller.torque_limit_Nm = kReferencePeakTorque_Nm;
   controller.motion = {6.0, 150.0, 150.0};
   joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0, kReferencePeakTorque_Nm};

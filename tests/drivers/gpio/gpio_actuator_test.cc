@@ -47,8 +47,7 @@ class GpioActuatorTest : public ::testing::Test {
     auto counts = std::make_unique<FakeCounts>();
     lines_ = lines.get();
     counts_ = counts.get();
-    torque_.torque_constant_Nm_A = 9.6;
-    torque_.full_scale_A = 5.0;
+    torque_.full_scale_Nm = 9.6 * 5.0;
     GpioParts parts;
     parts.lines = std::move(lines);
     parts.counts = std::move(counts);

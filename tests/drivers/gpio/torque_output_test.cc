@@ -12,17 +12,13 @@ namespace {
 /// data/rhs17_datasheet.csv, joint side: 9.6 Nm/A, 4.8 ohm, 1 V/rpm, 75 V; amplifier 5 A.
 TorqueOutputConfig current() {
   TorqueOutputConfig config;
-  config.torque_constant_Nm_A = 9.6;
-  config.full_scale_A = 5.0;
+  config.full_scale_Nm = 9.6 * 5.0;
   return config;
 }
 TorqueOutputConfig voltage() {
   TorqueOutputConfig config;
   config.amplifier = AmplifierKind::kVoltage;
-  config.torque_constant_Nm_A = 9.6;
-  config.supply_V = 75.0;
-  config.resistance_ohm = 4.8;
-  config.back_emf_Vs_rad = 9.549;
+  config.motor = MotorLimits::from_motor({34.0, 9.6, 9.549, 4.8, 75.0});
   return config;
 }
 /// Past the wait before a change of direction.

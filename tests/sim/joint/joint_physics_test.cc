@@ -200,7 +200,7 @@ TEST(JointPhysics, ReachesTheSpeedAtWhichBackEmfLeavesNoVoltage) {
   const JointParameters joint = reference_joint();
   JointInput input;
   input.torque_Nm = 1000.0;
-  input.motor = torque_envelope(reference_motor());
+  input.motor = MotorLimits::from_motor(reference_motor());
   JointState state;
   advance(state, joint, input, 1.0, 10000);
   EXPECT_NEAR(state.velocity_rad_s, 75.0 * kRadPerSecondPerRpm, 1e-9) << "75 V at 1 V/rpm";
@@ -210,26 +210,12 @@ TEST(JointPhysics, ApproachesTheNoLoadSpeedExponentiallyBelowThePeakTorque) {
   const JointParameters joint = reference_joint();
   JointInput input;
   input.torque_Nm = 1000.0;
-  input.motor = torque_envelope(reference_motor());
-  input.motor.peak_Nm = std::numeric_limits<double>::infinity();
-  const double rate = input.motor.slope_Nms_rad / joint.inertia_kgm2;
+  input.motor = MotorLimits::from_motor(reference_motor());
+  input.motor.peak_torque_Nm = std::numeric_limits<double>::infinity();
+  const double rate = input.motor.torque_per_speed_Nms_rad / joint.inertia_kgm2;
   JointState state;
   advance(state, joint, input, 4e-3, 400);
   EXPECT_NEAR(state.velocity_rad_s, -75.0 * kRadPerSecondPerRpm * std::expm1(-rate * 4e-3), 1e-9);
-}
-
-TEST(TorqueEnvelope, AllowsThePeakWhenBrakingAndLessWhenDriving) {
-  const TorqueEnvelope motor = torque_envelope(reference_motor());
-  const double fast_rad_s = 70.0 * kRadPerSecondPerRpm;
-  EXPECT_NEAR(motor.limit_Nm(100.0, fast_rad_s), 9.6 * (75.0 - 70.0) / 4.8, 1e-12);
-  EXPECT_NEAR(motor.limit_Nm(-100.0, -fast_rad_s), -9.6 * (75.0 - 70.0) / 4.8, 1e-12);
-  EXPECT_EQ(motor.limit_Nm(-100.0, fast_rad_s), -34.0);
-  EXPECT_EQ(motor.limit_Nm(100.0, -fast_rad_s), 34.0);
-  EXPECT_EQ(motor.limit_Nm(100.0, 2.0 * fast_rad_s), 0.0)
-      << "past the no-load speed nothing is left to drive with";
-  EXPECT_EQ(motor.limit_Nm(3.0, 0.0), 3.0);
-  EXPECT_EQ(motor.limit_Nm(100.0, 0.0), 34.0);
-  EXPECT_EQ(TorqueEnvelope{}.limit_Nm(1e9, 1e3), 1e9) << "no limit unless one is given";
 }
 
 }  // namespace

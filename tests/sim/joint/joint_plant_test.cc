@@ -137,7 +137,7 @@ TEST(JointPlant, RefusesAnImpossibleConfigurationByName) {
   EXPECT_NE(message([](auto& c) { c.substeps = 0; }).find("substeps"), std::string::npos);
   EXPECT_NE(message([](auto& c) { c.delay_samples = kMaxDelaySamples + 1; }).find("delay_samples"),
             std::string::npos);
-  EXPECT_NE(message([](auto& c) { c.motor.peak_Nm = std::nan(""); }).find("peak_torque_Nm"),
+  EXPECT_NE(message([](auto& c) { c.motor.peak_torque_Nm = std::nan(""); }).find("peak_torque_Nm"),
             std::string::npos);
   EXPECT_NE(message([](auto& c) { c.encoder.counts_per_joint_revolution = -4.0; }).find("encoder_counts"),
             std::string::npos);

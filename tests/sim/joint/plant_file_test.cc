@@ -32,7 +32,7 @@ delay_samples = 2
   EXPECT_EQ(plant.joint.inertia_kgm2, 0.12);
   EXPECT_EQ(plant.joint.friction.asymptote.coulomb_Nm, 1.0) << "a whole number is a number";
   EXPECT_EQ(plant.joint.friction.decay_C, reference_joint().friction.decay_C);
-  EXPECT_EQ(plant.motor.peak_Nm, kReferencePeakTorque_Nm);
+  EXPECT_EQ(plant.motor.peak_torque_Nm, kReferencePeakTorque_Nm);
   EXPECT_EQ(plant.encoder.counts_per_joint_revolution, 0.0);
   EXPECT_EQ(plant.substeps, 20);
   EXPECT_EQ(plant.delay_samples, 2);

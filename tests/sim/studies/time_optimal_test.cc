@@ -62,7 +62,7 @@ TEST(TimeOptimal, FollowsEveryStepOfTheStaircaseDownwardsToo) {
 TEST(TimeOptimal, RefusesWhatHasNoAnswer) {
   EXPECT_THROW(run_time_optimal(scenario_config(Scenario::kRamp, 0, ideal_plant())), InputError);
   ClosedLoopConfig weak = scenario_config(Scenario::kRamp, 0, torque_limited_plant());
-  weak.plant.motor.peak_Nm = 1.0;
+  weak.plant.motor.peak_torque_Nm = 1.0;
   EXPECT_THROW(run_time_optimal(weak), InputError);
   ClosedLoopConfig hasty = scenario_config(Scenario::kRamp, 0, torque_limited_plant());
   hasty.setpoint_rad = TimeProfile::steps(1.0, 1.0, 0.02, 10.0, {"setpoint_rad"});

@@ -1,0 +1,58 @@
+#include "control/motor_limits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "control/units.h"
+
+namespace strainwave {
+namespace {
+
+/// data/rhs17_datasheet.csv at the joint: 34 N.m, 9.6 N.m/A, 1 V/rpm, 4.8 ohm, 75 V.
+constexpr MotorData kMotor{34.0, 9.6, 1.0 / kRadPerSecondPerRpm, 4.8, 75.0};
+
+TEST(MotorLimits, AllowThePeakWhenBrakingAndLessWhenDriving) {
+  const MotorLimits motor = MotorLimits::from_motor(kMotor);
+  const double fast_rad_s = 70.0 * kRadPerSecondPerRpm;
+  EXPECT_NEAR(motor.limit_Nm(100.0, fast_rad_s), 9.6 * (75.0 - 70.0) / 4.8, 1e-12);
+  EXPECT_NEAR(motor.limit_Nm(-100.0, -fast_rad_s), -9.6 * (75.0 - 70.0) / 4.8, 1e-12);
+  EXPECT_EQ(motor.limit_Nm(-100.0, fast_rad_s), -34.0);
+  EXPECT_EQ(motor.limit_Nm(100.0, -fast_rad_s), 34.0);
+  EXPECT_EQ(motor.limit_Nm(100.0, 2.0 * fast_rad_s), 0.0)
+      << "past the no-load speed nothing is left to drive with";
+  EXPECT_EQ(motor.limit_Nm(3.0, 0.0), 3.0);
+  EXPECT_EQ(motor.limit_Nm(100.0, 0.0), 34.0);
+}
+
+TEST(MotorLimits, AreNoneUnlessSomeAreGiven) {
+  EXPECT_EQ(MotorLimits{}.limit_Nm(1e9, 1e3), 1e9);
+  EXPECT_EQ(MotorLimits::from_motor({}).limit_Nm(-1e9, 1e3), -1e9);
+}
+
+TEST(MotorLimits, AreThePeakAloneWhereSupplyOrResistanceIsNotKnown) {
+  for (const bool supply_known : {true, false}) {
+    MotorData motor = kMotor;
+    (supply_known ? motor.resistance_ohm : motor.supply_V) = 0.0;
+    EXPECT_EQ(MotorLimits::from_motor(motor).limit_Nm(1e9, 1e6), 34.0);
+  }
+}
+
+TEST(MotorLimits, NeverChangeATorquesSignNorItsSymmetry) {
+  const MotorLimits motor = MotorLimits::from_motor(kMotor);
+  for (double torque_Nm = -200.0; torque_Nm <= 200.0; torque_Nm += 7.3) {
+    for (double velocity_rad_s = -30.0; velocity_rad_s <= 30.0; velocity_rad_s += 1.1) {
+      const double limited_Nm = motor.limit_Nm(torque_Nm, velocity_rad_s);
+      EXPECT_GE(limited_Nm * torque_Nm, 0.0);
+      EXPECT_LE(std::abs(limited_Nm), std::min(34.0, std::abs(torque_Nm)));
+      EXPECT_EQ(limited_Nm, -motor.limit_Nm(-torque_Nm, -velocity_rad_s));
+    }
+  }
+}
+
+TEST(MotorData, SaysWhatHeatHoldingATorqueCosts) {
+  EXPECT_NEAR(kMotor.winding_loss_W_Nm2() * 9.6 * 9.6, 4.8, 1e-12) << "one ampere through 4.8 ohm";
+}
+
+}  // namespace
+}  // namespace strainwave
