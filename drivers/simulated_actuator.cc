@@ -61,10 +61,11 @@ ActuatorReading SimulatedActuator::read(std::int64_t now_ns) noexcept {
   }
   ActuatorReading reading;
   reading.joint_position_rad = plant_.measured_position_rad() - encoder_zero_rad_;
-  reading.inputs = inputs_.at(plant_.state().position_rad, plant_.state().position_rad - encoder_zero_rad_);
+  reading.inputs =
+      inputs_.at(plant_.link_state().position_rad, plant_.link_state().position_rad - encoder_zero_rad_);
   reading.has_position = true;
   reading.has_velocity = plant_.config().encoder.counts_per_joint_revolution <= 0.0;
-  if (reading.has_velocity) reading.joint_velocity_rad_s = plant_.state().velocity_rad_s;
+  if (reading.has_velocity) reading.joint_velocity_rad_s = plant_.feedback_state().velocity_rad_s;
   reading.torque_applied_Nm = plant_.applied_torque_Nm();
   reading.temperature_C = temperature_C_;
   reading.temperature_produced_ns = temperature_produced_ns_;

@@ -1,11 +1,13 @@
 #include "daemon/config/config_simulated.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "base/input_error.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
+#include "drivers/simulated_effects.h"
 
 namespace strainwave {
 
@@ -73,7 +75,11 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
   SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
-  config.plant.joint.inertia_kgm2 = section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
+  const bool flexible = section.has("link");
+  config.plant.joint.inertia_kgm2 =
+      flexible ? section.number("inertia_kgm2", {1e-6, 1e4})
+               : section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
+  read_simulated_effects(section, joint.plant.gear_ratio, config);
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});
   for (FrictionParameters* part :
        {&config.plant.joint.friction.asymptote, &config.plant.joint.friction.amplitude}) {
@@ -96,8 +102,10 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   config.seed = static_cast<std::uint64_t>(section.integer_or("seed", 1, 0, INT64_MAX));
 
   JointControllerConfig& controller = joint.loop.controller;
-  controller.encoder_resolution_rad = config.plant.encoder.resolution_rad();
-  controller.delay_samples = config.plant.delay_samples;
+  controller.encoder_resolution_rad = config.plant.feedback == EncoderSide::kLink
+                                          ? config.plant.link_encoder.resolution_rad()
+                                          : config.plant.encoder.resolution_rad();
+  controller.delay_samples = static_cast<int>(std::lround(config.plant.delay.periods));
   controller.motor = config.plant.motor;
   const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
   joint.takes_injected_faults = true;

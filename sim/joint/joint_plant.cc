@@ -1,5 +1,7 @@
 #include "sim/joint/joint_plant.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -18,6 +20,53 @@ bool finite_and_not_negative(double value) {
   return std::isfinite(value) && value >= 0.0;
 }
 
+void check(const Transmission& gear) {
+  const TorsionSpring& spring = gear.spring;
+  require(std::isfinite(gear.link_inertia_kgm2) && gear.link_inertia_kgm2 > 0.0, "link.inertia_kgm2",
+          gear.link_inertia_kgm2, "must be finite and > 0");
+  for (const auto& [key, value] : {std::pair{"spring.stiffness_1_Nm_rad", spring.stiffness_1_Nm_rad},
+                                   std::pair{"spring.stiffness_2_Nm_rad", spring.stiffness_2_Nm_rad},
+                                   std::pair{"spring.stiffness_3_Nm_rad", spring.stiffness_3_Nm_rad}})
+    require(std::isfinite(value) && value > 0.0, key, value, "must be finite and > 0");
+  require(finite_and_not_negative(spring.torque_1_Nm), "spring.torque_1_Nm", spring.torque_1_Nm,
+          "must be finite and >= 0");
+  require(std::isfinite(spring.torque_2_Nm) && spring.torque_2_Nm >= spring.torque_1_Nm, "spring.torque_2_Nm",
+          spring.torque_2_Nm, "must be finite and at least torque_1_Nm");
+  for (const auto& [key, value] : {std::pair{"spring.damping_Nms_rad", gear.damping_Nms_rad},
+                                   std::pair{"spring.lost_motion_rad", gear.lost_motion.width_rad},
+                                   std::pair{"link.coulomb_Nm", gear.link_coulomb_Nm},
+                                   std::pair{"link.viscous_Nms_rad", gear.link_viscous_Nms_rad}})
+    require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
+}
+
+void check(const JointEffects& e, double motor_inertia_kgm2, double substep_s) {
+  require(std::isfinite(e.gear_ratio) && e.gear_ratio > 0.0, "gear_ratio", e.gear_ratio,
+          "must be finite and > 0");
+  for (const auto& [key, value] : {std::pair{"friction.transmitted_share", e.friction.transmitted_share},
+                                   std::pair{"friction.presliding_rad", e.friction.presliding_rad},
+                                   std::pair{"drive.current_loop_s", e.drive.current_loop_s},
+                                   std::pair{"gravity.torque_Nm", e.gravity.torque_Nm},
+                                   std::pair{"contact.stiffness_Nm_rad", e.contact.stiffness_Nm_rad},
+                                   std::pair{"contact.damping_Nms_rad", e.contact.damping_Nms_rad}})
+    require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
+  require(e.drive.ripple_share >= 0.0 && e.drive.ripple_share < 1.0, "drive.ripple_share",
+          e.drive.ripple_share, "must be in [0, 1)");
+  double fastest_rad_s = 0.0;
+  double link_inertia_kgm2 = motor_inertia_kgm2;
+  if (e.transmission) {
+    check(*e.transmission);
+    link_inertia_kgm2 = e.transmission->link_inertia_kgm2;
+    const TorsionSpring& spring = e.transmission->spring;
+    const double stiffest =
+        std::max({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
+    fastest_rad_s = free_free_frequency_rad_s(motor_inertia_kgm2, link_inertia_kgm2, stiffest);
+  }
+  fastest_rad_s = std::hypot(fastest_rad_s, std::sqrt(e.contact.stiffness_Nm_rad / link_inertia_kgm2));
+  require(fastest_rad_s * substep_s <= 1.0, "substeps", fastest_rad_s * substep_s,
+          "radians of the joint's fastest swing in one sub-step: at most 1 is allowed; take more substeps, a "
+          "softer spring or contact, or more inertia");
+}
+
 JointPlantConfig checked(const JointPlantConfig& c) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   require(positive(c.joint.inertia_kgm2), "inertia_kgm2", c.joint.inertia_kgm2, "must be finite and > 0");
@@ -28,8 +77,8 @@ JointPlantConfig checked(const JointPlantConfig& c) {
   require(positive(c.joint.friction.decay_C), "decay_C", c.joint.friction.decay_C, "must be finite and > 0");
   require(c.motor.peak_torque_Nm >= 0.0, "peak_torque_Nm", c.motor.peak_torque_Nm, "must be >= 0");
   require(c.motor.stall_torque_Nm >= 0.0, "stall_torque_Nm", c.motor.stall_torque_Nm, "must be >= 0");
-  require(finite_and_not_negative(c.motor.torque_per_speed_Nms_rad), "torque_per_speed_Nms_rad", c.motor.torque_per_speed_Nms_rad,
-          "must be finite and >= 0");
+  require(finite_and_not_negative(c.motor.torque_per_speed_Nms_rad), "torque_per_speed_Nms_rad",
+          c.motor.torque_per_speed_Nms_rad, "must be finite and >= 0");
   require(finite_and_not_negative(c.encoder.counts_per_joint_revolution),
           "encoder_counts_per_joint_revolution", c.encoder.counts_per_joint_revolution,
           "must be finite and >= 0 (0: ideal)");
@@ -43,27 +92,46 @@ JointPlantConfig checked(const JointPlantConfig& c) {
           "must be finite and >= 0");
   require(positive(c.period_s), "period_s", c.period_s, "must be finite and > 0");
   require(c.substeps >= 1 && c.substeps <= 10000, "substeps", c.substeps, "must be in 1..10000");
-  require(c.delay_samples >= 0 && c.delay_samples <= kMaxDelaySamples, "delay_samples", c.delay_samples,
+  require(c.delay.periods >= 0.0 && c.delay.periods <= kMaxDelayPeriods, "delay_periods", c.delay.periods,
           "must be in 0..16");
+  require(c.delay.jitter_periods >= 0.0 && c.delay.jitter_periods <= 4.0, "jitter_periods",
+          c.delay.jitter_periods, "must be in 0..4");
   require(std::isfinite(c.initial_position_rad), "initial_position_rad", c.initial_position_rad,
           "must be finite");
+  require(c.feedback == EncoderSide::kMotor || c.link_encoder.counts_per_joint_revolution > 0.0,
+          "link_counts_per_joint_revolution", c.link_encoder.counts_per_joint_revolution,
+          "must be > 0 where the link's encoder is the feedback");
+  check(c.effects, c.joint.inertia_kgm2, c.period_s / c.substeps);
   return c;
+}
+
+/// The link, where spring, gravity and kinematic error balance with the motor at rest.
+FlexibleState resting(const JointPlantConfig& c) {
+  FlexibleState state;
+  state.motor = state.link = {c.initial_position_rad, 0.0, true};
+  if (!c.effects.transmission) return state;
+  const Transmission& gear = *c.effects.transmission;
+  const double unwound_rad =
+      c.initial_position_rad + gear.kinematic_error.value_rad(c.effects.gear_ratio * c.initial_position_rad);
+  const Gravity& gravity = c.effects.gravity;
+  state.link.position_rad = unwound_rad;
+  for (int i = 0; i < 50; ++i)
+    state.link.position_rad =
+        unwound_rad -
+        gear.spring.angle_rad(gravity.torque_Nm * std::sin(state.link.position_rad - gravity.zero_rad));
+  return state;
 }
 
 }  // namespace
 
 JointPlant::JointPlant(const JointPlantConfig& config)
     : config_(checked(config)),
-      state_{config.initial_position_rad, 0.0, true},
+      flexible_{config.joint, config.effects},
+      effects_(config.effects.any()),
+      state_(resting(config)),
       thermal_(config.thermal, config.period_s),
+      delay_(config.delay),
       friction_temperature_C_(std::numeric_limits<double>::quiet_NaN()) {}
-
-double JointPlant::delayed(double torque_Nm) noexcept {
-  if (config_.delay_samples == 0) return torque_Nm;
-  const double due_Nm = std::exchange(pending_Nm_[next_pending_], torque_Nm);
-  next_pending_ = (next_pending_ + 1) % static_cast<std::size_t>(config_.delay_samples);
-  return due_Nm;
-}
 
 const FrictionParameters& JointPlant::friction_at(double temperature_C) noexcept {
   if (temperature_C != friction_temperature_C_) {
@@ -74,19 +142,45 @@ const FrictionParameters& JointPlant::friction_at(double temperature_C) noexcept
 }
 
 void JointPlant::step(double torque_Nm, double load_torque_Nm) noexcept {
-  const JointInput input{delayed(torque_Nm), load_torque_Nm, friction_at(thermal_.joint_C()), config_.motor};
-  const JointState before = state_;
-  advance(state_, config_.joint, input, config_.period_s, config_.substeps);
-  applied_Nm_ = config_.motor.limit_Nm(input.torque_Nm, state_.velocity_rad_s);
-
-  // Friction's work is what the torques put in and the motion did not keep; rounding may make it slightly
-  // negative.
-  const double work_J = (applied_Nm_ - load_torque_Nm) * (state_.position_rad - before.position_rad);
-  const double friction_J =
-      work_J - (kinetic_energy(config_.joint, state_) - kinetic_energy(config_.joint, before));
+  const double begin = static_cast<double>(periods_);
+  const double end = begin + 1.0;
+  delay_.push(begin, torque_Nm);
+  double heat_J = 0.0;
+  double now = begin;
+  while (now < end) {
+    const double acting_Nm = delay_.at(now);
+    const double until = std::min(end, delay_.next_due());
+    heat_J += advance_with(acting_Nm, load_torque_Nm, until - now);
+    now = until;
+  }
   const double winding_W = config_.winding_loss_W_Nm2 * applied_Nm_ * applied_Nm_;
-  thermal_.add_loss(winding_W + std::max(0.0, friction_J) / config_.period_s);
+  thermal_.add_loss(winding_W + heat_J / config_.period_s);
   ++periods_;
+}
+
+/// Advances by `share` of a period with one torque; returns the heat of friction in J.
+double JointPlant::advance_with(double torque_Nm, double load_torque_Nm, double share) noexcept {
+  const JointInput input{torque_Nm, load_torque_Nm, friction_at(thermal_.joint_C()), config_.motor};
+  const double duration_s = share * config_.period_s;
+  const int substeps = share < 1.0 ? static_cast<int>(std::ceil(share * config_.substeps)) : config_.substeps;
+  const FlexibleState before = state_;
+  const double before_J = energy_J();
+  if (effects_) {
+    advance(state_, flexible_, input, duration_s, substeps);
+    applied_Nm_ = motor_torque_Nm(flexible_, state_, input);
+  } else {
+    advance(state_.motor, config_.joint, input, duration_s, substeps);
+    applied_Nm_ = config_.motor.limit_Nm(input.torque_Nm, state_.motor.velocity_rad_s);
+  }
+  // Friction's work is what the torques put in and the motion did not keep; rounding may make it slightly negative.
+  const double motor_rad = state_.motor.position_rad - before.motor.position_rad;
+  const double loaded_rad = effects_ ? state_.link.position_rad - before.link.position_rad : motor_rad;
+  const double work_J = applied_Nm_ * motor_rad - load_torque_Nm * loaded_rad;
+  return std::max(0.0, work_J - (energy_J() - before_J));
+}
+
+double JointPlant::energy_J() const noexcept {
+  return effects_ ? mechanical_energy_J(flexible_, state_) : kinetic_energy(config_.joint, state_.motor);
 }
 
 }  // namespace strainwave

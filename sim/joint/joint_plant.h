@@ -2,26 +2,28 @@
 // at a time. Real-time safe except for the constructor.
 #pragma once
 
-#include <array>
-#include <cstddef>
-
+#include "sim/joint/delay_line.h"
 #include "sim/joint/encoder.h"
-#include "sim/joint/joint_physics.h"
+#include "sim/joint/flexible_physics.h"
 #include "sim/joint/thermal.h"
 
 namespace strainwave {
 
-inline constexpr int kMaxDelaySamples = 16;
+/// Which side of the gear the drive reports as the joint's position.
+enum class EncoderSide { kMotor, kLink };
 
 struct JointPlantConfig {
-  JointParameters joint;
-  MotorLimits motor;                ///< default: no limit
-  Encoder encoder;                  ///< default: ideal
+  JointParameters joint;  ///< with a transmission its inertia is the motor's alone
+  JointEffects effects;   ///< default: one rigid inertia
+  MotorLimits motor;      ///< default: no limit
+  Encoder encoder;        ///< of the motor's side; default: ideal
+  Encoder link_encoder;   ///< the second one, of the link; 0 counts: there is none
+  EncoderSide feedback = EncoderSide::kMotor;
   ThermalParameters thermal;        ///< default: no heating, no lag
   double winding_loss_W_Nm2 = 0.0;  ///< R / Kt^2: heat of holding a torque
   double period_s = 1e-3;           ///< > 0
   int substeps = 10;                ///< integration steps per period, 1..10000
-  int delay_samples = 0;            ///< periods from a command to its effect, 0..kMaxDelaySamples
+  DelayConfig delay;                ///< from a command to its effect
   double initial_position_rad = 0.0;
 };
 
@@ -40,12 +42,27 @@ class JointPlant {
   void step(double torque_Nm, double load_torque_Nm = 0.0) noexcept;
 
   /// Empties the delay line: no torque until a new command arrives (the drive was disabled).
-  void clear_pending_torque() noexcept { pending_Nm_.fill(0.0); }
+  void clear_pending_torque() noexcept { delay_.clear(); }
 
   const JointPlantConfig& config() const noexcept { return config_; }
-  const JointState& state() const noexcept { return state_; }
-  /// What the encoder reads now.
-  double measured_position_rad() const noexcept { return config_.encoder.measure_rad(state_.position_rad); }
+  /// The motor's side; the whole of a rigid joint.
+  const JointState& state() const noexcept { return state_.motor; }
+  /// The link; of a rigid joint the same.
+  const JointState& link_state() const noexcept { return effects_ ? state_.link : state_.motor; }
+  /// Where `feedback` sits.
+  const JointState& feedback_state() const noexcept {
+    return config_.feedback == EncoderSide::kLink ? link_state() : state();
+  }
+  /// What the encoder that the drive reports reads now.
+  double measured_position_rad() const noexcept {
+    return config_.feedback == EncoderSide::kLink ? measured_link_position_rad()
+                                                  : config_.encoder.measure_rad(state_.motor.position_rad);
+  }
+  bool has_link_encoder() const noexcept { return config_.link_encoder.counts_per_joint_revolution > 0.0; }
+  /// What the second encoder reads now; the link's true position when there is none.
+  double measured_link_position_rad() const noexcept {
+    return config_.link_encoder.measure_rad(link_state().position_rad);
+  }
   /// Motor torque over the last period: its command after delay and limits, at the velocity of the period's
   /// end.
   double applied_torque_Nm() const noexcept { return applied_Nm_; }
@@ -55,14 +72,16 @@ class JointPlant {
   double time_s() const noexcept { return static_cast<double>(periods_) * config_.period_s; }
 
  private:
-  double delayed(double torque_Nm) noexcept;
+  double advance_with(double torque_Nm, double load_torque_Nm, double share) noexcept;
+  double energy_J() const noexcept;
   const FrictionParameters& friction_at(double temperature_C) noexcept;
 
   JointPlantConfig config_;
-  JointState state_;
+  FlexibleJoint flexible_;
+  bool effects_;  ///< else the rigid joint's physics, of which only the motor's state is used
+  FlexibleState state_;
   ThermalModel thermal_;
-  std::array<double, kMaxDelaySamples> pending_Nm_{};
-  std::size_t next_pending_ = 0;
+  DelayLine delay_;
   long periods_ = 0;
   double applied_Nm_ = 0.0;
   double friction_temperature_C_;  ///< NaN until friction_ is known

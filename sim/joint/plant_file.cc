@@ -1,78 +1,85 @@
 #include "sim/joint/plant_file.h"
 
-#include <algorithm>
-#include <limits>
-#include <map>
-
 #include "base/input_error.h"
 #include "base/text_file.h"
 #include "base/toml_section.h"
-#include "sim/joint/setting.h"
+#include "sim/joint/effects_file.h"
+#include "sim/joint/reference_plant.h"
 
 namespace strainwave {
 
 namespace {
 
-using Fields = std::map<std::string, double*>;
+constexpr Range kPositive{1e-9, 1e9};
+constexpr Range kNotNegative{0.0, 1e9};
+constexpr Range kAnyTemperature_C{-273.15, 1e4};
+const std::vector<std::string> kBases = {"ideal", "limited", "realistic", "flexible"};
 
-std::map<std::string, Fields> sections_of(JointPlantConfig& c) {
-  FrictionParameters& asymptote = c.joint.friction.asymptote;
-  FrictionParameters& amplitude = c.joint.friction.amplitude;
-  return {{"joint",
-           {{"inertia_kgm2", &c.joint.inertia_kgm2},
-            {"stribeck_velocity_rad_s", &c.joint.stribeck.velocity_rad_s},
-            {"stribeck_exponent", &c.joint.stribeck.exponent}}},
-          {"friction",
-           {{"reference_C", &c.joint.friction.reference_C},
-            {"decay_C", &c.joint.friction.decay_C},
-            {"asymptote_static_Nm", &asymptote.static_Nm},
-            {"asymptote_coulomb_Nm", &asymptote.coulomb_Nm},
-            {"asymptote_viscous_Nms_rad", &asymptote.viscous_Nms_rad},
-            {"amplitude_static_Nm", &amplitude.static_Nm},
-            {"amplitude_coulomb_Nm", &amplitude.coulomb_Nm},
-            {"amplitude_viscous_Nms_rad", &amplitude.viscous_Nms_rad}}},
-          {"motor",
-           {{"peak_torque_Nm", &c.motor.peak_torque_Nm},
-            {"stall_torque_Nm", &c.motor.stall_torque_Nm},
-            {"torque_per_speed_Nms_rad", &c.motor.torque_per_speed_Nms_rad},
-            {"winding_loss_W_Nm2", &c.winding_loss_W_Nm2}}},
-          {"encoder", {{"counts_per_joint_revolution", &c.encoder.counts_per_joint_revolution}}},
-          {"thermal",
-           {{"resistance_C_W", &c.thermal.resistance_C_W},
-            {"time_constant_s", &c.thermal.time_constant_s},
-            {"sensor_time_constant_s", &c.thermal.sensor_time_constant_s}}},
-          {"simulation", {{"period_s", &c.period_s}, {"initial_position_rad", &c.initial_position_rad}}}};
+JointPlantConfig base_plant(const std::string& name) {
+  if (name == "ideal") return ideal_plant();
+  if (name == "limited") return torque_limited_plant();
+  return name == "realistic" ? realistic_plant() : flexible_plant();
 }
 
-JointPlantConfig base_plant(TomlSection& file) {
-  std::vector<std::string> names;
-  for (const Setting setting : kSettings) names.emplace_back(name(setting));
-  const std::string base = file.choice_or("base", std::string(name(Setting::kRealistic)), names);
-  const auto found = std::find(names.begin(), names.end(), base);
-  return setting_plant(kSettings[static_cast<std::size_t>(found - names.begin())]);
-}
+struct Key {
+  const char* name;
+  double* value;
+  Range allowed;
+};
 
-void read_section(TomlSection section, const std::string& section_name, const Fields& fields,
-                  JointPlantConfig& config) {
-  constexpr Range kAnyNumber{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
-  constexpr std::int64_t kMost = 1'000'000;
-  for (const auto& [key, value] : fields) *value = section.number_or(key, *value, kAnyNumber);
-  if (section_name == "simulation") {
-    config.substeps = static_cast<int>(section.integer_or("substeps", config.substeps, 0, kMost));
-    config.delay_samples =
-        static_cast<int>(section.integer_or("delay_samples", config.delay_samples, 0, kMost));
-  }
+void read_keys(TomlSection section, std::initializer_list<Key> keys) {
+  for (const Key& key : keys)
+    if (section.has(key.name)) *key.value = section.number(key.name, key.allowed);
   section.refuse_unknown_keys();
+}
+
+void read_joint(TomlSection& root, JointParameters& joint) {
+  read_keys(root.section_or_empty("joint"),
+            {{"inertia_kgm2", &joint.inertia_kgm2, {1e-9, 1e6}},
+             {"stribeck_velocity_rad_s", &joint.stribeck.velocity_rad_s, kPositive},
+             {"stribeck_exponent", &joint.stribeck.exponent, {0.5, 100.0}}});
+  ExponentialTemperatureLaw& law = joint.friction;
+  read_keys(root.section_or_empty("friction"),
+            {{"reference_C", &law.reference_C, kAnyTemperature_C},
+             {"decay_C", &law.decay_C, kPositive},
+             {"asymptote_static_Nm", &law.asymptote.static_Nm, kNotNegative},
+             {"asymptote_coulomb_Nm", &law.asymptote.coulomb_Nm, kNotNegative},
+             {"asymptote_viscous_Nms_rad", &law.asymptote.viscous_Nms_rad, kNotNegative},
+             {"amplitude_static_Nm", &law.amplitude.static_Nm, kNotNegative},
+             {"amplitude_coulomb_Nm", &law.amplitude.coulomb_Nm, kNotNegative},
+             {"amplitude_viscous_Nms_rad", &law.amplitude.viscous_Nms_rad, kNotNegative}});
+}
+
+JointPlantConfig read_plant(TomlSection& root) {
+  JointPlantConfig config = base_plant(root.choice_or("base", "realistic", kBases));
+  read_joint(root, config.joint);
+  read_keys(root.section_or_empty("motor"),
+            {{"peak_torque_Nm", &config.motor.peak_torque_Nm, kNotNegative},
+             {"stall_torque_Nm", &config.motor.stall_torque_Nm, kNotNegative},
+             {"torque_per_speed_Nms_rad", &config.motor.torque_per_speed_Nms_rad, kNotNegative},
+             {"winding_loss_W_Nm2", &config.winding_loss_W_Nm2, kNotNegative}});
+  read_keys(root.section_or_empty("encoder"),
+            {{"counts_per_joint_revolution", &config.encoder.counts_per_joint_revolution, {0.0, 1e12}}});
+  read_keys(root.section_or_empty("thermal"),
+            {{"resistance_C_W", &config.thermal.resistance_C_W, kNotNegative},
+             {"time_constant_s", &config.thermal.time_constant_s, kPositive},
+             {"sensor_time_constant_s", &config.thermal.sensor_time_constant_s, kNotNegative}});
+  TomlSection simulation = root.section_or_empty("simulation");
+  config.period_s = simulation.number_or("period_s", config.period_s, kPositive);
+  config.substeps = static_cast<int>(simulation.integer_or("substeps", config.substeps, 1, 10000));
+  config.initial_position_rad =
+      simulation.number_or("initial_position_rad", config.initial_position_rad, {-1e3, 1e3});
+  simulation.refuse_unknown_keys();
+  read_effects(root, true, config);
+  root.refuse_unknown_keys();
+  return config;
 }
 
 }  // namespace
 
 JointPlantConfig plant_from_toml(std::string_view text, const std::string& source) {
-  TomlSection file = TomlSection::parse(text, source);
-  JointPlantConfig config = base_plant(file);
-  for (const auto& [section, fields] : sections_of(config))
-    read_section(file.section_or_empty(section), section, fields, config);
-  file.refuse_unknown_keys();
+  TomlSection root = TomlSection::parse(text, source);
+  const JointPlantConfig config = read_plant(root);
   try {
     const JointPlant checked(config);
   } catch (const InputError& error) {
@@ -82,11 +89,11 @@ JointPlantConfig plant_from_toml(std::string_view text, const std::string& sourc
 }
 
 JointPlantConfig plant_named(const std::string& name_or_path) {
-  for (const Setting setting : kSettings)
-    if (name_or_path == name(setting)) return setting_plant(setting);
+  for (const std::string& base : kBases)
+    if (name_or_path == base) return base_plant(base);
   if (!std::filesystem::exists(name_or_path))
     throw InputError("--plant", "plant", name_or_path,
-                     "must be ideal, limited, realistic or a plant file that exists");
+                     "must be ideal, limited, realistic, flexible or a plant file that exists");
   return plant_from_toml(read_text_file(name_or_path), name_or_path);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "control/units.h"
+#include "sim/joint/gear_catalogue.h"
 #include "sim/joint/joint_plant.h"
 
 namespace strainwave {
@@ -60,7 +61,20 @@ inline JointPlantConfig realistic_plant() {
   JointPlantConfig config = ideal_plant();
   config.motor = MotorLimits::from_motor(reference_motor());
   config.encoder.counts_per_joint_revolution = kReferenceCountsPerRevolution;
-  config.delay_samples = 1;
+  config.delay.periods = 1.0;
+  return config;
+}
+
+/// The realistic joint behind a gear of size 17 and ratio 50: the actuator's inertia on the motor's side, a link of the same
+/// inertia, 2 % of structural damping.
+inline JointPlantConfig flexible_plant() {
+  JointPlantConfig config = realistic_plant();
+  Transmission transmission;
+  transmission.link_inertia_kgm2 = kReferenceInertia_kgm2;
+  transmission.spring = find_gear("csf-17-50")->spring;
+  transmission.damping_Nms_rad = structural_damping_Nms_rad(
+      kReferenceInertia_kgm2, transmission.link_inertia_kgm2, transmission.spring.stiffness_1_Nm_rad, 0.02);
+  config.effects.transmission = transmission;
   return config;
 }
 

@@ -79,6 +79,11 @@ void evaluate_first_step(const std::vector<TracePoint>& trace, LoopStatistics& r
 
 }  // namespace
 
+std::vector<TracePoint> on_the_link(std::vector<TracePoint> trace) {
+  for (TracePoint& point : trace) point.joint_position_rad = point.link_position_rad;
+  return trace;
+}
+
 LoopStatistics evaluate(const std::vector<TracePoint>& trace, double period_s) {
   LoopStatistics result;
   if (trace.empty()) return result;
@@ -117,18 +122,19 @@ bool simulate(const ClosedLoopConfig& config, LoopController& controller,
     const double time_s = static_cast<double>(k) * config.plant.period_s;
     plant.set_ambient_temperature(config.ambient.at(time_s));
     const JointState state = plant.state();
+    const double link_rad = plant.link_state().position_rad;
     LoopSample sample;
     sample.time_s = time_s;
     sample.setpoint_position_rad = config.setpoint_rad.at(time_s);
     sample.joint_position_rad = plant.measured_position_rad();
-    if (exact) sample.joint_velocity_rad_s = state.velocity_rad_s;
+    if (exact) sample.joint_velocity_rad_s = plant.feedback_state().velocity_rad_s;
     sample.temperature_C = plant.sensor_temperature_C();
     sample.torque_applied_Nm = plant.applied_torque_Nm();
     const double torque_Nm = controller.torque_Nm(sample);
     const double joint_temperature_C = plant.joint_temperature_C();
     plant.step(torque_Nm, config.load_torque_Nm.at(time_s));
     visit({time_s, sample.setpoint_position_rad, state.position_rad, state.velocity_rad_s, torque_Nm,
-           plant.applied_torque_Nm(), joint_temperature_C});
+           plant.applied_torque_Nm(), joint_temperature_C, link_rad});
     if (!(std::abs(plant.state().position_rad) < kLargestPosition_rad)) return false;
   }
   return true;

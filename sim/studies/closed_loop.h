@@ -47,10 +47,11 @@ struct ClosedLoopConfig {
   double duration_s = 0.0;     ///< > 0
 };
 
-/// One sample of a run: the truth at its start, the torque wanted there and the one applied over it.
+/// One sample of a run: the truth at its start (the motor's side, and the link), the torque wanted there and the one applied over it.
 struct TracePoint {
   double time_s, setpoint_position_rad, joint_position_rad, joint_velocity_rad_s, wanted_torque_Nm,
       applied_torque_Nm, joint_temperature_C;
+  double link_position_rad;  ///< of a rigid joint the joint's
 };
 
 /// What a trace amounts to. A stretch is a run of samples with one setpoint and no jump of temperature; its
@@ -80,6 +81,9 @@ bool simulate(const ClosedLoopConfig& config, LoopController& controller,
 
 /// The same, with the whole trace kept.
 ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController& controller);
+
+/// The trace as the link has it: its position in the place of the motor's.
+std::vector<TracePoint> on_the_link(std::vector<TracePoint> trace);
 
 /// Statistics of a trace with one point per `period_s`.
 LoopStatistics evaluate(const std::vector<TracePoint>& trace, double period_s);

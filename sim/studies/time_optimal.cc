@@ -53,7 +53,8 @@ class Move {
   double switching_time_s() const {
     const JointInput start = input(first_, direction_);
     if (!(direction_ * (start.torque_Nm - start.load_torque_Nm) > start.friction.static_Nm))
-      throw InputError("time-optimal motion", "peak_torque_Nm", std::to_string(config_.plant.motor.peak_torque_Nm),
+      throw InputError("time-optimal motion", "peak_torque_Nm",
+                       std::to_string(config_.plant.motor.peak_torque_Nm),
                        "must exceed static friction and load, or the joint cannot move");
     const auto miss_rad = [&](double switch_s) {
       return direction_ * (simulate(switch_s, nullptr).position_rad - to_rad_);
@@ -80,7 +81,7 @@ class Move {
     const double torque_Nm =
         config_.plant.motor.limit_Nm(torque_sign * config_.plant.motor.peak_torque_Nm, state.velocity_rad_s);
     return {time_s,    config_.setpoint_rad.at(time_s), state.position_rad, state.velocity_rad_s, torque_Nm,
-            torque_Nm, config_.ambient.at(time_s)};
+            torque_Nm, config_.ambient.at(time_s),      state.position_rad};
   }
 
   /// The stop within `brake_s` of `state`; beyond it the same torque would drive the joint back.
@@ -120,7 +121,8 @@ TimeOptimalResult run_time_optimal(const ClosedLoopConfig& config) {
     const double time_s = static_cast<double>(k) * config.plant.period_s;
     const double setpoint_rad = config.setpoint_rad.at(time_s);
     if (setpoint_rad == position_rad) {
-      result.trace.push_back({time_s, setpoint_rad, position_rad, 0.0, 0.0, 0.0, config.ambient.at(time_s)});
+      result.trace.push_back(
+          {time_s, setpoint_rad, position_rad, 0.0, 0.0, 0.0, config.ambient.at(time_s), position_rad});
       continue;
     }
     const Move move(config, k, position_rad, setpoint_rad);

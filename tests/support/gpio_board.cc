@@ -107,7 +107,7 @@ long since_ns(const timespec& from) {
 
 int run_plant(const std::string& lines, const std::string& tree, double position_rad) {
   strainwave::JointPlantConfig config = strainwave::realistic_plant();
-  config.delay_samples = 0;
+  config.delay.periods = 0.0;
   config.initial_position_rad = position_rad;
   strainwave::JointPlant plant(config);
   plant.set_ambient_temperature(25.0);

@@ -19,6 +19,7 @@ struct Library {
 /// core.
 const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
+    {"Clp_", {"sim/studies/linear_program.cc"}},
     {"lcm/", {"daemon/gateway/", "client/", "tests/"}},
     {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
     {"toml++/", {"base/toml_section.cc"}},

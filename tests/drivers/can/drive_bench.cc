@@ -11,7 +11,7 @@ BenchDrive bench_drive(std::uint8_t node_id) {
   BenchDrive drive;
   drive.node.node_id = node_id;
   drive.node.drive.plant = realistic_plant();
-  drive.node.drive.plant.delay_samples = 0;
+  drive.node.drive.plant.delay.periods = 0.0;
   cia402::DriveConfig& config = drive.config;
   config.name = "joint" + std::to_string(node_id);
   config.node_id = node_id;

@@ -42,12 +42,13 @@ TEST(JointPlant, ReadsTheTruthWithAnIdealEncoder) {
 }
 
 TEST(JointPlant, ActsOnACommandAsManyPeriodsLaterAsConfigured) {
-  for (const int delay : {0, 1, 3, kMaxDelaySamples}) {
+  constexpr int kMost = static_cast<int>(kMaxDelayPeriods);
+  for (const int delay : {0, 1, 3, kMost}) {
     JointPlantConfig config = ideal_plant();
-    config.delay_samples = delay;
+    config.delay.periods = delay;
     JointPlant plant(config);
     plant.set_ambient_temperature(20.0);
-    for (int k = 0; k < 2 * kMaxDelaySamples; ++k) {
+    for (int k = 0; k < 2 * kMost; ++k) {
       plant.step(k == 2 ? 10.0 : 0.0);
       EXPECT_EQ(plant.applied_torque_Nm(), k == 2 + delay ? 10.0 : 0.0)
           << "delay " << delay << " period " << k;
@@ -57,7 +58,7 @@ TEST(JointPlant, ActsOnACommandAsManyPeriodsLaterAsConfigured) {
 
 TEST(JointPlant, ForgetsPendingTorqueWhenTold) {
   JointPlantConfig config = ideal_plant();
-  config.delay_samples = 2;
+  config.delay.periods = 2.0;
   JointPlant plant(config);
   plant.set_ambient_temperature(20.0);
   plant.step(10.0);
@@ -135,7 +136,7 @@ TEST(JointPlant, RefusesAnImpossibleConfigurationByName) {
   EXPECT_NE(message([](auto& c) { c.joint.inertia_kgm2 = 0.0; }).find("inertia_kgm2"), std::string::npos);
   EXPECT_NE(message([](auto& c) { c.period_s = -1.0; }).find("period_s"), std::string::npos);
   EXPECT_NE(message([](auto& c) { c.substeps = 0; }).find("substeps"), std::string::npos);
-  EXPECT_NE(message([](auto& c) { c.delay_samples = kMaxDelaySamples + 1; }).find("delay_samples"),
+  EXPECT_NE(message([](auto& c) { c.delay.periods = kMaxDelayPeriods + 1.0; }).find("delay_periods"),
             std::string::npos);
   EXPECT_NE(message([](auto& c) { c.motor.peak_torque_Nm = std::nan(""); }).find("peak_torque_Nm"),
             std::string::npos);

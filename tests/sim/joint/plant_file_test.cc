@@ -26,7 +26,8 @@ inertia_kgm2 = 0.12
 asymptote_coulomb_Nm = 1
 [simulation]
 substeps = 20
-delay_samples = 2
+[drive]
+delay_periods = 2.5
 )",
                                                  "joint.toml");
   EXPECT_EQ(plant.joint.inertia_kgm2, 0.12);
@@ -35,30 +36,39 @@ delay_samples = 2
   EXPECT_EQ(plant.motor.peak_torque_Nm, kReferencePeakTorque_Nm);
   EXPECT_EQ(plant.encoder.counts_per_joint_revolution, 0.0);
   EXPECT_EQ(plant.substeps, 20);
-  EXPECT_EQ(plant.delay_samples, 2);
+  EXPECT_EQ(plant.delay.periods, 2.5);
 }
 
 TEST(PlantFile, IsTheRealisticJointWhenEmpty) {
   const JointPlantConfig plant = plant_from_toml("", "joint.toml");
   EXPECT_EQ(plant.encoder.counts_per_joint_revolution, kReferenceCountsPerRevolution);
-  EXPECT_EQ(plant.delay_samples, 1);
+  EXPECT_EQ(plant.delay.periods, 1.0);
 }
 
 TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
-  EXPECT_NE(refusal("base = \"perfect\"").find("joint.toml:1: base = \"perfect\": allowed are \"ideal\""),
-            std::string::npos);
-  EXPECT_NE(refusal("[joint]\nmass_kg = 3").find("joint.toml:2: joint.mass_kg = 3: unknown key"),
-            std::string::npos);
-  EXPECT_NE(refusal("[gear]\nratio = 50").find("gear = (a table): unknown key"), std::string::npos);
-  EXPECT_NE(refusal("[joint]\ninertia_kgm2 = \"heavy\"").find("joint.toml:2: joint.inertia_kgm2 = \"heavy\": a number from"),
-            std::string::npos);
-  EXPECT_NE(refusal("[joint]\ninertia_kgm2 = -1").find("inertia_kgm2 = -1"), std::string::npos);
+  const auto names = [](const std::string& text, std::initializer_list<const char*> parts) {
+    const std::string message = refusal(text);
+    for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  names("base = \"perfect\"", {"joint.toml:1: base = ", "perfect", "ideal", "flexible"});
+  names("[joint]\nmass_kg = 3", {"joint.toml:2", "joint.mass_kg"});
+  names("[gearbox]\nratio = 50", {"gearbox"});
+  names("[joint]\ninertia_kgm2 = \"heavy\"", {"joint.toml:2", "joint.inertia_kgm2", "heavy", "a number"});
+  names("[joint]\ninertia_kgm2 = -1", {"joint.inertia_kgm2 = -1"});
+  names("gear = \"csf-17-77\"\n[link]\ninertia_kgm2 = 0.1",
+        {"joint.toml:1", "gear", "csf-17-77", "csf-17-50"});
+  names("gear = \"csf-17-50\"", {"gear", "link.inertia_kgm2"});
+  names("[link]\ninertia_kgm2 = 0.1", {"link", "a gear, or a spring"});
+  names("[link]\ninertia_kgm2 = 0.1\n[spring]\nstiffness_1_Nm_rad = -8000",
+        {"joint.toml:4", "spring.stiffness_1_Nm_rad = -8000"});
+  names("[link_encoder]\nfeedback = true", {"link_encoder.counts_per_joint_revolution"});
+  names("base = \"flexible\"\n[spring]\nscale = 90", {"substeps", "at most 1"});
   EXPECT_NE(refusal("[simulation]\nsubsteps = 2.5").find("substeps"), std::string::npos);
   EXPECT_NE(refusal("[joint\n").find("joint.toml:1:"), std::string::npos);
 }
 
 TEST(PlantFile, KnowsTheBuiltInPlantsByName) {
-  EXPECT_EQ(plant_named("realistic").delay_samples, 1);
+  EXPECT_EQ(plant_named("realistic").delay.periods, 1.0);
   EXPECT_THROW(plant_named("/nonexistent/plant.toml"), InputError);
 }
 

@@ -96,7 +96,7 @@ TEST(ClosedLoop, BringsTheSourcesPidToItsSetpoint) {
 
 TracePoint point(double time_s, double setpoint_rad, double position_rad, double torque_Nm,
                  double temperature_C) {
-  return {time_s, setpoint_rad, position_rad, 0.0, torque_Nm, torque_Nm, temperature_C};
+  return {time_s, setpoint_rad, position_rad, 0.0, torque_Nm, torque_Nm, temperature_C, position_rad};
 }
 
 TEST(LoopStatistics, ReadRiseSettlingAndOvershootOffTheTrace) {

@@ -76,7 +76,7 @@ int run(int argc, char** argv) {
   // The bus brings the period of delay that the plant has elsewhere: what is read was sampled with the last
   // SYNC.
   config.drive.plant = realistic_plant();
-  config.drive.plant.delay_samples = 0;
+  config.drive.plant.delay.periods = 0.0;
   add_options(app, options, config);
   CLI11_PARSE(app, argc, argv);
   finish(options, config);

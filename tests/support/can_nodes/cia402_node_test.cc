@@ -16,7 +16,7 @@ Cia402NodeConfig node_config() {
   Cia402NodeConfig config;
   config.node_id = 3;
   config.drive.plant = realistic_plant();
-  config.drive.plant.delay_samples = 0;
+  config.drive.plant.delay.periods = 0.0;
   return config;
 }
 

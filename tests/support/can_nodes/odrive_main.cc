@@ -13,7 +13,7 @@ int run(int argc, char** argv) {
   CLI::App app("A simulated ODrive axis with a joint behind it.", "odrive-node");
   OdriveNodeConfig config;
   config.plant = realistic_plant();
-  config.plant.delay_samples = 0;
+  config.plant.delay.periods = 0.0;
   config.plant.period_s = 0.5e-3;  // the drive's own control period, as good as continuous at 1 kHz
   config.plant.substeps = 5;
   std::string interface;

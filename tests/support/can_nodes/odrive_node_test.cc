@@ -15,7 +15,7 @@ OdriveNodeConfig node_config() {
   OdriveNodeConfig config;
   config.node_id = 2;
   config.plant = realistic_plant();
-  config.plant.delay_samples = 0;
+  config.plant.delay.periods = 0.0;
   config.encoder_us = 0;
   return config;
 }

@@ -25,7 +25,7 @@ class OdriveDriver : public ::testing::Test {
   OdriveDriver() {
     node_config_.node_id = 2;
     node_config_.plant = realistic_plant();
-    node_config_.plant.delay_samples = 0;
+    node_config_.plant.delay.periods = 0.0;
     node_config_.encoder_us = 1000;
     node_config_.temperature_us = 100000;
     config_.name = "elbow";

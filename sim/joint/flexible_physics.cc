@@ -1,0 +1,364 @@
+#include "sim/joint/flexible_physics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr int kMaxEventsPerSubstep = 32;
+constexpr int kMaxBristleSteps = 64;
+
+// What an axis does during a step: slides one way or the other, or sticks.
+struct Modes {
+  double motor = 0.0;  ///< +1, -1; 0: stuck
+  double link = 0.0;
+};
+
+struct Vector {
+  double motor_position, motor_velocity, link_position, link_velocity, lost_motion, bristle;
+};
+
+Vector operator+(const Vector& a, const Vector& b) noexcept {
+  return {a.motor_position + b.motor_position, a.motor_velocity + b.motor_velocity,
+          a.link_position + b.link_position,   a.link_velocity + b.link_velocity,
+          a.lost_motion + b.lost_motion,       a.bristle + b.bristle};
+}
+Vector operator*(double s, const Vector& a) noexcept {
+  return {s * a.motor_position, s * a.motor_velocity, s * a.link_position,
+          s * a.link_velocity,  s * a.lost_motion,    s * a.bristle};
+}
+
+Vector vector_of(const FlexibleState& s) noexcept {
+  return {s.motor.position_rad,  s.motor.velocity_rad_s, s.link.position_rad,
+          s.link.velocity_rad_s, s.lost_motion_rad,      s.bristle_rad};
+}
+
+/// The torques at one instant; friction of stuck axes left out.
+struct Torques {
+  double transmitted_Nm = 0.0;
+  double on_motor_Nm = 0.0;  ///< without motor friction
+  double on_link_Nm = 0.0;   ///< without Coulomb friction of the link
+};
+
+/// The equations for one constant input. Time runs from the start of it.
+class Equations {
+ public:
+  Equations(const FlexibleJoint& joint, const JointInput& input, double start_current_Nm) noexcept
+      : joint_(joint), input_(input), start_current_Nm_(start_current_Nm) {}
+
+  bool presliding() const noexcept { return joint_.effects.friction.presliding_rad > 0.0; }
+  bool has_link() const noexcept { return joint_.effects.transmission.has_value(); }
+  double link_static_Nm() const noexcept { return joint_.effects.transmission->link_coulomb_Nm; }
+
+  /// Torque behind the current loop: exact for its first-order lag.
+  double current_Nm(double time_s) const noexcept {
+    const double lag_s = joint_.effects.drive.current_loop_s;
+    if (lag_s <= 0.0) return input_.torque_Nm;
+    return input_.torque_Nm + (start_current_Nm_ - input_.torque_Nm) * std::exp(-time_s / lag_s);
+  }
+
+  double motor_Nm(double current_Nm, const Vector& x) const noexcept {
+    const DriveEffects& drive = joint_.effects.drive;
+    double wanted_Nm = current_Nm;
+    if (drive.ripple_share > 0.0)
+      wanted_Nm *= 1.0 + drive.ripple_share * std::sin(drive.ripple_per_motor_turn * turn_rad(x));
+    return input_.motor.limit_Nm(wanted_Nm, x.motor_velocity);
+  }
+
+  Torques torques(double time_s, const Vector& x) const noexcept {
+    Torques result;
+    const double motor_Nm = this->motor_Nm(current_Nm(time_s), x);
+    const double outside_Nm = input_.load_torque_Nm + position_torque_Nm(x);
+    if (!has_link()) {
+      result.on_motor_Nm = motor_Nm - outside_Nm;
+      return result;
+    }
+    const Transmission& gear = *joint_.effects.transmission;
+    double lead = 1.0;
+    result.transmitted_Nm = transmitted_Nm(x, lead);
+    result.on_motor_Nm = motor_Nm - lead * result.transmitted_Nm;
+    result.on_link_Nm = result.transmitted_Nm - outside_Nm - gear.link_viscous_Nms_rad * x.link_velocity;
+    return result;
+  }
+
+  /// Friction parameters with what the transmitted torque adds.
+  FrictionParameters friction(double transmitted_Nm) const noexcept {
+    FrictionParameters friction = input_.friction;
+    const double added_Nm = joint_.effects.friction.transmitted_share * std::abs(transmitted_Nm);
+    friction.static_Nm += added_Nm;
+    friction.coulomb_Nm += added_Nm;
+    return friction;
+  }
+
+  /// How fast the bristles follow at this state, 1/s.
+  double bristle_rate(const Vector& x) const noexcept {
+    const FrictionParameters f = friction(0.0);
+    return std::abs(x.motor_velocity) * bristle_stiffness_Nm_rad(f) / sliding_Nm(f, x.motor_velocity);
+  }
+
+  Vector derivative(double time_s, const Vector& x, const Modes& modes) const noexcept {
+    const Torques t = torques(time_s, x);
+    Vector d{};
+    d.motor_position = x.motor_velocity;
+    if (presliding()) {
+      const FrictionParameters f = friction(t.transmitted_Nm);
+      const double stiffness = bristle_stiffness_Nm_rad(f);
+      d.bristle = x.motor_velocity -
+                  std::abs(x.motor_velocity) * x.bristle * stiffness / sliding_Nm(f, x.motor_velocity);
+      const double damping = std::sqrt(stiffness * joint_.motor.inertia_kgm2);
+      d.motor_velocity = (t.on_motor_Nm - stiffness * x.bristle - damping * d.bristle -
+                          f.viscous_Nms_rad * x.motor_velocity) /
+                         joint_.motor.inertia_kgm2;
+    } else if (modes.motor != 0.0) {
+      d.motor_velocity =
+          (t.on_motor_Nm - modes.motor * sliding_friction_Nm(t.transmitted_Nm, x, modes.motor)) /
+          joint_.motor.inertia_kgm2;
+    }
+    if (!has_link()) {
+      d.link_position = d.motor_position;
+      d.link_velocity = d.motor_velocity;
+      return d;
+    }
+    const Transmission& gear = *joint_.effects.transmission;
+    d.link_position = x.link_velocity;
+    if (modes.link != 0.0)
+      d.link_velocity = (t.on_link_Nm - modes.link * gear.link_coulomb_Nm) / gear.link_inertia_kgm2;
+    if (gear.lost_motion.width_rad > 0.0) {
+      const double speed = wind_up_speed_rad_s(x);
+      d.lost_motion = speed - std::abs(speed) * x.lost_motion / (0.5 * gear.lost_motion.width_rad);
+    }
+    return d;
+  }
+
+  Vector runge_kutta(double time_s, const Vector& x, const Modes& modes, double h) const noexcept {
+    const Vector k1 = derivative(time_s, x, modes);
+    const Vector k2 = derivative(time_s + 0.5 * h, x + (0.5 * h) * k1, modes);
+    const Vector k3 = derivative(time_s + 0.5 * h, x + (0.5 * h) * k2, modes);
+    const Vector k4 = derivative(time_s + h, x + h * k3, modes);
+    return x + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
+  }
+
+  double wind_up_rad(const Vector& x) const noexcept {
+    const double error_rad =
+        gear().kinematic_error.on() ? gear().kinematic_error.value_rad(turn_rad(x)) : 0.0;
+    return x.motor_position + error_rad - x.link_position;
+  }
+
+ private:
+  const Transmission& gear() const noexcept { return *joint_.effects.transmission; }
+  double turn_rad(const Vector& x) const noexcept { return joint_.effects.gear_ratio * x.motor_position; }
+
+  double lead_of(const Vector& x) const noexcept {
+    return gear().kinematic_error.on()
+               ? 1.0 + joint_.effects.gear_ratio * gear().kinematic_error.slope(turn_rad(x))
+               : 1.0;
+  }
+  double wind_up_speed_rad_s(const Vector& x) const noexcept {
+    return lead_of(x) * x.motor_velocity - x.link_velocity;
+  }
+  double transmitted_Nm(const Vector& x, double& lead) const noexcept {
+    lead = lead_of(x);
+    return gear().spring.torque_Nm(wind_up_rad(x)) +
+           gear().damping_Nms_rad * (lead * x.motor_velocity - x.link_velocity) +
+           gear().spring.stiffness_1_Nm_rad * x.lost_motion;
+  }
+  double position_torque_Nm(const Vector& x) const noexcept {
+    const Gravity& gravity = joint_.effects.gravity;
+    const double pull_Nm =
+        gravity.torque_Nm != 0.0 ? gravity.torque_Nm * std::sin(x.link_position - gravity.zero_rad) : 0.0;
+    return pull_Nm + joint_.effects.contact.torque_Nm(x.link_position, x.link_velocity);
+  }
+  double bristle_stiffness_Nm_rad(const FrictionParameters& f) const noexcept {
+    return f.static_Nm / joint_.effects.friction.presliding_rad;
+  }
+  /// Stribeck curve without its viscous part, > 0 also at rest.
+  double sliding_Nm(const FrictionParameters& f, double velocity_rad_s) const noexcept {
+    if (velocity_rad_s == 0.0) return f.static_Nm;
+    const FrictionParameters dry{f.static_Nm, f.coulomb_Nm, 0.0};
+    return stribeck_friction_Nm(dry, joint_.motor.stribeck, std::abs(velocity_rad_s));
+  }
+  /// Size of the motor's friction in the direction of sliding, continued smoothly to the other side.
+  double sliding_friction_Nm(double transmitted_Nm, const Vector& x, double direction) const noexcept {
+    const FrictionParameters f = friction(transmitted_Nm);
+    return sliding_Nm(f, x.motor_velocity) + f.viscous_Nms_rad * direction * x.motor_velocity;
+  }
+
+  const FlexibleJoint& joint_;
+  const JointInput& input_;
+  double start_current_Nm_;
+};
+
+/// One constant input, sub-step by sub-step.
+class Stepper {
+ public:
+  Stepper(const Equations& equations, const Vector& start) noexcept : equations_(equations), x_(start) {}
+
+  const Vector& state() const noexcept { return x_; }
+
+  void advance(double h) noexcept {
+    for (int events = 0; h > 0.0; ++events) {
+      const bool last = events >= kMaxEventsPerSubstep;
+      const Modes modes = modes_at(x_, last);
+      const double step_s = whole_step(modes, h, last);
+      time_s_ += step_s;
+      h -= step_s;
+    }
+  }
+
+ private:
+  /// Which way each axis goes from here.
+  Modes modes_at(const Vector& x, bool hold) const noexcept {
+    const Torques t = equations_.torques(time_s_, x);
+    Modes modes;
+    modes.motor = x.motor_velocity != 0.0 ? sign(x.motor_velocity)
+                  : hold || std::abs(t.on_motor_Nm) <= equations_.friction(t.transmitted_Nm).static_Nm
+                      ? 0.0
+                      : sign(t.on_motor_Nm);
+    if (!equations_.has_link()) return modes;
+    const double link_static_Nm = equations_.link_static_Nm();
+    // Without friction nothing sticks, not even where nothing pulls.
+    modes.link = link_static_Nm <= 0.0                              ? 1.0
+                 : x.link_velocity != 0.0                           ? sign(x.link_velocity)
+                 : hold || std::abs(t.on_link_Nm) <= link_static_Nm ? 0.0
+                                                                    : sign(t.on_link_Nm);
+    return modes;
+  }
+
+  /// Above 0 when, at the end of a step, an axis has turned round or a stuck one has broken away.
+  double event(const Vector& from, const Vector& x, const Modes& modes, double h) const noexcept {
+    const Torques t = equations_.torques(time_s_ + h, x);
+    double value = -1.0;
+    if (!equations_.presliding()) {
+      if (modes.motor == 0.0)
+        value = std::max(value, std::abs(t.on_motor_Nm) - equations_.friction(t.transmitted_Nm).static_Nm);
+      else if (from.motor_velocity != 0.0)
+        value = std::max(value, -modes.motor * x.motor_velocity);
+    }
+    if (!equations_.has_link() || equations_.link_static_Nm() <= 0.0) return value;
+    if (modes.link == 0.0) return std::max(value, std::abs(t.on_link_Nm) - equations_.link_static_Nm());
+    return from.link_velocity != 0.0 ? std::max(value, -modes.link * x.link_velocity) : value;
+  }
+
+  /// Goes as far as `h` or the first event; returns how far.
+  double whole_step(Modes modes, double h, bool ignore_events) noexcept {
+    const Vector from = x_;
+    Vector to = equations_.runge_kutta(time_s_, from, modes, h);
+    if (fell_back(from, to, modes)) {
+      to = equations_.runge_kutta(time_s_, from, modes, h);
+      ignore_events = true;
+    }
+    double step_s = h;
+    if (!ignore_events && event(from, to, modes, h) > 0.0) {
+      step_s = shorten(from, modes, h);
+      to = equations_.runge_kutta(time_s_, from, modes, step_s);
+    }
+    // An axis that has turned round, or sticks, is at rest.
+    if (!equations_.presliding() && (modes.motor == 0.0 || modes.motor * to.motor_velocity <= 0.0))
+      to.motor_velocity = 0.0;
+    if (equations_.has_link() && equations_.link_static_Nm() > 0.0 &&
+        (modes.link == 0.0 || modes.link * to.link_velocity <= 0.0))
+      to.link_velocity = 0.0;
+    x_ = to;
+    return step_s;
+  }
+
+  /// An axis that leaves rest and ends on the other side did not leave: it sticks over this step.
+  bool fell_back(const Vector& from, const Vector& to, Modes& modes) const noexcept {
+    bool changed = false;
+    if (!equations_.presliding() && from.motor_velocity == 0.0 && modes.motor * to.motor_velocity < 0.0) {
+      modes.motor = 0.0;
+      changed = true;
+    }
+    if (equations_.has_link() && equations_.link_static_Nm() > 0.0 && from.link_velocity == 0.0 &&
+        modes.link * to.link_velocity < 0.0) {
+      modes.link = 0.0;
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// The shortest step, to rounding, at whose end the event has happened: false position on a bracket that halves at least every
+  /// third time.
+  double shorten(const Vector& from, const Modes& modes, double h) const noexcept {
+    const auto value = [&](double s) {
+      return event(from, equations_.runge_kutta(time_s_, from, modes, s), modes, s);
+    };
+    double low = 0.0;
+    double high = h;
+    double f_low = event(from, from, modes, 0.0);
+    double f_high = value(h);
+    for (int i = 0; i < 100 && high - low > 1e-15 * (1.0 + h); ++i) {
+      const double secant = f_high - f_low > 0.0 ? low - f_low * (high - low) / (f_high - f_low) : low;
+      const bool bisect = i % 3 == 2 || !(secant > low && secant < high);
+      const double s = bisect ? 0.5 * (low + high) : secant;
+      const double f = value(s);
+      (f > 0.0 ? high : low) = s;
+      (f > 0.0 ? f_high : f_low) = f;
+    }
+    return high;
+  }
+
+  const Equations& equations_;
+  Vector x_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace
+
+void advance(FlexibleState& state, const FlexibleJoint& joint, const JointInput& input, double duration_s,
+             int substeps) noexcept {
+  const Equations equations(joint, input, state.current_Nm);
+  Stepper stepper(equations, vector_of(state));
+  const double substep_s = duration_s / substeps;
+  for (int i = 0; i < substeps; ++i) {
+    const double turns = equations.presliding() ? equations.bristle_rate(stepper.state()) * substep_s : 0.0;
+    const int parts = 1 + static_cast<int>(std::min(turns, static_cast<double>(kMaxBristleSteps - 1)));
+    for (int part = 0; part < parts; ++part) stepper.advance(substep_s / parts);
+  }
+  const Vector& x = stepper.state();
+  const Torques t = equations.torques(duration_s, x);
+  state.current_Nm = equations.current_Nm(duration_s);
+  state.motor = {x.motor_position, x.motor_velocity,
+                 !equations.presliding() && x.motor_velocity == 0.0 &&
+                     std::abs(t.on_motor_Nm) <= equations.friction(t.transmitted_Nm).static_Nm};
+  state.link = equations.has_link() ? JointState{x.link_position, x.link_velocity,
+                                                 equations.link_static_Nm() > 0.0 && x.link_velocity == 0.0 &&
+                                                     std::abs(t.on_link_Nm) <= equations.link_static_Nm()}
+                                    : state.motor;
+  state.lost_motion_rad = x.lost_motion;
+  state.bristle_rad = x.bristle;
+}
+
+double transmitted_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state) noexcept {
+  const JointInput nothing;
+  return Equations(joint, nothing, 0.0).torques(0.0, vector_of(state)).transmitted_Nm;
+}
+
+double motor_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state,
+                       const JointInput& input) noexcept {
+  return Equations(joint, input, state.current_Nm).motor_Nm(state.current_Nm, vector_of(state));
+}
+
+double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& state) noexcept {
+  const auto square = [](double x) { return x * x; };
+  double energy_J = 0.5 * joint.motor.inertia_kgm2 * square(state.motor.velocity_rad_s);
+  const Gravity& gravity = joint.effects.gravity;
+  energy_J += gravity.torque_Nm * (1.0 - std::cos(state.link.position_rad - gravity.zero_rad));
+  const Contact& contact = joint.effects.contact;
+  energy_J +=
+      0.5 * contact.stiffness_Nm_rad * square(std::max(0.0, state.link.position_rad - contact.position_rad));
+  if (!joint.effects.transmission) return energy_J;
+  const Transmission& gear = *joint.effects.transmission;
+  const JointInput nothing;
+  const double wind_up_rad = Equations(joint, nothing, 0.0).wind_up_rad(vector_of(state));
+  return energy_J + 0.5 * gear.link_inertia_kgm2 * square(state.link.velocity_rad_s) +
+         gear.spring.energy_J(wind_up_rad) +
+         0.5 * gear.spring.stiffness_1_Nm_rad * square(state.lost_motion_rad);
+}
+
+}  // namespace strainwave

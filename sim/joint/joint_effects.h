@@ -1,0 +1,112 @@
+// What makes a strain-wave joint more than one rigid inertia, one small type per effect; each is off as it stands here. Joint side,
+// SI, plain data. Sources: data/gears.csv, docs/flexible-joint.md.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "sim/joint/torsion_spring.h"
+
+namespace strainwave {
+
+/// The gear does not turn evenly: with the motor's angle N theta the output leads by
+///   e(theta) = sum over n = 1, 2 of a_n sin(n N theta + phi_n)
+struct KinematicError {
+  std::array<double, 2> amplitude_rad{};  ///< a_1 and a_2 at the joint: once and twice per motor turn
+  std::array<double, 2> phase_rad{};      ///< phi_1 and phi_2
+
+  bool on() const noexcept { return amplitude_rad[0] != 0.0 || amplitude_rad[1] != 0.0; }
+  /// e, with the motor's own shaft at `turn_rad` = N theta.
+  double value_rad(double turn_rad) const noexcept {
+    return amplitude_rad[0] * std::sin(turn_rad + phase_rad[0]) +
+           amplitude_rad[1] * std::sin(2.0 * turn_rad + phase_rad[1]);
+  }
+  /// de/d(N theta).
+  double slope(double turn_rad) const noexcept {
+    return amplitude_rad[0] * std::cos(turn_rad + phase_rad[0]) +
+           2.0 * amplitude_rad[1] * std::cos(2.0 * turn_rad + phase_rad[1]);
+  }
+};
+
+/// The spring's loss that does not depend on speed: a sliding element beside it, which gives way as it is bent,
+///   dz/dt = w - |w| z / (h/2),   torque = K1 z
+/// so that the wind-up at zero torque differs by h between the two ways of loading.
+struct LostMotion {
+  double width_rad = 0.0;  ///< h >= 0
+};
+
+/// Gear and link. Without one the joint is rigid and its whole inertia is at the motor.
+struct Transmission {
+  double link_inertia_kgm2 = 0.0;  ///< Jl > 0
+  TorsionSpring spring;
+  double damping_Nms_rad = 0.0;  ///< D >= 0, of the wind-up's speed
+  LostMotion lost_motion;
+  KinematicError kinematic_error;
+  double link_coulomb_Nm = 0.0;       ///< friction of the output bearing, with stiction of the same size
+  double link_viscous_Nms_rad = 0.0;  ///< >= 0
+};
+
+/// Beyond the Stribeck curve.
+struct FrictionEffects {
+  double transmitted_share = 0.0;  ///< of the transmitted torque, added to static and Coulomb friction; >= 0
+  /// Elastic creep before sliding (LuGre): at this angle the bristles carry static friction; 0: true stiction.
+  double presliding_rad = 0.0;
+};
+
+/// Between the command and the torque.
+struct DriveEffects {
+  double current_loop_s = 0.0;          ///< time constant; 0: at once
+  double ripple_share = 0.0;            ///< of the torque, amplitude, in [0, 1)
+  double ripple_per_motor_turn = 12.0;  ///< cycles
+};
+
+/// m g l sin(link position - zero), pulling back towards the zero.
+struct Gravity {
+  double torque_Nm = 0.0;  ///< m g l >= 0
+  double zero_rad = 0.0;
+};
+
+/// What the link runs into: a spring and a damper that only push, above a position. A stop is a stiff one.
+struct Contact {
+  double position_rad = 0.0;
+  double stiffness_Nm_rad = 0.0;  ///< 0: nothing there
+  double damping_Nms_rad = 0.0;   ///< >= 0
+
+  double torque_Nm(double link_position_rad, double link_velocity_rad_s) const noexcept {
+    const double depth_rad = link_position_rad - position_rad;
+    if (stiffness_Nm_rad <= 0.0 || depth_rad <= 0.0) return 0.0;
+    const double push_Nm = stiffness_Nm_rad * depth_rad + damping_Nms_rad * link_velocity_rad_s;
+    return push_Nm > 0.0 ? push_Nm : 0.0;
+  }
+};
+
+struct JointEffects {
+  double gear_ratio = 50.0;  ///< N > 0: motor turns per joint turn, for what repeats with the motor's turn
+  std::optional<Transmission> transmission;
+  FrictionEffects friction;
+  DriveEffects drive;
+  Gravity gravity;
+  Contact contact;
+
+  /// Whether the joint is anything but one rigid inertia with Stribeck friction.
+  bool any() const noexcept {
+    return transmission || friction.presliding_rad > 0.0 || drive.current_loop_s > 0.0 ||
+           drive.ripple_share > 0.0 || gravity.torque_Nm != 0.0 || contact.stiffness_Nm_rad > 0.0;
+  }
+};
+
+/// Angular frequency in rad/s at which motor and link swing against each other on a spring of `stiffness_Nm_rad`.
+inline double free_free_frequency_rad_s(double motor_inertia_kgm2, double link_inertia_kgm2,
+                                        double stiffness_Nm_rad) noexcept {
+  return std::sqrt(stiffness_Nm_rad * (1.0 / motor_inertia_kgm2 + 1.0 / link_inertia_kgm2));
+}
+
+/// The damper that gives this swinging, on the first slope, the share `ratio` of critical damping.
+inline double structural_damping_Nms_rad(double motor_inertia_kgm2, double link_inertia_kgm2,
+                                         double stiffness_Nm_rad, double ratio) noexcept {
+  return 2.0 * ratio * stiffness_Nm_rad /
+         free_free_frequency_rad_s(motor_inertia_kgm2, link_inertia_kgm2, stiffness_Nm_rad);
+}
+
+}  // namespace strainwave
