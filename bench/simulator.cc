@@ -49,6 +49,25 @@ void plant_period(benchmark::State& bench) {
 }
 BENCHMARK(plant_period);
 
+/// One period of the flexible joint under a torque that swings it, without and with every effect.
+void flexible_plant_period(benchmark::State& bench) {
+  JointPlantConfig config = flexible_plant();
+  if (bench.range(0) != 0) {
+    Transmission& gear = *config.effects.transmission;
+    gear.lost_motion.width_rad = 5.8e-4;
+    gear.kinematic_error = {{2.2e-4, 2.2e-4}, {0.0, 1.0}};
+    gear.link_coulomb_Nm = 0.3;
+    config.effects.friction.transmitted_share = 0.06;
+    config.effects.drive = {5e-4, 0.02, 12.0};
+  }
+  JointPlant plant(config);
+  plant.set_ambient_temperature(20.0);
+  long k = 0;
+  for (auto _ : bench) plant.step((k++ / 100) % 2 == 0 ? 15.0 : -15.0);
+  bench.SetItemsProcessed(bench.iterations());
+}
+BENCHMARK(flexible_plant_period)->Arg(0)->Arg(1)->ArgName("every_effect");
+
 }  // namespace
 }  // namespace strainwave
 

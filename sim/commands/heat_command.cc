@@ -15,7 +15,7 @@ namespace {
 struct Options {
   HeatConfig study;
   std::string table;
-  std::string plant = "realistic";
+  std::string plant = "flexible";
   std::string out = "heat";
 };
 
@@ -36,7 +36,9 @@ void run(Options& options) {
   options.study.plant = plant_named(options.plant);
   if (options.study.plant.thermal.resistance_C_W == 0.0) options.study.plant.thermal = reference_thermal();
   const auto runs = run_heat(options.study, read_gain_table(options.table));
-  write_study("heat", heat_summary(runs), details(runs), heat_figure(runs), options.out);
+  TextTable summary = heat_summary(runs);
+  summary.title += ", plant " + options.plant + ", judged at the link";
+  write_study("heat", summary, details(runs), heat_figure(runs), options.out);
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ void add_heat_command(CLI::App& program) {
       "heat", "Losses warm the joint; what a late, biased or missing temperature costs");
   HeatConfig& study = options->study;
   command->add_option("--table", options->table, "gain table (JSON)")->required();
-  command->add_option("--plant", options->plant, "ideal, limited, realistic or a plant file")
+  command->add_option("--plant", options->plant, "flexible, realistic, limited, ideal or a plant file")
       ->capture_default_str();
   command->add_option("--ambient", study.ambient_C, "degC")->capture_default_str();
   command->add_option("--stroke", study.stroke_rad, "rad, there and back")->capture_default_str();

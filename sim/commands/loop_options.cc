@@ -7,7 +7,7 @@
 namespace strainwave {
 
 void add_loop_options(CLI::App& command, LoopOptions& options) {
-  command.add_option("--plant", options.plant, "ideal, limited, realistic, or a plant file (TOML)")
+  command.add_option("--plant", options.plant, "ideal, limited, realistic, flexible, or a plant file (TOML)")
       ->capture_default_str();
   command
       .add_option(

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   strainwave::add_bound_command(program);
   strainwave::add_robustness_command(program);
   strainwave::add_heat_command(program);
+  strainwave::add_flexible_command(program);
   // Each command runs in its callback, as part of the parse.
   return strainwave::run_program(program, argc, argv, [] { return strainwave::ExitStatus::kDone; });
 }

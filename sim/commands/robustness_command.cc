@@ -15,7 +15,7 @@ namespace {
 struct Options {
   RobustnessConfig study;
   std::string table;
-  std::string plant = "realistic";
+  std::string plant = "flexible";
   std::string out = "robustness";
 };
 
@@ -41,7 +41,9 @@ void add_robustness_command(CLI::App& program) {
       "robustness", "Monte-Carlo: other inertia, friction, payload than the table was made for");
   RobustnessConfig& study = options->study;
   command->add_option("--table", options->table, "gain table (JSON)")->required();
-  command->add_option("--plant", options->plant, "nominal plant: ideal, limited, realistic or a plant file")
+  command
+      ->add_option("--plant", options->plant,
+                   "nominal plant: flexible, realistic, limited, ideal or a plant file")
       ->capture_default_str();
   command->add_option("--draws", study.draws, "number of joints")->capture_default_str();
   command->add_option("--seed", study.seed, "seed of the draws")->capture_default_str();

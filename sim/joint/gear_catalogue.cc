@@ -10,8 +10,9 @@ namespace {
 std::vector<Gear> read_catalogue() {
   const std::string source = "data/gears.csv";
   const CsvText table = parse_csv_text(kGearsCsv, source);
-  table.require_columns({"gear", "ratio", "stiffness_1_Nm_rad", "torque_1_Nm", "stiffness_2_Nm_rad", "torque_2_Nm",
-                         "stiffness_3_Nm_rad", "accuracy_rad", "lost_motion_rad", "ratcheting_torque_Nm"});
+  table.require_columns({"gear", "ratio", "stiffness_1_Nm_rad", "torque_1_Nm", "stiffness_2_Nm_rad",
+                         "torque_2_Nm", "stiffness_3_Nm_rad", "accuracy_rad", "lost_motion_rad",
+                         "ratcheting_torque_Nm"});
   std::vector<Gear> gears;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto number = [&](std::size_t column) {

@@ -17,9 +17,6 @@ void require_period(const GainTable& table, const JointPlantConfig& plant) {
                      "must be the plant's period, " + std::to_string(plant.period_s));
 }
 
-// Faster than the joint can ever be: what the motor can do is then the only limit of the reference.
-constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
-
 // A plant without a torque limit (the source's ideal setting) may be given what it takes; a plan needs some number, and
 // 300 times the real actuator's peak is none in effect.
 constexpr double kNoTorqueLimit_Nm = 1e4;
@@ -39,10 +36,11 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.torque_limit_Nm = table.torque_limit_Nm;
   config.motor = plant.motor;
   config.motor.peak_torque_Nm = config.torque_limit_Nm;
-  config.motion = kNoMotionLimits;
+  config.motion = features.motion;
   config.use_observer = features.observer;
   config.use_shaping = features.shaping;
   config.use_rest = features.rest;
+  config.use_landing = features.landing;
   return config;
 }
 

@@ -25,12 +25,24 @@ struct Contender {
 /// steps, limited by the plant's peak torque. Throws InputError when a run's period is not the table's.
 Contender plain_contender(const std::string& name, const GainTable& table);
 
-/// Which features of control/joint_controller.h are on.
+/// Faster than the joint can ever be: what the motor can do is then the only limit of the reference.
+inline constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
+
+/// Which features of control/joint_controller.h are on. As it stands here: every one, for the rigid joint of the source.
 struct ExtendedFeatures {
   bool observer = true;
   bool shaping = true;
   bool rest = true;
+  bool landing = true;
+  MotionLimits motion = kNoMotionLimits;
 };
+
+/// Of a joint that is not declared rigid: without landing.
+constexpr ExtendedFeatures daemon_defaults() {
+  ExtendedFeatures features;
+  features.landing = false;
+  return features;
+}
 
 /// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,

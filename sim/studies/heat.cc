@@ -56,7 +56,7 @@ class HeatRecorder {
   HeatRecorder(const HeatConfig& config, HeatRun& run) : config_(config), run_(run) {}
 
   void add(const TracePoint& point, double told_C) {
-    const double error_rad = std::abs(point.setpoint_position_rad - point.joint_position_rad);
+    const double error_rad = std::abs(point.setpoint_position_rad - point.link_position_rad);
     sum_ += error_rad / config_.stroke_rad;
     const double move = std::floor((point.time_s + config_.plant.period_s) / config_.interval_s + 1e-9);
     if (move != move_) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "sim/studies/link_limit.h"
 #include "sim/studies/time_optimal.h"
 
 namespace strainwave {
@@ -44,13 +46,15 @@ ClosedLoopConfig drawn_config(const RobustnessConfig& config, std::size_t index,
   };
   ClosedLoopConfig result;
   result.plant = config.plant;
-  draw.inertia_kgm2 =
-      config.plant.joint.inertia_kgm2 * uniform(1.0 - config.inertia_spread, 1.0 + config.inertia_spread) +
-      uniform(0.0, config.payload_inertia_kgm2);
+  // What varies is what the joint carries: the link of a flexible joint, the one inertia of a rigid one.
+  auto& transmission = result.plant.effects.transmission;
+  double& varied_kgm2 = transmission ? transmission->link_inertia_kgm2 : result.plant.joint.inertia_kgm2;
+  varied_kgm2 = varied_kgm2 * uniform(1.0 - config.inertia_spread, 1.0 + config.inertia_spread) +
+                uniform(0.0, config.payload_inertia_kgm2);
+  draw.inertia_kgm2 = varied_kgm2 + (transmission ? result.plant.joint.inertia_kgm2 : 0.0);
   draw.friction_factor = uniform(1.0 - config.friction_spread, 1.0 + config.friction_spread);
   draw.load_torque_Nm = uniform(-config.payload_torque_Nm, config.payload_torque_Nm);
   draw.temperature_C = uniform(config.temperature_min_C, config.temperature_max_C);
-  result.plant.joint.inertia_kgm2 = draw.inertia_kgm2;
   ExponentialTemperatureLaw& friction = result.plant.joint.friction;
   friction.asymptote = scaled(friction.asymptote, draw.friction_factor);
   friction.amplitude = scaled(friction.amplitude, draw.friction_factor);
@@ -89,10 +93,16 @@ std::vector<RobustnessDraw> run_robustness(const RobustnessConfig& config,
   run_in_parallel(draws.size(), [&](std::size_t i) {
     RobustnessDraw& draw = draws[i];
     const ClosedLoopConfig loop = drawn_config(config, i, draw);
-    draw.limit_pi2 = run_time_optimal(loop).statistics.pi2;
+    draw.limit_pi2 = loop.plant.effects.transmission
+                         ? find_link_limit(link_limit_config(loop.plant, draw.temperature_C,
+                                                             config.setpoint_rad, draw.load_torque_Nm))
+                               .pi2
+                         : run_time_optimal(loop).statistics.pi2;
     for (const Contender& contender : contenders) {
       const ClosedLoopResult result = run_closed_loop(loop, *contender.make(loop.plant));
-      draw.statistics.push_back(result.statistics);
+      LoopStatistics statistics = evaluate(on_the_link(result.trace), loop.plant.period_s);
+      if (result.diverged) statistics.pi1_rad2 = statistics.pi2 = std::numeric_limits<double>::infinity();
+      draw.statistics.push_back(statistics);
       draw.diverged.push_back(result.diverged);
     }
   });

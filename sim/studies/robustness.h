@@ -1,5 +1,5 @@
 // What a wrong model costs: the same controllers on joints drawn at random around the one they were designed
-// for. Offline. Every draw depends only on the seed and its number, so a single one can be repeated.
+// for. On a flexible joint the link's inertia varies, and the link is judged. Offline. Every draw depends only on the seed and its number, so a single one can be repeated.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct RobustnessConfig {
 
 /// One joint, and what each contender did on it.
 struct RobustnessDraw {
-  double inertia_kgm2 = 0.0;
+  double inertia_kgm2 = 0.0;  ///< motor and link together
   double friction_factor = 1.0;
   double load_torque_Nm = 0.0;
   double temperature_C = 0.0;

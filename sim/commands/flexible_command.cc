@@ -1,0 +1,88 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "base/text_file.h"
+#include "sim/commands/commands.h"
+#include "sim/studies/flexible_report.h"
+#include "sim/studies/html_page.h"
+
+namespace strainwave {
+
+namespace {
+
+struct Options {
+  std::string tables;
+  std::string out = "flexible";
+  bool full = false;
+  int joints = 1000;
+  std::uint64_t seed = 1;
+};
+
+std::vector<FlexibleRow> run_part(const std::string& name, const std::vector<FlexibleCell>& cells,
+                                  const std::vector<Contender>& contenders) {
+  const std::size_t tenth = cells.size() / 10 + 1;
+  auto rows = run_flexible(cells, contenders, [&](std::size_t done) {
+    if (done % tenth == 0 || done == cells.size())
+      std::cerr << name << ": " << done << " of " << cells.size() << " cells\n";
+  });
+  return rows;
+}
+
+void run(const Options& options) {
+  const std::filesystem::path directory =
+      options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
+  const std::vector<Contender> contenders =
+      flexible_contenders(read_flexible_tables(directory), options.full);
+  const std::filesystem::path out = options.out;
+  std::filesystem::create_directories(out);
+  const auto begin = std::chrono::steady_clock::now();
+
+  const auto grid = run_part("grid", flexible_grid(), contenders);
+  const auto first = run_part("first grid", first_grid(), contenders);
+  std::vector<TextTable> tables = {
+      flexible_summary("The grid", grid, contenders),
+      oscillation_table("The grid: oscillating cells", grid, contenders),
+      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, contenders)};
+  write_text_file(out / "grid.csv", flexible_cells(grid, contenders).csv());
+  write_text_file(out / "first-grid.csv", flexible_cells(first, contenders).csv());
+  if (options.full) {
+    const auto effects = run_part("effects", effect_grid(), contenders);
+    const auto random = run_part("random joints", random_joints(options.joints, options.seed), contenders);
+    tables.push_back(effect_ranking(effects, contenders));
+    tables.push_back(
+        flexible_summary("Joints drawn at random, seed " + std::to_string(options.seed), random, contenders));
+    write_text_file(out / "effects.csv", flexible_cells(effects, contenders).csv());
+    write_text_file(out / ("random-seed-" + std::to_string(options.seed) + ".csv"),
+                    flexible_cells(random, contenders).csv());
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto figures = flexible_figures(grid, contenders);
+  draw_figures(figures, out);
+  write_text_file(out / "flexible.html", html_page("<h1>The flexible joint</h1>\n<p>Gear csf-17-50, motor "
+                                                   "side 0.089 kg.m2, encoder of 320000 counts on the "
+                                                   "motor's side, one period of delay, 34 N.m, 75 V.</p>\n",
+                                                   tables, figures, out));
+  for (const TextTable& table : tables) std::cout << table.markdown() << '\n';
+  std::cout << "computed in " << number(seconds, 3) << " s; written to " << out.string() << "\n";
+}
+
+}  // namespace
+
+void add_flexible_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("flexible", "Every controller on a joint with a spring, over a grid of joints");
+  command->add_option("--tables", options->tables,
+                      "folder with total-*/c1.json .. c4.json (default: the installed tables)");
+  command->add_option("--out", options->out, "folder to write to")->capture_default_str();
+  command->add_flag("--full", options->full, "every contender, each further effect, and joints at random");
+  command->add_option("--joints", options->joints, "number of random joints, with --full")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the random joints")->capture_default_str();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace strainwave

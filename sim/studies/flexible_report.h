@@ -1,0 +1,31 @@
+// What the study of the flexible joint shows: tables and figures. Offline.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/studies/figure.h"
+#include "sim/studies/flexible_study.h"
+#include "sim/studies/text_table.h"
+
+namespace strainwave {
+
+/// Every number of every cell and contender.
+TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
+
+/// Per contender, over all of `rows`.
+TextTable flexible_summary(const std::string& title, const std::vector<FlexibleRow>& rows,
+                           const std::vector<Contender>& contenders);
+
+/// How many cells of each link inertia oscillate or diverge, per contender.
+TextTable oscillation_table(const std::string& title, const std::vector<FlexibleRow>& rows,
+                            const std::vector<Contender>& contenders);
+
+/// Effects by what they cost the contender, most expensive first: geometric mean over the same cells without.
+TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
+
+/// Responses of the link, the torque's spectrum at rest, and where it oscillates.
+std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
+                                     const std::vector<Contender>& contenders);
+
+}  // namespace strainwave

@@ -1,0 +1,355 @@
+#include "sim/studies/flexible_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <random>
+#include <tuple>
+
+#include "base/input_error.h"
+#include "base/parallel.h"
+#include "control/gain_table_json.h"
+#include "control/units.h"
+#include "sim/joint/reference_plant.h"
+#include "sim/studies/link_limit.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kDuration_s = 2.0;
+constexpr double kRestShare = 0.25;
+
+double total_inertia(const JointPlantConfig& plant) {
+  return plant.joint.inertia_kgm2 +
+         (plant.effects.transmission ? plant.effects.transmission->link_inertia_kgm2 : 0.0);
+}
+
+ClosedLoopConfig loop_of(const FlexibleCell& cell) {
+  ClosedLoopConfig config;
+  config.plant = cell.plant;
+  config.ambient = TemperatureProfile::constant(cell.temperature_C);
+  config.setpoint_rad = TimeProfile::constant(cell.step_rad, {"setpoint_position_rad"});
+  config.duration_s = kDuration_s;
+  return config;
+}
+
+struct Limit {
+  double pi2 = 0.0;
+  double counted_pi2 = 0.0;
+};
+
+/// Damping hardly moves the limit: cells that differ in nothing else share it.
+using LimitKey = std::tuple<double, double, double, double, double>;
+
+LimitKey key_of(const FlexibleCell& cell) {
+  return {cell.link_inertia_kgm2, cell.nominal.effects.transmission->spring.stiffness_3_Nm_rad,
+          cell.temperature_C, cell.step_rad, cell.nominal.delay.periods};
+}
+
+std::map<LimitKey, Limit> limits_of(const std::vector<FlexibleCell>& cells) {
+  std::map<LimitKey, Limit> limits;
+  std::vector<const FlexibleCell*> distinct;
+  for (const FlexibleCell& cell : cells)
+    if (limits.try_emplace(key_of(cell)).second) distinct.push_back(&cell);
+  run_in_parallel(distinct.size(), [&](std::size_t i) {
+    const FlexibleCell& cell = *distinct[i];
+    const LinkLimit limit =
+        find_link_limit(link_limit_config(cell.nominal, cell.temperature_C, cell.step_rad));
+    limits.at(key_of(cell)) = {limit.pi2, limit.counted_pi2};
+  });
+  return limits;
+}
+
+/// Sums of one side of the gear.
+struct SideSums {
+  double all = 0.0;
+  double counted = 0.0;
+  void add(double error_rad, double step_rad) {
+    const double share = std::abs(error_rad / step_rad);
+    all += share;
+    if (std::abs(error_rad) > kCountedError_rad) counted += share;
+  }
+};
+
+void add_rest(const std::vector<TracePoint>& trace, double period_s, FlexibleResult& result) {
+  const auto count = static_cast<std::size_t>(kRestShare * static_cast<double>(trace.size()));
+  double low = 1e300;
+  double high = -1e300;
+  double squares = 0.0;
+  double last_sign = 0.0;
+  int changes = 0;
+  for (auto point = trace.end() - static_cast<std::ptrdiff_t>(count); point != trace.end(); ++point) {
+    low = std::min(low, point->link_position_rad);
+    high = std::max(high, point->link_position_rad);
+    squares += point->applied_torque_Nm * point->applied_torque_Nm;
+    result.rest_peak_Nm = std::max(result.rest_peak_Nm, std::abs(point->applied_torque_Nm));
+    const double torque_sign = sign(point->applied_torque_Nm);
+    if (torque_sign * last_sign < 0.0) ++changes;
+    if (torque_sign != 0.0) last_sign = torque_sign;
+  }
+  result.rest_rms_Nm = std::sqrt(squares / static_cast<double>(count));
+  result.rest_sign_changes_per_s = changes / (static_cast<double>(count) * period_s);
+  result.rest_swing_rad = high - low;
+  result.oscillates =
+      result.rest_swing_rad > kOscillation_rad && result.rest_sign_changes_per_s > kOscillationSignChanges_Hz;
+}
+
+FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, const Limit& limit) {
+  FlexibleResult result;
+  result.diverged = run.diverged;
+  SideSums link;
+  SideSums motor;
+  const double direction = sign(cell.step_rad);
+  double settled_s = 0.0;
+  for (const TracePoint& point : run.trace) {
+    const double error_rad = cell.step_rad - point.link_position_rad;
+    link.add(error_rad, cell.step_rad);
+    motor.add(cell.step_rad - point.joint_position_rad, cell.step_rad);
+    result.overshoot_rad = std::max(result.overshoot_rad, -direction * error_rad);
+    if (std::abs(error_rad) > kCountedError_rad) settled_s = point.time_s + cell.plant.period_s;
+  }
+  if (!run.trace.empty() && settled_s <= run.trace.back().time_s) result.settling_time_s = settled_s;
+  result.link_ratio = link.all / limit.pi2;
+  result.motor_ratio = motor.all / limit.pi2;
+  result.link_counted_ratio = link.counted / limit.counted_pi2;
+  result.motor_counted_ratio = motor.counted / limit.counted_pi2;
+  if (run.diverged) {
+    result.oscillates = true;
+    result.link_ratio = result.link_counted_ratio = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  add_rest(run.trace, cell.plant.period_s, result);
+  return result;
+}
+
+FlexibleCell cell_of(double link_inertia_kgm2, const TorsionSpring& spring, double scale,
+                     double damping_ratio, double temperature_C, double step_rad) {
+  FlexibleCell cell{link_inertia_kgm2, scale,  damping_ratio,     temperature_C,
+                    step_rad,          "none", realistic_plant(), {}};
+  Transmission gear;
+  gear.link_inertia_kgm2 = link_inertia_kgm2;
+  gear.spring = spring.scaled(scale);
+  gear.damping_Nms_rad = structural_damping_Nms_rad(cell.nominal.joint.inertia_kgm2, link_inertia_kgm2,
+                                                    gear.spring.stiffness_1_Nm_rad, damping_ratio);
+  cell.nominal.effects.transmission = gear;
+  cell.plant = cell.nominal;
+  return cell;
+}
+
+/// An effect with a size of its own; `share` in [0, 1] of what the catalogue and practice name.
+struct Effect {
+  std::string name;
+  std::function<void(JointPlantConfig&, double share)> add;
+};
+
+void scale_friction(JointPlantConfig& plant, double factor) {
+  for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude}) {
+    part->static_Nm *= factor;
+    part->coulomb_Nm *= factor;
+    part->viscous_Nms_rad *= factor;
+  }
+}
+
+const std::vector<Effect>& effects() {
+  static const std::vector<Effect> list = {
+      {"kinematic error 0.44 mrad",
+       [](JointPlantConfig& p, double s) {
+         p.effects.transmission->kinematic_error = {{0.22e-3 * s, 0.22e-3 * s}, {0.0, 1.0}};
+       }},
+      {"lost motion 2'",
+       [](JointPlantConfig& p, double s) { p.effects.transmission->lost_motion.width_rad = 5.82e-4 * s; }},
+      {"friction by torque 6 %",
+       [](JointPlantConfig& p, double s) { p.effects.friction.transmitted_share = 0.06 * s; }},
+      {"presliding 0.1 mrad",
+       [](JointPlantConfig& p, double s) { p.effects.friction.presliding_rad = 1e-4 * std::max(s, 0.1); }},
+      {"current loop 0.5 ms",
+       [](JointPlantConfig& p, double s) { p.effects.drive.current_loop_s = 5e-4 * s; }},
+      {"torque ripple 2 %", [](JointPlantConfig& p, double s) { p.effects.drive.ripple_share = 0.02 * s; }},
+      {"jitter 0.3 ms", [](JointPlantConfig& p, double s) { p.delay.jitter_periods = 0.3 * s; }},
+      {"link friction 0.5 N.m",
+       [](JointPlantConfig& p, double s) { p.effects.transmission->link_coulomb_Nm = 0.5 * s; }},
+      {"gravity 3 N.m",
+       [](JointPlantConfig& p, double s) {
+         p.effects.gravity = {3.0 * s, -0.5};
+       }},
+      {"friction +30 %", [](JointPlantConfig& p, double s) { scale_friction(p, 1.0 + 0.3 * s); }},
+      {"friction -30 %", [](JointPlantConfig& p, double s) { scale_friction(p, 1.0 - 0.3 * s); }}};
+  return list;
+}
+
+void add_misconfigurations(const FlexibleCell& cell, std::vector<FlexibleCell>& cells) {
+  FlexibleCell late = cell;
+  late.effect = "one more period of delay than told";
+  late.plant.delay.periods += 1.0;
+  cells.push_back(late);
+  FlexibleCell link = cell;
+  link.effect = "encoder on the link";
+  link.plant.link_encoder.counts_per_joint_revolution = link.plant.encoder.counts_per_joint_revolution;
+  link.plant.feedback = EncoderSide::kLink;
+  cells.push_back(link);
+}
+
+const std::vector<double> kLinkInertias_kgm2 = {0.03, 0.089, 0.267, 1.0};
+const std::vector<double> kTemperatures_C = {-10.0, 0.0, 20.0, 45.0};
+const std::vector<double> kSteps_rad = {0.001, 0.01, 0.1, 1.0};
+
+}  // namespace
+
+const GainTable& FlexibleTables::nearest(const std::vector<GainTable>& tables, double total_kgm2) {
+  return *std::min_element(tables.begin(), tables.end(), [&](const GainTable& a, const GainTable& b) {
+    return std::abs(std::log(a.plant.inertia_kgm2 / total_kgm2)) <
+           std::abs(std::log(b.plant.inertia_kgm2 / total_kgm2));
+  });
+}
+
+FlexibleTables read_flexible_tables(const std::filesystem::path& directory) {
+  FlexibleTables tables;
+  for (const char* total : {"total-0.119", "total-0.178", "total-0.356", "total-1.089"}) {
+    tables.c1.push_back(read_gain_table(directory / total / "c1.json"));
+    tables.c2.push_back(read_gain_table(directory / total / "c2.json"));
+    tables.c4.push_back(read_gain_table(directory / total / "c4.json"));
+  }
+  return tables;
+}
+
+std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all) {
+  using Make = Contender (*)(const std::string&, const GainTable&);
+  const auto plain = [&](const std::string& name, const std::vector<GainTable>& family, Make make) {
+    return Contender{name, [name, family, make](const JointPlantConfig& plant) {
+                       return make(name, FlexibleTables::nearest(family, total_inertia(plant))).make(plant);
+                     }};
+  };
+  const auto daemon = [&](const std::string& name, const ExtendedFeatures& features) {
+    return Contender{name, [name, family = tables.c4, features](const JointPlantConfig& plant) {
+                       const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
+                       return extended_contender(name, table, features).make(plant);
+                     }};
+  };
+  const ExtendedFeatures standard = daemon_defaults();
+  std::vector<Contender> contenders = {pid_contender(), plain("C4", tables.c4, &plain_contender),
+                                       daemon("daemon", standard)};
+  const auto without = [&](const std::string& name, bool ExtendedFeatures::*part) {
+    ExtendedFeatures features = standard;
+    features.*part = false;
+    contenders.push_back(daemon(name, features));
+  };
+  // Where the first version was judged: every part on, its acceleration limited.
+  ExtendedFeatures rigid;
+  rigid.motion = {6.0, 60.0, 60.0};
+  contenders.push_back(daemon("declared rigid, all parts on", rigid));
+  if (!all) return contenders;
+  without("observer off", &ExtendedFeatures::observer);
+  without("shaping off", &ExtendedFeatures::shaping);
+  without("rest off", &ExtendedFeatures::rest);
+  contenders.push_back(plain("C1", tables.c1, &plain_contender));
+  contenders.push_back(plain("C2", tables.c2, &plain_contender));
+  contenders.push_back(plain("C3", tables.c4, [](const std::string& name, const GainTable& table) {
+    GainTable fallback = table;
+    fallback.primary = table.fallback;
+    return plain_contender(name, fallback);
+  }));
+  return contenders;
+}
+
+std::vector<FlexibleCell> flexible_grid() {
+  const TorsionSpring spring = find_gear("csf-17-50")->spring;
+  std::vector<FlexibleCell> cells;
+  for (const double link : kLinkInertias_kgm2)
+    for (const double scale : {0.8, 1.0, 1.6})
+      for (const double damping : {0.01, 0.03, 0.10})
+        for (const double temperature : kTemperatures_C)
+          for (const double step : kSteps_rad)
+            cells.push_back(cell_of(link, spring, scale, damping, temperature, step));
+  return cells;
+}
+
+std::vector<FlexibleCell> effect_grid() {
+  const TorsionSpring spring = find_gear("csf-17-50")->spring;
+  std::vector<FlexibleCell> cells;
+  for (const double link : kLinkInertias_kgm2)
+    for (const double temperature : kTemperatures_C)
+      for (const double step : kSteps_rad) {
+        const FlexibleCell plain = cell_of(link, spring, 1.0, 0.03, temperature, step);
+        cells.push_back(plain);
+        FlexibleCell everything = plain;
+        everything.effect = "all together";
+        for (const Effect& effect : effects()) {
+          FlexibleCell cell = plain;
+          cell.effect = effect.name;
+          effect.add(cell.plant, 1.0);
+          cells.push_back(cell);
+          if (effect.name != "friction -30 %") effect.add(everything.plant, 1.0);
+        }
+        cells.push_back(everything);
+        add_misconfigurations(plain, cells);
+      }
+  return cells;
+}
+
+std::vector<FlexibleCell> first_grid() {
+  std::vector<FlexibleCell> cells;
+  for (const double ratio : {0.3, 1.0, 3.0})
+    for (const double stiffness : {8100.0, 13000.0})
+      for (const double temperature : kTemperatures_C)
+        for (const double step : kSteps_rad)
+          cells.push_back(cell_of(ratio * kReferenceInertia_kgm2, TorsionSpring::linear(stiffness), 1.0, 0.02,
+                                  temperature, step));
+  return cells;
+}
+
+std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed) {
+  std::vector<FlexibleCell> cells;
+  for (int i = 0; i < count; ++i) {
+    std::seed_seq sequence{seed, static_cast<std::uint64_t>(i)};
+    std::mt19937_64 random(sequence);
+    const auto uniform = [&](double low, double high) {
+      // The standard leaves distributions to the library; this makes a draw the same everywhere.
+      return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11U), -53);
+    };
+    const auto logarithmic = [&](double low, double high) {
+      return std::exp(uniform(std::log(low), std::log(high)));
+    };
+    const double link = logarithmic(0.03, 1.0);
+    const double scale = logarithmic(0.8, 1.6);
+    const double damping = logarithmic(0.01, 0.1);
+    const double temperature = uniform(-10.0, 45.0);
+    FlexibleCell cell =
+        cell_of(link, find_gear("csf-17-50")->spring, scale, damping, temperature, logarithmic(1e-3, 1.0));
+    cell.effect = "random";
+    for (const Effect& effect : effects()) {
+      const double share = uniform(-1.0, 1.0);  // half of the joints have it
+      if (share > 0.0) effect.add(cell.plant, share);
+    }
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+ClosedLoopResult run_cell(const FlexibleCell& cell, const Contender& contender) {
+  const auto controller = contender.make(cell.nominal);
+  return run_closed_loop(loop_of(cell), *controller);
+}
+
+std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,
+                                      const std::vector<Contender>& contenders,
+                                      const std::function<void(std::size_t)>& progress) {
+  const std::map<LimitKey, Limit> limits = limits_of(cells);
+  std::vector<FlexibleRow> rows(cells.size());
+  std::mutex reporting;
+  std::size_t done = 0;
+  run_in_parallel(cells.size(), [&](std::size_t i) {
+    const Limit& limit = limits.at(key_of(cells[i]));
+    rows[i].cell = cells[i];
+    rows[i].limit_pi2 = limit.pi2;
+    for (const Contender& contender : contenders)
+      rows[i].results.push_back(judge(cells[i], run_cell(cells[i], contender), limit));
+    const std::scoped_lock lock(reporting);
+    progress(++done);
+  });
+  return rows;
+}
+
+}  // namespace strainwave

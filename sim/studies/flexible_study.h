@@ -1,0 +1,83 @@
+// What controllers do on a joint with a spring: a grid of joints, temperatures and steps, each effect alone, and joints drawn at
+// random. Every cell is judged at the link and at the motor against the limit of sim/studies/link_limit.h. Offline; uses all cores;
+// the result does not depend on how many. Source of the grid: docs/flexible-joint.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/studies/contenders.h"
+
+namespace strainwave {
+
+/// One joint with one step to make.
+struct FlexibleCell {
+  double link_inertia_kgm2 = 0.0;
+  double stiffness_scale = 1.0;  ///< of the gear's spring
+  double damping_ratio = 0.0;    ///< of the free-free swing
+  double temperature_C = 0.0;
+  double step_rad = 0.0;
+  std::string effect = "none";  ///< what the joint has besides
+  JointPlantConfig nominal;     ///< what the controllers are told
+  JointPlantConfig plant;       ///< what they run on
+};
+
+struct FlexibleResult {
+  double link_ratio = 0.0;          ///< sum |e / r| of the link over the limit
+  double link_counted_ratio = 0.0;  ///< both only with |e| > kCountedError_rad
+  double motor_ratio = 0.0;
+  double motor_counted_ratio = 0.0;
+  double settling_time_s = -1.0;  ///< the link within two counts from here to the end; -1: never
+  double overshoot_rad = 0.0;     ///< of the link
+  double rest_peak_Nm = 0.0;      ///< torque applied over the last quarter
+  double rest_rms_Nm = 0.0;
+  double rest_sign_changes_per_s = 0.0;
+  double rest_swing_rad = 0.0;  ///< of the link, from peak to peak over the last quarter
+  bool oscillates =
+      false;  ///< swings at rest by more than kOscillation_rad under a torque that keeps changing sign
+  bool diverged = false;
+};
+
+inline constexpr double kOscillation_rad = 0.5e-3;
+inline constexpr double kOscillationSignChanges_Hz = 10.0;
+
+/// The tables of one controller family for several total inertias, as files total-J/NAME.json.
+struct FlexibleTables {
+  std::vector<GainTable> c1, c2, c4;
+  /// The one for the inertia nearest to `total_kgm2`.
+  static const GainTable& nearest(const std::vector<GainTable>& tables, double total_kgm2);
+};
+
+/// Reads total-*/c1.json, c2.json and c4.json of `directory`. Throws InputError.
+FlexibleTables read_flexible_tables(const std::filesystem::path& directory);
+
+/// PID, plain C4, and the daemon's controller as configured by default; with `all` also plain C1 to C3 and the daemon's with each
+/// part switched.
+std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all);
+
+/// The grid of docs/flexible-joint.md.
+std::vector<FlexibleCell> flexible_grid();
+/// The grid at 3 % damping and the gear's own stiffness, with each effect alone and all together.
+std::vector<FlexibleCell> effect_grid();
+/// JL / Jm 0.3, 1, 3 on two stiffnesses with 2 % damping: where the first controller of this project was found to oscillate.
+std::vector<FlexibleCell> first_grid();
+/// Joints drawn at random around the grid, effects included; the cell depends on the seed and its number alone.
+std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed);
+
+struct FlexibleRow {
+  FlexibleCell cell;
+  double limit_pi2 = 0.0;
+  std::vector<FlexibleResult> results;  ///< one per contender
+};
+
+/// Runs every contender on every cell; `progress` is told how many are done, from any thread, one call at a time.
+std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,
+                                      const std::vector<Contender>& contenders,
+                                      const std::function<void(std::size_t)>& progress);
+
+/// One run of a cell, with its trace.
+ClosedLoopResult run_cell(const FlexibleCell& cell, const Contender& contender);
+
+}  // namespace strainwave
