@@ -62,7 +62,7 @@ TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
   names("[link]\ninertia_kgm2 = 0.1\n[spring]\nstiffness_1_Nm_rad = -8000",
         {"joint.toml:4", "spring.stiffness_1_Nm_rad = -8000"});
   names("[link_encoder]\nfeedback = true", {"link_encoder.counts_per_joint_revolution"});
-  names("base = \"flexible\"\n[spring]\nscale = 90", {"substeps", "at most 1"});
+  names("base = \"flexible\"\n[spring]\nstiffness_3_Nm_rad = 1e8", {"substeps", "at most 1"});
   EXPECT_NE(refusal("[simulation]\nsubsteps = 2.5").find("substeps"), std::string::npos);
   EXPECT_NE(refusal("[joint\n").find("joint.toml:1:"), std::string::npos);
 }
