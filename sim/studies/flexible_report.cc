@@ -215,7 +215,7 @@ TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector
 
 std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
                                      const std::vector<Contender>& contenders) {
-  Figure responses{"flexible-responses",
+  Figure responses{"flexible_responses",
                    "The link's error over time, -10 degC, the heaviest link below 0.5 kg.m2.",
                    2,
                    {}};
@@ -242,7 +242,7 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     }
     responses.panels.push_back(response);
   }
-  Figure map{"flexible-map", "Where the joint oscillates at rest, over its free-free frequency.", 2, {}};
+  Figure map{"flexible_map", "Where the joint oscillates at rest, over its free-free frequency.", 2, {}};
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     Panel where = panel(contenders[c].name, "free-free frequency (Hz)", "step (rad)", true);
     Points quiet;
@@ -254,7 +254,7 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     map.panels.push_back(where);
   }
   return {
-      responses, {"flexible-spectrum", "The torque's spectrum over the last half second.", 1, {torque}}, map};
+      responses, {"flexible_spectrum", "The torque's spectrum over the last half second.", 1, {torque}}, map};
 }
 
 }  // namespace strainwave
