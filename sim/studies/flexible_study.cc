@@ -122,6 +122,7 @@ FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, cons
     return result;
   }
   add_rest(run.trace, cell.plant.period_s, result);
+  if (result.oscillates) result.settling_time_s = -1.0;  // it only happened to end within two counts
   return result;
 }
 
