@@ -89,3 +89,13 @@ foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmty
   install(FILES ${copyright} DESTINATION ${doc_dir}/${package} RENAME copyright COMPONENT ${component})
   install(FILES ${changelogs} DESTINATION ${doc_dir}/${package} COMPONENT ${component})
 endforeach()
+
+# What the packages hold; scripts/package builds it without the tests.
+add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-sim strainwave-lcmtypes manual
+                  strainwave_changelogs)
+if(STRAINWAVE_BUILD_DESIGN)
+  add_dependencies(products strainwave-design)
+endif()
+if(STRAINWAVE_BUILD_SPY)
+  add_dependencies(products strainwave_spy)
+endif()

@@ -21,11 +21,27 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(strainwave_warnings INTERFACE -Wno-restrict)
 endif()
 
+# What most files include, compiled once: a third of the time that building takes is spent on reading these. The precompiled
+# header is shared by all targets; whoever includes nothing of it loses nothing. Every file still includes what it uses: the presets
+# "tidy" and "fuzz" build without.
+add_library(strainwave_precompiled OBJECT "${CMAKE_CURRENT_LIST_DIR}/precompiled.cc")
+target_link_libraries(strainwave_precompiled PRIVATE strainwave_flags Eigen3::Eigen Threads::Threads)
+target_precompile_headers(strainwave_precompiled PRIVATE
+  <Eigen/Dense> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
+  <optional> <sstream> <string> <string_view> <thread> <utility> <vector>)
+
+# strainwave_precompile(TARGET)
+function(strainwave_precompile target)
+  target_link_libraries(${target} PRIVATE Threads::Threads)
+  target_precompile_headers(${target} REUSE_FROM strainwave_precompiled)
+endfunction()
+
 # strainwave_library(NAME SOURCES file... [PUBLIC lib...] [PRIVATE lib...])
 function(strainwave_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${arg_SOURCES})
   target_link_libraries(${name} PUBLIC strainwave_flags ${arg_PUBLIC} PRIVATE strainwave_warnings ${arg_PRIVATE})
+  strainwave_precompile(${name})
 endfunction()
 
 # strainwave_program(NAME SOURCES file... [PRIVATE lib...])
@@ -33,4 +49,5 @@ function(strainwave_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;PRIVATE" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE strainwave_flags strainwave_warnings ${arg_PRIVATE})
+  strainwave_precompile(${name})
 endfunction()

@@ -10,14 +10,14 @@ namespace strainwave {
 
 std::filesystem::path shared_folder(const std::filesystem::path& name) {
   std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const auto installed = program.parent_path().parent_path() / "share" / "strainwave" / name;
-  if (!error && std::filesystem::is_directory(installed)) return installed;
-  // A package knows of no source tree.
-  const std::filesystem::path tree(STRAINWAVE_SOURCE_DIR);
-  if (!tree.empty() && std::filesystem::is_directory(tree / name)) return tree / name;
-  throw InputError("the folder '" + name.string() + "' is not at " + installed.string() +
-                   (tree.empty() ? "" : ", nor at " + (tree / name).string()) + "; say where it is");
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const auto installed = folder.parent_path() / "share" / "strainwave" / name;
+  // build/PRESET/bin in a source tree.
+  const auto tree = folder.parent_path().parent_path().parent_path() / name;
+  for (const auto& place : {installed, tree})
+    if (!error && std::filesystem::is_directory(place)) return place;
+  throw InputError("the folder '" + name.string() + "' is neither at " + installed.string() + " nor at " + tree.string() +
+                   "; say where it is");
 }
 
 }  // namespace strainwave

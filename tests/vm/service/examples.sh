@@ -6,8 +6,8 @@ sudo() { "$@"; }
 export -f sudo
 
 ip route delete 239.255.76.67/32 dev lo
-mkdir -p build/package/packages
-mv strainwave_*.deb build/package/packages/
+mkdir -p build/packages
+mv strainwave_*.deb build/packages/
 
 # The guest's console is no terminal to be asked at.
 follow() { bash ./"$1".sh </dev/null; }
