@@ -25,7 +25,7 @@ endif()
 # header is shared by all targets; whoever includes nothing of it loses nothing. Every file still includes what it uses: the presets
 # "tidy" and "fuzz" build without.
 add_library(strainwave_precompiled OBJECT "${CMAKE_CURRENT_LIST_DIR}/precompiled.cc")
-target_link_libraries(strainwave_precompiled PRIVATE strainwave_flags Eigen3::Eigen Threads::Threads)
+target_link_libraries(strainwave_precompiled PRIVATE strainwave_flags strainwave_warnings Eigen3::Eigen Threads::Threads)
 target_precompile_headers(strainwave_precompiled PRIVATE
   <Eigen/Dense> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
   <optional> <sstream> <string> <string_view> <thread> <utility> <vector>)
