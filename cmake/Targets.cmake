@@ -1,6 +1,8 @@
 # How every target of ours is made: includes from the root, warnings as errors on our code only.
 add_library(strainwave_flags INTERFACE)
 target_include_directories(strainwave_flags INTERFACE "${PROJECT_SOURCE_DIR}")
+# Some libraries' flags ask for it; where all have it, all fit one precompiled header.
+target_compile_options(strainwave_flags INTERFACE -pthread)
 target_compile_definitions(strainwave_flags INTERFACE STRAINWAVE_VERSION="${PROJECT_VERSION}")
 if(STRAINWAVE_SANITIZE)
   # Instrumented code hides from GCC what is initialised; its manual says to expect false alarms of this warning.
@@ -32,7 +34,6 @@ target_precompile_headers(strainwave_precompiled PRIVATE
 
 # strainwave_precompile(TARGET)
 function(strainwave_precompile target)
-  target_link_libraries(${target} PRIVATE Threads::Threads)
   target_precompile_headers(${target} REUSE_FROM strainwave_precompiled)
 endfunction()
 
