@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::FuzzInput input(data, size);
   const std::uint8_t kind = input.byte();
   const bool real_temperature = (kind & 1U) != 0;
-  testing::VirtualCan can;
+  strainwave::testing::VirtualCan can;
   can.add<can_nodes::Cia402Node>(fuzz::simulated_drive(real_temperature));
   cia402::Node node(fuzz::driver_config(real_temperature, (kind & 2U) != 0));
   CanPortOptions options;

@@ -40,7 +40,7 @@ bool has_torque(const CanFrame& frame) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace strainwave;
   fuzz::FuzzInput input(data, size);
-  testing::VirtualCan can;
+  strainwave::testing::VirtualCan can;
   can.add<can_nodes::OdriveNode>(fuzz::simulated_axis());
   can.run_to(can.now_ns() + 2 * fuzz::kPeriod_ns);
   odrive::Node node(fuzz::driver_config());

@@ -51,7 +51,9 @@ TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
     for (const FlexibleResult& result : row.results) {
       EXPECT_GE(result.link_ratio, 0.99);
       EXPECT_GE(result.link_counted_ratio, 0.95);
-      if (result.oscillates) EXPECT_LT(result.settling_time_s, 0.0) << "what swings has not settled";
+      if (result.oscillates) {
+        EXPECT_LT(result.settling_time_s, 0.0) << "what swings has not settled";
+      }
     }
 }
 
