@@ -76,7 +76,7 @@ TEST_F(DesignProgram, ATableByForwardEulerIsForTheSourceOnly) {
       << output_;
   EXPECT_NE(output_.find("reproducing the source only"), std::string::npos) << output_;
   EXPECT_EQ(output_.find("certified"), std::string::npos) << output_;
-  EXPECT_EQ(run("verify " + file("t.json")), 1);
+  EXPECT_EQ(run("verify " + file("t.json")), 2);
 }
 
 TEST_F(DesignProgram, AnInfeasibleRequestLeavesAMessageAndNoFile) {
@@ -91,9 +91,9 @@ TEST_F(DesignProgram, BadInputIsNamed) {
   EXPECT_EQ(run("gains --friction " + kData + "fuzzy_rules_table5.csv --period_s -1 --out " + file("t.json")),
             2);
   EXPECT_NE(output_.find("period_s"), std::string::npos) << output_;
-  EXPECT_EQ(run("gains --friction /nonexistent.json --out " + file("t.json")), 1);
+  EXPECT_EQ(run("gains --friction /nonexistent.json --out " + file("t.json")), 2);
   EXPECT_NE(output_.find("/nonexistent.json"), std::string::npos) << output_;
-  EXPECT_EQ(run("fit " + kData + "rhs17_datasheet.csv --out " + file("f.json")), 1);
+  EXPECT_EQ(run("fit " + kData + "rhs17_datasheet.csv --out " + file("f.json")), 2);
   EXPECT_NE(output_.find("rhs17_datasheet.csv"), std::string::npos) << output_;
   EXPECT_NE(run("gains --frobnicate"), 0);
   EXPECT_NE(run(""), 0);

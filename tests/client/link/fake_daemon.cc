@@ -39,7 +39,8 @@ void FakeDaemon::on_order(const lcm::ReceiveBuffer* buffer, const std::string& c
     return;
   }
   if (const auto setpoint = decode_exactly<setpoint_v1>(bytes)) {
-    if (obeys_moves && reason == Reason::kAccepted) state.target_position_rad = setpoint->position_rad;
+    if (obeys_moves && reason == Reason::kAccepted)
+      state.target_position_rad = state.joint_position_rad = setpoint->position_rad;
     answer(setpoint->sender_id, setpoint->sequence);
   } else if (const auto command = decode_exactly<command_v1>(bytes)) {
     answer(command->sender_id, command->sequence);

@@ -90,8 +90,8 @@ TEST_F(FlightRecordPlot, LetsNoNameInAFileBecomeAnInstruction) {
 TEST_F(FlightRecordPlot, DrawsEveryModeInsideItsAxis) {
   const FlightRecordInfo info = read_flight_record(file(std::string(kHead) + kColumns + kRows));
   const std::string script = plot_script(info, folder_ / "a", folder_ / "b", std::nullopt);
-  EXPECT_NE(script.find("'homing' 6)"), std::string::npos) << script;
-  EXPECT_NE(script.find("set yrange [-0.5:6.5]"), std::string::npos) << script;
+  EXPECT_NE(script.find("'releasing' 7)"), std::string::npos) << script;
+  EXPECT_NE(script.find("set yrange [-0.5:7.5]"), std::string::npos) << script;
 }
 
 TEST_F(FlightRecordPlot, TakesTheErrorAtTheInstantOfThePosition) {

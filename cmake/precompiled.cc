@@ -1,1 +1,0 @@
-// Nothing: carries the precompiled header, see Targets.cmake.
