@@ -13,27 +13,30 @@ namespace {
 // The Stribeck velocity as a share of the width of the table's "zero velocity" membership, and its exponent.
 constexpr double kStribeckShare = 0.5;
 constexpr double kStribeckExponent = 2.0;
-// Landing begins where one push with this share of the
-// torque, and one period's braking, can end on the target.
-constexpr double kLandingShare = 0.5;
-// A landing that finds itself this many times farther away is given up: something pushed the joint.
-constexpr double kLandingLost = 4.0;
-// A saturated joint that is farther behind than this many such pushes needs a new plan.
-constexpr double kReplanPushes = 4.0;
-// New plans per target. A joint that is blocked uses them up, keeps its reference, and its following error
-// grows until someone notices.
-constexpr int kPlanLimit = 50;
+// What the fallback takes for the load is the estimate's mean over about this time: longer than a spring swings.
+constexpr double kUsualLoad_s = 0.1;
+// Share of the torque that the reference leaves to a joint that has fallen back: half of what drove it into
+// chatter.
+constexpr double kFallbackReserve = 0.5;
 
-// A landing takes some 100 periods. One that takes this many, or has to begin this often, does not come off
-// (the delay or the encoder are not what the configuration says): feedback ends the motion, and after so many
-// in a row no more are tried until start().
-constexpr int kLandingPeriods = 400;
-constexpr int kLandingBegins = 6;
-constexpr int kLandingFailures = 3;
-// Periods until the next try.
-constexpr int kLandingPause = 500;
-// Periods that a resting joint must be off its target before it moves again: a count may flicker.
-constexpr int kLeavePeriods = 3;
+double least_static_friction_Nm(const FuzzyFriction& friction) noexcept {
+  double least_Nm = friction.rules.front().friction.static_Nm;
+  for (std::size_t i = 1; i < static_cast<std::size_t>(friction.rule_count); ++i)
+    least_Nm = std::min(least_Nm, friction.rules[i].friction.static_Nm);
+  return least_Nm;
+}
+
+// Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two
+// readings.
+double largest_gain_Nm_rad(const GainTable& table, double period_s, bool smooth_velocity) noexcept {
+  double largest = 0.0;
+  for (int rule = 0; rule < table.primary.rule_count; ++rule) {
+    const GainRow gain = table.primary.gain(rule);
+    const double by_velocity = smooth_velocity ? 0.0 : std::abs(gain(2)) / period_s;
+    largest = std::max(largest, std::abs(gain(1)) + by_velocity);
+  }
+  return largest;
+}
 
 VelocityObserverConfig observer_config(const JointControllerConfig& config) noexcept {
   VelocityObserverConfig observer;
@@ -51,22 +54,19 @@ LandingConfig landing_config(const JointControllerConfig& config) noexcept {
   return landing;
 }
 
-JointControllerConfig consistent(JointControllerConfig config) noexcept {
-  config.use_landing = config.use_landing && config.use_observer && config.use_rest;
-  return config;
-}
-
 }  // namespace
 
 JointController::JointController(const JointControllerConfig& config) noexcept
-    : config_(consistent(config)),
+    : config_(config),
       shaper_(config.period_s),
       ordered_(config.period_s),
       observer_(observer_config(config)),
       landing_(landing_config(config)),
+      monitor_(config.period_s),
       rest_detector_(config.encoder_resolution_rad),
       motion_(config.motion) {
   assert(config.delay_samples >= 0 && config.delay_samples <= kMaxControlDelay);
+  assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   shaper_.set_limits(config.motion);
   ordered_.set_limits(config.motion);
 }
@@ -80,6 +80,10 @@ void JointController::load(const GainTable& table) noexcept {
   model_.inertia_kgm2 = table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
   model_.friction = primary_.friction();
+  model_.friction_scale_Nm = least_static_friction_Nm(table.friction);
+  count_torque_Nm_ = config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, true);
+  difference_torque_Nm_ =
+      config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, false);
   torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
   has_table_ = true;
@@ -91,7 +95,7 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
   shaper_.reset(position_rad, begin_rad_s);
   ordered_ = shaper_;
-  observer_.reset(position_rad, velocity_rad_s, holding_torque_Nm);
+  observer_.reset(position_rad, model_.friction_scale_Nm, velocity_rad_s, holding_torque_Nm);
   rest_detector_.reset();
   primary_.reset();
   fallback_.reset();
@@ -103,10 +107,13 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   enter(MotionPhase::kTracking);
   plans_ = 0;
   replans_ = 0;
-  begin_landings();
-  landing_failures_ = 0;
-  started_ = false;
+  attempts_.reset();
+  monitor_.reset();
+  usual_load_Nm_ = holding_torque_Nm;
+  fallback_torque_Nm_.reset();
+  handover_Nm_ = 0.0;
   carry_over_ = false;
+  replan_ = false;
 }
 
 void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
@@ -116,7 +123,7 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   shaper_.set_target(position_rad);
   ordered_.set_target(position_rad);
   plans_ = 0;
-  begin_landings();
+  attempts_.new_target();
   enter(MotionPhase::kTracking);
 }
 
@@ -128,13 +135,18 @@ void JointController::stop() noexcept {
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!has_table_) return {};
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
+  // Before the first period nothing has acted yet.
+  const int acted_periods = gains_in_use_ == GainsInUse::kNone ? 0 : elapsed_periods;
   choose_gains(measurement);
+  let_torque_act(acted_periods);
   estimate_state(measurement, elapsed_periods);
   look_ahead();
   advance_reference(elapsed_periods);
   choose_phase(measurement);
-  const ControllerOutput output = compute_torque(measurement);
+  ControllerOutput output = compute_torque(measurement);
+  hand_over(output);
   remember(output.torque_Nm);
+  watch(output, elapsed_periods);
   JointStep result;
   result.output = output;
   result.reference = reference_;
@@ -145,6 +157,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   result.phase = phase_;
   result.estimate = now_;
   result.replans = replans_;
+  result.monitor = monitor_.state();
   return result;
 }
 
@@ -166,36 +179,39 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
 }
 
 // Over periods that were left out the last torque stayed applied: it is remembered once more for each.
+void JointController::let_torque_act(int periods) noexcept {
+  for (int period = 0; period < periods; ++period) {
+    if (period > 0) push_back(torques_Nm_.front());
+    if (observing()) observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_samples)], model_);
+  }
+}
+
 void JointController::estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept {
   const double position_rad = measurement.joint_position_rad;
   adapted_ = model_;
-  for (int period = 0; started_ && period < elapsed_periods; ++period) {
-    if (period > 0) push_back(torques_Nm_.front());
-    if (config_.use_observer)
-      observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_samples)], model_);
-  }
-  if (config_.use_observer) {
+  if (observing()) {
     if (measurement.has_velocity && config_.encoder_resolution_rad == 0.0)
       observer_.correct(position_rad, measurement.joint_velocity_rad_s);
     else
       observer_.correct(position_rad);
     now_ = observer_.estimate();
     adapted_.inertia_kgm2 *= now_.inertia_ratio;
+    usual_load_Nm_ += (now_.disturbance.load_Nm - usual_load_Nm_) * config_.period_s / kUsualLoad_s;
   } else {
     now_ = {};
     now_.position_rad = position_rad;
     now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
                                                    : (position_rad - previous_position_rad_) /
                                                          (elapsed_periods * config_.period_s);
+    if (fallen_back()) now_.disturbance.load_Nm = usual_load_Nm_;
   }
   previous_position_rad_ = position_rad;
-  started_ = true;
 }
 
 // The torques that are under way already decide the motion until this period's torque acts.
 void JointController::look_ahead() noexcept {
   then_ = now_;
-  if (!config_.use_observer) return;
+  if (!observing()) return;
   for (int i = config_.delay_samples - 1; i >= 0; --i) {
     const ModelMotion motion = adapted_.advance(torques_Nm_[static_cast<std::size_t>(i)], then_.disturbance,
                                                 then_.velocity_rad_s, config_.period_s);
@@ -228,139 +244,11 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
 // One period, within what the joint can do at the speed that the reference has reached.
 Reference JointController::advanced(ReferenceShaper& shaper, const Reference& last) const noexcept {
   const double speed = std::abs(last.velocity_rad_s + config_.period_s * last.acceleration_rad_s2);
+  const double reserve =
+      fallen_back() ? std::max(kFallbackReserve, config_.torque_reserve) : config_.torque_reserve;
   shaper.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
-                                     config_.torque_reserve, speed, config_.period_s));
+                                     reserve, speed, config_.period_s));
   return shaper.step();
-}
-
-bool JointController::reference_moves() const noexcept {
-  return !shaper_.at_target() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
-}
-
-double JointController::distance_to_target_rad() const noexcept {
-  return std::abs(then_.position_rad - shaper_.target_rad());
-}
-
-// How far one period's push, and one period's braking, can take the joint.
-double JointController::landing_reach_rad() const noexcept {
-  const double torque_Nm = kLandingShare * std::max(0.0, torque_limit_Nm_ - model_.friction.static_Nm);
-  return torque_Nm * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
-}
-
-bool JointController::landing_possible() const noexcept {
-  const double reach_rad = landing_reach_rad();
-  if (phase_ != MotionPhase::kTracking) return distance_to_target_rad() <= kLandingLost * reach_rad;
-  return distance_to_target_rad() <= reach_rad &&
-         std::abs(then_.velocity_rad_s) * config_.period_s <= reach_rad;
-}
-
-void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
-  if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
-  if (!landing_works()) {
-    if (++landing_pause_ >= kLandingPause) begin_landings();
-    const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
-    const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
-    return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
-  }
-  if (!landing_possible()) {
-    ask_for_new_plan();
-    return enter(MotionPhase::kTracking);
-  }
-  const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
-  away_periods_ = away ? away_periods_ + 1 : 0;
-  if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
-}
-
-void JointController::begin_landings() noexcept {
-  landing_periods_ = 0;
-  landing_begins_ = 0;
-  landing_pause_ = 0;
-}
-
-bool JointController::landing_works() const noexcept {
-  return config_.use_landing && landing_periods_ < kLandingPeriods && landing_begins_ <= kLandingBegins &&
-         landing_failures_ < kLandingFailures;
-}
-
-void JointController::enter(MotionPhase phase) noexcept {
-  if (phase == MotionPhase::kTracking && reference_moves()) rest_detector_.reset();
-  if (phase == phase_) return;
-  // What the integral knew of load and friction, the observer knows.
-  if (phase_ == MotionPhase::kLanding) active().reset();
-  if (phase == MotionPhase::kLanding) {
-    landing_.begin(shaper_.target_rad());
-    if (++landing_begins_ > kLandingBegins) ++landing_failures_;
-  }
-  plans_ = 0;
-  hold_torque_Nm_ = now_.disturbance.load_Nm + active().integral_torque_Nm();
-  phase_ = phase;
-}
-
-void JointController::ask_for_new_plan() noexcept {
-  if (!config_.use_shaping || plans_ >= kPlanLimit) return;
-  ++plans_;
-  replan_ = true;
-}
-
-ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
-  if (phase_ == MotionPhase::kTracking) return track();
-  carry_over_ = false;
-  if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
-  const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
-  if (++landing_periods_ == kLandingPeriods) ++landing_failures_;
-  if (landing_.resting()) {
-    begin_landings();
-    landing_failures_ = 0;
-    enter(MotionPhase::kResting);
-  }
-  return apply(torque_Nm);
-}
-
-// Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
-double JointController::planned_torque_Nm() const noexcept {
-  const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
-  const double friction_Nm =
-      std::max(0.0, adapted_.friction_Nm(velocity) + now_.disturbance.friction_offset_Nm);
-  return adapted_.inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
-         now_.disturbance.load_Nm;
-}
-
-ControllerOutput JointController::track() noexcept {
-  ControllerInput input;
-  input.joint_position_rad = then_.position_rad;
-  input.joint_velocity_rad_s = then_.velocity_rad_s;
-  input.setpoint_position_rad = reference_.position_rad;
-  input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
-  input.planned = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
-  input.planned_torque_Nm = input.planned ? planned_torque_Nm() : now_.disturbance.load_Nm;
-  if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
-  input.torque_limit_Nm = torque_limit_Nm_;
-  input.torque_max_Nm = config_.motor.available_Nm(then_.velocity_rad_s);
-  input.torque_min_Nm = -config_.motor.available_Nm(-then_.velocity_rad_s);
-  if (carry_over_) active().carry_over(input, outgoing_.step(input).torque_Nm);
-  carry_over_ = false;
-  const ControllerOutput output = active().step(input);
-
-  const double behind_rad = std::abs(then_.position_rad - reference_.position_rad);
-  if (config_.use_observer && output.saturated && behind_rad > kReplanPushes * landing_reach_rad())
-    ask_for_new_plan();
-  return output;
-}
-
-// A torque that no gain has part in.
-ControllerOutput JointController::apply(double torque_Nm) const noexcept {
-  const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
-  return {limited_Nm, 0.0, torque_Nm, zero_velocity_weight_, limited_Nm != torque_Nm};
-}
-
-void JointController::remember(double torque_Nm) noexcept {
-  push_back(config_.motor.limit_Nm(torque_Nm, then_.velocity_rad_s));
-}
-
-void JointController::push_back(double torque_Nm) noexcept {
-  std::copy_backward(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
-  torques_Nm_.front() = torque_Nm;
 }
 
 }  // namespace strainwave

@@ -6,13 +6,20 @@
 //   tracking   scheduled feedback on the reference + what its motion needs (inertia, friction, load)
 //   landing    the last counts, by pushes (control/landing.h)
 //   resting    the torque that holds the load, nothing else
+//
+// Above the certified law stand observer, landing and new plans; a monitor (control/chatter_monitor.h) watches
+// them. A joint that chatters falls back to the law alone, without a torque step: velocity from two readings,
+// a slower reference, no push that looks for a count, until the next start().
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "control/chatter_monitor.h"
 #include "control/gain_table.h"
 #include "control/joint_model.h"
 #include "control/landing.h"
+#include "control/landing_attempts.h"
 #include "control/motor_limits.h"
 #include "control/reference_shaper.h"
 #include "control/rest_detector.h"
@@ -44,7 +51,10 @@ struct JointControllerConfig {
   bool use_observer = true;
   bool use_shaping = true;  ///< else targets are steps
   bool use_rest = true;     ///< at the target the torque and the integral stand still
-  bool use_landing = true;  ///< only with use_observer and use_rest
+  /// The joint has no spring between motor and load that matters: its encoder shows the one inertia that the
+  /// table is for. Only then a reference that the joint has left may begin anew from where the joint is.
+  bool rigid = false;
+  bool use_landing = false;  ///< the last counts by pushes; only with rigid, use_observer and use_rest
 };
 
 /// One period's measurements.
@@ -77,6 +87,7 @@ struct JointStep {
   MotionPhase phase = MotionPhase::kTracking;
   JointEstimate estimate;  ///< of this sample
   int replans = 0;         ///< since start(): how often `reference` began anew from where the joint was
+  MonitorState monitor = MonitorState::kWatching;
 };
 
 class JointController {
@@ -108,11 +119,14 @@ class JointController {
  private:
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
+  void let_torque_act(int periods) noexcept;
   void estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept;
   void look_ahead() noexcept;
   void advance_reference(int elapsed_periods) noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;
   ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
+  void hand_over(ControllerOutput& output) noexcept;
+  void watch(const ControllerOutput& output, int elapsed_periods) noexcept;
   void remember(double torque_Nm) noexcept;
 
   void push_back(double torque_Nm) noexcept;
@@ -124,11 +138,12 @@ class JointController {
   bool reference_moves() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
-  bool landing_works() const noexcept;
-  void begin_landings() noexcept;
+  bool may_land() const noexcept { return config_.use_landing && !fallen_back() && attempts_.allowed(); }
   double distance_to_target_rad() const noexcept;
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
+  bool fallen_back() const noexcept { return monitor_.state() != MonitorState::kWatching; }
+  bool observing() const noexcept { return config_.use_observer && !fallen_back(); }
   ScheduledController& active() noexcept {
     return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
   }
@@ -138,6 +153,8 @@ class JointController {
   ReferenceShaper ordered_;  ///< the same orders, never restarted
   VelocityObserver observer_;
   Landing landing_;
+  LandingAttempts attempts_;
+  ChatterMonitor monitor_;
   RestDetector rest_detector_;
   ScheduledController primary_;
   ScheduledController fallback_;
@@ -155,19 +172,19 @@ class JointController {
   double temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;
   double hold_torque_Nm_ = 0.0;
-  double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
-  int replans_ = 0;                    ///< since start()
-  int plans_ = 0;                      ///< new ones since the target or the phase changed
-  int landing_periods_ = 0;            ///< spent on landing since the target changed or the joint last rested
-  int landing_begins_ = 0;             ///< landings begun since then
-  int landing_pause_ = 0;              ///< periods since they were given up
-  int landing_failures_ = 0;           ///< in a row
-  int away_periods_ = 0;               ///< that a resting joint has been off its target
+  double usual_load_Nm_ = 0.0;                ///< the estimate's slow part: what the fallback holds
+  double count_torque_Nm_ = 0.0;              ///< that a count makes by its position
+  double difference_torque_Nm_ = 0.0;         ///< and as a velocity from one reading to the next as well
+  std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
+  double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
+  double zero_velocity_weight_ = 1.0;         ///< alpha_0 at rest
+  int replans_ = 0;                           ///< since start()
+  int plans_ = 0;                             ///< new ones since the target or the phase changed
+  int away_periods_ = 0;                      ///< that a resting joint has been off its target
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;
   bool has_temperature_ = false;
-  bool started_ = false;     ///< a period has passed since start()
   bool carry_over_ = false;  ///< the gains have changed since the last torque
   bool replan_ = false;      ///< the reference begins anew from where the joint is
 };

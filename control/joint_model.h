@@ -36,6 +36,7 @@ struct JointModel {
   double inertia_kgm2 = 1.0;  ///< > 0
   FrictionParameters friction;
   StribeckShape stribeck;
+  double friction_scale_Nm = 1.0;  ///< > 0: the table's least static friction; the unit of what is unknown
 
   /// F(|w|) > 0, and Fs for w -> 0.
   double friction_Nm(double velocity_rad_s) const noexcept;

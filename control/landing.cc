@@ -23,6 +23,13 @@ constexpr double kSlideBeyond = 0.7;
 constexpr double kSlideDoubt = 0.5;
 constexpr double kShortestSlide = 3.0;
 constexpr double kLongestSlide = 8.0;
+// Deviation of the position, in counts, at which the search for it ends, and the same of friction, in units of
+// the model's friction scale. Origin: 0.007 N.m, tuned on the catalogue's joint, whose scale is 1.59635 N.m.
+constexpr double kCertainty = 0.01;
+constexpr double kFrictionCertainty = 0.007 / 1.59635;
+// Pushes per landing that look for something; each halves a doubt, so that eight leave 1/256 of it.
+constexpr int kSlideLimit = 8;
+constexpr int kProbeLimit = 8;
 
 }  // namespace
 
@@ -77,15 +84,14 @@ void Landing::choose_push(const JointEstimate& then, double reading_rad, const J
   if (count_rad == 0.0) return;
   const double edge_rad =
       reading_rad + (std::floor((target_rad_ - reading_rad) / count_rad) + 0.5) * count_rad;
-  if (then.friction_deviation_Nm > config_.friction_certainty_Nm && slides_ < config_.slide_limit) {
+  if (then.friction_deviation_Nm > kFrictionCertainty * model.friction_scale_Nm && slides_ < kSlideLimit) {
     ++slides_;
     aim_rad_ = edge_rad + std::copysign(kSlideBeyond * count_rad, edge_rad - then.position_rad);
     // The doubt about friction makes a doubt about the slide's length, deviation t^2 / 2J.
     const double slide_s =
         std::sqrt(2.0 * kSlideDoubt * count_rad * model.inertia_kgm2 / then.friction_deviation_Nm);
     push_samples_ = static_cast<int>(std::clamp(slide_s / config_.period_s, kShortestSlide, kLongestSlide));
-  } else if (then.position_deviation_rad > config_.certainty_counts * count_rad &&
-             probes_ < config_.probe_limit) {
+  } else if (then.position_deviation_rad > kCertainty * count_rad && probes_ < kProbeLimit) {
     ++probes_;
     aim_rad_ = edge_rad;
   }

@@ -25,13 +25,9 @@ double landing_torque_Nm(const JointModel& model, const JointDisturbance& distur
                          double distance_rad, double period_s, int samples = 1) noexcept;
 
 struct LandingConfig {
-  double period_s = 0.001;               ///< > 0
-  double encoder_resolution_rad = 0.0;   ///< 0: exact, nothing to find out
-  int delay_samples = 0;                 ///< periods between a torque's computation and its effect
-  double certainty_counts = 0.01;        ///< deviation of the position at which the search for it ends
-  double friction_certainty_Nm = 0.007;  ///< the same of friction
-  int slide_limit = 8;                   ///< slow pushes across an edge, per landing
-  int probe_limit = 8;                   ///< pushes onto an edge, per landing
+  double period_s = 0.001;              ///< > 0
+  double encoder_resolution_rad = 0.0;  ///< 0: exact, nothing to find out
+  int delay_samples = 0;                ///< periods between a torque's computation and its effect
 };
 
 class Landing {

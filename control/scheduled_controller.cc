@@ -70,13 +70,13 @@ double ScheduledController::friction_torque_Nm(const ControllerInput& input,
 
 ScheduledController::Terms ScheduledController::evaluate(const ControllerInput& input) const noexcept {
   const StateVector x{integral_rad_s_, position_error_rad(input), velocity_error_rad_s(input)};
-  const double planned_Nm = input.planned ? input.planned_torque_Nm : 0.0;
+  const double planned_Nm = input.planned_torque_Nm;
   if (!scheduled_) return {zero_velocity_gain_.dot(x), planned_Nm, zero_velocity_gain_(0), 1.0};
 
   const double zero_weight = zero_weight_.at(input.joint_velocity_rad_s);
   const double at_zero_Nm = zero_velocity_gain_.dot(x);
   const double at_speed_Nm = high_velocity_gain_.dot(x);
-  const double feedforward_Nm = input.planned ? planned_Nm : friction_torque_Nm(input, zero_weight);
+  const double feedforward_Nm = planned_Nm + (input.planned ? 0.0 : friction_torque_Nm(input, zero_weight));
   return {at_speed_Nm + zero_weight * (at_zero_Nm - at_speed_Nm), feedforward_Nm,
           high_velocity_gain_(0) + zero_weight * (zero_velocity_gain_(0) - high_velocity_gain_(0)),
           zero_weight};

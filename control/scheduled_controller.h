@@ -10,7 +10,7 @@
 //     moving               f = alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity)
 //     at rest              f = (1 + margin) Fs(T) d
 //   torque
-//     step reference       torque = clamp(u + f)
+//     step reference       torque = clamp(u + f + known load)
 //     planned motion       torque = clamp(u + planned torque)
 //
 // Source: Zhao (2006), (3-9)..(3-35), section 5.4. What he leaves open: d, which here is where the joint must
@@ -41,7 +41,8 @@ struct ControllerInput {
   double setpoint_position_rad = 0.0;
   double setpoint_velocity_rad_s = 0.0;  ///< 0 for a step reference
   bool planned = false;                  ///< the setpoint's motion is planned and comes with its torque
-  double planned_torque_Nm = 0.0;        ///< what the plan needs: inertia, friction, load; only when planned
+  /// What the plan needs: inertia, friction, load; without a plan what is known of the load.
+  double planned_torque_Nm = 0.0;
   /// Nearer than this to the setpoint a joint at rest is left alone.
   double rest_zone_rad = 1e-6;
   double torque_limit_Nm = 0.0;  ///< >= 0

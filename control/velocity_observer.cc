@@ -18,14 +18,28 @@ constexpr double kMostLoad = 20.0;
 constexpr double kLeastInertia = -0.5;
 constexpr double kMostInertia = 1.5;
 
+// What is not known before the joint has moved, standard deviations: the model's friction, an external torque
+// that has not shown yet, and friction's change from one speed to another, in units of the model's friction
+// scale; the inertia, relative. Origin: 0.3, 0.1 and 0.1 N.m, tuned on the catalogue's joint, whose scale is
+// 1.59635 N.m.
+constexpr double kCatalogueScale_Nm = 1.59635;
+constexpr double kFrictionUncertainty = 0.3 / kCatalogueScale_Nm;
+constexpr double kLoadUncertainty = 0.1 / kCatalogueScale_Nm;
+constexpr double kFrictionDrift = 0.1 / kCatalogueScale_Nm;
+constexpr double kRestDrift = 0.001 / kCatalogueScale_Nm;  // per period in motion, however slow
+constexpr double kInertiaUncertainty = 0.1;
+// Of the inertia, per rad/s of change of speed; of the accelerating torque, from period to period. Relative,
+// tuned on the same joint.
+constexpr double kInertiaDrift = 0.003;
+constexpr double kTorqueUncertainty = 0.005;
+
 constexpr double kCertain = 6.0;   // this many deviations inside, an edge says nothing
 constexpr double kSurprise = 4.0;  // this many outside, the model did not foresee the reading
 // Share of a change of the model's friction (another
 // temperature, another table) that its error may change by.
 constexpr double kModelChange = 0.2;
-constexpr double kSurpriseLoad = 3.0;    // load that one surprise may bring, in units of static friction
-constexpr double kRestDrift_Nm = 0.001;  // per period in motion, however slow
-constexpr double kLoadDrift = 0.1;       // a load's share of the drift
+constexpr double kSurpriseLoad = 3.0;  // load that one surprise may bring, in units of static friction
+constexpr double kLoadDrift = 0.1;     // a load's share of the drift
 // Deviations of the velocity that a stop is doubted by; share
 // of a period's friction that a doubtful direction may cost.
 constexpr double kDoubtfulStop = 1.5;
@@ -46,19 +60,21 @@ double square(double x) noexcept {
 
 }  // namespace
 
-void VelocityObserver::reset(double position_rad, double velocity_rad_s, double load_Nm) noexcept {
+void VelocityObserver::reset(double position_rad, double friction_scale_Nm, double velocity_rad_s,
+                             double load_Nm) noexcept {
   state_ << position_rad, velocity_rad_s, 0.0, load_Nm, 0.0;
   covariance_.setZero();
   // The difference of two readings, each wrong by up to half a count.
   if (velocity_rad_s != 0.0)
     covariance_(kVelocity, kVelocity) = square(config_.encoder_resolution_rad / config_.period_s) / 6.0;
   covariance_(kPosition, kPosition) = square(config_.encoder_resolution_rad) / 12.0;
-  covariance_(kFriction, kFriction) = square(config_.friction_uncertainty_Nm);
-  covariance_(kLoad, kLoad) = square(config_.load_uncertainty_Nm);
-  covariance_(kInertia, kInertia) = square(config_.inertia_uncertainty);
+  covariance_(kFriction, kFriction) = square(kFrictionUncertainty * friction_scale_Nm);
+  covariance_(kLoad, kLoad) = square(kLoadUncertainty * friction_scale_Nm);
+  covariance_(kInertia, kInertia) = square(kInertiaUncertainty);
   reading_rad_ = position_rad;
   moved_rad_ = 0.0;
   static_friction_Nm_ = 0.0;
+  surprised_ = false;
 }
 
 void VelocityObserver::predict(double torque_Nm, const JointModel& model) noexcept {
@@ -114,14 +130,13 @@ void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_d
 void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model) noexcept {
   const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
   const double share = square(square(std::min(1.0, speed / model.stribeck.velocity_rad_s)));
-  const double drift = square(config_.friction_drift_Nm * share) + square(kRestDrift_Nm);
+  const double drift =
+      square(kFrictionDrift * model.friction_scale_Nm * share) + square(kRestDrift * model.friction_scale_Nm);
   covariance_(kFriction, kFriction) += drift;
   covariance_(kLoad, kLoad) += kLoadDrift * drift;
-  covariance_(kInertia, kInertia) += square(config_.inertia_drift * (end_velocity_rad_s - state_(kVelocity)));
+  covariance_(kInertia, kInertia) += square(kInertiaDrift * (end_velocity_rad_s - state_(kVelocity)));
   covariance_(kVelocity, kVelocity) +=
-      end_velocity_rad_s != 0.0
-          ? square(config_.torque_uncertainty * (end_velocity_rad_s - state_(kVelocity)))
-          : 0.0;
+      end_velocity_rad_s != 0.0 ? square(kTorqueUncertainty * (end_velocity_rad_s - state_(kVelocity))) : 0.0;
 }
 
 // The mean of one component shifts and its variance shrinks
@@ -172,6 +187,7 @@ void VelocityObserver::truncate(double edge_rad, double side) noexcept {
   double deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
   if (inside_rad > kCertain * deviation) return;
   if (inside_rad < -kSurprise * deviation) {
+    surprised_ = true;
     admit_surprise(-inside_rad);
     deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
   }
@@ -182,6 +198,7 @@ void VelocityObserver::truncate(double edge_rad, double side) noexcept {
 }
 
 void VelocityObserver::correct(double position_rad) noexcept {
+  surprised_ = false;
   const double half_rad = 0.5 * config_.encoder_resolution_rad;
   if (half_rad == 0.0) {
     condition(kPosition, position_rad - state_(kPosition), 0.0);
@@ -214,7 +231,8 @@ JointEstimate VelocityObserver::estimate() const noexcept {
           {state_(kFriction), state_(kLoad)},
           inertia_ratio(),
           std::sqrt(covariance_(kPosition, kPosition)),
-          std::sqrt(covariance_(kFriction, kFriction) + covariance_(kLoad, kLoad))};
+          std::sqrt(covariance_(kFriction, kFriction) + covariance_(kLoad, kLoad)),
+          surprised_};
 }
 
 double VelocityObserver::inertia_ratio() const noexcept {

@@ -19,13 +19,6 @@ struct VelocityObserverConfig {
   double period_s = 0.001;              ///< > 0
   double encoder_resolution_rad = 0.0;  ///< position of one count; 0: exact
   double edge_deviation_counts = 0.02;  ///< how evenly the encoder's edges lie
-  double friction_uncertainty_Nm =
-      0.3;  ///< of the model's friction before the joint has moved, standard deviation
-  double load_uncertainty_Nm = 0.1;   ///< of an external torque that has not shown yet
-  double friction_drift_Nm = 0.1;     ///< change of friction's error from one speed to another
-  double inertia_uncertainty = 0.1;   ///< of the model's inertia before the joint has moved, relative
-  double inertia_drift = 0.003;       ///< per rad/s of change of speed, relative
-  double torque_uncertainty = 0.005;  ///< of the accelerating torque from period to period, relative
 };
 
 /// The estimate at a sample.
@@ -36,15 +29,19 @@ struct JointEstimate {
   double inertia_ratio = 1.0;           ///< the joint's inertia in units of the model's
   double position_deviation_rad = 0.0;  ///< standard deviation of the position
   double friction_deviation_Nm = 0.0;   ///< the same of friction and load together
+  bool surprised = false;               ///< this reading contradicted what the model foresaw
 };
 
 class VelocityObserver {
  public:
-  explicit VelocityObserver(const VelocityObserverConfig& config) noexcept : config_(config) { reset(0.0); }
+  explicit VelocityObserver(const VelocityObserverConfig& config) noexcept : config_(config) {
+    reset(0.0, 0.0);
+  }
 
   /// Where the encoder reads `position_rad`, at `velocity_rad_s` (0: at rest) as two readings tell it, and
-  /// with `load_Nm`; friction and load unknown again.
-  void reset(double position_rad, double velocity_rad_s = 0.0, double load_Nm = 0.0) noexcept;
+  /// with `load_Nm`; friction and load unknown again, in units of `friction_scale_Nm` (joint_model.h).
+  void reset(double position_rad, double friction_scale_Nm, double velocity_rad_s = 0.0,
+             double load_Nm = 0.0) noexcept;
   /// The period that ends now: the torque that acted over it, by a joint like `model`.
   void predict(double torque_Nm, const JointModel& model) noexcept;
   /// The encoder's reading now.
@@ -74,6 +71,7 @@ class VelocityObserver {
   double moved_rad_ = 0.0;  ///< predicted since that reading
   double inertia_kgm2_ = 1.0;
   double static_friction_Nm_ = 0.0;  ///< of the last model
+  bool surprised_ = false;           ///< by the last reading
 };
 
 }  // namespace strainwave

@@ -78,6 +78,8 @@ std::string_view to_text(Fault fault) noexcept {
       return "load too large";
     case Fault::kTemperatureLost:
       return "temperature lost";
+    case Fault::kChatter:
+      return "joint chatters";
   }
   return "unknown";
 }
@@ -100,6 +102,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "not homed";
     case Notice::kAtLimitSwitch:
       return "at a limit switch";
+    case Notice::kPlainLaw:
+      return "chatter, plain control law";
   }
   return "unknown";
 }
@@ -252,6 +256,8 @@ std::string_view configuration_key(Fault fault) noexcept {
       return "joint.limits.load_Nm";
     case Fault::kTemperatureLost:
       return "joint.temperature.on_loss";
+    case Fault::kChatter:
+      return "joint.control.rigid";
     case Fault::kNone:
     case Fault::kWriteRefused:
     case Fault::kDriveFault:
@@ -285,6 +291,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.homing.required";
     case Notice::kAtLimitSwitch:
       return "";
+    case Notice::kPlainLaw:
+      return "joint.control.rigid";
   }
   return "";
 }

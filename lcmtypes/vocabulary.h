@@ -50,6 +50,7 @@ enum class Fault : std::int32_t {
   kBlocked = 23,
   kOverload = 24,
   kTemperatureLost = 25,
+  kChatter = 26,
 };
 
 /// state_v1.notices: a bit set; the joint goes on, limited.
@@ -62,6 +63,7 @@ enum class Notice : std::int32_t {
   kSpeedLimited = 1 << 5,
   kNotHomed = 1 << 6,
   kAtLimitSwitch = 1 << 7,
+  kPlainLaw = 1 << 8,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

@@ -124,7 +124,11 @@ void read_features(TomlSection section, JointLoopConfig& loop) {
   controller.use_observer = section.boolean_or("observer", controller.use_observer);
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);
-  controller.use_landing = section.boolean_or("landing", controller.use_landing);
+  controller.rigid = section.boolean_or("rigid", controller.rigid);
+  const bool can_land = controller.rigid && controller.use_observer && controller.use_rest;
+  controller.use_landing = section.boolean_or("landing", can_land);
+  if (controller.use_landing && !can_land)
+    section.fail("landing", "true is allowed only with rigid = true, observer = true and rest = true");
   controller.encoder_deviation_counts =
       section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
   loop.initial_load_Nm = section.number_or("initial_load_Nm", loop.initial_load_Nm, {-1e6, 1e6});

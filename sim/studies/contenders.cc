@@ -40,7 +40,8 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.use_observer = features.observer;
   config.use_shaping = features.shaping;
   config.use_rest = features.rest;
-  config.use_landing = features.landing;
+  config.rigid = features.rigid;
+  config.use_landing = features.rigid && features.observer && features.rest;
   return config;
 }
 

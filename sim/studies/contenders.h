@@ -33,14 +33,14 @@ struct ExtendedFeatures {
   bool observer = true;
   bool shaping = true;
   bool rest = true;
-  bool landing = true;
+  bool rigid = true;  ///< declared so: landing, where there is an observer and rest, and new plans
   MotionLimits motion = kNoMotionLimits;
 };
 
-/// Of a joint that is not declared rigid: without landing.
+/// Of a joint that is not declared rigid: without landing and new plans.
 constexpr ExtendedFeatures daemon_defaults() {
   ExtendedFeatures features;
-  features.landing = false;
+  features.rigid = false;
   return features;
 }
 

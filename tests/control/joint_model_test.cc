@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "control/landing.h"
-
 namespace strainwave {
 namespace {
 
@@ -46,23 +44,6 @@ TEST(JointModel, ItsDerivativesAreThoseOfItsMotion) {
                 2e-5);
     const ModelMotion loaded = model().advance(10.0, {0.0, step}, velocity_rad_s, 0.001);
     EXPECT_NEAR(here.velocity_by_load, (loaded.velocity_rad_s - here.velocity_rad_s) / step, 5e-4);
-  }
-}
-
-TEST(Landing, ItsPushEndsWhereItIsMeantTo) {
-  for (const double distance_rad : {2e-6, 1e-5, 4e-5, -2e-5}) {
-    const JointModel joint = model();
-    double position_rad = 0.0;
-    double velocity_rad_s = 0.0;
-    for (int k = 0; k < 12; ++k) {
-      const double torque_Nm =
-          landing_torque_Nm(joint, {}, velocity_rad_s, distance_rad - position_rad, 0.001);
-      const ModelMotion motion = joint.advance(torque_Nm, {}, velocity_rad_s, 0.001);
-      position_rad += motion.displacement_rad;
-      velocity_rad_s = motion.velocity_rad_s;
-    }
-    EXPECT_NEAR(position_rad, distance_rad, 0.02 * std::abs(distance_rad));
-    EXPECT_EQ(velocity_rad_s, 0.0);
   }
 }
 

@@ -50,6 +50,42 @@ TEST(MotorLimits, NeverChangeATorquesSignNorItsSymmetry) {
   }
 }
 
+JointModel model() {
+  return {0.089, {4.4, 3.6, 2.3}, {0.042, 2.0}};
+}
+
+MotionLimits limits(const JointDisturbance& disturbance, double speed_rad_s) {
+  return reachable_limits({10.0, 1e6, 1e6}, MotorLimits::from_motor(kMotor), model(), disturbance, 34.0, 0.02,
+                          speed_rad_s, 0.001);
+}
+
+TEST(ReachableLimits, TheirAccelerationIsOneThatTheMotorHasAgainstFriction) {
+  for (const double speed_rad_s : {0.0, 1.0, 3.0, 6.0}) {
+    const double acceleration_rad_s2 = limits({}, speed_rad_s).acceleration_rad_s2;
+    const double needed_Nm =
+        model().inertia_kgm2 * acceleration_rad_s2 + 3.6 + 2.3 * (speed_rad_s + 0.001 * acceleration_rad_s2);
+    EXPECT_LE(needed_Nm,
+              MotorLimits::from_motor(kMotor).available_Nm(speed_rad_s + 0.001 * acceleration_rad_s2) + 1e-9)
+        << speed_rad_s;
+  }
+}
+
+TEST(ReachableLimits, ALoadCountsAgainstBothAndFrictionOnlyAgainstAcceleration) {
+  const MotionLimits free = limits({}, 0.0);
+  for (const double load_Nm : {-8.0, 8.0}) {
+    EXPECT_LT(limits({0.0, load_Nm}, 0.0).acceleration_rad_s2, free.acceleration_rad_s2);
+    EXPECT_LT(limits({0.0, load_Nm}, 0.0).deceleration_rad_s2, free.deceleration_rad_s2);
+  }
+  EXPECT_LT(limits({2.0, 0.0}, 0.0).acceleration_rad_s2, free.acceleration_rad_s2);
+  EXPECT_GT(limits({2.0, 0.0}, 0.0).deceleration_rad_s2, free.deceleration_rad_s2);
+}
+
+TEST(ReachableLimits, LeaveATrickleUnderALoadThatNothingCanMove) {
+  const MotionLimits stuck = limits({0.0, 1000.0}, 0.0);
+  EXPECT_GT(stuck.acceleration_rad_s2, 0.0);
+  EXPECT_GT(stuck.deceleration_rad_s2, 0.0);
+}
+
 TEST(MotorData, SaysWhatHeatHoldingATorqueCosts) {
   EXPECT_NEAR(kMotor.winding_loss_W_Nm2() * 9.6 * 9.6, 4.8, 1e-12) << "one ampere through 4.8 ohm";
 }

@@ -47,7 +47,8 @@ constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {22, Fault::kPeriodsMissed, "too many periods missed"},
                                    {23, Fault::kBlocked, "joint is blocked"},
                                    {24, Fault::kOverload, "load too large"},
-                                   {25, Fault::kTemperatureLost, "temperature lost"}};
+                                   {25, Fault::kTemperatureLost, "temperature lost"},
+                                   {26, Fault::kChatter, "joint chatters"}};
 
 constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited"},
                                      {2, Notice::kTemperatureClamped, "temperature outside the table"},
@@ -56,7 +57,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {16, Notice::kReadingMissed, "reading missed"},
                                      {32, Notice::kSpeedLimited, "speed limited"},
                                      {64, Notice::kNotHomed, "not homed"},
-                                     {128, Notice::kAtLimitSwitch, "at a limit switch"}};
+                                     {128, Notice::kAtLimitSwitch, "at a limit switch"},
+                                     {256, Notice::kPlainLaw, "chatter, plain control law"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},

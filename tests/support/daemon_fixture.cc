@@ -273,6 +273,7 @@ inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "simulated"
 limits = { position_min_rad = -3.2, position_max_rad = 3.2, speed_rad_s = 6, acceleration_rad_s2 = 150, following_error_rad = 0.1, torque_Nm = 34 }
+control = { rigid = true }
 )" + attended(joint_extra);
 }
 

@@ -30,6 +30,8 @@ BenchJoint demo_joint() {
   controller.motor = joint.drive.plant.motor;
   controller.torque_limit_Nm = kReferencePeakTorque_Nm;
   controller.motion = {6.0, 150.0, 150.0};
+  controller.rigid = true;
+  controller.use_landing = true;
   joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0, kReferencePeakTorque_Nm};
   return joint;
 }

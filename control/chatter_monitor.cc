@@ -1,0 +1,78 @@
+#include "control/chatter_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+// Reversals of less than this share of static friction cannot move a joint that rests.
+constexpr double kFrictionShare = 0.5;
+// A reading may flicker by a count or two: the torque that this makes is noise.
+constexpr double kNoiseSteps = 4.0;
+// A strain-wave joint on its spring swings at 28 to 86 Hz (catalogue stiffness, load up to three times the
+// rotor): 56 to 172 reversals a second. Four of them in 50 ms reach the limit, and so do 40 a second in the
+// long run; a move has three, a push from outside two.
+constexpr double kLeak_s = 0.1;
+constexpr double kLimit = 3.3;
+// At rest nothing should reverse: ten a second are too many.
+constexpr double kRestLeak_s = 1.0;
+constexpr double kRestLimit = 10.0;
+// After the fallback: what still counts as chatter, and how long it may last. With the time to notice it this
+// ends every chatter within half a second.
+constexpr double kGoesOn = 0.6;  // share of the limits
+constexpr double kPatience_s = 0.35;
+
+}  // namespace
+
+ChatterMonitor::ChatterMonitor(double period_s) noexcept
+    : period_s_(period_s),
+      leak_(std::exp(-period_s / kLeak_s)),
+      rest_leak_(std::exp(-period_s / kRestLeak_s)) {}
+
+void ChatterMonitor::reset() noexcept {
+  level_ = 0.0;
+  rest_level_ = 0.0;
+  chatter_s_ = 0.0;
+  side_ = 0;
+  surprised_ = false;
+  state_ = MonitorState::kWatching;
+}
+
+bool ChatterMonitor::reversed(const ChatterSample& sample) noexcept {
+  surprised_ = surprised_ || sample.surprised;
+  const double threshold_Nm =
+      std::max(kFrictionShare * sample.static_friction_Nm, kNoiseSteps * sample.feedback_step_Nm);
+  if (!(std::abs(sample.excess_torque_Nm) > threshold_Nm)) return false;
+  const int side = sample.excess_torque_Nm > 0.0 ? 1 : -1;
+  const bool changed = side_ == -side;
+  const bool counts = changed && (!sample.landing || surprised_);
+  if (changed) surprised_ = false;
+  side_ = side;
+  return counts;
+}
+
+MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
+  for (int period = 0; period < sample.elapsed_periods; ++period) {
+    level_ *= leak_;
+    rest_level_ *= rest_leak_;
+  }
+  if (reversed(sample)) {
+    level_ += 1.0;
+    if (sample.reference_rests) rest_level_ += 1.0;
+  }
+  if (state_ == MonitorState::kWatching) {
+    if (level_ < kLimit && rest_level_ < kRestLimit) return state_;
+    reset();
+    state_ = MonitorState::kFallenBack;
+    return state_;
+  }
+  const bool goes_on = level_ >= kGoesOn * kLimit || rest_level_ >= kGoesOn * kRestLimit;
+  const double elapsed_s = period_s_ * sample.elapsed_periods;
+  chatter_s_ = goes_on ? chatter_s_ + elapsed_s : std::max(0.0, chatter_s_ - elapsed_s);
+  if (chatter_s_ >= kPatience_s) state_ = MonitorState::kFaultDue;
+  return state_;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,56 @@
+// Watches for ever whether a joint chatters or oscillates, whatever the reason: an inertia, a delay, a spring
+// or an encoder that the table and the configuration do not know. Real-time safe, O(1) a period.
+//
+// What counts is a reversal: the torque beyond what the planned motion needs changes its sign, from more than
+// a threshold on one side to more than it on the other. Planned motion, however hard, makes none; noise stays
+// below the threshold, a share of static friction (a torque below static friction moves nothing). Reversals
+// fill a level that leaks:
+//
+//   level' = level exp(-period / leak) + reversals
+//
+//   Watching ----- too many -------------------------> FallenBack   the plain certified law takes over
+//   FallenBack --- reversals go on for long enough --> FaultDue     the joint must be switched off
+//
+// Single pushes of a landing reverse by design; there a reversal counts only when the encoder has contradicted
+// the model since the one before.
+#pragma once
+
+namespace strainwave {
+
+enum class MonitorState : int { kWatching = 0, kFallenBack = 1, kFaultDue = 2 };
+
+/// One period, joint side.
+struct ChatterSample {
+  double excess_torque_Nm = 0.0;    ///< commanded beyond what the planned motion and the load need
+  double static_friction_Nm = 0.0;  ///< of the table, at this temperature
+  double feedback_step_Nm = 0.0;    ///< what the least change that the encoder can show makes of the torque
+  bool reference_rests = false;
+  bool landing = false;
+  bool surprised = false;  ///< the encoder's reading contradicted the model
+  int elapsed_periods = 1;
+};
+
+class ChatterMonitor {
+ public:
+  /// `period_s` > 0.
+  explicit ChatterMonitor(double period_s) noexcept;
+
+  void reset() noexcept;
+  MonitorState step(const ChatterSample& sample) noexcept;
+  MonitorState state() const noexcept { return state_; }
+
+ private:
+  bool reversed(const ChatterSample& sample) noexcept;
+
+  double period_s_;
+  double leak_;       ///< of the level over a period
+  double rest_leak_;  ///< of the level at rest
+  double level_ = 0.0;
+  double rest_level_ = 0.0;
+  double chatter_s_ = 0.0;  ///< since the fallback
+  int side_ = 0;            ///< on which the excess torque last was: -1, 1; 0: not yet
+  bool surprised_ = false;  ///< since the last reversal
+  MonitorState state_ = MonitorState::kWatching;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,178 @@
+// What JointController does each period once it knows where the joint and its reference are: the phase of the
+// motion, its torque, and the watch over both.
+#include <algorithm>
+#include <cmath>
+
+#include "control/joint_controller.h"
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+
+// Landing begins where one push with this share of the
+// torque, and one period's braking, can end on the target.
+constexpr double kLandingShare = 0.5;
+// A landing that finds itself this many times farther away is given up: something pushed the joint.
+constexpr double kLandingLost = 4.0;
+// A saturated joint that is farther behind than this many such pushes needs a new plan.
+constexpr double kReplanPushes = 4.0;
+// New plans per target. A joint that is blocked uses them up, keeps its reference, and its following error
+// grows until someone notices.
+constexpr int kPlanLimit = 50;
+// Time in which the fallback leaves the torque that it begins with: some swings of a spring, so that it is no
+// step, and no more, so that it does not move the joint.
+constexpr double kHandover_s = 0.01;
+// Periods that a resting joint must be off its target before it moves again: a count may flicker.
+constexpr int kLeavePeriods = 3;
+
+}  // namespace
+
+bool JointController::reference_moves() const noexcept {
+  return !shaper_.at_target() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+}
+
+double JointController::distance_to_target_rad() const noexcept {
+  return std::abs(then_.position_rad - shaper_.target_rad());
+}
+
+// How far one period's push, and one period's braking, can take the joint.
+double JointController::landing_reach_rad() const noexcept {
+  const double torque_Nm = kLandingShare * std::max(0.0, torque_limit_Nm_ - model_.friction.static_Nm);
+  return torque_Nm * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
+}
+
+bool JointController::landing_possible() const noexcept {
+  const double reach_rad = landing_reach_rad();
+  if (phase_ != MotionPhase::kTracking) return distance_to_target_rad() <= kLandingLost * reach_rad;
+  return distance_to_target_rad() <= reach_rad &&
+         std::abs(then_.velocity_rad_s) * config_.period_s <= reach_rad;
+}
+
+void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
+  if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
+  if (!may_land()) {
+    attempts_.wait();
+    const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
+    const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
+    return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
+  }
+  if (!landing_possible()) {
+    ask_for_new_plan();
+    return enter(MotionPhase::kTracking);
+  }
+  const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
+  away_periods_ = away ? away_periods_ + 1 : 0;
+  if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
+}
+
+void JointController::enter(MotionPhase phase) noexcept {
+  if (phase == MotionPhase::kTracking && reference_moves()) rest_detector_.reset();
+  if (phase == phase_) return;
+  // What the integral knew of load and friction, the observer knows.
+  if (phase_ == MotionPhase::kLanding) active().reset();
+  if (phase == MotionPhase::kLanding) {
+    landing_.begin(shaper_.target_rad());
+    attempts_.begin();
+  }
+  plans_ = 0;
+  hold_torque_Nm_ = now_.disturbance.load_Nm + active().integral_torque_Nm();
+  phase_ = phase;
+}
+
+void JointController::ask_for_new_plan() noexcept {
+  if (!config_.rigid || fallen_back() || !config_.use_shaping || plans_ >= kPlanLimit) return;
+  ++plans_;
+  replan_ = true;
+}
+
+ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
+  if (phase_ == MotionPhase::kTracking) return track();
+  carry_over_ = false;
+  if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
+  const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
+  attempts_.spend_period();
+  if (landing_.resting()) {
+    attempts_.landed();
+    enter(MotionPhase::kResting);
+  }
+  return apply(torque_Nm);
+}
+
+// Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
+double JointController::planned_torque_Nm() const noexcept {
+  const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
+  const double friction_Nm =
+      std::max(0.0, adapted_.friction_Nm(velocity) + now_.disturbance.friction_offset_Nm);
+  return adapted_.inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
+         now_.disturbance.load_Nm;
+}
+
+ControllerOutput JointController::track() noexcept {
+  ControllerInput input;
+  input.joint_position_rad = then_.position_rad;
+  input.joint_velocity_rad_s = then_.velocity_rad_s;
+  input.setpoint_position_rad = reference_.position_rad;
+  input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
+  // Static friction pushed towards the target from either side is what a spring turns into an oscillation: the
+  // fallback leaves the last counts to the integral.
+  const bool moves = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+  input.planned = moves || fallen_back();
+  // At rest a landing holds the load of a rigid joint.
+  const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : now_.disturbance.load_Nm;
+  input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
+  if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
+  input.torque_limit_Nm = torque_limit_Nm_;
+  input.torque_max_Nm = config_.motor.available_Nm(then_.velocity_rad_s);
+  input.torque_min_Nm = -config_.motor.available_Nm(-then_.velocity_rad_s);
+  if (carry_over_) active().carry_over(input, outgoing_.step(input).torque_Nm);
+  carry_over_ = false;
+  const ControllerOutput output = active().step(input);
+
+  const double behind_rad = std::abs(then_.position_rad - reference_.position_rad);
+  if (observing() && output.saturated && behind_rad > kReplanPushes * landing_reach_rad()) ask_for_new_plan();
+  return output;
+}
+
+// The fallback begins with the torque that was applied last, and leaves it for the law's own.
+void JointController::hand_over(ControllerOutput& output) noexcept {
+  if (!fallen_back()) return;
+  if (fallback_torque_Nm_) handover_Nm_ = *fallback_torque_Nm_ - output.torque_Nm;
+  fallback_torque_Nm_.reset();
+  output.torque_Nm = std::clamp(output.torque_Nm + handover_Nm_, -torque_limit_Nm_, torque_limit_Nm_);
+  handover_Nm_ *= 1.0 - std::min(1.0, config_.period_s / kHandover_s);
+}
+
+void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
+  const bool moves = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+  const double needed_Nm =
+      config_.motor.limit_Nm(moves ? planned_torque_Nm() : now_.disturbance.load_Nm, then_.velocity_rad_s);
+  ChatterSample sample;
+  sample.excess_torque_Nm = output.torque_Nm - std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  sample.static_friction_Nm = model_.friction.static_Nm;
+  sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
+  sample.reference_rests = !moves;
+  sample.landing = phase_ == MotionPhase::kLanding;
+  sample.surprised = now_.surprised;
+  sample.elapsed_periods = elapsed_periods;
+  const bool watched = !fallen_back();
+  if (monitor_.step(sample) != MonitorState::kWatching && watched) fallback_torque_Nm_ = output.torque_Nm;
+}
+
+// A torque that no gain has part in.
+ControllerOutput JointController::apply(double torque_Nm) const noexcept {
+  const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  return {limited_Nm, 0.0, torque_Nm, zero_velocity_weight_, limited_Nm != torque_Nm};
+}
+
+void JointController::remember(double torque_Nm) noexcept {
+  push_back(config_.motor.limit_Nm(torque_Nm, then_.velocity_rad_s));
+}
+
+void JointController::push_back(double torque_Nm) noexcept {
+  std::copy_backward(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
+  torques_Nm_.front() = torque_Nm;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,236 @@
+// The daemon's controller on joints that are not what table and configuration say. The joint is written here,
+// on its own: two masses, a spring, dry friction, a delay; nothing of control/ or sim/ is in it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <random>
+
+#include "control/gain_table_json.h"
+#include "control/joint_controller.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kCount_rad = 2.0 * std::numbers::pi / 320000.0;
+constexpr double kLimit_Nm = 34.0;
+
+struct JointData {
+  double motor_kgm2 = 0.089;
+  double link_kgm2 = 0.0;  ///< 0: rigid
+  double stiffness_Nm_rad = 1e4;
+  double damping_Nms_rad = 1.0;
+  double static_Nm = 1.6;
+  double coulomb_Nm = 0.8;
+  double viscous_Nms_rad = 0.3;
+  int delay_periods = 1;
+  bool encoder_on_link = false;
+};
+
+class TwoMassJoint {
+ public:
+  explicit TwoMassJoint(const JointData& data)
+      : data_(data), pending_(static_cast<std::size_t>(data.delay_periods), 0.0) {}
+
+  void step(double torque_Nm) {
+    pending_.push_back(torque_Nm);
+    const double acting_Nm = pending_.front();
+    pending_.pop_front();
+    constexpr int kSubsteps = 200;
+    for (int k = 0; k < kSubsteps; ++k) advance(acting_Nm, 1e-3 / kSubsteps);
+  }
+  double reading_rad() const {
+    const double position_rad = data_.encoder_on_link && data_.link_kgm2 > 0.0 ? link_rad_ : motor_rad_;
+    return std::nearbyint(position_rad / kCount_rad) * kCount_rad;
+  }
+  double motor_rad() const { return motor_rad_; }
+  bool moves() const { return motor_rad_s_ != 0.0; }
+
+ private:
+  void advance(double torque_Nm, double duration_s) {
+    double spring_Nm = 0.0;
+    if (data_.link_kgm2 > 0.0) {
+      spring_Nm = data_.stiffness_Nm_rad * (motor_rad_ - link_rad_) +
+                  data_.damping_Nms_rad * (motor_rad_s_ - link_rad_s_);
+      link_rad_s_ += duration_s / data_.link_kgm2 * spring_Nm;
+      link_rad_ += duration_s * link_rad_s_;
+    }
+    const double driving_Nm = torque_Nm - spring_Nm;
+    if (motor_rad_s_ == 0.0 && std::abs(driving_Nm) <= data_.static_Nm) return;
+    const double direction =
+        motor_rad_s_ != 0.0 ? std::copysign(1.0, motor_rad_s_) : std::copysign(1.0, driving_Nm);
+    const double friction_Nm =
+        direction * (data_.coulomb_Nm + data_.viscous_Nms_rad * std::abs(motor_rad_s_));
+    const double next_rad_s = motor_rad_s_ + duration_s / data_.motor_kgm2 * (driving_Nm - friction_Nm);
+    motor_rad_s_ = next_rad_s * direction < 0.0 ? 0.0 : next_rad_s;
+    motor_rad_ += duration_s * motor_rad_s_;
+  }
+
+  JointData data_;
+  std::deque<double> pending_;
+  double motor_rad_ = 0.0, motor_rad_s_ = 0.0, link_rad_ = 0.0, link_rad_s_ = 0.0;
+};
+
+/// The catalogue's table for another inertia: the same closed loop.
+GainTable table_for(double inertia_kgm2) {
+  GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
+  const double scale = inertia_kgm2 / table.plant.inertia_kgm2;
+  table.plant.inertia_kgm2 = inertia_kgm2;
+  for (FeedbackGains* gains : {&table.primary, &table.fallback})
+    for (int rule = 0; rule < gains->rule_count; ++rule)
+      gains->set(rule, scale * gains->gain(rule), gains->lyapunov(rule));
+  return table;
+}
+
+JointControllerConfig config_for(bool rigid) {
+  JointControllerConfig config;
+  config.encoder_resolution_rad = kCount_rad;
+  config.delay_samples = 1;
+  config.torque_limit_Nm = kLimit_Nm;
+  config.motor = {kLimit_Nm, 150.0, 18.3};
+  config.motion = {5.0, 60.0, 60.0};
+  config.rigid = rigid;
+  config.use_landing = rigid;
+  return config;
+}
+
+struct Outcome {
+  int first_motion = -1;  ///< periods
+  int fallback = -1;
+  int fault = -1;
+  int last_reversal = -1;         ///< of the torque, beyond half a newton metre
+  int reversals = 0;              ///< of the same
+  double fallback_step_Nm = 0.0;  ///< of the torque, in the period that begins with the law alone
+  double motor_rad = 0.0;
+};
+
+/// Runs as the daemon would: from the fault on there is no torque.
+Outcome run(const JointData& data, const GainTable& table, bool rigid, const std::vector<double>& targets,
+            int periods_each) {
+  TwoMassJoint joint(data);
+  JointController controller(config_for(rigid));
+  controller.load(table);
+  controller.start(joint.reading_rad());
+  Outcome outcome;
+  double side = 0.0;
+  double last_Nm = 0.0;
+  int now = 0;
+  for (const double target_rad : targets) {
+    controller.set_target(target_rad);
+    for (int k = 0; k < periods_each; ++k, ++now) {
+      JointMeasurement measurement;
+      measurement.joint_position_rad = joint.reading_rad();
+      measurement.temperature_C = 20.0;
+      measurement.temperature_valid = true;
+      const JointStep step = controller.step(measurement);
+      const double torque_Nm = outcome.fault < 0 ? step.output.torque_Nm : 0.0;
+      if (outcome.fallback == now - 1 && outcome.fallback >= 0)
+        outcome.fallback_step_Nm = torque_Nm - last_Nm;
+      if (step.monitor != MonitorState::kWatching && outcome.fallback < 0) outcome.fallback = now;
+      if (step.monitor == MonitorState::kFaultDue && outcome.fault < 0) outcome.fault = now;
+      if (std::abs(torque_Nm) > 0.5) {
+        if (side * torque_Nm < 0.0) {
+          ++outcome.reversals;
+          outcome.last_reversal = now;
+        }
+        side = torque_Nm;
+      }
+      last_Nm = torque_Nm;
+      joint.step(torque_Nm);
+      if (joint.moves() && outcome.first_motion < 0) outcome.first_motion = now;
+    }
+  }
+  outcome.motor_rad = joint.motor_rad();
+  return outcome;
+}
+
+void expect_quiet_within_half_a_second(const JointData& data, const GainTable& table, const char* what) {
+  for (const bool rigid : {false, true})
+    for (const double target_rad : {0.001, 0.01, 0.1, 1.0}) {
+      const Outcome outcome = run(data, table, rigid, {target_rad}, 3000);
+      // The motion's own reversal, when it begins to brake, is none of chatter.
+      EXPECT_LE(outcome.last_reversal, outcome.first_motion + 500)
+          << what << ", " << target_rad << " rad, " << (rigid ? "declared rigid" : "not declared rigid")
+          << ", fallback " << outcome.fallback << ", fault " << outcome.fault << ", reversals "
+          << outcome.reversals;
+    }
+}
+
+TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWhenTheTableIsForTenTimesTheInertia) {
+  expect_quiet_within_half_a_second({}, table_for(0.89), "inertia x 10");
+}
+
+TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWhenTheDelayIsTwoAndConfiguredAsOne) {
+  JointData data;
+  data.delay_periods = 2;
+  expect_quiet_within_half_a_second(data, table_for(0.089), "delay 2");
+}
+
+TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionOnASpring) {
+  for (const double link_kgm2 : {0.03, 0.089, 0.267}) {
+    JointData data;
+    data.link_kgm2 = link_kgm2;
+    expect_quiet_within_half_a_second(data, table_for(0.089 + link_kgm2), "spring");
+  }
+}
+
+TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWithTheEncoderOnTheOtherSideOfASpring) {
+  for (const double link_kgm2 : {0.1, 0.267}) {
+    JointData data;
+    data.link_kgm2 = link_kgm2;
+    data.encoder_on_link = true;
+    expect_quiet_within_half_a_second(data, table_for(0.089 + link_kgm2), "encoder on the link");
+  }
+}
+
+TEST(Chatter, TheFallbackMakesNoTorqueStep) {
+  int fallen = 0;
+  for (const double target_rad : {0.001, 0.01, 0.1, 1.0}) {
+    const Outcome outcome = run({}, table_for(0.89), true, {target_rad}, 1000);
+    if (outcome.fallback < 0) continue;
+    ++fallen;
+    EXPECT_NEAR(outcome.fallback_step_Nm, 0.0, 1e-9) << target_rad;
+  }
+  EXPECT_GT(fallen, 0);
+}
+
+TEST(Chatter, IsNotSeenOnASoundRigidJointHoweverItIsDeclared) {
+  std::mt19937_64 random(41);
+  std::uniform_real_distribution<double> target(-1.5, 1.5);
+  for (const bool rigid : {false, true})
+    for (int trial = 0; trial < 20; ++trial) {
+      const Outcome outcome = run({}, table_for(0.089), rigid, {target(random), target(random), 0.0}, 1500);
+      EXPECT_LT(outcome.fallback, 0) << rigid << ", " << trial;
+      EXPECT_NEAR(outcome.motor_rad, 0.0, 3.0 * kCount_rad) << rigid << ", " << trial;
+    }
+}
+
+TEST(Chatter, IsNotSeenInAStreamOfSetpoints) {
+  for (const bool rigid : {false, true})
+    for (const int packet_periods : {1, 4, 10, 20}) {
+      std::vector<double> targets;
+      for (int k = 0; k * packet_periods < 4000; ++k)
+        targets.push_back(0.4 * std::sin(3e-3 * packet_periods * k));
+      const Outcome outcome = run({}, table_for(0.089), rigid, targets, packet_periods);
+      EXPECT_LT(outcome.fallback, 0) << rigid << ", a packet every " << packet_periods << " ms";
+    }
+}
+
+TEST(Chatter, IsNotSeenWhereFrictionAndInertiaAreThirtyPerCentOff) {
+  for (const double friction : {0.7, 1.3})
+    for (const double inertia : {0.8, 1.2}) {
+      JointData data;
+      data.static_Nm *= friction;
+      data.coulomb_Nm *= friction;
+      data.viscous_Nms_rad *= friction;
+      data.motor_kgm2 *= inertia;
+      for (const bool rigid : {false, true}) {
+        const Outcome outcome = run(data, table_for(0.089), rigid, {0.001, 0.011, 0.111, 1.0, -0.5}, 1500);
+        EXPECT_LT(outcome.fallback, 0) << friction << ", " << inertia << ", " << rigid;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace strainwave
