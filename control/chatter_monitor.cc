@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace strainwave {
 
 namespace {
 
-// Reversals of less than this share of static friction cannot move a joint that rests.
-constexpr double kFrictionShare = 0.5;
+// Shares of static friction. The law compensates 1.1 of it in either direction: a strong reversal is twice
+// that. Less than half of it moves no joint that rests.
+constexpr double kStrongShare = 2.5;
+constexpr double kWeakShare = 0.5;
 // A reading may flicker by a count or two: the torque that this makes is noise.
 constexpr double kNoiseSteps = 4.0;
 // A strain-wave joint on its spring swings at 28 to 86 Hz (catalogue stiffness, load up to three times the
@@ -16,9 +19,10 @@ constexpr double kNoiseSteps = 4.0;
 // long run; a move has three, a push from outside two.
 constexpr double kLeak_s = 0.1;
 constexpr double kLimit = 3.3;
-// At rest nothing should reverse: ten a second are too many.
+// At rest nothing should reverse, but for the last counts, which take some 0.1 s: twelve a second are too many.
+constexpr double kSettled_s = 0.1;
 constexpr double kRestLeak_s = 1.0;
-constexpr double kRestLimit = 10.0;
+constexpr double kRestLimit = 12.0;
 // After the fallback: what still counts as chatter, and how long it may last. With the time to notice it this
 // ends every chatter within half a second.
 constexpr double kGoesOn = 0.6;  // share of the limits
@@ -35,22 +39,30 @@ void ChatterMonitor::reset() noexcept {
   level_ = 0.0;
   rest_level_ = 0.0;
   chatter_s_ = 0.0;
-  side_ = 0;
+  rest_s_ = 0.0;
+  strong_ = {};
+  weak_ = {};
   surprised_ = false;
   state_ = MonitorState::kWatching;
 }
 
-bool ChatterMonitor::reversed(const ChatterSample& sample) noexcept {
+bool ChatterMonitor::Side::reversed(double torque_Nm, double threshold_Nm) noexcept {
+  if (!(std::abs(torque_Nm) > threshold_Nm)) return false;
+  const int now = torque_Nm > 0.0 ? 1 : -1;
+  return std::exchange(sign, now) == -now;
+}
+
+void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   surprised_ = surprised_ || sample.surprised;
-  const double threshold_Nm =
-      std::max(kFrictionShare * sample.static_friction_Nm, kNoiseSteps * sample.feedback_step_Nm);
-  if (!(std::abs(sample.excess_torque_Nm) > threshold_Nm)) return false;
-  const int side = sample.excess_torque_Nm > 0.0 ? 1 : -1;
-  const bool changed = side_ == -side;
-  const bool counts = changed && (!sample.landing || surprised_);
-  if (changed) surprised_ = false;
-  side_ = side;
-  return counts;
+  rest_s_ = sample.reference_rests ? rest_s_ + period_s_ * sample.elapsed_periods : 0.0;
+  const double noise_Nm = kNoiseSteps * sample.feedback_step_Nm;
+  const double static_Nm = sample.static_friction_Nm;
+  if (strong_.reversed(sample.excess_torque_Nm, std::max(kStrongShare * static_Nm, noise_Nm))) {
+    if (!sample.landing || surprised_) level_ += 1.0;
+    surprised_ = false;
+  }
+  const bool weak = weak_.reversed(sample.excess_torque_Nm, std::max(kWeakShare * static_Nm, noise_Nm));
+  if (weak && !sample.landing && rest_s_ >= kSettled_s) rest_level_ += 1.0;
 }
 
 MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
@@ -58,10 +70,7 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
     level_ *= leak_;
     rest_level_ *= rest_leak_;
   }
-  if (reversed(sample)) {
-    level_ += 1.0;
-    if (sample.reference_rests) rest_level_ += 1.0;
-  }
+  count(sample);
   if (state_ == MonitorState::kWatching) {
     if (level_ < kLimit && rest_level_ < kRestLimit) return state_;
     reset();

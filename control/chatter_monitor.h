@@ -2,9 +2,10 @@
 // or an encoder that the table and the configuration do not know. Real-time safe, O(1) a period.
 //
 // What counts is a reversal: the torque beyond what the planned motion needs changes its sign, from more than
-// a threshold on one side to more than it on the other. Planned motion, however hard, makes none; noise stays
-// below the threshold, a share of static friction (a torque below static friction moves nothing). Reversals
-// fill a level that leaks:
+// a threshold on one side to more than it on the other. Planned motion, however hard, makes none. There are two
+// thresholds, shares of static friction: a strong reversal is more than the law's own friction compensation
+// makes, and counts always; a weak one could just move the joint, and counts once the reference has come to
+// rest for a while. Each fills a level that leaks:
 //
 //   level' = level exp(-period / leak) + reversals
 //
@@ -40,7 +41,12 @@ class ChatterMonitor {
   MonitorState state() const noexcept { return state_; }
 
  private:
-  bool reversed(const ChatterSample& sample) noexcept;
+  /// The side on which the excess torque last was, beyond a threshold.
+  struct Side {
+    int sign = 0;  ///< -1, 1; 0: not yet
+    bool reversed(double torque_Nm, double threshold_Nm) noexcept;
+  };
+  void count(const ChatterSample& sample) noexcept;
 
   double period_s_;
   double leak_;       ///< of the level over a period
@@ -48,8 +54,10 @@ class ChatterMonitor {
   double level_ = 0.0;
   double rest_level_ = 0.0;
   double chatter_s_ = 0.0;  ///< since the fallback
-  int side_ = 0;            ///< on which the excess torque last was: -1, 1; 0: not yet
-  bool surprised_ = false;  ///< since the last reversal
+  double rest_s_ = 0.0;     ///< since when the reference rests
+  Side strong_;
+  Side weak_;
+  bool surprised_ = false;  ///< since the last strong reversal
   MonitorState state_ = MonitorState::kWatching;
 };
 

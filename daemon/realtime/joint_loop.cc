@@ -137,6 +137,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
 
 void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
+  if (motion_.monitor != MonitorState::kWatching) notice(Notice::kPlainLaw);
   const FuzzyFriction& friction = table_->table.friction;
   if (motion_.gains_in_use == GainsInUse::kFallback)
     notice(Notice::kFallbackGains);
@@ -158,6 +159,7 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
     return raise_fault(Fault::kPositionLimit, time);
   if (!mode_.is(Mode::kHoming) && into_limit_switch(motion_.reference.velocity_rad_s))
     return raise_fault(Fault::kLimitSwitch, time);
+  if (motion_.monitor == MonitorState::kFaultDue) return raise_fault(Fault::kChatter, time);
   if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
     return raise_fault(Fault::kSpeedLimit, time);
   // Until the brake is open the joint stands whatever it is ordered.

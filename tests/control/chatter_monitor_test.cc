@@ -48,12 +48,22 @@ TEST(ChatterMonitor, SeesASlowSwingAtRestThatItWouldTakeForWorkInMotion) {
   EXPECT_GE(periods_until(monitor, MonitorState::kFallenBack, 8.0, 10.0, 5000, true), 0);
 }
 
-TEST(ChatterMonitor, TakesNoiseBelowHalfOfStaticFrictionForNoise) {
+TEST(ChatterMonitor, TakesWhatTheLawsFrictionCompensationMakesForNoneWhileTheReferenceMoves) {
   ChatterMonitor monitor(0.001);
   std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> noise(-0.49 * kStatic_Nm, 0.49 * kStatic_Nm);
+  std::uniform_real_distribution<double> noise(-2.4 * kStatic_Nm, 2.4 * kStatic_Nm);
   for (int k = 0; k < 20000; ++k)
     ASSERT_EQ(monitor.step(sample_with(noise(random))), MonitorState::kWatching);
+}
+
+TEST(ChatterMonitor, SeesAtRestWhatIsTooWeakToBeSeenInMotionAndNeverWhatCannotMoveTheJoint) {
+  for (const double amplitude_Nm : {0.9, 2.0}) {
+    ChatterMonitor monitor(0.001);
+    EXPECT_LT(periods_until(monitor, MonitorState::kFallenBack, 40.0, amplitude_Nm, 5000), 0);
+    monitor.reset();
+    EXPECT_EQ(periods_until(monitor, MonitorState::kFallenBack, 40.0, amplitude_Nm, 5000, true) >= 0,
+              amplitude_Nm > 1.0);
+  }
 }
 
 TEST(ChatterMonitor, TakesWhatACoarseEncoderMakesOfTheTorqueForNoise) {

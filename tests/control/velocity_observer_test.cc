@@ -103,7 +103,9 @@ TEST(VelocityObserver, IsSurprisedByAPushThatItDoesNotKnowAndNotByItsOwnTorque) 
     joint.step(15.0);
     filter.predict(15.0, model());
     filter.correct(read(joint.position_rad));
-    if (k > 20) EXPECT_FALSE(filter.estimate().surprised) << k;
+    if (k > 20) {
+      EXPECT_FALSE(filter.estimate().surprised) << k;
+    }
   }
   filter.predict(15.0, model());
   filter.correct(read(joint.position_rad) + 400.0 * kCount_rad);
