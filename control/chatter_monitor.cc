@@ -19,10 +19,13 @@ constexpr double kNoiseSteps = 4.0;
 // long run; a move has three, a push from outside two.
 constexpr double kLeak_s = 0.1;
 constexpr double kLimit = 3.3;
-// At rest nothing should reverse, but for the last counts, which take some 0.1 s: twelve a second are too many.
+// Pushes of a landing reverse by design, and a first push may surprise; some twenty of them in 0.1 s do not.
+constexpr double kLandingWeight = 0.25;
+// At rest the law's compensation of friction may hunt for the last counts, some 0.5 s at up to 100 reversals a
+// second; what goes on longer does not settle.
 constexpr double kSettled_s = 0.1;
 constexpr double kRestLeak_s = 1.0;
-constexpr double kRestLimit = 12.0;
+constexpr double kRestLimit = 60.0;
 // After the fallback: what still counts as chatter, and how long it may last. With the time to notice it this
 // ends every chatter within half a second.
 constexpr double kGoesOn = 0.6;  // share of the limits
@@ -58,7 +61,10 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   const double noise_Nm = kNoiseSteps * sample.feedback_step_Nm;
   const double static_Nm = sample.static_friction_Nm;
   if (strong_.reversed(sample.excess_torque_Nm, std::max(kStrongShare * static_Nm, noise_Nm))) {
-    if (!sample.landing || surprised_) level_ += 1.0;
+    if (!sample.landing)
+      level_ += 1.0;
+    else if (surprised_)
+      level_ += kLandingWeight;
     surprised_ = false;
   }
   const bool weak = weak_.reversed(sample.excess_torque_Nm, std::max(kWeakShare * static_Nm, noise_Nm));

@@ -12,8 +12,8 @@
 //   Watching ----- too many -------------------------> FallenBack   the plain certified law takes over
 //   FallenBack --- reversals go on for long enough --> FaultDue     the joint must be switched off
 //
-// Single pushes of a landing reverse by design; there a reversal counts only when the encoder has contradicted
-// the model since the one before.
+// Single pushes of a landing reverse by design: one counts only when the encoder has contradicted the model
+// since the one before, and then a quarter.
 #pragma once
 
 namespace strainwave {

@@ -112,6 +112,7 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   usual_load_Nm_ = holding_torque_Nm;
   fallback_torque_Nm_.reset();
   handover_Nm_ = 0.0;
+  reference_rest_s_ = 0.0;
   carry_over_ = false;
   replan_ = false;
 }

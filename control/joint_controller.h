@@ -177,6 +177,7 @@ class JointController {
   double difference_torque_Nm_ = 0.0;         ///< and as a velocity from one reading to the next as well
   std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
   double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
+  double reference_rest_s_ = 0.0;             ///< since when it rests, while tracking
   double zero_velocity_weight_ = 1.0;         ///< alpha_0 at rest
   int replans_ = 0;                           ///< since start()
   int plans_ = 0;                             ///< new ones since the target or the phase changed

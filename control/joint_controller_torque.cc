@@ -23,6 +23,10 @@ constexpr int kPlanLimit = 50;
 // Time in which the fallback leaves the torque that it begins with: some swings of a spring, so that it is no
 // step, and no more, so that it does not move the joint.
 constexpr double kHandover_s = 0.01;
+// On a joint that is not declared rigid friction is compensated towards the target for so long after the
+// reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
+constexpr double kHunting_s = 0.1;
+constexpr double kHuntingCounts = 20.0;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
 
@@ -115,10 +119,15 @@ ControllerOutput JointController::track() noexcept {
   input.joint_velocity_rad_s = then_.velocity_rad_s;
   input.setpoint_position_rad = reference_.position_rad;
   input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
-  // Static friction pushed towards the target from either side is what a spring turns into an oscillation: the
-  // fallback leaves the last counts to the integral.
+  // Static friction pushed towards the target from either side hunts for the last counts, and a spring turns that
+  // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the
+  // integral.
   const bool moves = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
-  input.planned = moves || fallen_back();
+  reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
+  const double near_rad = kHuntingCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s &&
+                      std::abs(then_.position_rad - reference_.position_rad) <= near_rad;
+  input.planned = moves || fallen_back() || hunted;
   // At rest a landing holds the load of a rigid joint.
   const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : now_.disturbance.load_Nm;
   input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;

@@ -41,13 +41,6 @@ TEST(ChatterMonitor, SeesASwingingSpringWithin50msAndWantsItOffWithinHalfASecond
   }
 }
 
-TEST(ChatterMonitor, SeesASlowSwingAtRestThatItWouldTakeForWorkInMotion) {
-  ChatterMonitor monitor(0.001);
-  EXPECT_LT(periods_until(monitor, MonitorState::kFallenBack, 8.0, 10.0, 5000), 0);
-  monitor.reset();
-  EXPECT_GE(periods_until(monitor, MonitorState::kFallenBack, 8.0, 10.0, 5000, true), 0);
-}
-
 TEST(ChatterMonitor, TakesWhatTheLawsFrictionCompensationMakesForNoneWhileTheReferenceMoves) {
   ChatterMonitor monitor(0.001);
   std::mt19937_64 random(3);
@@ -59,9 +52,9 @@ TEST(ChatterMonitor, TakesWhatTheLawsFrictionCompensationMakesForNoneWhileTheRef
 TEST(ChatterMonitor, SeesAtRestWhatIsTooWeakToBeSeenInMotionAndNeverWhatCannotMoveTheJoint) {
   for (const double amplitude_Nm : {0.9, 2.0}) {
     ChatterMonitor monitor(0.001);
-    EXPECT_LT(periods_until(monitor, MonitorState::kFallenBack, 40.0, amplitude_Nm, 5000), 0);
+    EXPECT_LT(periods_until(monitor, MonitorState::kFallenBack, 50.0, amplitude_Nm, 5000), 0);
     monitor.reset();
-    EXPECT_EQ(periods_until(monitor, MonitorState::kFallenBack, 40.0, amplitude_Nm, 5000, true) >= 0,
+    EXPECT_EQ(periods_until(monitor, MonitorState::kFallenBack, 50.0, amplitude_Nm, 5000, true) >= 0,
               amplitude_Nm > 1.0);
   }
 }
