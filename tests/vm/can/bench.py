@@ -20,6 +20,9 @@ FAULTS = {name: number for number, name in enumerate(
 MODES = {name: number for number, name in enumerate(['off', 'starting', 'holding', 'tracking', 'stopping', 'faulted'])}
 
 LIMITS = '''
+[joint.control]
+rigid = true
+
 [joint.limits]
 position_min_rad = -3.2
 position_max_rad = 3.2
