@@ -89,13 +89,16 @@ double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
   measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
   measurement.temperature_C = sample.temperature_C;
   measurement.temperature_valid = std::isfinite(sample.temperature_C);
-  return controller_.step(measurement).output.torque_Nm;
+  const JointStep step = controller_.step(measurement);
+  faulted_ = faulted_ || step.monitor == MonitorState::kFaultDue;
+  return faulted_ ? 0.0 : step.output.torque_Nm;
 }
 
 void ExtendedLoopController::reset() noexcept {
   controller_ = JointController(config_);
   controller_.load(table_);
   started_ = false;
+  faulted_ = false;
 }
 
 Chapter6Tables read_chapter6_tables(const std::filesystem::path& directory) {

@@ -50,7 +50,8 @@ Contender extended_contender(const std::string& name, const GainTable& table,
 
 Contender pid_contender();
 
-/// Runs the daemon's joint controller in the simulated loop. torque_Nm() is real-time safe.
+/// Runs the daemon's joint controller in the simulated loop; as in the daemon, a joint that goes on chattering is
+/// switched off. torque_Nm() is real-time safe.
 class ExtendedLoopController final : public LoopController {
  public:
   ExtendedLoopController(const JointControllerConfig& config, const GainTable& table) noexcept;
@@ -62,6 +63,7 @@ class ExtendedLoopController final : public LoopController {
   GainTable table_;
   JointController controller_;
   bool started_ = false;
+  bool faulted_ = false;
 };
 
 struct Chapter6Tables {
