@@ -19,8 +19,9 @@ constexpr double kNoiseSteps = 4.0;
 // long run; a move has three, a push from outside two.
 constexpr double kLeak_s = 0.1;
 constexpr double kLimit = 3.3;
-// Pushes of a landing reverse by design, and a first push may surprise; some twenty of them in 0.1 s do not.
-constexpr double kLandingWeight = 0.25;
+// Pushes of a landing reverse by design, and a first push may surprise; ten of them in 0.1 s do not on a sound
+// joint. Half of a reversal would already make one of 2000 landings with friction off by up to 30 % fall back.
+constexpr double kLandingWeight = 0.35;
 // At rest the law's compensation of friction may hunt for the last counts, some 0.5 s at up to 100 reversals a
 // second; what goes on longer does not settle.
 constexpr double kSettled_s = 0.1;

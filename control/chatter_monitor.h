@@ -13,7 +13,7 @@
 //   FallenBack --- reversals go on for long enough --> FaultDue     the joint must be switched off
 //
 // Single pushes of a landing reverse by design: one counts only when the encoder has contradicted the model
-// since the one before, and then a quarter.
+// since the one before, and then a third.
 #pragma once
 
 namespace strainwave {
