@@ -24,9 +24,9 @@ constexpr double kSlideDoubt = 0.5;
 constexpr double kShortestSlide = 3.0;
 constexpr double kLongestSlide = 8.0;
 // Deviation of the position, in counts, at which the search for it ends, and the same of friction, in units of
-// the model's friction scale. Origin: 0.007 N.m, tuned on the catalogue's joint, whose scale is 1.59635 N.m.
+// the model's friction scale. Origin: 0.007 N.m with the shipped table, whose scale is 1.26666 N.m.
 constexpr double kCertainty = 0.01;
-constexpr double kFrictionCertainty = 0.007 / 1.59635;
+constexpr double kFrictionCertainty = 0.007 / 1.2666610163246734;
 // Pushes per landing that look for something; each halves a doubt, so that eight leave 1/256 of it.
 constexpr int kSlideLimit = 8;
 constexpr int kProbeLimit = 8;
