@@ -9,7 +9,7 @@ namespace {
 /// A drive so late that no gain of the table is stable, and a configuration that does not know it.
 BenchJoint late_joint() {
   BenchJoint joint = demo_joint();
-  joint.drive.plant.delay_samples = 10;
+  joint.drive.plant.delay.periods = 10.0;
   return joint;
 }
 
