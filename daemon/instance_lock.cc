@@ -1,12 +1,14 @@
 #include "daemon/instance_lock.h"
 
-#include <sys/socket.h>
-#include <sys/un.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
-#include <cstddef>
-#include <cstring>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -14,26 +16,76 @@
 
 namespace strainwave {
 
-InstanceLock::InstanceLock(const std::string& name, const std::string& remedy)
-    : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-  if (socket_ < 0) throw std::system_error(errno, std::generic_category(), "creating a socket");
-  // An abstract address (leading zero byte) needs no file and is freed by the kernel, however the process ends.
-  const std::string path = "strainwave/" + name;
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::memcpy(address.sun_path + 1, path.data(), std::min(path.size(), sizeof address.sun_path - 1));
-  const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + path.size());
-  if (::bind(socket_, reinterpret_cast<const sockaddr*>(&address), length) == 0) return;
+namespace {
+
+namespace fs = std::filesystem;
+
+// NOLINTBEGIN(concurrency-mt-unsafe): before any thread
+fs::path runtime_directory() {
+  const auto variable = [](const char* name) -> std::string {
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  // systemd's, the first if there are several.
+  if (const std::string ours = variable("RUNTIME_DIRECTORY"); !ours.empty())
+    return ours.substr(0, ours.find(':'));
+  if (::geteuid() == 0) return "/run/strainwave";
+  if (const std::string users = variable("XDG_RUNTIME_DIR"); !users.empty())
+    return fs::path(users) / "strainwave";
+  if (const std::string home = variable("HOME"); !home.empty()) return fs::path(home) / ".strainwave";
+  throw InputError("no directory for locks: set RUNTIME_DIRECTORY to one that only this user can write");
+}
+// NOLINTEND(concurrency-mt-unsafe)
+
+// CAN interfaces and LCM's network are those of this namespace: so are its locks.
+std::string file_name(const std::string& name) {
+  struct stat network {};
+  const bool known = ::stat("/proc/self/ns/net", &network) == 0;
+  std::string file = name + "@" + std::to_string(known ? network.st_ino : 0) + ".lock";
+  std::replace_if(
+      file.begin(), file.end(), [](unsigned char c) { return c == '/' || std::isspace(c) != 0; }, '-');
+  return file;
+}
+
+}  // namespace
+
+fs::path lock_directory() {
+  fs::path directory = runtime_directory();
+  if (::mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST)
+    throw InputError(directory.string() + ": the directory for locks cannot be made: " +
+                     std::generic_category().message(errno) + "; set RUNTIME_DIRECTORY to another");
+  struct stat status {};
+  if (::lstat(directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
+    throw InputError(directory.string() + ": is no directory, but locks belong there");
+  const bool somebody_elses = ::geteuid() != 0 && status.st_uid != ::geteuid();
+  if (somebody_elses || (status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+    throw InputError(
+        directory.string() +
+        ": others may write the directory for locks, and keep this daemon from starting: it must belong to "
+        "the user that runs strainwaved, mode 0755 or less");
+  return directory;
+}
+
+InstanceLock::InstanceLock(const std::string& name, const std::string& remedy) {
+  const fs::path path = lock_directory() / file_name(name);
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (file_ < 0)
+    throw InputError(path.string() + ": the lock cannot be made: " + std::generic_category().message(errno));
+  // Root beside the service: the file must be the service's, or its next start could not open it.
+  struct stat folder {};
+  if (::geteuid() == 0 && ::stat(path.parent_path().c_str(), &folder) == 0)
+    (void)!::fchown(file_, folder.st_uid, folder.st_gid);
+  if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   const int error = errno;
-  ::close(socket_);
-  if (error == EADDRINUSE) throw InputError("another strainwaved already runs with " + name + ": " + remedy);
+  ::close(file_);
+  if (error == EWOULDBLOCK) throw InputError("another strainwaved already runs with " + name + ": " + remedy);
   throw std::system_error(error, std::generic_category(), "taking the lock " + name);
 }
 
-InstanceLock::InstanceLock(InstanceLock&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
+InstanceLock::InstanceLock(InstanceLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
 
 InstanceLock::~InstanceLock() {
-  if (socket_ >= 0) ::close(socket_);
+  if (file_ >= 0) ::close(file_);
 }
 
 }  // namespace strainwave

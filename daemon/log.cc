@@ -11,6 +11,8 @@
 #include <memory>
 #include <string>
 
+#include "base/printable.h"
+
 namespace strainwave {
 
 namespace {
@@ -25,14 +27,19 @@ bool takes_a_line(int file) {
 /// taken says how many.
 class NeverWaitingSink final : public spdlog::sinks::ansicolor_stderr_sink_mt {
  public:
-  void log(const spdlog::details::log_msg& message) override {
+  /// What came from outside stands in many lines: none of them may end its line, begin another with a priority of its own, or
+  /// command a terminal.
+  void log(const spdlog::details::log_msg& raw) override {
+    const std::string text = printable({raw.payload.data(), raw.payload.size()});
+    spdlog::details::log_msg message = raw;
+    message.payload = text;
     if (!takes_a_line(STDERR_FILENO)) {
       lost_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
     if (const std::int64_t lost = lost_.exchange(0, std::memory_order_relaxed); lost > 0) {
-      const std::string text = std::to_string(lost) + " lines of this log were lost: nobody took them";
-      Base::log({message.logger_name, spdlog::level::warn, text});
+      const std::string loss = std::to_string(lost) + " lines of this log were lost: nobody took them";
+      Base::log({message.logger_name, spdlog::level::warn, loss});
     }
     Base::log(message);
   }

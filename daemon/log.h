@@ -1,5 +1,5 @@
 // Logging of the core's supervisor and the start-up: spdlog to stderr, which under systemd is the journal. Never from the
-// real-time thread, and never waiting for a reader.
+// real-time thread, and never waiting for a reader. Control characters in a line become question marks.
 #pragma once
 
 #include <cstdint>

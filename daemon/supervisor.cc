@@ -27,15 +27,11 @@ namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kTurn_ms = 5;
-constexpr std::int64_t kReplyTimeout_ns = 500 * kMillisecond_ns;
 constexpr std::int64_t kTemperatureEvery_ns = 100 * kMillisecond_ns;
 constexpr std::int64_t kTimingEvery_ns = 1000 * kMillisecond_ns;
 constexpr std::int64_t kStatusEvery_ns = 1000 * kMillisecond_ns;
 /// A gateway that does nothing for this long hangs.
 constexpr std::int64_t kGatewaySilence_ns = 2000 * kMillisecond_ns;
-/// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others.
-constexpr double kStrangerAnswersPer_s = 200.0;
-constexpr double kStrangerAnswersAtOnce = 50.0;
 constexpr std::int64_t kGatewayStart_ns = 5000 * kMillisecond_ns;
 
 std::int64_t make_session_id() {
@@ -71,40 +67,6 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
                      "stop that one (systemctl stop strainwaved), or give this one its own daemon.prefix");
   for (InstanceLock& lock : lock_drives(config)) locks.push_back(std::move(lock));
   return locks;
-}
-
-// What the loop's refusal means for whoever asked: the mode it met, and the way on.
-std::string advice(const Reply& reply) {
-  const std::string mode = "the joint is " + std::string(to_text(reply.mode));
-  switch (reply.reason) {
-    case Reason::kNoTable:
-      return mode + ": load a gain table first";
-    case Reason::kFaulted:
-      return mode + ": see its fault, remove the cause, clear the fault";
-    case Reason::kMoving:
-      return reply.mode == Mode::kOff
-                 ? mode + " and moves at " + std::to_string(reply.joint_velocity_rad_s) +
-                       " rad/s: it is enabled only at standstill (joint.supervision.standstill_rad_s)"
-                 : mode + ": hold or disable it first, a table is taken over only at standstill";
-    case Reason::kEnding:
-      return mode + ", and the daemon brings every joint to rest: start it again";
-    case Reason::kStreamExpired:
-      return mode +
-             ", and its stream of setpoints has expired: send a hold or a move before a new stream begins";
-    case Reason::kNotHomed:
-      return mode + ", and its position is not known: strainwavectl home first";
-    case Reason::kAtLimitSwitch:
-      return mode + " at a limit switch: only a move away from it is possible";
-    case Reason::kNoHoming:
-      return mode + ", and joint.homing says of no switch or index that it is home";
-    case Reason::kDriveNotReady:
-      return mode + ", and its drive gives no position: check supply and connection";
-    case Reason::kWrongMode:
-      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled"
-                                              : ": this order does nothing in this mode");
-    default:
-      return mode;
-  }
 }
 
 // The drive's own reason behind a fault, if there is one.
@@ -157,14 +119,12 @@ Supervisor::Supervisor(const DaemonConfig& config)
                       log_flight_records()),
       admission_(config.prefix, session_id_, assemble_admission(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
+      orders_(loop_, admission_, answers_),
       gateway_(find_gateway_program(),
                {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_.gateway_end()}),
-      books_(config.joints.size()),
       latest_(config.joints.size()),
       refusal_log_(20, 10'000 * kMillisecond_ns),
       dropped_log_(1, 10'000 * kMillisecond_ns),
-      stranger_answers_(kStrangerAnswersPer_s, kStrangerAnswersAtOnce),
-      stop_answers_(kStrangerAnswersPer_s, kStrangerAnswersAtOnce),
       incoming_(std::make_unique<WireMessage>()) {
   fill_shared_memory();
   load_initial_tables();
@@ -191,19 +151,14 @@ void Supervisor::load_initial_tables() {
   for (std::size_t i = 0; i < config_.joints.size(); ++i) {
     const JointConfig& joint = config_.joints[i];
     if (joint.table.empty()) continue;
-    Verdict verdict;
-    verdict.table = std::make_unique<GainTable>(read_gain_table(joint.table));
-    const TableVerdict judged =
-        judge_table(*verdict.table, joint.plant, joint.loop.controller.torque_limit_Nm);
+    const GainTable table = read_gain_table(joint.table);
+    const TableVerdict judged = judge_table(table, joint.plant, joint.loop.controller.torque_limit_Nm);
     if (judged.reason != Reason::kAccepted)
       throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
-    spdlog::info("{}: table {} from {}, {}", joint.name, verdict.table->name.view(), joint.table.string(),
+    spdlog::info("{}: table {} from {}, {}", joint.name, table.name.view(), joint.table.string(),
                  judged.text);
-    verdict.requester.joint = i;
-    verdict.order.kind = OrderKind::kUseTable;
-    if (!prepare_table(verdict) || !loop_.joint(i).orders().push(verdict.order))
+    if (!orders_.load_first_table(i, table))
       throw InputError(joint.table.string() + ": cannot be loaded for joint " + joint.name);
-    books_[i].end(true);
   }
 }
 
@@ -229,6 +184,7 @@ void Supervisor::run() {
   log_buses();
   spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
                                                                 : "as user " + config_.gateway_user.name);
+  publish_challenge();  // the first state has one
   loop_.start();
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
@@ -248,10 +204,12 @@ void Supervisor::run() {
 }
 
 void Supervisor::turn(std::int64_t now_ns) {
+  publish_challenge();
   take_messages(now_ns);
-  take_replies(now_ns);
+  orders_.take_replies(now_ns);
   take_events();
   log_buses();
+  publish_owners(now_ns);
   take_states(now_ns);
   watch_gateway(now_ns);
   publish_timing(now_ns);
@@ -260,7 +218,7 @@ void Supervisor::turn(std::int64_t now_ns) {
 
 void Supervisor::wait(std::int64_t wait_ms) {
   // While the loop owes a reply, look often: it has no way to wake anybody.
-  const int timeout_ms = pending_.empty() ? static_cast<int>(wait_ms) : 1;
+  const int timeout_ms = orders_.waiting() ? 1 : static_cast<int>(wait_ms);
   std::array<pollfd, 2> descriptors{{{wake_.core_end(), POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
   if (::poll(descriptors.data(), descriptors.size(), timeout_ms) <= 0) return;
   wake_.take();
@@ -270,7 +228,25 @@ void Supervisor::wait(std::int64_t wait_ms) {
     stopping_ = true;
     spdlog::info("signal {}: bringing every joint to rest", signal.ssi_signo);
     service_.stopping();
+    admission_.end_orders();
     loop_.request_stop();
+  }
+}
+
+// What orders must quote, and who has which joint.
+void Supervisor::publish_challenge() {
+  std::int64_t random = 0;
+  ::randombytes_buf(&random, sizeof random);
+  outbound_.challenge.store(
+      admission_.advance(loop_.statistics().cycle.load(std::memory_order_acquire), random),
+      std::memory_order_relaxed);
+}
+
+void Supervisor::publish_owners(std::int64_t now_ns) {
+  for (std::size_t i = 0; i < config_.joints.size(); ++i) {
+    const Ownership& ownership = admission_.ownership();
+    outbound_.leases[i].owner_id.store(ownership.owner_id(i, now_ns), std::memory_order_relaxed);
+    outbound_.leases[i].lease_s.store(ownership.lease_s(i, now_ns), std::memory_order_relaxed);
   }
 }
 
@@ -291,89 +267,11 @@ bool Supervisor::take_message(const InboundLane& lane, std::uint64_t& taken, std
   if (taken == written) return false;
   *incoming_ = lane.messages[taken % InboundLane::kMessages];
   told.store(++taken, std::memory_order_release);
-  dispatch(admission_.consider(*incoming_, now_ns), now_ns);
-  return true;
-}
-
-void Supervisor::dispatch(Verdict verdict, std::int64_t now_ns) {
-  switch (verdict.kind) {
-    case Verdict::Kind::kDiscard:
-      return log_refusal(verdict, now_ns);
-    case Verdict::Kind::kRepeat:
-      if (stranger_answers_.try_take(now_ns)) answers_.repeat(verdict.requester);
-      return;
-    case Verdict::Kind::kRefuse:
-      log_refusal(verdict, now_ns);
-      return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
-    case Verdict::Kind::kOrder:
-      break;
-  }
-  const bool is_table = verdict.order.kind == OrderKind::kUseTable;
-  if (is_table && !prepare_table(verdict)) {
-    admission_.count_reject(verdict.reason);
+  Verdict verdict = admission_.consider(*incoming_, now_ns);
+  orders_.handle(verdict, now_ns);
+  if (verdict.kind == Verdict::Kind::kDiscard || verdict.kind == Verdict::Kind::kRefuse)
     log_refusal(verdict, now_ns);
-    return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
-  }
-  verdict.order.id = next_order_id_++;
-  if (!loop_.joint(verdict.requester.joint).orders().push(verdict.order)) {
-    if (is_table) books_[verdict.requester.joint].end(false);
-    admission_.count_reject(Reason::kBusy);
-    return answer(verdict.requester, Reason::kBusy,
-                  "too many orders at once: send fewer, or wait for answers", now_ns);
-  }
-  pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, is_table};
-}
-
-void Supervisor::answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns) {
-  // What a stranger may order is a stop. That it was obeyed has a share of its own, which no flood of refusals uses up.
-  TokenBucket& share = reason == Reason::kAccepted ? stop_answers_ : stranger_answers_;
-  if (to.authentic || share.try_take(now_ns)) answers_.answer(to, reason, text);
-}
-
-// Puts the table into a slot that the loop does not use, or names the slot to return to.
-bool Supervisor::prepare_table(Verdict& verdict) {
-  TableBook& book = books_[verdict.requester.joint];
-  const auto slot = verdict.revert_table ? book.previous_slot() : book.free_slot();
-  if (book.busy() || !slot) {
-    verdict.reason = book.busy() ? Reason::kBusy : Reason::kNoPreviousTable;
-    verdict.text = book.busy() ? "another table is just being taken over" : "there is no table to go back to";
-    return false;
-  }
-  JointLoop& joint = loop_.joint(verdict.requester.joint);
-  if (verdict.table) joint.table_slot(*slot) = {*verdict.table, table_digest(*verdict.table)};
-  verdict.order.table_slot = static_cast<std::int32_t>(*slot);
-  book.begin(*slot);
   return true;
-}
-
-void Supervisor::take_replies(std::int64_t now_ns) {
-  Reply reply;
-  while (loop_.replies().pop(reply)) {
-    const auto found = pending_.find(reply.id);
-    if (found == pending_.end()) continue;
-    const Pending& pending = found->second;
-    const bool accepted = reply.reason == Reason::kAccepted;
-    if (pending.is_table) books_[pending.requester.joint].end(accepted);
-    if (!accepted) admission_.count_reject(reply.reason);
-    answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply), now_ns);
-    pending_.erase(found);
-  }
-  for (auto it = pending_.begin(); it != pending_.end();) {
-    if (it->second.deadline_ns >= now_ns) {
-      ++it;
-      continue;
-    }
-    answer(it->second.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state",
-           now_ns);
-    if (it->second.is_table) {
-      // The loop may still take it: its slot stays reserved until it says so, silently.
-      it->second.deadline_ns = INT64_MAX;
-      it->second.requester.wants_acknowledgement = false;
-      ++it;
-    } else {
-      it = pending_.erase(it);
-    }
-  }
 }
 
 void Supervisor::take_events() {
@@ -399,8 +297,10 @@ void Supervisor::log_buses() {
 void Supervisor::take_states(std::int64_t now_ns) {
   StateRecord record{};
   std::uint64_t dropped = 0;
-  while (outbound_.states.read(state_cursor_, record, dropped))
+  while (outbound_.states.read(state_cursor_, record, dropped)) {
     latest_[static_cast<std::size_t>(record.joint_index)] = record;
+    orders_.observe(record);
+  }
   if (state_cursor_ == 0 || now_ns < temperature_due_ns_) return;
   temperature_due_ns_ = now_ns + kTemperatureEvery_ns;
   for (const StateRecord& latest : latest_) answers_.temperature(latest);

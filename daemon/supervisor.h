@@ -4,14 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <vector>
 
 #include "daemon/admission/admission.h"
 #include "daemon/admission/answers.h"
-#include "daemon/admission/table_book.h"
-#include "daemon/admission/token_bucket.h"
+#include "daemon/admission/pending_orders.h"
 #include "daemon/config/config.h"
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/gateway/shared_memory.h"
@@ -35,12 +33,6 @@ class Supervisor {
   void run();
 
  private:
-  struct Pending {
-    Requester requester;
-    std::string text;  ///< to send with the acceptance
-    std::int64_t deadline_ns;
-    bool is_table;
-  };
   void fill_shared_memory();
   void load_initial_tables();
   void start_gateway();
@@ -49,16 +41,14 @@ class Supervisor {
   void take_messages(std::int64_t now_ns);
   bool take_message(const InboundLane& lane, std::uint64_t& taken, std::atomic<std::uint64_t>& told,
                     std::int64_t now_ns);
-  void dispatch(Verdict verdict, std::int64_t now_ns);
-  bool prepare_table(Verdict& verdict);
-  void take_replies(std::int64_t now_ns);
+  void publish_challenge();
+  void publish_owners(std::int64_t now_ns);
   void take_events();
   void log_buses();
   void take_states(std::int64_t now_ns);
   void watch_gateway(std::int64_t now_ns);
   void end_hung_gateway(std::int64_t now_ns);
   void log_dropped_datagrams(std::int64_t now_ns);
-  void answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns);
   void publish_timing(std::int64_t now_ns);
   void tell_systemd(std::int64_t now_ns);
   void log_refusal(const Verdict& verdict, std::int64_t now_ns);
@@ -76,17 +66,13 @@ class Supervisor {
   FlightRecordWriter flight_records_;
   Admission admission_;
   Answers answers_;
+  PendingOrders orders_;
   GatewayProcess gateway_;
-  std::vector<TableBook> books_;
-  std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
-  std::vector<StateRecord> latest_;          ///< of each joint
+  std::vector<StateRecord> latest_;  ///< of each joint
   LogLimiter refusal_log_;
   LogLimiter dropped_log_;
   ServiceNotifier service_;
-  TokenBucket stranger_answers_;  ///< to those who did not prove who they are
-  TokenBucket stop_answers_;      ///< to those of them who were obeyed
   std::unique_ptr<WireMessage> incoming_;
-  std::int64_t next_order_id_ = 1;
   std::uint64_t stops_taken_ = 0;
   std::uint64_t orders_taken_ = 0;
   std::uint64_t dropped_seen_ = 0;

@@ -160,8 +160,8 @@ std::string_view to_text(Reason reason) noexcept {
       return "superseded by a newer command";
     case Reason::kNotSimulated:
       return "only a simulated drive takes injected faults";
-    case Reason::kStreamExpired:
-      return "setpoint stream has expired";
+    case Reason::kStreamEnded:
+      return "setpoint stream has ended";
     case Reason::kNotHomed:
       return "joint is not homed";
     case Reason::kAtLimitSwitch:
@@ -170,6 +170,10 @@ std::string_view to_text(Reason reason) noexcept {
       return "no homing configured";
     case Reason::kEnding:
       return "daemon is ending";
+    case Reason::kTooOld:
+      return "order is too old";
+    case Reason::kNotOwner:
+      return "somebody else has the joint";
   }
   return "unknown";
 }
@@ -188,6 +192,10 @@ std::string_view to_text(Action action) noexcept {
       return "revert-table";
     case Action::kHome:
       return "home";
+    case Action::kTakeOver:
+      return "take-over";
+    case Action::kRelease:
+      return "release";
   }
   return "unknown";
 }

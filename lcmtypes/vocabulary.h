@@ -93,11 +93,13 @@ enum class Reason : std::int32_t {
   kDriveNotReady = 22,
   kSuperseded = 23,
   kNotSimulated = 24,
-  kStreamExpired = 25,
+  kStreamEnded = 25,
   kNotHomed = 26,
   kAtLimitSwitch = 27,
   kNoHoming = 28,
   kEnding = 29,
+  kTooOld = 30,
+  kNotOwner = 31,
 };
 inline constexpr int kReasonCount = 32;
 
@@ -108,7 +110,9 @@ enum class Action : std::int32_t {
   kHold = 3,
   kClearFault = 4,
   kRevertTable = 5,
-  kHome = 6
+  kHome = 6,
+  kTakeOver = 7,
+  kRelease = 8
 };
 
 /// state_v1.temperature_status

@@ -8,6 +8,7 @@
 
 #include "tests/support/include_rules.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/type_names.h"
 
 namespace strainwave::testing {
 namespace {
@@ -30,6 +31,24 @@ TEST(Layering, HoldsInTheWholeTree) {
 
 TEST(Layering, IsReadFromThePage) {
   EXPECT_GE(rules().row_count(), 25U);
+}
+
+TEST(Layering, HasOneTypeForAQualifiedName) {
+  const std::vector<std::string> defects = find_repeated_types(STRAINWAVE_SOURCE_DIR);
+  std::ostringstream list;
+  for (const std::string& defect : defects) list << defect << '\n';
+  EXPECT_TRUE(defects.empty()) << list.str();
+}
+
+TEST(Types, AreFoundAtNamespaceLevelAlone) {
+  const std::string source =
+      "// struct Comment {};\n#define X struct Macro {}\nnamespace a::b {\nstruct One { struct Inner {}; };\n"
+      "template <typename T>\nclass Two final : public One {};\nenum class Three : int { kA };\n"
+      "namespace {\nstruct Hidden {};\n}\nstruct Four;\nvoid f(struct Five* five) { struct Local {}; }\n"
+      "const char* text = \"struct Text {\";\nconst char brace = '{';\nlong n = 1'000;\n}\nstruct Global "
+      "{};\nstruct a::b::Two::Member {};\n";
+  EXPECT_EQ(types_defined_in(source),
+            (std::vector<std::string>{"a::b::One", "a::b::Two", "a::b::Three", "Global"}));
 }
 
 TEST(Layering, FollowsTheArrows) {
@@ -168,6 +187,14 @@ TEST_F(SourceTree, WithAFolderThatTheTableDoesNotKnowIsReported) {
   ASSERT_EQ(defects.size(), 2U);
   EXPECT_NE(defects[0].find("helpers"), std::string::npos) << defects[0];
   EXPECT_NE(defects[1].find("stray.cc"), std::string::npos) << defects[1];
+}
+
+TEST_F(SourceTree, WithTwoTypesOfOneNameIsReportedWithBothFiles) {
+  write("daemon/a.h", "namespace s {\nstruct Totals {};\n}\n");
+  write("sim/studies/b.h", "namespace s {\nclass Totals {};\n}\n");
+  write("sim/studies/c.cc", "namespace s {\nnamespace {\nstruct Totals {};\n}\n}\n");
+  EXPECT_EQ(find_repeated_types(root_),
+            std::vector<std::string>{"s::Totals is defined in daemon/a.h and in sim/studies/b.h"});
 }
 
 }  // namespace

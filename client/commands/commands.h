@@ -113,6 +113,11 @@ struct LoadTableArguments {
 };
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
 
+/// The joint is this user's, whoever has it; an engineer's right.
+void take_over(Client& client, const Output& output, const std::string& joint);
+/// The joint is nobody's.
+void release(Client& client, const Output& output, const std::string& joint);
+
 /// Uses the previous gain table again; an engineer's order, as loading one is.
 void revert_table(Client& client, const Output& output, const std::string& joint);
 

@@ -47,6 +47,8 @@ class Identification {
     setpoint.position_rad = target_rad;
     setpoint.valid_for_s = kValidFor_s;
     setpoint.speed_limit_rad_s = speed_rad_s;
+    setpoint.stream_id = client_.new_stream();
+    begin(setpoint);
     const double expected_s = std::abs(target_rad - state().joint_position_rad) / speed_rad_s;
     const Deadline late(expected_s + kPatience_s);
     const Deadline old_states(kOldStates_s);
@@ -61,6 +63,13 @@ class Identification {
         throw ClientError(ExitStatus::kRefused, fmt::format("{}: not at {:.4f} rad after {:.1f} s", joint_,
                                                             target_rad, expected_s + kPatience_s));
     }
+  }
+
+  /// A stream begins with a setpoint that is answered, so that it cannot be lost.
+  void begin(setpoint_v1 setpoint) {
+    setpoint.begins_stream = 1;
+    setpoint.acknowledge = 1;
+    require_accepted(client_.request(joint_, channel_kind::kSetpoint, setpoint), joint_, "a setpoint");
   }
 
   bool arrived(double target_rad) const {

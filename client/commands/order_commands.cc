@@ -234,6 +234,17 @@ void revert_table(Client& client, const Output& output, const std::string& joint
   say(output, joint + ": the previous table is in use again", {{"joint", joint}, {"accepted", true}});
 }
 
+void take_over(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kTakeOver);
+  say(output, joint + ": taken over; who had it is refused from now on",
+      {{"joint", joint}, {"accepted", true}});
+}
+
+void release(Client& client, const Output& output, const std::string& joint) {
+  order(client, joint, Action::kRelease);
+  say(output, joint + ": released; the next who orders has it", {{"joint", joint}, {"accepted", true}});
+}
+
 void home(Client& client, const Output& output, const std::string& joint) {
   order(client, joint, Action::kHome);
   try {

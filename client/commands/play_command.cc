@@ -1,7 +1,6 @@
 // play: the setpoints of a log as new orders.
 #include <fmt/format.h>
 
-#include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
 #include "client/commands/commands.h"
@@ -49,36 +48,35 @@ setpoint_v1 order_of(const setpoint_v1& recorded) {
   return order;
 }
 
-void require_order(Client& client, const std::string& joint, const setpoint_v1& setpoint) {
-  setpoint_v1 order = setpoint;
+/// The first, and every one that begins a stream, must not get lost.
+void require_order(Client& client, const std::string& joint, setpoint_v1 order) {
   order.acknowledge = 1;
-  require_accepted(client.request(joint, channel_kind::kSetpoint, order), joint, "the first setpoint");
-}
-
-/// The daemon refuses to go on with a stream that has expired; a hold says that a new one begins.
-void end_expired_stream(Client& client, const std::string& joint) {
-  command_v1 order{};
-  order.action = static_cast<std::int32_t>(Action::kHold);
-  require_accepted(client.request(joint, channel_kind::kCommand, order), joint, "the hold after a stream");
+  order.begins_stream = order.stream_id != 0 ? 1 : 0;
+  require_accepted(client.request(joint, channel_kind::kSetpoint, order), joint,
+                   "the first setpoint of a motion");
 }
 
 void send_all(Client& client, const std::string& joint, const std::vector<TimedSetpoint>& setpoints) {
   const std::int64_t session_id = client.wait_for_joint(joint).state.session_id;
   const Instant start = now();
   const TimedSetpoint* last = nullptr;
+  std::int64_t stream_id = 0;
   for (const TimedSetpoint& next : setpoints) {
     const Deadline due(next.at_s - seconds_between(start, now()));
     do {
       client.wait_until([] { return false; }, Deadline(std::min(0.02, due.remaining_ms() * 1e-3)));
       require_undisturbed(client, joint, session_id);
     } while (!due.passed());
-    const bool stream_ended = last != nullptr && last->setpoint.valid_for_s > 0.0 &&
-                              next.at_s - last->at_s > last->setpoint.valid_for_s;
-    if (stream_ended) end_expired_stream(client, joint);
-    if (last == nullptr)
-      require_order(client, joint, order_of(next.setpoint));
+    const bool streamed = next.setpoint.stream_id != 0;
+    const bool begins = streamed && (last == nullptr || last->setpoint.stream_id != next.setpoint.stream_id ||
+                                     next.at_s - last->at_s > last->setpoint.valid_for_s);
+    if (begins) stream_id = client.new_stream();
+    setpoint_v1 order = order_of(next.setpoint);
+    order.stream_id = streamed ? stream_id : 0;
+    if (last == nullptr || begins)
+      require_order(client, joint, order);
     else
-      client.send(joint, channel_kind::kSetpoint, order_of(next.setpoint));
+      client.send(joint, channel_kind::kSetpoint, order);
     last = &next;
   }
   // The last refusal, if there is one, is on its way.

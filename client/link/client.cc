@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "base/printable.h"
 #include "client/link/exit_status.h"
 #include "client/link/interrupt.h"
@@ -59,9 +61,19 @@ std::vector<JointName> Client::wait_for_heard() {
   return heard();
 }
 
+// Refused unread: the order took too long, or another program of this key was ahead. It was not obeyed, so it may be given
+// anew.
+bool Client::may_try_again(const std::string& joint, const Answer& answer, const Quote& quote) {
+  if (answer.reason == Reason::kOldSequence && ack_) {
+    sender_.rise_above(ack_->last_sequence);
+    return true;
+  }
+  const auto news = [&] { return find(joint)->state.challenge != quote.challenge; };
+  return answer.reason == Reason::kTooOld && wait_until(news, Deadline(options_.timeout_s));
+}
+
 Answer Client::exchange(const std::string& joint, const SealedMessage& order) {
   awaited_ = &order;
-  requested_ = order.sequence;
   awaited_channel_ = channel(options_.prefix, joint, channel_kind::kAck);
   ack_.reset();
   for (int transmission = 0; transmission <= kRepetitions && !ack_; ++transmission) {
@@ -90,7 +102,7 @@ void Client::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel
   if (!ack || ack->sender_id != sender_.sender_id()) return;
   if (awaited_ != nullptr && channel == awaited_channel_ && ack->sequence == awaited_->sequence) {
     if (!ack_) ack_ = ack;
-  } else if (ack->sequence > requested_ && ack->accepted != 1) {
+  } else if (ack->accepted != 1 && std::find(sent_.begin(), sent_.end(), ack->sequence) != sent_.end()) {
     refusal_ = to_answer(*ack);
   }
 }

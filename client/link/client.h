@@ -2,6 +2,7 @@
 // until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <strainwave/ack_v1.hpp>
@@ -43,6 +44,8 @@ class Client {
   /// How often an order is repeated while no answer comes: LCM may lose messages. The daemon answers a
   /// repetition as it answered the first.
   static constexpr int kRepetitions = 3;
+  /// How often a refused order is made anew, when it was refused for its age or its sequence alone.
+  static constexpr int kAttempts = 3;
 
   Client(Connection& connection, const ClientOptions& options);
 
@@ -68,26 +71,35 @@ class Client {
   /// for the answer. Throws ClientError when the joint is not heard or no answer comes.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {
-    const std::int64_t session_id = wait_for_joint(joint).state.session_id;
-    return exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, session_id));
+    Answer answer;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const Quote quote = quote_of(wait_for_joint(joint).state);
+      answer = exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, quote));
+      if (answer.accepted || !may_try_again(joint, answer, quote)) break;
+    }
+    return answer;
   }
 
-  /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait
-  /// for a state, and is not signed; without a state the session is 0, which the daemon ignores in a disable.
+  /// The same for an order that must go out even when nothing is heard of the joint: a stop. It does not wait for a state, and
+  /// a key that cannot be used keeps nothing back; the signature only makes its answer sure.
   template <typename Message>
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
-    const std::int64_t session_id = view != nullptr ? view->state.session_id : 0;
-    return exchange(joint, sender_.seal_unsigned(channel(options_.prefix, joint, kind), message, session_id));
+    const Quote quote = view != nullptr ? quote_of(view->state) : Quote{};
+    return exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote));
   }
+
+  /// A number for a new stream of setpoints.
+  std::int64_t new_stream() noexcept { return sender_.new_stream(); }
 
   /// Sends `message` to a joint that is heard, once and without waiting: one of a stream. Only a refusal of
   /// it is answered, see take_refusal().
   template <typename Message>
   void send(const std::string& joint, std::string_view kind, const Message& message) {
-    const std::int64_t session_id = wait_for_joint(joint).state.session_id;
-    const SealedMessage sealed = sender_.seal(channel(options_.prefix, joint, kind), message, session_id);
+    const Quote quote = quote_of(wait_for_joint(joint).state);
+    const SealedMessage sealed = sender_.seal(channel(options_.prefix, joint, kind), message, quote);
     connection_.publish(sealed.channel, sealed.bytes);
+    sent_[sent_count_++ % sent_.size()] = sealed.sequence;
   }
 
   /// The daemon's latest refusal of a message of send() since the last call.
@@ -105,6 +117,7 @@ class Client {
   }
 
  private:
+  bool may_try_again(const std::string& joint, const Answer& answer, const Quote& quote);
   Answer exchange(const std::string& joint, const SealedMessage& order);
   void handle(int timeout_ms);
   void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
@@ -117,7 +130,8 @@ class Client {
   const SealedMessage* awaited_ = nullptr;  ///< the order whose answer counts
   std::string awaited_channel_;             ///< where its answer comes from
   std::optional<ack_v1> ack_;
-  std::int64_t requested_ = 0;  ///< sequence of the last order that was waited for
+  std::array<std::int64_t, 256> sent_{};  ///< sequences of the latest messages of send()
+  std::size_t sent_count_ = 0;
   std::optional<Answer> refusal_;
   Subscription acknowledgements_;
 };

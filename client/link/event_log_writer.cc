@@ -33,7 +33,8 @@ EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix
                                bool overwrite)
     : name_(file.string()),
       log_(create(file, overwrite), &::lcm_eventlog_destroy),
-      subscription_(connection.subscribe(recorded_channels(prefix, joints), &EventLogWriter::on_message, this)) {}
+      subscription_(
+          connection.subscribe(recorded_channels(prefix, joints), &EventLogWriter::on_message, this)) {}
 
 void EventLogWriter::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   if (!good_ || channel.size() > kMaxChannelLength) return;

@@ -1,7 +1,13 @@
 #include "client/link/sender.h"
 
+#include <limits.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <random>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <string>
 
 #include "client/link/key_file.h"
 
@@ -9,17 +15,19 @@ namespace strainwave {
 
 namespace {
 
-/// 62 random bits from the operating system, never 0.
-std::int64_t random_identity() {
-  std::random_device entropy;
-  const std::uint64_t bits = (std::uint64_t{entropy()} << 32 | entropy()) >> 2;
-  return static_cast<std::int64_t>(bits) + 1;
+// 62 bits of this machine's and this user's names, never 0.
+std::int64_t own_identity() {
+  std::array<char, HOST_NAME_MAX + 1> host{};
+  (void)::gethostname(host.data(), host.size() - 1);
+  std::string machine;
+  std::ifstream("/etc/machine-id") >> machine;
+  const std::string name = machine + "/" + host.data() + "/" + std::to_string(::getuid());
+  return static_cast<std::int64_t>(std::hash<std::string>{}(name) >> 2) + 1;
 }
 
 }  // namespace
 
-Sender::Sender(std::filesystem::path key_file)
-    : sender_id_(random_identity()), key_file_(std::move(key_file)) {}
+Sender::Sender(std::filesystem::path key_file) : sender_id_(own_identity()), key_file_(std::move(key_file)) {}
 
 std::int64_t Sender::next_sequence(std::int64_t utime) noexcept {
   sequence_ = std::max(sequence_ + 1, utime);

@@ -2,6 +2,7 @@
 // the signature. Not real-time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,11 +10,22 @@
 #include <string>
 #include <vector>
 
+#include "base/input_error.h"
 #include "base/utime.h"
 #include "lcmtypes/signing.h"
 #include "lcmtypes/wire.h"
 
 namespace strainwave {
+
+/// What of a joint's state an order must quote.
+struct Quote {
+  std::int64_t session_id = 0;
+  std::int64_t challenge = 0;
+};
+template <typename State>
+Quote quote_of(const State& state) {
+  return {state.session_id, state.challenge};
+}
 
 /// A message ready for the wire. Sending it twice sends the same order: the sequence is part of it.
 struct SealedMessage {
@@ -25,35 +37,53 @@ struct SealedMessage {
 
 class Sender {
  public:
-  /// Takes a random identity that no other sender has. `key_file`: the secret key to sign with, read when the
-  /// first order is signed; empty: orders go out unsigned.
+  /// Takes the identity of this user on this machine: programs of theirs that follow each other own the same joints.
+  /// `key_file`: the secret key to sign with, read when the first order is signed; empty: orders go out unsigned.
   explicit Sender(std::filesystem::path key_file = {});
   explicit Sender(std::int64_t sender_id) : sender_id_(sender_id) {}
 
   std::int64_t sender_id() const noexcept { return sender_id_; }
 
-  /// Completes `message` (a setpoint, command or table) for the daemon of `session_id` and signs it. Throws
+  /// Completes `message` (a setpoint, command or table) for the daemon that is quoted and signs it. Throws
   /// InputError when the key cannot be used.
   template <typename Message>
-  SealedMessage seal(std::string channel, const Message& message, std::int64_t session_id) {
-    SealedMessage sealed = seal_unsigned(std::move(channel), message, session_id);
+  SealedMessage seal(std::string channel, const Message& message, const Quote& quote) {
+    SealedMessage sealed = seal_unsigned(std::move(channel), message, quote);
     sign_if_keyed(sealed.channel, sealed.bytes);
     return sealed;
   }
 
-  /// The same without a signature, for a stop: it needs none, and no trouble with a key may keep it back.
+  /// A stop: signed if that is possible, as it is if not. No trouble with a key may keep it back.
   template <typename Message>
-  SealedMessage seal_unsigned(std::string channel, Message message, std::int64_t session_id) {
+  SealedMessage seal_stop(std::string channel, const Message& message, const Quote& quote) {
+    SealedMessage sealed = seal_unsigned(std::move(channel), message, quote);
+    try {
+      sign_if_keyed(sealed.channel, sealed.bytes);
+    } catch (const InputError&) {
+      // unsigned, then
+    }
+    return sealed;
+  }
+
+  /// The same without a signature.
+  template <typename Message>
+  SealedMessage seal_unsigned(std::string channel, Message message, const Quote& quote) {
     message.utime = utime_now();
-    message.session_id = session_id;
+    message.session_id = quote.session_id;
+    message.challenge = quote.challenge;
     message.sender_id = sender_id_;
     message.sequence = next_sequence(message.utime);
     return {std::move(channel), message.sender_id, message.sequence, encode(message)};
   }
 
+  /// A number for a stream of setpoints that no other stream of this sender has.
+  std::int64_t new_stream() noexcept { return next_sequence(utime_now()); }
+
+  /// The next order's sequence is above `sequence`: another program of this key was ahead.
+  void rise_above(std::int64_t sequence) noexcept { sequence_ = std::max(sequence_, sequence); }
+
  private:
-  /// Rises, and never falls behind the clock: the daemon remembers only the latest senders of a key, and
-  /// believes a new one only above those it has forgotten.
+  /// Rises over everything that is sent, and with the clock over all programs of one key.
   std::int64_t next_sequence(std::int64_t utime) noexcept;
   void sign_if_keyed(const std::string& channel, std::span<std::uint8_t> bytes);
 

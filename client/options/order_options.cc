@@ -1,4 +1,4 @@
-// enable, disable, move, hold, clear-fault, home, load-table, revert-table, inject.
+// enable, disable, move, hold, clear-fault, take-over, release, home, load-table, revert-table, inject.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -115,6 +115,8 @@ void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_move(app, invocation);
   add_order(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
+  add_order(app, invocation, "take-over", "have the joint instead of whoever has it (engineer)", take_over);
+  add_order(app, invocation, "release", "give the joint up before its lease ends", release);
   add_order(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);
   add_order(app, invocation, "revert-table", "use the previous gain table again", revert_table);

@@ -87,6 +87,7 @@ template <typename Order, typename Visit>
 void visit_envelope(const Order& order, Visit&& visit) {
   visit("utime", order.utime);
   visit("session_id", order.session_id);
+  visit("challenge", order.challenge);
   visit("sender_id", order.sender_id);
   visit("sequence", order.sequence);
 }
@@ -95,9 +96,11 @@ void visit_envelope(const Order& order, Visit&& visit) {
 template <typename Visit>
 void visit_fields(const setpoint_v1& message, Visit&& visit) {
   field::visit_envelope(message, visit);
+  visit("stream_id", message.stream_id);
   visit("position_rad", message.position_rad);
   visit("valid_for_s", message.valid_for_s);
   visit("speed_limit_rad_s", message.speed_limit_rad_s);
+  visit("begins_stream", message.begins_stream);
   visit("acknowledge", message.acknowledge);
 }
 
@@ -117,7 +120,11 @@ void visit_fields(const inject_v1& message, Visit&& visit) {
 
 template <typename Visit>
 void visit_fields(const ack_v1& message, Visit&& visit) {
-  field::visit_envelope(message, visit);
+  visit("utime", message.utime);
+  visit("session_id", message.session_id);
+  visit("sender_id", message.sender_id);
+  visit("sequence", message.sequence);
+  visit("last_sequence", message.last_sequence);
   visit("accepted", message.accepted);
   visit("reason", message.reason);
   visit("text", field::text(message.text));

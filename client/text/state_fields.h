@@ -14,6 +14,9 @@ template <typename Visit>
 void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("utime", state.utime);
   visit("session_id", state.session_id);
+  visit("challenge", state.challenge);
+  visit("owner_id", state.owner_id);
+  visit("lease_s", state.lease_s);
   visit_cycle_fields(state, [&](const FieldName& field, const auto& value) {
     if constexpr (std::is_array_v<std::remove_cvref_t<decltype(value)>>)
       visit(field.name.data(), std::span<const double>(value));

@@ -45,28 +45,28 @@ void OrderDesk::stop(const std::vector<Name>& joints) {
   for (const Name& joint : joints)
     post(joint,
          sender_.seal_unsigned(channel(joint.first, joint.second, channel_kind::kCommand),
-                               command(Action::kDisable), 0),
+                               command(Action::kDisable), {}),
          batch);
   report(*batch);
 }
 
 template <typename Message>
-void OrderDesk::post(const Name& joint, std::string_view kind, const Message& message,
-                     std::int64_t session_id, std::string what) {
+void OrderDesk::post(const Name& joint, std::string_view kind, const Message& message, const Quote& quote,
+                     std::string what) {
   const auto batch = std::make_shared<Batch>(Batch{std::move(what), full_name(joint), 1, 0, {}});
-  post(joint, sender_.seal(channel(joint.first, joint.second, kind), message, session_id), batch);
+  post(joint, sender_.seal(channel(joint.first, joint.second, kind), message, quote), batch);
   report(*batch);
 }
 
-void OrderDesk::order(const Name& joint, std::int64_t session_id, Action action) {
-  post(joint, channel_kind::kCommand, command(action), session_id, std::string(to_text(action)));
+void OrderDesk::order(const Name& joint, const Quote& quote, Action action) {
+  post(joint, channel_kind::kCommand, command(action), quote, std::string(to_text(action)));
 }
 
-void OrderDesk::move(const Name& joint, std::int64_t session_id, double position_rad) {
+void OrderDesk::move(const Name& joint, const Quote& quote, double position_rad) {
   setpoint_v1 message{};
   message.position_rad = position_rad;
   message.acknowledge = 1;
-  post(joint, channel_kind::kSetpoint, message, session_id, fmt::format("move to {:.6g} rad", position_rad));
+  post(joint, channel_kind::kSetpoint, message, quote, fmt::format("move to {:.6g} rad", position_rad));
 }
 
 void OrderDesk::post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch) {

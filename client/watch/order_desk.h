@@ -24,8 +24,8 @@ class OrderDesk {
   /// answers and names who did not give one.
   void stop(const std::vector<Name>& joints);
   /// Signed if there is a key. Throws InputError when the key cannot be used.
-  void order(const Name& joint, std::int64_t session_id, Action action);
-  void move(const Name& joint, std::int64_t session_id, double position_rad);
+  void order(const Name& joint, const Quote& quote, Action action);
+  void move(const Name& joint, const Quote& quote, double position_rad);
 
   /// Repeats what was not answered. Call often.
   void tick();
@@ -59,7 +59,7 @@ class OrderDesk {
     int transmissions = 0;
   };
   template <typename Message>
-  void post(const Name& joint, std::string_view kind, const Message& message, std::int64_t session_id,
+  void post(const Name& joint, std::string_view kind, const Message& message, const Quote& quote,
             std::string what);
   void post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch);
   void transmit(Waiting& waiting);

@@ -163,13 +163,13 @@ class WatchScreen {
 
   void order(Action action) {
     if (const WatchedJoint* joint = selected())
-      desk_.order({joint->prefix, joint->joint}, joint->view.state.session_id, action);
+      desk_.order({joint->prefix, joint->joint}, quote_of(joint->view.state), action);
   }
 
   /// From where the joint was sent last, so that several presses add up.
   void jog(double direction) {
     if (const WatchedJoint* joint = selected())
-      desk_.move({joint->prefix, joint->joint}, joint->view.state.session_id,
+      desk_.move({joint->prefix, joint->joint}, quote_of(joint->view.state),
                  joint->view.state.target_position_rad + direction * kJogSteps_rad.at(jog_));
   }
 

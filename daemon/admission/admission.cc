@@ -40,14 +40,6 @@ Verdict discard(Reason reason) {
   return verdict;
 }
 
-Verdict pass(const Requester& requester, OrderKind kind) {
-  Verdict verdict;
-  verdict.kind = Verdict::Kind::kOrder;
-  verdict.requester = requester;
-  verdict.order.kind = kind;
-  return verdict;
-}
-
 std::optional<OrderKind> order_of(Action action) {
   switch (action) {
     case Action::kEnable:
@@ -62,6 +54,9 @@ std::optional<OrderKind> order_of(Action action) {
       return OrderKind::kUseTable;
     case Action::kHome:
       return OrderKind::kHome;
+    case Action::kTakeOver:
+    case Action::kRelease:
+      break;  // of admission itself, not of the loop
   }
   return std::nullopt;
 }
@@ -74,7 +69,10 @@ Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<Jo
       session_id_(session_id),
       joints_(std::move(joints)),
       security_(std::move(security)),
-      sequences_(security_.keys.size()) {}
+      challenges_(security_.order_lifetime_cycles),
+      ownership_(joints_.size(), security_.lease_s),
+      sequences_(challenges_.lifetime_cycles(), security_.keys.size() * joints_.size()),
+      unsigned_sequences_(challenges_.lifetime_cycles(), kUnsignedSenders) {}
 
 Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
   now_ns_ = now_ns;
@@ -88,7 +86,9 @@ Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
                   ? discard(Reason::kUnknownJoint)
                   : judge(name->kind, static_cast<std::size_t>(joint - joints_.begin()), message);
   }
-  if (verdict.kind != Verdict::Kind::kOrder) count_reject(verdict.reason);
+  if (verdict.kind != Verdict::Kind::kOrder && verdict.kind != Verdict::Kind::kDone)
+    count_reject(verdict.reason);
+  if (verdict.kind == Verdict::Kind::kRefuse) settle(verdict.requester, false, now_ns);
   return verdict;
 }
 
@@ -100,18 +100,39 @@ Verdict Admission::judge(std::string_view kind, std::size_t joint, const WireMes
   return discard(Reason::kMalformed);
 }
 
+Verdict Admission::pass(const Requester& requester, OrderKind kind, std::int64_t challenge) const {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kOrder;
+  verdict.requester = requester;
+  verdict.order.kind = kind;
+  verdict.order.expires_cycle = challenges_.expiry_cycle(challenge);
+  return verdict;
+}
+
 std::optional<Verdict> Admission::check_envelope(const WireMessage& message, const Envelope& envelope,
                                                  Requester& requester) {
+  if (ending_) return refuse(requester, Reason::kEnding, "the daemon is ending: only stops are obeyed");
   if (envelope.session_id != session_id_)
     return refuse(requester, Reason::kWrongSession,
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is another: read session_id from the STATE channel and send again");
+  if (challenges_.expiry_cycle(envelope.challenge) < 0)
+    return refuse(
+        requester, Reason::kTooOld,
+        "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
+        "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
+  if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
+  return envelope.needs_joint ? check_owner(requester) : std::nullopt;
+}
+
+std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role needed, Requester& requester,
+                                               TokenBucket& verifications) {
   if (is_unsigned(payload(message))) {
     if (!security_.unsigned_allowed)
       return refuse(
           requester, Reason::kUnsigned,
           "this daemon obeys signed orders only: strainwavectl --key FILE, see strainwavectl keygen --help");
-    return check_sequence(unsigned_sequences_, requester);
+    return check_sequence(unsigned_sequences_, requester.sender_id, requester);
   }
   const auto key = security_.keys.find(key_id_of(payload(message)));
   if (!key)
@@ -119,10 +140,10 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
         requester, Reason::kBadSignature,
         "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
         "and start the daemon again");
-  if (!verifications_.available(now_ns_))
+  if (!verifications.available(now_ns_))
     return refuse(requester, Reason::kBusy, "too many forged or repeated orders at once: try again");
-  auto verdict = check_signed(message, *key, envelope.needed, requester);
-  if (verdict) verifications_.take();
+  auto verdict = check_signed(message, *key, needed, requester);
+  if (verdict) verifications.take();
   return verdict;
 }
 
@@ -136,21 +157,61 @@ std::optional<Verdict> Admission::check_signed(const WireMessage& message, std::
     return refuse(requester, Reason::kRoleNotAllowed,
                   "the key of " + signer.comment + " has the role " + std::string(to_text(signer.role)) +
                       ", this order needs " + std::string(to_text(needed)));
-  return check_sequence(sequences_[key], requester);
+  requester.key = static_cast<std::int64_t>(key);
+  return check_sequence(sequences_, requester.key, requester);
 }
 
-std::optional<Verdict> Admission::check_sequence(SequenceMemory& memory, Requester& requester) {
-  const auto judgement = memory.judge(requester.sender_id, requester.sequence);
+std::optional<Verdict> Admission::check_sequence(SequenceMemory& memory, std::int64_t who,
+                                                 Requester& requester) const {
+  const SequenceMemory::Identity identity{who, requester.joint};
+  const auto judgement = memory.judge(identity, requester.sender_id, requester.sequence, challenges_.cycle());
   if (judgement == SequenceMemory::Judgement::kNew) {
     requester.authentic = true;
     return std::nullopt;
   }
-  Verdict verdict =
-      refuse(requester, Reason::kOldSequence,
-             "sequence " + std::to_string(requester.sequence) +
-                 " does not rise above the sender's last, or above those of earlier senders with this key: "
-                 "use microseconds since the epoch, from a clock that is right");
+  requester.last_sequence = memory.last(identity);
+  Verdict verdict = refuse(requester, Reason::kOldSequence,
+                           "sequence " + std::to_string(requester.sequence) +
+                               " does not rise above the last of this key for this joint, " +
+                               std::to_string(requester.last_sequence) + ": send above it");
   if (judgement == SequenceMemory::Judgement::kRepeat) verdict.kind = Verdict::Kind::kRepeat;
+  return verdict;
+}
+
+std::optional<Verdict> Admission::check_owner(Requester& requester) {
+  const Ownership::Holder sender{requester.key, requester.sender_id};
+  requester.owns = ownership_.reserve(requester.joint, sender, now_ns_);
+  if (requester.owns) return std::nullopt;
+  const Ownership::Holder& owner = ownership_.holder(requester.joint);
+  std::ostringstream text;
+  text << "sender " << owner.sender_id;
+  if (owner.key >= 0)
+    text << " (key of " << security_.keys[static_cast<std::size_t>(owner.key)].comment << ")";
+  text << " has " << joints_[requester.joint].name << ": wait until he is silent for " << security_.lease_s
+       << " s or releases it, or take it over with an engineer's key; a stop or hold is always possible";
+  return refuse(requester, Reason::kNotOwner, text.str());
+}
+
+// Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are. Who proves who
+// he is gets his answer however many others ask for one.
+Verdict Admission::stop(const WireMessage& message, std::int64_t session_id, std::int64_t challenge,
+                        Requester requester) {
+  requester.stop = true;
+  const bool meant_for_us = session_id == session_id_ && challenges_.expiry_cycle(challenge) >= 0;
+  if (meant_for_us && !is_unsigned(payload(message)))
+    (void)check_sender(message, Role::kOperator, requester, stop_verifications_);
+  return pass(requester, OrderKind::kDisable, 0);
+}
+
+Verdict Admission::change_owner(Action action, const Requester& requester) {
+  const Ownership::Holder sender{requester.key, requester.sender_id};
+  if (action == Action::kTakeOver)
+    ownership_.take(requester.joint, sender, now_ns_);
+  else if (!ownership_.release(requester.joint, sender, now_ns_))
+    return refuse(requester, Reason::kNotOwner, "only who has the joint can release it");
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kDone;
+  verdict.requester = requester;
   return verdict;
 }
 
@@ -158,7 +219,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   const auto setpoint = decode_exactly<setpoint_v1>(payload(message));
   if (!setpoint) return discard(Reason::kMalformed);
   Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
-  if (auto verdict = check_envelope(message, {setpoint->session_id, Role::kOperator}, requester))
+  if (auto verdict = check_envelope(
+          message, {setpoint->session_id, setpoint->challenge, Role::kOperator, true}, requester))
     return std::move(*verdict);
   if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
       !std::isfinite(setpoint->speed_limit_rad_s))
@@ -171,9 +233,10 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
          << limits.position_max_rad << " is allowed (joint.limits of " << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
-  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s) {
-    text << "valid_for_s = " << setpoint->valid_for_s << ": from 0 (a move) to " << kMaxValidFor_s
-         << " is allowed";
+  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s ||
+      (setpoint->valid_for_s > 0.0) != (setpoint->stream_id != 0)) {
+    text << "valid_for_s = " << setpoint->valid_for_s << " with stream_id = " << setpoint->stream_id
+         << ": both 0 (a move), or a stream and at most " << kMaxValidFor_s << " s are allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
@@ -181,7 +244,9 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
          << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_rad_s of " << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
-  Verdict verdict = pass(requester, OrderKind::kSetpoint);
+  Verdict verdict = pass(requester, OrderKind::kSetpoint, setpoint->challenge);
+  verdict.order.stream_id = setpoint->stream_id;
+  verdict.order.begins_stream = setpoint->begins_stream != 0;
   verdict.order.position_rad = setpoint->position_rad;
   verdict.order.valid_for_s = setpoint->valid_for_s;
   verdict.order.speed_limit_rad_s = setpoint->speed_limit_rad_s;
@@ -193,16 +258,21 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
   if (!command) return discard(Reason::kMalformed);
   Requester requester{joint, command->sender_id, command->sequence};
   const auto action = static_cast<Action>(command->action);
-  // Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are.
-  if (action == Action::kDisable) return pass(requester, OrderKind::kDisable);
-  const Role needed = action == Action::kRevertTable ? Role::kEngineer : Role::kOperator;
-  if (auto verdict = check_envelope(message, {command->session_id, needed}, requester))
-    return std::move(*verdict);
+  if (action == Action::kDisable) return stop(message, command->session_id, command->challenge, requester);
+  const bool engineers = action == Action::kRevertTable || action == Action::kTakeOver;
   const auto kind = order_of(action);
+  // A hold is a stop that keeps the joint under control: nobody needs to have the joint for it.
+  const bool needs_joint = kind && action != Action::kHold;
+  if (auto verdict = check_envelope(message,
+                                    {command->session_id, command->challenge,
+                                     engineers ? Role::kEngineer : Role::kOperator, needs_joint},
+                                    requester))
+    return std::move(*verdict);
+  if (action == Action::kTakeOver || action == Action::kRelease) return change_owner(action, requester);
   if (!kind)
     return refuse(requester, Reason::kUnknownAction,
                   "action = " + std::to_string(command->action) + ": see docs/messages.md");
-  Verdict verdict = pass(requester, *kind);
+  Verdict verdict = pass(requester, *kind, command->challenge);
   verdict.revert_table = action == Action::kRevertTable;
   return verdict;
 }
@@ -211,12 +281,13 @@ Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& mes
   const auto table_message = decode_exactly<gain_table_v1>(payload(message));
   if (!table_message) return discard(Reason::kMalformed);
   Requester requester{joint, table_message->sender_id, table_message->sequence};
-  if (auto verdict = check_envelope(message, {table_message->session_id, Role::kEngineer}, requester))
+  if (auto verdict = check_envelope(
+          message, {table_message->session_id, table_message->challenge, Role::kEngineer, true}, requester))
     return std::move(*verdict);
   auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
   const TableVerdict judged = judge_table(*table, joints_[joint].plant, joints_[joint].torque_limit_Nm);
   if (judged.reason != Reason::kAccepted) return refuse(requester, judged.reason, judged.text);
-  Verdict verdict = pass(requester, OrderKind::kUseTable);
+  Verdict verdict = pass(requester, OrderKind::kUseTable, table_message->challenge);
   verdict.text = judged.text;
   verdict.table = std::move(table);
   return verdict;
@@ -226,7 +297,8 @@ Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message
   const auto inject = decode_exactly<inject_v1>(payload(message));
   if (!inject) return discard(Reason::kMalformed);
   Requester requester{joint, inject->sender_id, inject->sequence};
-  if (auto verdict = check_envelope(message, {inject->session_id, Role::kEngineer}, requester))
+  if (auto verdict =
+          check_envelope(message, {inject->session_id, inject->challenge, Role::kEngineer, false}, requester))
     return std::move(*verdict);
   if (!joints_[joint].takes_injected_faults)
     return refuse(requester, Reason::kNotSimulated,
@@ -249,7 +321,7 @@ Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message
          << " is allowed for " << to_text(*kind);
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
-  Verdict verdict = pass(requester, OrderKind::kInject);
+  Verdict verdict = pass(requester, OrderKind::kInject, inject->challenge);
   verdict.order.injection = {*kind, 0.0, inject->for_s, inject->amount};
   return verdict;
 }

@@ -1,9 +1,9 @@
-// Every message from outside passes here before the loop may hear of it: exact size, channel, session,
-// signature and role, sequence, finite, range, table certificate. Pure: bytes in, verdict out; no threads,
+// Every message from outside passes here before the loop may hear of it: exact size, channel, session, challenge,
+// signature and role, sequence, owner, finite, range, table certificate. Pure: bytes in, verdict out; no threads,
 // sockets or clocks. Not real-time.
 //
 // What somebody without a key can change here: the counts of rejects and the budget of wasted verifications,
-// nothing else. Sequences are remembered per key, and only of messages whose signature is right.
+// nothing else. Sequences are remembered per key and joint, and only of messages whose signature is right.
 #pragma once
 
 #include <array>
@@ -16,6 +16,8 @@
 
 #include "control/gain_table.h"
 #include "daemon/admission/authorized_keys.h"
+#include "daemon/admission/challenges.h"
+#include "daemon/admission/ownership.h"
 #include "daemon/admission/sequence_memory.h"
 #include "daemon/admission/token_bucket.h"
 #include "daemon/gateway/shared_memory.h"
@@ -44,6 +46,10 @@ struct Requester {
   /// From somebody who may give orders, and new: its answer is worth remembering for a resend. Others could
   /// make the daemon forget answers or flood the bus with new ones.
   bool authentic = false;
+  bool stop = false;      ///< of a disable, whose answers have a share of their own
+  bool owns = false;      ///< the order needed the joint: Admission::settle() wants to know what became of it
+  std::int64_t key = -1;  ///< index of the key that signed, -1: none
+  std::int64_t last_sequence = 0;  ///< with kOldSequence: what the sequence must rise above
 };
 
 /// What to do with one message.
@@ -52,6 +58,7 @@ struct Verdict {
     kOrder,    ///< pass `order` to the joint's loop and answer with its reply
     kRefuse,   ///< answer with reason and text
     kRepeat,   ///< a resend of the last message of this sender: give the same answer again
+    kDone,     ///< obeyed here: answer that it is accepted
     kDiscard,  ///< nobody to answer; only counted
   };
   Kind kind = Kind::kDiscard;
@@ -69,12 +76,27 @@ class Admission {
   /// whoever sends forgeries gets at most an eighth of one processor, and beyond it they are refused unread.
   static constexpr double kWastedVerificationsPer_s = 1000.0;
   static constexpr double kWastedVerificationsAtOnce = 200.0;
+  /// Identities without a key that are remembered.
+  static constexpr std::size_t kUnsignedSenders = 256;
 
   Admission(std::string prefix, std::int64_t session_id, std::vector<JointAdmission> joints,
             SecurityPolicy security);
 
+  /// It is `cycle` now; `random` becomes the next challenge when one is due. Returns the challenge to publish.
+  std::int64_t advance(std::int64_t cycle, std::int64_t random) { return challenges_.advance(cycle, random); }
+
+  /// From now on nothing but stops: the daemon is ending.
+  void end_orders() noexcept { ending_ = true; }
+
   /// Judges one message that is looked at at `now_ns` (monotonic) and counts a refusal under its cause.
   Verdict consider(const WireMessage& message, std::int64_t now_ns);
+
+  /// What became of an order that was passed on.
+  void settle(const Requester& requester, bool accepted, std::int64_t now_ns) {
+    if (requester.owns)
+      ownership_.settle(requester.joint, {requester.key, requester.sender_id}, accepted, now_ns);
+  }
+  const Ownership& ownership() const noexcept { return ownership_; }
 
   /// A refusal decided elsewhere (by the loop) belongs to the same counts.
   void count_reject(Reason reason) noexcept { ++rejects_[static_cast<std::size_t>(reason)]; }
@@ -83,7 +105,9 @@ class Admission {
  private:
   struct Envelope {
     std::int64_t session_id;
+    std::int64_t challenge;
     Role needed;
+    bool needs_joint;  ///< only the joint's owner may order it
   };
   Verdict judge(std::string_view kind, std::size_t joint, const WireMessage& message);
   Verdict judge_setpoint(std::size_t joint, const WireMessage& message);
@@ -95,15 +119,26 @@ class Admission {
                                         Requester& requester);
   std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed,
                                       Requester& requester);
-  static std::optional<Verdict> check_sequence(SequenceMemory& memory, Requester& requester);
+  std::optional<Verdict> check_sequence(SequenceMemory& memory, std::int64_t who, Requester& requester) const;
+  std::optional<Verdict> check_owner(Requester& requester);
+  std::optional<Verdict> check_sender(const WireMessage& message, Role needed, Requester& requester,
+                                      TokenBucket& verifications);
+  Verdict stop(const WireMessage& message, std::int64_t session_id, std::int64_t challenge,
+               Requester requester);
+  Verdict change_owner(Action action, const Requester& requester);
+  Verdict pass(const Requester& requester, OrderKind kind, std::int64_t challenge) const;
 
   std::string prefix_;
   std::int64_t session_id_;
   std::vector<JointAdmission> joints_;
   SecurityPolicy security_;
-  std::vector<SequenceMemory> sequences_;  ///< of each key
-  SequenceMemory unsigned_sequences_{false};
+  Challenges challenges_;
+  Ownership ownership_;
+  SequenceMemory sequences_;
+  SequenceMemory unsigned_sequences_;
   TokenBucket verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
+  TokenBucket stop_verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
+  bool ending_ = false;
   std::int64_t now_ns_ = 0;
   std::array<std::int64_t, kReasonCount> rejects_{};
 };

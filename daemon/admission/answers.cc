@@ -41,6 +41,7 @@ void Answers::answer(const Requester& to, Reason reason, const std::string& text
   ack.session_id = session_id_;
   ack.sender_id = to.sender_id;
   ack.sequence = to.sequence;
+  ack.last_sequence = reason == Reason::kOldSequence ? to.last_sequence : 0;
   ack.accepted = reason == Reason::kAccepted ? 1 : 0;
   ack.reason = static_cast<std::int32_t>(reason);
   std::copy_n(text.begin(), std::min(text.size(), sizeof ack.text - 1), ack.text);

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/protected_file.h"
 
 namespace strainwave {
 
@@ -24,22 +25,11 @@ constexpr std::size_t kMaxFileBytes = 256 * 1024;
   throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(errno));
 }
 
-// Whoever can write the file, or put another in its place, decides who moves the machine.
-void check_protection(const std::filesystem::path& path, const struct stat& status,
-                      const std::string& remedy) {
-  if (status.st_uid != 0 && status.st_uid != ::geteuid())
-    throw InputError(path.string() + ": is owned by user " + std::to_string(status.st_uid) +
-                     ": root or the user that runs strainwaved must own it");
-  const bool sticky_folder = S_ISDIR(status.st_mode) && (status.st_mode & S_ISVTX) != 0;
-  if ((status.st_mode & S_IWOTH) != 0 && !sticky_folder)
-    throw InputError(path.string() + ": everyone may write it: " + remedy);
-}
-
 std::string read_protected(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   struct stat status {};
   if (::stat(folder.c_str(), &status) != 0) fail(folder, "security.authorized_keys cannot be read");
-  check_protection(folder, status, "chmod o-w " + folder.string());
+  require_protected(folder, status, Writers::kNobody);
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) fail(path, "security.authorized_keys cannot be read");
   std::string text;
@@ -47,7 +37,7 @@ std::string read_protected(const std::filesystem::path& path) {
     if (::fstat(descriptor, &status) != 0) fail(path, "security.authorized_keys cannot be read");
     if (!S_ISREG(status.st_mode))
       throw InputError(path.string() + ": security.authorized_keys is not a file");
-    check_protection(path, status, "chmod o-w " + path.string());
+    require_protected(path, status, Writers::kNobody);
     std::array<char, 4096> part{};
     ssize_t size = 0;
     while ((size = ::read(descriptor, part.data(), part.size())) > 0 && text.size() <= kMaxFileBytes)

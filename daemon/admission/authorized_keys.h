@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -31,6 +32,8 @@ class AuthorizedKeys {
 struct SecurityPolicy {
   AuthorizedKeys keys;
   bool unsigned_allowed = false;  ///< orders without a signature are obeyed: for simulated joints only
+  double lease_s = 2.0;           ///< the owner of a joint loses it after this silence
+  std::int64_t order_lifetime_cycles = 1000;  ///< from the drawing of the challenge that an order quotes
 };
 
 /// The credential of the same file name, if the service manager hands one over ($CREDENTIALS_DIRECTORY; LoadCredential= in

@@ -1,58 +1,71 @@
-// The last sequence of each recent sender of one key: what stops replays. Bounded, and forgetting reopens
-// nothing: a sender that is not remembered is believed only above every sequence that was forgotten. Not
-// real-time.
+// The last sequence of each key for each joint, of the time in which an order may still be obeyed: what stops repetitions and
+// orders that overtake. An order that is older than its lifetime is refused for its challenge, so nothing needs to be remembered
+// longer. Bounded. Not real-time.
 #pragma once
 
 #include <algorithm>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 
 namespace strainwave {
 
 class SequenceMemory {
  public:
-  /// More programs than use one key at a time; more of them take turns without harm as long as their
-  /// sequences follow the clock.
-  static constexpr std::size_t kSenders = 64;
-
   enum class Judgement {
     kNew,     ///< rising: remembered from now on
-    kRepeat,  ///< the very message that was judged last of this sender
+    kRepeat,  ///< the very message that was judged last
     kOld,
   };
+  /// Whose sequence rises: a key, or a sender without one, on one joint.
+  struct Identity {
+    std::int64_t who = 0;
+    std::size_t joint = 0;
+    auto operator<=>(const Identity&) const = default;
+  };
 
-  /// `keeps_floor` false: for senders without a key, among whom anybody could raise the floor for all.
-  explicit SequenceMemory(bool keeps_floor = true) : keeps_floor_(keeps_floor) {}
+  /// `bound`: identities at a time; beyond it the longest silent one is forgotten.
+  SequenceMemory(std::int64_t lifetime_cycles, std::size_t bound)
+      : lifetime_cycles_(lifetime_cycles), bound_(std::max<std::size_t>(bound, 1)) {}
 
-  /// Call only for a message that is known to come from the key's owner.
-  Judgement judge(std::int64_t sender_id, std::int64_t sequence) {
-    const auto known = last_.find(sender_id);
+  /// Call only for a message that is known to come from `identity`, and whose challenge is recent at `cycle`.
+  Judgement judge(Identity identity, std::int64_t sender_id, std::int64_t sequence, std::int64_t cycle) {
+    const auto known = last_.find(identity);
     if (known != last_.end()) {
-      if (sequence == known->second) return Judgement::kRepeat;
-      if (sequence < known->second) return Judgement::kOld;
-      known->second = sequence;
-      return Judgement::kNew;
+      const Last& last = known->second;
+      if (sequence == last.sequence && sender_id == last.sender_id) return Judgement::kRepeat;
+      if (sequence <= last.sequence && cycle - last.cycle <= lifetime_cycles_) return Judgement::kOld;
+    } else if (last_.size() >= bound_) {
+      forget_longest_silent();
     }
-    if (sequence <= floor_) return Judgement::kOld;
-    if (last_.size() >= kSenders) forget_lowest();
-    last_.emplace(sender_id, sequence);
+    last_[identity] = {sender_id, sequence, cycle};
     return Judgement::kNew;
+  }
+
+  /// The last sequence of `identity`, 0 when there is none.
+  std::int64_t last(Identity identity) const {
+    const auto known = last_.find(identity);
+    return known == last_.end() ? 0 : known->second.sequence;
   }
 
   std::size_t size() const noexcept { return last_.size(); }
 
  private:
-  void forget_lowest() {
-    const auto lowest = std::min_element(last_.begin(), last_.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (keeps_floor_) floor_ = std::max(floor_, lowest->second);
-    last_.erase(lowest);
+  struct Last {
+    std::int64_t sender_id;
+    std::int64_t sequence;
+    std::int64_t cycle;
+  };
+  void forget_longest_silent() {
+    last_.erase(std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
+      return a.second.cycle < b.second.cycle;
+    }));
   }
 
-  bool keeps_floor_;
-  std::int64_t floor_ = std::numeric_limits<std::int64_t>::min();
-  std::map<std::int64_t, std::int64_t> last_;
+  std::int64_t lifetime_cycles_;
+  std::size_t bound_;
+  std::map<Identity, Last> last_;
 };
 
 }  // namespace strainwave

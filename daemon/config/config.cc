@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/input_error.h"
+#include "base/protected_file.h"
 #include "base/toml_section.h"
 #include "daemon/config/config_can.h"
 #include "daemon/config/config_gpio.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr Range kAnyAngle{-1e4, 1e4};
 constexpr Range kPositive{1e-9, 1e9};
+constexpr double kOrderLifetime_s = 1.0;
 constexpr double kMaxRecorder_MB = 1024.0;
 constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
@@ -197,9 +199,13 @@ GatewayUser read_gateway_user(TomlSection& section) {
   }
 }
 
-SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>& joints,
-                             const std::filesystem::path& folder) {
+SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
+                             const std::vector<JointConfig>& joints, const std::filesystem::path& folder) {
   SecurityPolicy security;
+  security.lease_s = section.number_or("lease_s", security.lease_s, {0.1, 3600.0});
+  // An order quotes what a state has told: it lives for a second beyond the time between two states.
+  security.order_lifetime_cycles =
+      std::llround((kOrderLifetime_s + 1.0 / loop.state_rate_Hz) / loop.period_s);
   security.unsigned_allowed = section.choice_or("unsigned_orders", "refuse", {"refuse", "allow"}) == "allow";
   const bool simulated = std::all_of(joints.begin(), joints.end(),
                                      [](const JointConfig& joint) { return joint.driver == "simulated"; });
@@ -219,6 +225,7 @@ SecurityPolicy read_security(TomlSection section, const std::vector<JointConfig>
 }  // namespace
 
 DaemonConfig read_config(const std::filesystem::path& path) {
+  require_protected(path, Writers::kGroup);
   TomlSection root = TomlSection::read(path);
   DaemonConfig config;
   TomlSection daemon = root.section_or_empty("daemon");
@@ -247,7 +254,8 @@ DaemonConfig read_config(const std::filesystem::path& path) {
     root.fail("recorder", "fewer seconds are allowed: " + std::to_string(std::lround(recorder_MB)) +
                               " MB of memory would be locked for " + std::to_string(config.joints.size()) +
                               " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)));
-  config.security = read_security(root.section_or_empty("security"), config.joints, path.parent_path());
+  config.security =
+      read_security(root.section_or_empty("security"), config.loop, config.joints, path.parent_path());
   root.refuse_unknown_keys();
   return config;
 }

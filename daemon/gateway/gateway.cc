@@ -127,6 +127,9 @@ void Gateway::publish_states() {
     if (joint >= outbound_.joint_count) continue;
     record.state.utime = utime_now();
     record.state.session_id = outbound_.session_id;
+    record.state.challenge = outbound_.challenge.load(std::memory_order_relaxed);
+    record.state.owner_id = outbound_.leases[joint].owner_id.load(std::memory_order_relaxed);
+    record.state.lease_s = outbound_.leases[joint].lease_s.load(std::memory_order_relaxed);
     lcm_.publish(channel(outbound_.prefix.view(), outbound_.joint_names[joint].view(), channel_kind::kState),
                  &record.state);
   }

@@ -34,6 +34,12 @@ struct WireMessage {
   std::array<std::uint8_t, kMaxBytes> bytes{};
 };
 
+/// What the core says of a joint beside what its loop does; stamped on every state that is published.
+struct JointLease {
+  std::atomic<std::int64_t> owner_id{0};
+  std::atomic<double> lease_s{0.0};
+};
+
 /// Written by the core only. joint_count and the names are set before the gateway starts.
 struct OutboundMemory {
   static constexpr std::size_t kStateRecords = 8192;
@@ -48,6 +54,8 @@ struct OutboundMemory {
   std::int64_t gateway_gid = -1;
   std::uint64_t joint_count = 0;
   std::array<FixedString<32>, kMaxJoints> joint_names{};
+  std::atomic<std::int64_t> challenge{0};  ///< what orders must quote
+  std::array<JointLease, kMaxJoints> leases{};
   BroadcastRing<StateRecord, kStateRecords> states;
   BroadcastRing<WireMessage, kMessages> messages;
   std::atomic<std::uint64_t> stops_taken{0};   ///< how many messages the core has taken from inbound.stops

@@ -252,6 +252,7 @@ void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
     held_ = {motion_.phase == MotionPhase::kResting ? motion_.output.torque_Nm
                                                     : motion_.estimate.disturbance.load_Nm,
              reading().joint_position_rad};
+  if (mode_.is(Mode::kStopping) || !mode_.controlled()) ordered_.end();
 }
 
 void JointLoop::end(const CycleTime& time) noexcept {

@@ -20,7 +20,9 @@ double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
 void JointLoop::take_orders(const CycleTime& time) noexcept {
   Order order;
   while (orders_.pop(order)) {
-    const Reason reason = obey(order, time);
+    // The loop may have stood still while the order waited.
+    const bool too_old = order.expires_cycle >= 0 && time.cycle > order.expires_cycle;
+    const Reason reason = too_old ? Reason::kTooOld : obey(order, time);
     // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
     if (order.id != 0) (void)replies_.push({order.id, reason, mode(), measured_velocity_rad_s()});
   }
@@ -77,13 +79,13 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   if (service_ == Service::kEnding) return Reason::kEnding;
   // A late packet of a stream that has ended must not set the joint moving again.
-  if (order.valid_for_s > 0.0 && !ordered_.takes_stream()) return Reason::kStreamExpired;
+  if (!ordered_.takes(order.stream_id, order.begins_stream)) return Reason::kStreamEnded;
   if (!zero_.known()) return Reason::kNotHomed;
   const double target_rad = zero_.to_drive_rad(order.position_rad);
   if (into_limit_switch(target_rad - reading().joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
   controller_.set_target(target_rad, order.speed_limit_rad_s);
-  ordered_.accept(order.position_rad, target_rad, order.valid_for_s, time.now_ns);
+  ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   return Reason::kAccepted;
 }
 
@@ -91,7 +93,7 @@ Reason JointLoop::hold() noexcept {
   if (!mode_.controlled()) return Reason::kWrongMode;
   controller_.stop();
   homing_.abort();
-  ordered_.hold();
+  ordered_.end();
   return Reason::kAccepted;
 }
 

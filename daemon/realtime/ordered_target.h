@@ -1,9 +1,8 @@
-// Where the last accepted setpoint leads, and how long it is valid. A move has no end; each setpoint of a stream is valid for a
-// while, and a stream that falls silent expires: the joint comes to rest, and late packets of it are refused until somebody
-// says that something new begins. Real-time safe; time is an argument.
+// Where the last accepted setpoint leads, and how long it is valid. A move has no end. A stream is begun by a setpoint that says
+// so; each of its setpoints is valid for a while, and it ends when none follows, or by anything that ends motion. What comes of a
+// stream that is not under way is refused, however late it comes. Real-time safe; time is an argument.
 //
-//   none -> live -> expired -> released -> none      a hold releases; any other new beginning forgets
-//                   (refused, shown)  (shown)
+//   none -> live -> expired -> none      hold, stop, fault, enable, a move: live -> none
 #pragma once
 
 #include <cstdint>
@@ -14,22 +13,32 @@ namespace strainwave {
 
 class OrderedTarget {
  public:
-  /// The setpoint `joint_rad`, which the drive counts as `drive_rad`; `valid_for_s` > 0 for one of a stream, 0 for a move.
-  void accept(double joint_rad, double drive_rad, double valid_for_s, std::int64_t now_ns) noexcept;
+  /// A setpoint as it was ordered.
+  struct Setpoint {
+    double joint_rad = 0.0;
+    double drive_rad = 0.0;      ///< as the drive counts it
+    std::int64_t stream_id = 0;  ///< 0: a move
+    double valid_for_s = 0.0;    ///< of one of a stream
+  };
+  /// Whether a setpoint of `stream_id` may be obeyed: a move, the first of a stream, or the stream that is under way.
+  bool takes(std::int64_t stream_id, bool begins) const noexcept {
+    return stream_id == 0 || begins || (streamed() && stream_id == stream_id_);
+  }
+  void accept(const Setpoint& setpoint, std::int64_t now_ns) noexcept;
   /// True once, in the period in which a live stream has ended.
   bool expire(std::int64_t now_ns) noexcept;
-  /// An order to hold: ends a live stream; after an expired one a new one may begin.
-  void hold() noexcept;
+  /// Something ends all motion: a live stream is over. That one has expired stays shown.
+  void end() noexcept {
+    if (streamed()) stream_ = Stream::kNone;
+  }
   /// Something else begins: nothing of a stream is left.
   void forget() noexcept { stream_ = Stream::kNone; }
   /// Homing has moved the zero.
   void rezero(const JointZero& zero) noexcept { joint_rad_ = zero.to_joint_rad(drive_rad_); }
 
   bool streamed() const noexcept { return stream_ == Stream::kLive; }
-  /// False while only late packets of an expired stream can be meant.
-  bool takes_stream() const noexcept { return stream_ != Stream::kExpired; }
   /// Until the next setpoint is accepted.
-  bool shows_expiry() const noexcept { return stream_ == Stream::kExpired || stream_ == Stream::kReleased; }
+  bool shows_expiry() const noexcept { return stream_ == Stream::kExpired; }
   /// The target `drive_rad` of the controller at the joint: to the bit what was ordered, so that whoever ordered it knows it
   /// again.
   double shown_rad(double drive_rad, const JointZero& zero) const noexcept {
@@ -37,8 +46,9 @@ class OrderedTarget {
   }
 
  private:
-  enum class Stream { kNone, kLive, kExpired, kReleased };
+  enum class Stream { kNone, kLive, kExpired };
   Stream stream_ = Stream::kNone;
+  std::int64_t stream_id_ = 0;   ///< while live
   std::int64_t expires_ns_ = 0;  ///< while live
   double drive_rad_ = 0.0;
   double joint_rad_ = 0.0;

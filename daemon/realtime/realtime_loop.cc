@@ -107,6 +107,7 @@ void RealtimeLoop::stop_drives() noexcept {
 }
 
 void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept {
+  statistics_->cycle.store(time.cycle, std::memory_order_release);
   statistics_->wakeup_latency.add(wake.woke_ns - wake.due_ns);
   if (previous_wake_ns_ != 0)
     statistics_->period_error.add(std::abs(wake.woke_ns - previous_wake_ns_ - period_ns_));

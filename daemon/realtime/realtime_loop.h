@@ -23,7 +23,8 @@ namespace strainwave {
 
 /// Written by the loop, read by anybody.
 struct LoopTotals {
-  std::atomic<std::int64_t> cycles{0};
+  std::atomic<std::int64_t> cycles{0};  ///< executed
+  std::atomic<std::int64_t> cycle{0};   ///< number of the present one: skipped ones count
   std::atomic<std::int64_t> overruns{0};
   std::atomic<std::int64_t> page_faults{0};
   Histogram wakeup_latency;

@@ -19,7 +19,7 @@ gain_table_v1 random_message(unsigned seed) {
   for (auto& byte : bytes) byte = static_cast<unsigned char>(random());
   gain_table_v1 message;
   std::memcpy(&message, bytes.data(), sizeof(message));
-  message.utime = message.session_id = message.sender_id = message.sequence = 0;
+  message.utime = message.session_id = message.challenge = message.sender_id = message.sequence = 0;
   std::fill(std::begin(message.key_id), std::end(message.key_id), std::uint8_t{0});
   std::fill(std::begin(message.signature), std::end(message.signature), std::uint8_t{0});
   return message;
@@ -34,7 +34,7 @@ TEST(GainTableMessage, CarriesTheTableBitForBit) {
 
 TEST(GainTableMessage, LosesNoBitOfAnyField) {
   const std::vector<std::uint8_t> good = encode(random_message(4));
-  constexpr std::size_t kBeforeTable = 8 + 4 * sizeof(std::int64_t);  // fingerprint, envelope
+  constexpr std::size_t kBeforeTable = 8 + 5 * sizeof(std::int64_t);  // fingerprint, envelope
   constexpr std::size_t kAfterTable = sizeof(gain_table_v1::key_id) + sizeof(gain_table_v1::signature);
   for (std::size_t i = kBeforeTable; i < good.size() - kAfterTable; ++i) {
     std::vector<std::uint8_t> bytes = good;
@@ -49,6 +49,7 @@ TEST(GainTableMessage, LeavesTheEnvelopeToTheSender) {
   const gain_table_v1 message = to_message(to_gain_table(random_message(5)));
   EXPECT_EQ(message.utime, 0);
   EXPECT_EQ(message.session_id, 0);
+  EXPECT_EQ(message.challenge, 0);
   EXPECT_EQ(message.sender_id, 0);
   EXPECT_EQ(message.sequence, 0);
   EXPECT_TRUE(

@@ -86,18 +86,22 @@ constexpr Word<Reason> kReasons[] = {
     {22, Reason::kDriveNotReady, "drive not ready"},
     {23, Reason::kSuperseded, "superseded by a newer command"},
     {24, Reason::kNotSimulated, "only a simulated drive takes injected faults"},
-    {25, Reason::kStreamExpired, "setpoint stream has expired"},
+    {25, Reason::kStreamEnded, "setpoint stream has ended"},
     {26, Reason::kNotHomed, "joint is not homed"},
     {27, Reason::kAtLimitSwitch, "limit switch in that direction"},
     {28, Reason::kNoHoming, "no homing configured"},
-    {29, Reason::kEnding, "daemon is ending"}};
+    {29, Reason::kEnding, "daemon is ending"},
+    {30, Reason::kTooOld, "order is too old"},
+    {31, Reason::kNotOwner, "somebody else has the joint"}};
 
 constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {2, Action::kDisable, "disable"},
                                      {3, Action::kHold, "hold"},
                                      {4, Action::kClearFault, "clear-fault"},
                                      {5, Action::kRevertTable, "revert-table"},
-                                     {6, Action::kHome, "home"}};
+                                     {6, Action::kHome, "home"},
+                                     {7, Action::kTakeOver, "take-over"},
+                                     {8, Action::kRelease, "release"}};
 
 constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
     {0, TemperatureStatus::kValid, "valid"},

@@ -12,7 +12,9 @@
 #include <random>
 #include <sstream>
 #include <thread>
+#include <utility>
 
+#include "base/utime.h"
 #include "control/gain_table_json.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/gain_table_message.h"
@@ -24,6 +26,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPollStep = std::chrono::milliseconds(10);
+constexpr std::chrono::microseconds kRecent{200'000};
+constexpr std::chrono::microseconds kFirstState{10'000'000};
 
 // One network for all tests of a program, entered before any thread exists.
 class PrivateNetwork : public ::testing::Environment {
@@ -61,12 +65,15 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, const std::str
   const std::filesystem::path config_path = folder / "strainwaved.toml";
   std::ofstream(config_path) << configuration;
   const std::string program = programs_folder() / "strainwaved";
+  // Locks of this program's own: tests of different programs share a machine, but no daemon.
+  static const TemporaryFolder kLocks;
   const int log = ::open(log_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   pid_ = ::fork();
   if (pid_ == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that crashes leaves no daemon behind
     if (!start.preload.empty())
-      ::setenv("LD_PRELOAD", start.preload.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+      ::setenv("LD_PRELOAD", start.preload.c_str(), 1);       // NOLINT(concurrency-mt-unsafe)
+    ::setenv("RUNTIME_DIRECTORY", kLocks.path().c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     ::dup2(log, STDOUT_FILENO);
     ::dup2(start.log_file >= 0 ? start.log_file : log, STDERR_FILENO);
     ::execl(program.c_str(), program.c_str(), "--config", config_path.c_str(), nullptr);
@@ -125,9 +132,9 @@ bool DaemonProcess::wait_for_log(const std::string& text, std::chrono::milliseco
   return true;
 }
 
-TestClient::TestClient(std::string prefix)
+TestClient::TestClient(std::string prefix, const std::string& lcm_url)
     : prefix_(std::move(prefix)),
-      lcm_("udpm://239.255.76.67:7667?ttl=0"),
+      lcm_(lcm_url),
       sender_id_(static_cast<std::int64_t>(std::random_device{}()) + 1) {
   lcm_.subscribe(prefix_ + "\\.[^.]+\\.STATE", &TestClient::on_state, this)->setQueueCapacity(1000);
   lcm_.subscribe(prefix_ + "\\.[^.]+\\.ACK", &TestClient::on_ack, this);
@@ -169,8 +176,13 @@ bool TestClient::wait_for_timing(std::chrono::milliseconds timeout) {
 
 template <typename Message>
 void TestClient::fill_envelope(const std::string& joint, Message& message) {
-  if (!states_[joint]) wait_for_state(joint, [](const state_v1&) { return true; });
+  // What is quoted must be recent: what waits is taken first, and a state that came before a pause of the test is none.
+  for (pollfd waiting{lcm_.getFileno(), POLLIN, 0}; ::poll(&waiting, 1, 0) > 0;) lcm_.handle();
+  const auto recent = [&] { return states_[joint] && utime_now() - heard_us_[joint] < kRecent.count(); };
+  const auto deadline = Clock::now() + (states_[joint] ? kRecent : kFirstState);
+  while (!recent() && Clock::now() < deadline) pump(std::chrono::milliseconds(5));
   message.session_id = states_[joint] ? states_[joint]->session_id : 0;
+  message.challenge = states_[joint] ? states_[joint]->challenge : 0;
   message.sender_id = sender_id_;
   message.sequence = ++sequence_;
 }
@@ -188,6 +200,10 @@ setpoint_v1 TestClient::make_setpoint(const std::string& joint, double position_
   message.position_rad = position_rad;
   message.valid_for_s = valid_for_s;
   message.acknowledge = 1;
+  if (valid_for_s > 0.0) {
+    message.stream_id = stream_id_;
+    message.begins_stream = std::exchange(stream_begins_, false) ? 1 : 0;
+  }
   return message;
 }
 
@@ -229,10 +245,12 @@ Answer TestClient::wait_for_answer(std::int64_t sequence, std::chrono::milliseco
   return {ack.accepted == 1, static_cast<Reason>(ack.reason), reinterpret_cast<const char*>(ack.text)};
 }
 
-void TestClient::on_state(const lcm::ReceiveBuffer*, const std::string& channel, const state_v1* message) {
+void TestClient::on_state(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                          const state_v1* message) {
   const auto name = parse_channel(channel);
   if (!name) return;
   states_[name->joint] = *message;
+  heard_us_[name->joint] = buffer->recv_utime;
   history_[name->joint].push_back(*message);
 }
 

@@ -76,9 +76,11 @@ struct Answer {
   std::string text;
 };
 
+inline constexpr const char* kTestUrl = "udpm://239.255.76.67:7667?ttl=0";
+
 class TestClient {
  public:
-  explicit TestClient(std::string prefix = "SW");
+  explicit TestClient(std::string prefix = "SW", const std::string& lcm_url = kTestUrl);
 
   /// Handles what has come within `duration`.
   void pump(std::chrono::milliseconds duration);
@@ -97,6 +99,11 @@ class TestClient {
 
   Answer command(const std::string& joint, Action action);
   Answer move(const std::string& joint, double position_rad, double valid_for_s = 0.0);
+  /// The next setpoint of a stream begins a new one.
+  void begin_stream() {
+    ++stream_id_;
+    stream_begins_ = true;
+  }
   Answer load(const std::string& joint, const GainTable& table);
 
   /// The messages themselves, for tests that bend them before they are sent.
@@ -111,6 +118,7 @@ class TestClient {
   }
   Answer wait_for_answer(std::int64_t sequence, std::chrono::milliseconds timeout = std::chrono::seconds(5));
   lcm::LCM& lcm() { return lcm_; }
+  std::int64_t sender_id() const { return sender_id_; }
 
  private:
   void on_state(const lcm::ReceiveBuffer*, const std::string& channel, const state_v1* message);
@@ -123,7 +131,10 @@ class TestClient {
   lcm::LCM lcm_;
   std::int64_t sender_id_;
   std::int64_t sequence_ = 0;
+  std::int64_t stream_id_ = 1;
+  bool stream_begins_ = true;
   std::map<std::string, std::optional<state_v1>> states_;
+  std::map<std::string, std::int64_t> heard_us_;  ///< when the latest state arrived
   std::map<std::string, std::vector<state_v1>> history_;
   std::map<std::int64_t, ack_v1> acks_;
   std::optional<timing_v1> timing_;

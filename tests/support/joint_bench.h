@@ -78,8 +78,18 @@ class JointBench {
   Reason order(std::size_t joint, OrderKind kind) {
     return this->order(joint, Order{0, kind, 0, 0.0, 0.0, {}});
   }
-  Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0) {
-    return order(joint, Order{0, OrderKind::kSetpoint, 0, position_rad, valid_for_s, {}});
+  /// A move, or with `valid_for_s` a setpoint of stream 1, which begins with it unless `begins` is false.
+  Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0, bool begins = true) {
+    const bool streamed = valid_for_s > 0.0;
+    return order(joint, Order{0,
+                              OrderKind::kSetpoint,
+                              0,
+                              position_rad,
+                              valid_for_s,
+                              {},
+                              0.0,
+                              streamed ? 1 : 0,
+                              streamed && begins});
   }
   Reason inject(std::size_t joint, const Injection& injection) {
     return order(joint, Order{0, OrderKind::kInject, 0, 0.0, 0.0, injection});

@@ -98,12 +98,16 @@ TEST_F(Logs, APlainReplayIsRefusedByTheDaemonThatHeardTheOriginal) {
   record("a.lcm", {"move elbow 0.1 --wait", "move elbow 0.2 --wait"});
   ASSERT_EQ(ctl("move elbow 0 --wait"), 0) << output_;
   ASSERT_TRUE(client_->wait_for_timing());
-  const auto old_before = client_->timing()->rejects[static_cast<int>(Reason::kOldSequence)];
+  const auto refused = [&] {
+    const auto& rejects = client_->timing()->rejects;
+    return rejects[static_cast<int>(Reason::kOldSequence)] + rejects[static_cast<int>(Reason::kTooOld)];
+  };
+  const auto before = refused();
   ASSERT_EQ(shell("timeout 60 lcm-logplayer -s 5 -e \"SW.elbow.SETPOINT\" " + path("a.lcm")), 0) << output_;
   EXPECT_NEAR(position_rad(), 0.0, 1e-3);
   ASSERT_TRUE(client_->wait_for_timing());
   ASSERT_TRUE(client_->wait_for_timing());
-  EXPECT_GE(client_->timing()->rejects[static_cast<int>(Reason::kOldSequence)], old_before + 2);
+  EXPECT_GE(refused(), before + 2);
 }
 
 TEST_F(Logs, APlainReplayIsRefusedByALaterDaemon) {

@@ -59,6 +59,7 @@ class PureLoop : public DaemonTest {
   }
 
   void stream(double start_rad, int setpoints) {
+    client_.begin_stream();
     for (int i = 0; i < setpoints; ++i) {
       setpoint_v1 setpoint = client_.make_setpoint("elbow", start_rad + 1e-3 * i, 0.05);
       setpoint.acknowledge = 0;

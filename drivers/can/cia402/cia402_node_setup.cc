@@ -1,8 +1,8 @@
 // The part of cia402_node.h that runs outside the loop.
 #include "drivers/can/cia402/cia402_node.h"
 
-#include "base/input_error.h"
 #include "base/durations.h"
+#include "base/input_error.h"
 #include "drivers/can/canopen/sdo_client.h"
 #include "drivers/can/cia402/cia402_setup.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/input_error.h"
 #include "base/durations.h"
+#include "base/input_error.h"
 #include "drivers/can/can_detail.h"
 #include "drivers/can/odrive/odrive_setup.h"
 

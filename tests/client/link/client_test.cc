@@ -105,6 +105,31 @@ TEST_F(ClientTest, NamesTheJointsThatAreHeardInstead) {
   EXPECT_NE(failure("elbwo").find("no joint 'elbwo' on prefix SW; its joints are: elbow"), std::string::npos);
 }
 
+TEST_F(ClientTest, GivesAnOrderThatCameTooLateAnewFromANewerState) {
+  daemon.state.challenge = 100;
+  daemon.publish_state();
+  daemon.reason = Reason::kTooOld;
+  daemon.after_answer = [&] {
+    daemon.reason = Reason::kAccepted;
+    daemon.state.challenge = 101;
+    daemon.publish_state();
+  };
+  EXPECT_TRUE(order("elbow").accepted);
+  ASSERT_EQ(daemon.heard().size(), 2U);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->challenge, 100);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->challenge, 101);
+}
+
+TEST_F(ClientTest, RisesAboveTheSequenceThatTheDaemonNames) {
+  daemon.publish_state();
+  daemon.reason = Reason::kOldSequence;
+  daemon.last_sequence = INT64_MAX / 2;
+  daemon.after_answer = [&] { daemon.reason = Reason::kAccepted; };
+  EXPECT_TRUE(order("elbow").accepted);
+  ASSERT_EQ(daemon.heard().size(), 2U);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->sequence, INT64_MAX / 2 + 1);
+}
+
 TEST_F(ClientTest, ListsAllJointsOfItsPrefixOnly) {
   daemon.publish_state();
   FakeDaemon(connection, "SW", "wrist").publish_state();

@@ -56,6 +56,7 @@ void FakeDaemon::answer(std::int64_t sender_id, std::int64_t sequence) {
   ack.session_id = state.session_id;
   ack.sender_id = sender_id;
   ack.sequence = sequence + sequence_error;
+  ack.last_sequence = last_sequence;
   ack.accepted = reason == Reason::kAccepted ? 1 : 0;
   ack.reason = static_cast<std::int32_t>(reason);
   std::copy_n(text.begin(), std::min(text.size(), sizeof(ack.text)), std::begin(ack.text));

@@ -35,6 +35,7 @@ class FakeDaemon {
   int drop = 0;  ///< that many orders get no answer
   Reason reason = Reason::kAccepted;
   std::string text;
+  std::int64_t last_sequence = 0;        ///< what the answer says of earlier ones
   std::int64_t sequence_error = 0;       ///< added to the sequence that the answer quotes
   std::string answers_as;                ///< joint on whose channel the answers go out; empty: its own
   bool obeys_moves = true;               ///< an accepted setpoint becomes state.target_position_rad

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
@@ -16,8 +15,8 @@ TEST(Sender, SequencesRiseOverAllKindsOfMessages) {
   std::int64_t last = 0;
   for (int i = 0; i < 10; ++i) {
     for (const std::int64_t sequence :
-         {sender.seal("a", setpoint_v1{}, 1).sequence, sender.seal("b", command_v1{}, 1).sequence,
-          sender.seal("c", gain_table_v1{}, 1).sequence}) {
+         {sender.seal("a", setpoint_v1{}, {1, 2}).sequence, sender.seal("b", command_v1{}, {1, 2}).sequence,
+          sender.seal("c", gain_table_v1{}, {1, 2}).sequence}) {
       EXPECT_GT(sequence, last);
       last = sequence;
     }
@@ -28,10 +27,11 @@ TEST(Sender, WritesTheEnvelopeIntoTheMessageAndKeepsItsContent) {
   Sender sender(5);
   setpoint_v1 message{};
   message.position_rad = 0.25;
-  const SealedMessage sealed = sender.seal("SW.elbow.SETPOINT", message, 77);
+  const SealedMessage sealed = sender.seal("SW.elbow.SETPOINT", message, {77, 815});
   const auto read = decode_exactly<setpoint_v1>(sealed.bytes);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->session_id, 77);
+  EXPECT_EQ(read->challenge, 815);
   EXPECT_EQ(read->sender_id, 5);
   EXPECT_EQ(read->sequence, sealed.sequence);
   EXPECT_EQ(read->position_rad, 0.25);
@@ -43,7 +43,7 @@ TEST(Sender, LeavesKeyAndSignatureZeroWhileNothingIsSigned) {
   Sender sender;
   command_v1 message{};
   std::fill(std::begin(message.signature), std::end(message.signature), std::uint8_t{0});
-  const auto read = decode_exactly<command_v1>(sender.seal("c", message, 1).bytes);
+  const auto read = decode_exactly<command_v1>(sender.seal("c", message, {1, 2}).bytes);
   ASSERT_TRUE(read);
   EXPECT_TRUE(
       std::all_of(std::begin(read->key_id), std::end(read->key_id), [](auto byte) { return byte == 0; }));
@@ -51,11 +51,16 @@ TEST(Sender, LeavesKeyAndSignatureZeroWhileNothingIsSigned) {
                           [](auto byte) { return byte == 0; }));
 }
 
-TEST(Sender, TakesAnIdentityOfItsOwn) {
-  std::set<std::int64_t> identities;
-  for (int i = 0; i < 1000; ++i) identities.insert(Sender().sender_id());
-  EXPECT_EQ(identities.size(), 1000U);
-  EXPECT_GT(*identities.begin(), 0);
+TEST(Sender, IsTheSameForEveryProgramOfAUserOnOneMachine) {
+  EXPECT_EQ(Sender().sender_id(), Sender().sender_id());
+  EXPECT_GT(Sender().sender_id(), 0);
+}
+
+TEST(Sender, RisesAboveWhatAnotherProgramOfItsKeyHasSent) {
+  Sender sender(5);
+  const std::int64_t ahead = sender.seal("a", command_v1{}, {1, 2}).sequence + 1'000'000'000;
+  sender.rise_above(ahead);
+  EXPECT_EQ(sender.seal("a", command_v1{}, {1, 2}).sequence, ahead + 1);
 }
 
 }  // namespace

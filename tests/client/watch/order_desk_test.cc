@@ -70,7 +70,7 @@ TEST_F(OrderDeskTest, AStopOfSeveralCountsItsAnswersAndNamesWhoIsSilent) {
 
 TEST_F(OrderDeskTest, AJogIsAnAcknowledgedMove) {
   OrderDesk desk(connection_, "", 0.4);
-  desk.move({"ARM2", "elbow"}, 4711, 0.25);
+  desk.move({"ARM2", "elbow"}, {4711, 815}, 0.25);
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
   const auto setpoint = decode_exactly<setpoint_v1>(daemon_.heard()[0].bytes);
@@ -87,7 +87,7 @@ TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
   OrderDesk desk(connection_, key, 0.4);
   daemon_.reason = Reason::kFaulted;
   daemon_.text = "see its fault\x1b[2J";
-  desk.order({"ARM2", "elbow"}, 4711, Action::kEnable);
+  desk.order({"ARM2", "elbow"}, {4711, 815}, Action::kEnable);
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
   EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[0].bytes)->session_id, 4711);
@@ -97,7 +97,7 @@ TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
   ASSERT_EQ(desk.refusals().size(), 1U);
   EXPECT_EQ(desk.refusals().front().text, desk.message());
   OrderDesk without(connection_, "/nonexistent/key", 0.4);
-  EXPECT_THROW(without.order({"ARM2", "elbow"}, 4711, Action::kEnable), InputError);
+  EXPECT_THROW(without.order({"ARM2", "elbow"}, {4711, 815}, Action::kEnable), InputError);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kSession = 4711;
+constexpr std::int64_t kChallenge = 815;
 constexpr int kHostileOrders = 100'000;
 constexpr const char* kSetpoint = "SW.elbow.SETPOINT";
 constexpr const char* kCommand = "SW.elbow.COMMAND";
@@ -29,6 +30,7 @@ enum class Attack {
   kReplayed,
   kReordered,
   kOtherSession,
+  kStale,
   kOutOfRange,
   kNotFinite,
   kCount
@@ -40,11 +42,14 @@ class HostileOrders : public ::testing::Test {
       : key_(SecretKey::generate()),
         stranger_(SecretKey::generate()),
         admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}},
-                   {AuthorizedKeys({{key_.public_key(), Role::kOperator, "Otto"}}), false}) {}
+                   {AuthorizedKeys({{key_.public_key(), Role::kOperator, "Otto"}}), false}) {
+    admission_.advance(0, kChallenge);
+  }
 
   setpoint_v1 next_setpoint() {
     setpoint_v1 message{};
     message.session_id = kSession;
+    message.challenge = kChallenge;
     message.sender_id = 1;
     message.sequence = sequence_ += 2;
     message.position_rad = std::uniform_real_distribution<>(-1.0, 1.0)(random_);
@@ -71,6 +76,9 @@ class HostileOrders : public ::testing::Test {
       case Attack::kOtherSession:
         message.session_id = static_cast<std::int64_t>(random_() >> 1);
         return {wire(kSetpoint, message, &key_), Reason::kWrongSession};
+      case Attack::kStale:
+        message.challenge = static_cast<std::int64_t>(random_() >> 1);
+        return {wire(kSetpoint, message, &key_), Reason::kTooOld};
       case Attack::kOutOfRange:
         message.position_rad =
             (random_() % 2 == 0 ? 1.0 : -1.0) * std::uniform_real_distribution<>(1.001, 1e9)(random_);
@@ -85,9 +93,9 @@ class HostileOrders : public ::testing::Test {
   }
   WireMessage forged(const setpoint_v1& message) {
     WireMessage result = wire(kSetpoint, message, &key_);
-    // Somewhere behind the fingerprint and the session, which are judged earlier, but not in the key's name.
+    // Somewhere behind the fingerprint, the session and the challenge, which are judged earlier, but not in the key's name.
     const std::size_t key_id = result.size - kSealBytes;
-    std::size_t at = 24 + random_() % (result.size - 24);
+    std::size_t at = 32 + random_() % (result.size - 32);
     if (at >= key_id && at < key_id + sizeof(KeyId)) at += sizeof(KeyId);
     result.bytes[at] = static_cast<std::uint8_t>(result.bytes[at] ^ (1U << random_() % 8));
     return result;

@@ -13,16 +13,20 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kSession = 4711;
+constexpr std::int64_t kChallenge = 815;
 
 class AdmissionTest : public ::testing::Test {
  protected:
   AdmissionTest()
       : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}, {"wrist", {}, -2.0, 2.0, 34.0, 6.0}},
-                   {{}, /*unsigned_allowed=*/true}) {}
+                   {{}, /*unsigned_allowed=*/true}) {
+    admission_.advance(0, kChallenge);
+  }
 
   setpoint_v1 setpoint(double position_rad) {
     setpoint_v1 message{};
     message.session_id = kSession;
+    message.challenge = kChallenge;
     message.sender_id = 1;
     message.sequence = ++sequence_;
     message.position_rad = position_rad;
@@ -32,6 +36,7 @@ class AdmissionTest : public ::testing::Test {
   command_v1 command(Action action) {
     command_v1 message{};
     message.session_id = kSession;
+    message.challenge = kChallenge;
     message.sender_id = 1;
     message.sequence = ++sequence_;
     message.action = static_cast<std::int32_t>(action);
@@ -139,6 +144,83 @@ TEST_F(AdmissionTest, RefusesUnknownActionsAndNumbersThatAreNone) {
   message.action = 77;
   EXPECT_EQ(consider(wire("SW.elbow.COMMAND", message)).reason, Reason::kUnknownAction);
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", setpoint(std::nan("")))).reason, Reason::kNotFinite);
+}
+
+TEST_F(AdmissionTest, RefusesAnOrderThatWasKeptBackForLongerThanItLives) {
+  const WireMessage move = wire("SW.elbow.SETPOINT", setpoint(0.5));
+  const WireMessage enable = wire("SW.elbow.COMMAND", command(Action::kEnable));
+  for (std::int64_t cycle = 0; cycle <= 20'000; cycle += 5) admission_.advance(cycle, 10'000 + cycle);
+  for (const WireMessage& kept : {move, enable}) {
+    const Verdict verdict = consider(kept);
+    EXPECT_EQ(verdict.reason, Reason::kTooOld);
+    EXPECT_NE(verdict.text.find("kept back"), std::string::npos) << verdict.text;
+    EXPECT_FALSE(verdict.requester.authentic) << "its answer is not worth remembering";
+  }
+  EXPECT_EQ(admission_.ownership().owner_id(0, 1), 0);
+}
+
+TEST_F(AdmissionTest, SaysInWhichCycleAnOrderExpiresThatMustYetWaitForItsLoop) {
+  const Verdict verdict = consider(wire("SW.elbow.SETPOINT", setpoint(0.5)));
+  EXPECT_EQ(verdict.order.expires_cycle, 1125);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kDisable))).order.expires_cycle, -1);
+}
+
+TEST_F(AdmissionTest, LetsAnotherHoldAndStopAJointThatSomebodyHasButNotMoveIt) {
+  const Verdict move = consider(wire("SW.elbow.SETPOINT", setpoint(0.5)));
+  admission_.settle(move.requester, true, 0);
+  setpoint_v1 others = setpoint(0.1);
+  others.sender_id = 2;
+  const Verdict refused = consider(wire("SW.elbow.SETPOINT", others));
+  EXPECT_EQ(refused.reason, Reason::kNotOwner);
+  EXPECT_NE(refused.text.find("sender 1"), std::string::npos) << refused.text;
+  command_v1 hold = command(Action::kHold);
+  hold.sender_id = 2;
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", hold)).kind, Verdict::Kind::kOrder);
+  command_v1 stop = command(Action::kDisable);
+  stop.sender_id = 2;
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", stop)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(admission_.ownership().owner_id(0, 0), 1) << "neither gained it the joint";
+  others.sequence = ++sequence_;
+  EXPECT_EQ(consider(wire("SW.wrist.SETPOINT", others)).kind, Verdict::Kind::kOrder);
+}
+
+TEST_F(AdmissionTest, ReleasesAndTakesOverWithoutTheLoop) {
+  admission_.settle(consider(wire("SW.elbow.SETPOINT", setpoint(0.5))).requester, true, 0);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kRelease))).kind, Verdict::Kind::kDone);
+  EXPECT_EQ(admission_.ownership().owner_id(0, 0), 0);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kRelease))).reason, Reason::kNotOwner);
+  command_v1 take = command(Action::kTakeOver);
+  take.sender_id = 2;
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", take)).kind, Verdict::Kind::kDone);
+  EXPECT_EQ(admission_.ownership().owner_id(0, 0), 2);
+}
+
+TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
+  setpoint_v1 message = setpoint(0.5);
+  message.valid_for_s = 0.1;
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kOutOfRange);
+  message = setpoint(0.5);
+  message.stream_id = 7;
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kOutOfRange);
+  message = setpoint(0.5);
+  message.stream_id = 7;
+  message.valid_for_s = 0.1;
+  message.begins_stream = 1;
+  const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
+  ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(verdict.order.stream_id, 7);
+  EXPECT_TRUE(verdict.order.begins_stream);
+}
+
+TEST_F(AdmissionTest, PassesNothingButStopsOnceTheDaemonEnds) {
+  admission_.end_orders();
+  for (const Action action : {Action::kEnable, Action::kHold, Action::kHome, Action::kTakeOver}) {
+    const Verdict verdict = consider(wire("SW.elbow.COMMAND", command(action)));
+    EXPECT_EQ(verdict.reason, Reason::kEnding);
+    EXPECT_NE(verdict.text.find("ending"), std::string::npos) << verdict.text;
+  }
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", setpoint(0.5))).reason, Reason::kEnding);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kDisable))).kind, Verdict::Kind::kOrder);
 }
 
 }  // namespace

@@ -77,12 +77,15 @@ TEST_F(AuthorizedKeysFile, RefusesAFileWithoutAKeyOrWithoutReadableContent) {
   EXPECT_NE(error().find("not a file"), std::string::npos) << error();
 }
 
-TEST_F(AuthorizedKeysFile, RefusesWhatEveryoneMayWrite) {
+TEST_F(AuthorizedKeysFile, RefusesWhatItsGroupOrEveryoneMayWrite) {
   write(to_line(some_key(Role::kOperator)) + "\n");
   ASSERT_EQ(::chmod(path_.c_str(), 0646), 0);
   EXPECT_NE(error().find("chmod o-w"), std::string::npos) << error();
   ASSERT_EQ(::chmod(path_.c_str(), 0644), 0);
   EXPECT_EQ(error(), "");
+  ASSERT_EQ(::chmod(path_.c_str(), 0664), 0);
+  EXPECT_NE(error().find("chmod g-w"), std::string::npos) << error();
+  ASSERT_EQ(::chmod(path_.c_str(), 0644), 0);
   ASSERT_EQ(::chmod(folder_.c_str(), 0777), 0);
   EXPECT_NE(error().find("chmod o-w " + folder_.string()), std::string::npos) << error();
 }

@@ -13,6 +13,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kSession = 4711;
+constexpr std::int64_t kChallenge = 815;
 
 JointAdmission joint(const char* name, bool simulated) {
   JointAdmission admission;
@@ -23,9 +24,11 @@ JointAdmission joint(const char* name, bool simulated) {
 
 class InjectionAdmission : public ::testing::Test {
  protected:
+  InjectionAdmission() { admission_.advance(0, kChallenge); }
   static inject_v1 message(InjectedFault kind, double for_s, double amount, std::int64_t sequence) {
     inject_v1 inject{};
     inject.session_id = kSession;
+    inject.challenge = kChallenge;
     inject.sender_id = 1;
     inject.sequence = sequence;
     inject.kind = static_cast<std::int32_t>(kind);
@@ -97,6 +100,7 @@ TEST_F(InjectionAdmission, NeedsAnEngineersSignatureWhereOrdersAreSigned) {
   AuthorizedKeys keys(
       {{operators.public_key(), Role::kOperator, "Otto"}, {engineers.public_key(), Role::kEngineer, "Emma"}});
   Admission strict("SW", kSession, {joint("elbow", true)}, {keys, false});
+  strict.advance(0, kChallenge);
   const auto verdict = [&](const SecretKey* key, std::int64_t sequence) {
     return strict.consider(
         wire("SW.elbow.INJECT", message(InjectedFault::kPowerLost, 1.0, 0.0, sequence), key), 0);

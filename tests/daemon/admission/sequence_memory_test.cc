@@ -4,55 +4,56 @@
 
 #include <random>
 #include <set>
-#include <utility>
+#include <tuple>
 
 namespace strainwave {
 namespace {
 
 using Judgement = SequenceMemory::Judgement;
+constexpr std::int64_t kLifetime = 1000;
+constexpr std::size_t kBound = 64;
 
-TEST(SequenceMemory, TellsRisingRepeatedAndOldApartForEachSender) {
-  SequenceMemory memory;
-  EXPECT_EQ(memory.judge(1, 10), Judgement::kNew);
-  EXPECT_EQ(memory.judge(2, 5), Judgement::kNew);
-  EXPECT_EQ(memory.judge(1, 10), Judgement::kRepeat);
-  EXPECT_EQ(memory.judge(1, 9), Judgement::kOld);
-  EXPECT_EQ(memory.judge(1, 100), Judgement::kNew);
-  EXPECT_EQ(memory.judge(2, 6), Judgement::kNew);
-  EXPECT_EQ(memory.judge(2, 5), Judgement::kOld);
+TEST(SequenceMemory, TellsRisingRepeatedAndOldApart) {
+  SequenceMemory memory(kLifetime, kBound);
+  EXPECT_EQ(memory.judge({0, 0}, 1, 10, 0), Judgement::kNew);
+  EXPECT_EQ(memory.judge({0, 0}, 1, 10, 1), Judgement::kRepeat);
+  EXPECT_EQ(memory.judge({0, 0}, 1, 9, 2), Judgement::kOld);
+  EXPECT_EQ(memory.judge({0, 0}, 1, 100, 3), Judgement::kNew);
+  EXPECT_EQ(memory.last({0, 0}), 100);
 }
 
-TEST(SequenceMemory, NeverTakesAMessageTwiceHoweverManySendersComeAndGo) {
-  SequenceMemory memory;
+TEST(SequenceMemory, WantsTheSequenceToRiseOverAllSendersOfAKeyAndOverNoOtherKeyOrJoint) {
+  SequenceMemory memory(kLifetime, kBound);
+  ASSERT_EQ(memory.judge({0, 0}, 1, 10, 0), Judgement::kNew);
+  EXPECT_EQ(memory.judge({0, 0}, 2, 10, 1), Judgement::kOld) << "another sender of the key: no repetition";
+  EXPECT_EQ(memory.judge({0, 0}, 2, 9, 1), Judgement::kOld);
+  EXPECT_EQ(memory.judge({1, 0}, 1, 9, 1), Judgement::kNew);
+  EXPECT_EQ(memory.judge({0, 1}, 1, 9, 1), Judgement::kNew);
+}
+
+TEST(SequenceMemory, BelievesAnySequenceWhenTheLastOneIsOlderThanAnOrderMayBecome) {
+  SequenceMemory memory(kLifetime, kBound);
+  ASSERT_EQ(memory.judge({0, 0}, 1, INT64_MAX, 0), Judgement::kNew);
+  EXPECT_EQ(memory.judge({0, 0}, 1, 5, kLifetime), Judgement::kOld);
+  EXPECT_EQ(memory.judge({0, 0}, 1, 5, kLifetime + 1), Judgement::kNew);
+}
+
+TEST(SequenceMemory, NeverTakesAMessageTwiceWithinItsLifetimeAndStaysBounded) {
+  SequenceMemory memory(kLifetime, kBound);
   std::mt19937_64 random(1);
-  std::set<std::pair<std::int64_t, std::int64_t>> taken;
-  std::int64_t clock = 0;
-  for (int i = 0; i < 200'000; ++i) {
-    // Half new messages with a rising clock, half replays of what was sent before or numbers near it.
-    const auto sender = static_cast<std::int64_t>(random() % 500);
-    const std::int64_t sequence =
-        random() % 2 == 0 ? ++clock : static_cast<std::int64_t>(random()) % (clock + 1);
-    if (memory.judge(sender, sequence) == Judgement::kNew) {
-      EXPECT_TRUE(taken.emplace(sender, sequence).second) << sender << " " << sequence;
+  std::set<std::tuple<std::int64_t, std::size_t, std::int64_t>> taken;
+  for (std::int64_t cycle = 0; cycle < kLifetime; ++cycle) {
+    for (int i = 0; i < 100; ++i) {
+      const SequenceMemory::Identity identity{static_cast<std::int64_t>(random() % 8), random() % 8};
+      const std::int64_t sequence = static_cast<std::int64_t>(random() % 10'000);
+      if (memory.judge(identity, 1, sequence, cycle) == Judgement::kNew) {
+        EXPECT_TRUE(taken.emplace(identity.who, identity.joint, sequence).second);
+      }
     }
-    ASSERT_LE(memory.size(), SequenceMemory::kSenders);
   }
-  EXPECT_GT(taken.size(), 50'000U);
-}
-
-TEST(SequenceMemory, BelievesANewSenderWhoseClockIsRightHoweverManyWereForgotten) {
-  SequenceMemory memory;
-  std::int64_t clock = 1'700'000'000'000'000;
-  for (std::int64_t sender = 0; sender < 10'000; ++sender)
-    EXPECT_EQ(memory.judge(sender, ++clock), Judgement::kNew);
-  EXPECT_EQ(memory.judge(3, clock + 1), Judgement::kNew);  // forgotten, and back
-  EXPECT_EQ(memory.judge(10'001, 1), Judgement::kOld);
-}
-
-TEST(SequenceMemory, WithoutAFloorOneSenderCannotLockOutTheOthers) {
-  SequenceMemory memory(false);
-  for (std::int64_t sender = 0; sender < 200; ++sender) memory.judge(sender, INT64_MAX - sender);
-  EXPECT_EQ(memory.judge(1000, 1), Judgement::kNew);
+  for (std::int64_t who = 0; who < 1000; ++who) memory.judge({who, 0}, 1, 1, kLifetime);
+  EXPECT_LE(memory.size(), kBound);
+  EXPECT_GT(taken.size(), 64U);
 }
 
 }  // namespace

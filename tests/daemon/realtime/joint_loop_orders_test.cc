@@ -101,13 +101,15 @@ TEST_F(JointLoopOrders, KeepTheExpiryLatchedUntilANewStreamIsBegunExplicitly) {
   ASSERT_EQ(bench_.move(0, 0.5, 0.02), Reason::kAccepted);
   bench_.run(1.0);
   const double held_rad = state().setpoint_position_rad;
-  EXPECT_EQ(bench_.move(0, 0.6, 0.02), Reason::kStreamExpired) << "a late packet must not move the joint";
+  EXPECT_EQ(bench_.move(0, 0.6, 0.02, false), Reason::kStreamEnded)
+      << "a late packet must not move the joint";
   bench_.run(0.5);
   EXPECT_EQ(state().setpoint_position_rad, held_rad);
   EXPECT_TRUE(bench_.has_notice(0, Notice::kSetpointExpired));
 
   ASSERT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
   EXPECT_TRUE(bench_.has_notice(0, Notice::kSetpointExpired)) << "stays until a setpoint is accepted";
+  EXPECT_EQ(bench_.move(0, 0.2, 0.5, false), Reason::kStreamEnded) << "a hold begins nothing";
   EXPECT_EQ(bench_.move(0, 0.2, 0.5), Reason::kAccepted);
   bench_.run(0.1);
   EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
@@ -119,6 +121,58 @@ TEST_F(JointLoopOrders, TakeAMoveAfterAnExpiry) {
   bench_.run(1.0);
   EXPECT_EQ(bench_.move(0, -0.2), Reason::kAccepted);
   EXPECT_EQ(bench_.move(0, -0.2, 0.5), Reason::kAccepted) << "the move began something new";
+}
+
+TEST_F(JointLoopOrders, OfAHoldEndAStreamForGood) {
+  bench_.bring_to_hold(0);
+  ASSERT_EQ(bench_.move(0, 0.5, 0.1), Reason::kAccepted);
+  bench_.run(0.05);
+  ASSERT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(bench_.move(0, 1.0, 0.1, false), Reason::kStreamEnded);
+  bench_.run(1.0);
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+  const double held_rad = state().joint_position_rad;
+  EXPECT_EQ(bench_.move(0, 1.0, 0.1, false), Reason::kStreamEnded);
+  bench_.run(0.5);
+  EXPECT_NEAR(state().joint_position_rad, held_rad, 1e-4);
+}
+
+TEST_F(JointLoopOrders, OfAStreamThatAFaultOrADisableEndedMoveNothingAfterAnEnable) {
+  for (const bool by_fault : {true, false}) {
+    SCOPED_TRACE(by_fault);
+    bench_.bring_to_hold(0);
+    ASSERT_EQ(bench_.move(0, 0.5, 10.0), Reason::kAccepted);
+    bench_.run(0.02);
+    if (by_fault) {
+      bench_.joint(0).raise_fault(Fault::kEmergencyStop, bench_.time());
+      bench_.run(1.0);
+      ASSERT_EQ(bench_.order(0, OrderKind::kClearFault), Reason::kAccepted);
+    } else {
+      ASSERT_EQ(bench_.order(0, OrderKind::kDisable), Reason::kAccepted);
+      ASSERT_GE(bench_.step_until([&] { return bench_.mode(0) == Mode::kOff; }, 3000), 0);
+    }
+    bench_.run(0.5);
+    ASSERT_EQ(bench_.order(0, OrderKind::kEnable), Reason::kAccepted);
+    bench_.run(1.0);
+    ASSERT_EQ(bench_.mode(0), Mode::kHolding);
+    const double held_rad = state().joint_position_rad;
+    EXPECT_EQ(bench_.move(0, 2.0, 10.0, false), Reason::kStreamEnded);
+    bench_.run(0.5);
+    EXPECT_NEAR(state().joint_position_rad, held_rad, 1e-4);
+    ASSERT_EQ(bench_.order(0, OrderKind::kDisable), Reason::kAccepted);
+    bench_.run(1.0);
+  }
+}
+
+TEST_F(JointLoopOrders, ThatWaitedBeyondTheirTimeAreRefused) {
+  bench_.bring_to_hold(0);
+  Order late;
+  late.kind = OrderKind::kSetpoint;
+  late.position_rad = 0.5;
+  late.expires_cycle = bench_.cycle();
+  EXPECT_EQ(bench_.order(0, late), Reason::kTooOld);
+  late.expires_cycle = bench_.cycle() + 10;
+  EXPECT_EQ(bench_.order(0, late), Reason::kAccepted);
 }
 
 TEST_F(JointLoopOrders, DoNotExpireAMove) {

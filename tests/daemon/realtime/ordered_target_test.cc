@@ -6,10 +6,12 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr OrderedTarget::Setpoint kMove{1.0, 1.0, 0, 0.0};
+constexpr OrderedTarget::Setpoint kStreamed{1.0, 1.0, 7, 0.05};
 
 TEST(OrderedTarget, OfAMoveNeverExpires) {
   OrderedTarget target;
-  target.accept(1.0, 1.0, 0.0, 0);
+  target.accept(kMove, 0);
   EXPECT_FALSE(target.streamed());
   EXPECT_FALSE(target.expire(INT64_MAX));
   EXPECT_FALSE(target.shows_expiry());
@@ -17,7 +19,7 @@ TEST(OrderedTarget, OfAMoveNeverExpires) {
 
 TEST(OrderedTarget, OfAStreamExpiresOnceAtTheEndOfItsTime) {
   OrderedTarget target;
-  target.accept(1.0, 1.0, 0.05, 0);
+  target.accept(kStreamed, 0);
   EXPECT_TRUE(target.streamed());
   EXPECT_FALSE(target.expire(50 * kMillisecond_ns - 1));
   EXPECT_TRUE(target.expire(50 * kMillisecond_ns));
@@ -28,40 +30,49 @@ TEST(OrderedTarget, OfAStreamExpiresOnceAtTheEndOfItsTime) {
 TEST(OrderedTarget, IsValidForTheTimeOfTheNewestSetpoint) {
   OrderedTarget target;
   for (std::int64_t sent_ms = 0; sent_ms < 1000; sent_ms += 10) {
-    target.accept(1.0, 1.0, 0.05, sent_ms * kMillisecond_ns);
+    target.accept(kStreamed, sent_ms * kMillisecond_ns);
     EXPECT_FALSE(target.expire((sent_ms + 9) * kMillisecond_ns));
   }
   EXPECT_TRUE(target.expire((990 + 50) * kMillisecond_ns));
 }
 
-TEST(OrderedTarget, RefusesAnExpiredStreamUntilAHoldAndShowsTheExpiryUntilASetpoint) {
+TEST(OrderedTarget, TakesOfStreamsOnlyTheFirstSetpointAndThatWhichIsUnderWay) {
   OrderedTarget target;
-  target.accept(1.0, 1.0, 0.05, 0);
-  ASSERT_TRUE(target.expire(50 * kMillisecond_ns));
-  EXPECT_FALSE(target.takes_stream());
-  EXPECT_TRUE(target.shows_expiry());
-  target.hold();
-  EXPECT_TRUE(target.takes_stream());
-  EXPECT_TRUE(target.shows_expiry());
-  target.accept(1.0, 1.0, 0.05, 60 * kMillisecond_ns);
-  EXPECT_FALSE(target.shows_expiry());
+  EXPECT_FALSE(target.takes(7, false)) << "nobody has begun it";
+  EXPECT_TRUE(target.takes(7, true));
+  target.accept(kStreamed, 0);
+  EXPECT_TRUE(target.takes(7, false));
+  EXPECT_FALSE(target.takes(8, false));
+  EXPECT_TRUE(target.takes(8, true)) << "another may begin";
+  EXPECT_TRUE(target.takes(0, false)) << "a move always";
 }
 
-TEST(OrderedTarget, EndsALiveStreamWithAHoldWithoutCallingItExpired) {
+TEST(OrderedTarget, RefusesWhatComesLateOfAStreamHoweverItEnded) {
+  for (int end = 0; end < 4; ++end) {
+    OrderedTarget target;
+    target.accept(kStreamed, 0);
+    if (end == 0) {
+      ASSERT_TRUE(target.expire(50 * kMillisecond_ns));
+    }
+    if (end == 1) target.end();
+    if (end == 2) target.forget();
+    if (end == 3) target.accept(kMove, 1);
+    EXPECT_FALSE(target.takes(7, false)) << end;
+    EXPECT_FALSE(target.streamed()) << end;
+    EXPECT_TRUE(target.takes(7, true)) << end;
+  }
+}
+
+TEST(OrderedTarget, ShowsAnExpiryUntilTheNextSetpointAndNoOtherEnd) {
   OrderedTarget target;
-  target.accept(1.0, 1.0, 0.05, 0);
-  target.hold();
-  EXPECT_FALSE(target.streamed());
+  target.accept(kStreamed, 0);
+  ASSERT_TRUE(target.expire(50 * kMillisecond_ns));
+  target.end();
+  EXPECT_TRUE(target.shows_expiry()) << "a hold after it";
+  target.accept(kStreamed, 60 * kMillisecond_ns);
+  EXPECT_FALSE(target.shows_expiry());
+  target.end();
   EXPECT_FALSE(target.expire(INT64_MAX));
-  EXPECT_FALSE(target.shows_expiry());
-}
-
-TEST(OrderedTarget, ForgetsWhateverStreamThereWas) {
-  OrderedTarget target;
-  target.accept(1.0, 1.0, 0.05, 0);
-  ASSERT_TRUE(target.expire(50 * kMillisecond_ns));
-  target.forget();
-  EXPECT_TRUE(target.takes_stream());
   EXPECT_FALSE(target.shows_expiry());
 }
 
@@ -71,7 +82,7 @@ TEST(OrderedTarget, IsShownToTheBitAsItWasOrderedAlsoAfterTheZeroHasMoved) {
   OrderedTarget target;
   const double ordered_rad = 0.7;
   const double drive_rad = zero.to_drive_rad(ordered_rad);
-  target.accept(ordered_rad, drive_rad, 0.0, 0);
+  target.accept({ordered_rad, drive_rad, 0, 0.0}, 0);
   EXPECT_EQ(target.shown_rad(drive_rad, zero), ordered_rad);
   EXPECT_DOUBLE_EQ(target.shown_rad(0.25, zero), 0.45) << "the controller has another one by now";
   zero.set(0.1, 0.5);

@@ -40,6 +40,8 @@ expect_status 1 as leg --prefix arm enable elbow
 grep -q 'wrong signature' output || { cat output; fail "a key of the leg must mean nothing to the arm"; }
 expect_status 1 unsigned --prefix arm enable elbow
 ctl --prefix arm enable elbow
+# Who loaded its table has the knee yet.
+as leg --prefix leg take-over knee
 as leg --prefix leg enable knee
 
 # A network that loses, delays, doubles and reorders.
@@ -56,6 +58,7 @@ ctl --prefix arm timing >output
 if grep -E 'wrong signature|not rising' output | grep -qv 'refused messages         1 (wrong signature)'; then cat output; fail "a lossy network looks like an attack"; fi
 
 # The cable breaks in the middle of an identification: the stream expires, the joint holds by itself.
+ctl --prefix leg take-over knee
 ctl --prefix leg identify knee --out cut.lcm >identify.txt 2>&1 &
 cut=$!
 sleep 8

@@ -1,0 +1,170 @@
+#include "daemon/admission/pending_orders.h"
+
+#include <utility>
+
+#include "daemon/admission/table_admission.h"
+
+namespace strainwave {
+
+namespace {
+
+// What the loop's refusal means for whoever asked: the mode it met, and the way on.
+std::string advice(const Reply& reply) {
+  const std::string mode = "the joint is " + std::string(to_text(reply.mode));
+  switch (reply.reason) {
+    case Reason::kNoTable:
+      return mode + ": load a gain table first";
+    case Reason::kFaulted:
+      return mode + ": see its fault, remove the cause, clear the fault";
+    case Reason::kMoving:
+      return reply.mode == Mode::kOff
+                 ? mode + " and moves at " + std::to_string(reply.joint_velocity_rad_s) +
+                       " rad/s: it is enabled only at standstill (joint.supervision.standstill_rad_s)"
+                 : mode + ": hold or disable it first, a table is taken over only at standstill";
+    case Reason::kEnding:
+      return mode + ", and the daemon brings every joint to rest: start it again";
+    case Reason::kStreamEnded:
+      return mode +
+             ", and this stream of setpoints is not under way: it expired, or a hold, stop, fault, enable or "
+             "another order ended it; begin a new one";
+    case Reason::kTooOld:
+      return mode + ": the order waited in the daemon for longer than an order lives; give it anew";
+    case Reason::kNotHomed:
+      return mode + ", and its position is not known: strainwavectl home first";
+    case Reason::kAtLimitSwitch:
+      return mode + " at a limit switch: only a move away from it is possible";
+    case Reason::kNoHoming:
+      return mode + ", and joint.homing says of no switch or index that it is home";
+    case Reason::kDriveNotReady:
+      return mode + ", and its drive gives no position: check supply and connection";
+    case Reason::kWrongMode:
+      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled"
+                                              : ": this order does nothing in this mode");
+    default:
+      return mode;
+  }
+}
+
+}  // namespace
+
+PendingOrders::PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers)
+    : loop_(loop),
+      admission_(admission),
+      answers_(answers),
+      books_(loop.joint_count()),
+      unanswered_(loop.joint_count()) {}
+
+bool PendingOrders::load_first_table(std::size_t joint, const GainTable& table) {
+  Verdict verdict;
+  verdict.table = std::make_unique<GainTable>(table);
+  verdict.requester.joint = joint;
+  verdict.order.kind = OrderKind::kUseTable;
+  std::int64_t table_id = 0;
+  if (!prepare_table(verdict, table_id) || !loop_.joint(joint).orders().push(verdict.order)) return false;
+  books_[joint].end(true);
+  return true;
+}
+
+void PendingOrders::handle(Verdict& verdict, std::int64_t now_ns) {
+  switch (verdict.kind) {
+    case Verdict::Kind::kDiscard:
+      return;
+    case Verdict::Kind::kRepeat:
+      if (stranger_answers_.try_take(now_ns)) answers_.repeat(verdict.requester);
+      return;
+    case Verdict::Kind::kRefuse:
+      return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
+    case Verdict::Kind::kDone:
+      return answer(verdict.requester, Reason::kAccepted, verdict.text, now_ns);
+    case Verdict::Kind::kOrder:
+      return obey(verdict, now_ns);
+  }
+}
+
+void PendingOrders::obey(Verdict& verdict, std::int64_t now_ns) {
+  const std::size_t joint = verdict.requester.joint;
+  std::int64_t table_id = 0;
+  const bool is_table = verdict.order.kind == OrderKind::kUseTable;
+  if (is_table && !prepare_table(verdict, table_id))
+    return refuse(verdict, verdict.reason, verdict.text, now_ns);
+  verdict.order.id = next_order_id_++;
+  if (!loop_.joint(joint).orders().push(verdict.order)) {
+    if (is_table) books_[joint].end(false);
+    return refuse(verdict, Reason::kBusy, "too many orders at once: send fewer, or wait for answers", now_ns);
+  }
+  pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, table_id};
+}
+
+void PendingOrders::refuse(Verdict& verdict, Reason reason, const std::string& text, std::int64_t now_ns) {
+  verdict.kind = Verdict::Kind::kRefuse;
+  verdict.reason = reason;
+  verdict.text = text;
+  admission_.count_reject(reason);
+  admission_.settle(verdict.requester, false, now_ns);
+  answer(verdict.requester, reason, text, now_ns);
+}
+
+void PendingOrders::answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns) {
+  TokenBucket& share = to.stop ? stop_answers_ : stranger_answers_;
+  if (to.authentic || share.try_take(now_ns)) answers_.answer(to, reason, text);
+}
+
+// Puts the table into a slot that the loop does not use, or names the slot to return to.
+bool PendingOrders::prepare_table(Verdict& verdict, std::int64_t& table_id) {
+  TableBook& book = books_[verdict.requester.joint];
+  const auto slot = verdict.revert_table ? book.previous_slot() : book.free_slot();
+  if (book.busy() || !slot) {
+    verdict.reason = book.busy() ? Reason::kBusy : Reason::kNoPreviousTable;
+    verdict.text = book.busy() ? "another table is just being taken over" : "there is no table to go back to";
+    return false;
+  }
+  JointLoop& joint = loop_.joint(verdict.requester.joint);
+  if (verdict.table) joint.table_slot(*slot) = {*verdict.table, table_digest(*verdict.table)};
+  table_id = joint.table_slot(*slot).id;
+  verdict.order.table_slot = static_cast<std::int32_t>(*slot);
+  book.begin(*slot);
+  return true;
+}
+
+void PendingOrders::take_replies(std::int64_t now_ns) {
+  Reply reply;
+  while (loop_.replies().pop(reply)) {
+    const bool accepted = reply.reason == Reason::kAccepted;
+    for (std::size_t joint = 0; joint < unanswered_.size(); ++joint)
+      if (unanswered_[joint].order_id == reply.id && reply.id != 0) {
+        books_[joint].end(accepted);
+        unanswered_[joint] = {};
+      }
+    const auto found = pending_.find(reply.id);
+    if (found == pending_.end()) continue;
+    const Pending& pending = found->second;
+    if (pending.table_id != 0) books_[pending.requester.joint].end(accepted);
+    if (!accepted) admission_.count_reject(reply.reason);
+    admission_.settle(pending.requester, accepted, now_ns);
+    answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply), now_ns);
+    pending_.erase(found);
+  }
+  std::erase_if(pending_, [&](const auto& entry) {
+    const bool over = entry.second.deadline_ns < now_ns;
+    if (over) give_up(entry.first, entry.second, now_ns);
+    return over;
+  });
+}
+
+void PendingOrders::give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns) {
+  answer(pending.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
+  if (pending.table_id != 0)
+    unanswered_[pending.requester.joint] = {order_id, pending.table_id, loop_.statistics().cycle.load()};
+}
+
+// An order is taken in the cycle after it was given: a state of a later one tells whether its table is in use, and its slot is
+// free again or spoken for.
+void PendingOrders::observe(const StateRecord& record) {
+  const auto joint = static_cast<std::size_t>(record.joint_index);
+  Unanswered& unanswered = unanswered_[joint];
+  if (unanswered.order_id == 0 || record.state.cycle <= unanswered.cycle + 2) return;
+  books_[joint].end(record.state.table_id == unanswered.table_id);
+  unanswered = {};
+}
+
+}  // namespace strainwave

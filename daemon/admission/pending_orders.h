@@ -1,0 +1,75 @@
+// Orders that were admitted, until they are answered: hands them to their joints' loops, puts tables where the loop does not look,
+// waits for the replies, and says to whom an answer is owed. Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "daemon/admission/admission.h"
+#include "daemon/admission/answers.h"
+#include "daemon/admission/table_book.h"
+#include "daemon/admission/token_bucket.h"
+#include "daemon/realtime/realtime_loop.h"
+
+namespace strainwave {
+
+class PendingOrders {
+ public:
+  /// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others.
+  static constexpr double kStrangerAnswersPer_s = 200.0;
+  static constexpr double kStrangerAnswersAtOnce = 50.0;
+  /// The same for stops: no forgery of another order uses this share up.
+  static constexpr double kStopAnswersPer_s = 1000.0;
+  static constexpr double kStopAnswersAtOnce = 200.0;
+  static constexpr std::int64_t kReplyTimeout_ns = 500'000'000;
+
+  PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers);
+
+  /// Whether the loop owes a reply.
+  bool waiting() const noexcept { return !pending_.empty(); }
+
+  /// Before the loop runs: its first order. False when the joint cannot take it.
+  bool load_first_table(std::size_t joint, const GainTable& table);
+
+  /// Obeys the verdict as far as the loop need not; afterwards `verdict` says what has become of it.
+  void handle(Verdict& verdict, std::int64_t now_ns);
+
+  /// Answers what the loop has replied to, and what it has not replied to in time.
+  void take_replies(std::int64_t now_ns);
+
+  /// A state that the loop has published since. A table whose reply was lost is in use by then, or never will be.
+  void observe(const StateRecord& record);
+
+ private:
+  struct Pending {
+    Requester requester;
+    std::string text;  ///< to send with the acceptance
+    std::int64_t deadline_ns;
+    std::int64_t table_id;  ///< of a table order, else 0
+  };
+  /// A table order whose reply did not come.
+  struct Unanswered {
+    std::int64_t order_id = 0;  ///< 0: none
+    std::int64_t table_id = 0;
+    std::int64_t cycle = 0;  ///< when the waiting ended
+  };
+  void obey(Verdict& verdict, std::int64_t now_ns);
+  bool prepare_table(Verdict& verdict, std::int64_t& table_id);
+  void refuse(Verdict& verdict, Reason reason, const std::string& text, std::int64_t now_ns);
+  void answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns);
+  void give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns);
+
+  RealtimeLoop& loop_;
+  Admission& admission_;
+  Answers& answers_;
+  std::vector<TableBook> books_;
+  std::vector<Unanswered> unanswered_;       ///< by joint: its book is busy until this is known
+  std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
+  std::int64_t next_order_id_ = 1;
+  TokenBucket stranger_answers_{kStrangerAnswersPer_s, kStrangerAnswersAtOnce};
+  TokenBucket stop_answers_{kStopAnswersPer_s, kStopAnswersAtOnce};
+};
+
+}  // namespace strainwave

@@ -1,0 +1,143 @@
+// Somebody on the path between client and daemon: passes on what he likes, keeps back what he likes, and delivers it later.
+#include <poll.h>
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "tests/adversary/signed_daemon.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr const char* kInsideUrl = "udpm://239.255.76.67:7668?ttl=0";
+/// In the daemon's own periods: beyond what an order lives.
+constexpr std::int64_t kLong_cycles = 3000;
+
+/// Two LCM networks on two ports, and the only way between them.
+class Relay {
+ public:
+  Relay() : inside_(kInsideUrl), outside_(kTestUrl) {
+    inside_.subscribe("SW\\..*(STATE|ACK|TIMING)", &Relay::outwards, this)->setQueueCapacity(1000);
+    outside_.subscribe("SW\\..*(SETPOINT|COMMAND|TABLE|INJECT)", &Relay::inwards, this);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Relay() {
+    stop_ = true;
+    thread_.join();
+  }
+  Relay(const Relay&) = delete;
+  Relay& operator=(const Relay&) = delete;
+
+  void keep_back(bool whether) { keeps_ = whether; }
+  std::size_t kept() {
+    const std::lock_guard lock(mutex_);
+    return kept_.size();
+  }
+  /// Everything that was kept back, in its order.
+  void deliver() {
+    const std::lock_guard lock(mutex_);
+    for (const Kept& order : kept_)
+      inside_.publish(order.channel, order.bytes.data(), static_cast<unsigned int>(order.bytes.size()));
+    kept_.clear();
+  }
+
+ private:
+  struct Kept {
+    std::string channel;
+    std::vector<std::uint8_t> bytes;
+  };
+  void run() {
+    while (!stop_) {
+      std::array<pollfd, 2> waiting{{{inside_.getFileno(), POLLIN, 0}, {outside_.getFileno(), POLLIN, 0}}};
+      ::poll(waiting.data(), waiting.size(), 20);
+      if ((waiting[0].revents & POLLIN) != 0) inside_.handle();
+      if ((waiting[1].revents & POLLIN) != 0) outside_.handle();
+    }
+  }
+  void outwards(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    outside_.publish(channel, buffer->data, buffer->data_size);
+  }
+  void inwards(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    const std::lock_guard lock(mutex_);
+    const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
+    if (keeps_)
+      kept_.push_back({channel, {bytes, bytes + buffer->data_size}});
+    else
+      inside_.publish(channel, buffer->data, buffer->data_size);
+  }
+
+  lcm::LCM inside_;
+  lcm::LCM outside_;
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+  std::atomic<bool> keeps_{false};
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+class OnPathRelay : public SignedDaemonTest {
+ protected:
+  void SetUp() override {
+    start("lcm_url = \"" + std::string(kInsideUrl) + "\"\n");
+    relay_.emplace();
+    client_.emplace();
+    bring_to_hold(*client_);
+  }
+  void wait_cycles(std::int64_t cycles) {
+    const std::int64_t from = client_->state("elbow")->cycle;
+    ASSERT_TRUE(client_->wait_for_state(
+        "elbow", [&](const state_v1& state) { return state.cycle > from + cycles; },
+        std::chrono::seconds(60)));
+  }
+  /// Keeps `message` back for long, then delivers it; the daemon's answer.
+  template <typename Message>
+  Answer deliver_late(const char* kind, const Message& message) {
+    relay_->keep_back(true);
+    publish(*client_, kind, message);
+    while (relay_->kept() == 0) client_->pump(std::chrono::milliseconds(5));
+    wait_cycles(kLong_cycles);
+    relay_->keep_back(false);
+    relay_->deliver();
+    return client_->wait_for_answer(message.sequence);
+  }
+
+  std::optional<Relay> relay_;
+  std::optional<TestClient> client_;
+};
+
+TEST_F(OnPathRelay, CannotMoveTheJointWithAMoveThatHeKeptBack) {
+  const double before_rad = client_->state("elbow")->joint_position_rad;
+  const Answer late = deliver_late("SETPOINT", client_->make_setpoint("elbow", 0.5));
+  EXPECT_FALSE(late.accepted);
+  EXPECT_EQ(late.reason, Reason::kTooOld) << late.text;
+  wait_cycles(500);
+  EXPECT_EQ(client_->state("elbow")->mode, static_cast<std::int32_t>(Mode::kHolding));
+  EXPECT_NEAR(client_->state("elbow")->joint_position_rad, before_rad, 1e-3);
+  const Answer anew = send(*client_, "SETPOINT", client_->make_setpoint("elbow", 0.5));
+  EXPECT_TRUE(anew.accepted) << anew.text;
+}
+
+TEST_F(OnPathRelay, CannotEnableAJointThatWasDisabledMeanwhile) {
+  disable(*client_);
+  const Answer late = deliver_late("COMMAND", client_->make_command("elbow", Action::kEnable));
+  EXPECT_EQ(late.reason, Reason::kTooOld) << late.text;
+  wait_cycles(500);
+  EXPECT_EQ(client_->state("elbow")->mode, static_cast<std::int32_t>(Mode::kOff));
+}
+
+TEST_F(OnPathRelay, CannotLetAnOrderOvertakeALaterOne) {
+  relay_->keep_back(true);
+  const setpoint_v1 move = client_->make_setpoint("elbow", 0.5);
+  publish(*client_, "SETPOINT", move);
+  while (relay_->kept() == 0) client_->pump(std::chrono::milliseconds(5));
+  relay_->keep_back(false);
+  ASSERT_TRUE(send(*client_, "COMMAND", client_->make_command("elbow", Action::kHold)).accepted);
+  relay_->deliver();
+  const Answer late = client_->wait_for_answer(move.sequence);
+  EXPECT_TRUE(late.reason == Reason::kOldSequence || late.reason == Reason::kTooOld) << late.text;
+}
+
+}  // namespace
+}  // namespace strainwave::testing
