@@ -29,4 +29,22 @@ bool check_drives(const DaemonConfig& config, std::ostream& out) {
   return good;
 }
 
+bool check_data_sheet(const DaemonConfig& config, const std::filesystem::path& file, std::ostream& out) {
+  bool good = true;
+  bool checked = false;
+  for (const JointConfig& joint : config.joints) {
+    if (!joint.check_data_sheet) continue;
+    checked = true;
+    try {
+      for (const std::string& line : joint.check_data_sheet(file)) out << line << '\n';
+      out << joint.name << ": start-up would accept a drive with this data sheet\n";
+    } catch (const InputError& error) {
+      out << joint.name << ": refused: " << error.what() << '\n';
+      good = false;
+    }
+  }
+  if (!checked) out << "no joint has a drive with an electronic data sheet\n";
+  return good && checked;
+}
+
 }  // namespace strainwave

@@ -18,4 +18,8 @@ std::vector<InstanceLock> lock_drives(const DaemonConfig& config);
 /// has one of them.
 bool check_drives(const DaemonConfig& config, std::ostream& out);
 
+/// Runs start-up of every joint that has such a drive against the drive's electronic data sheet; touches no hardware. Returns
+/// whether all would be accepted; what is missing is in the text.
+bool check_data_sheet(const DaemonConfig& config, const std::filesystem::path& file, std::ostream& out);
+
 }  // namespace strainwave

@@ -43,6 +43,10 @@ int main(int argc, char** argv) {
   bool check_drives = false;
   app.add_flag("--check-drives", check_drives,
                "do to the drives all that start-up does, enable none, and end");
+  std::string data_sheet;
+  app.add_option(
+      "--check-data-sheet", data_sheet,
+      "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and end");
   strainwave::configure_program(app, "strainwaved");
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);
@@ -55,6 +59,7 @@ int main(int argc, char** argv) {
       return strainwave::ExitStatus::kDone;
     }
     if (check_lines) return as_status(show_lines(config));
+    if (!data_sheet.empty()) return as_status(strainwave::check_data_sheet(config, data_sheet, std::cout));
     if (check_drives) return as_status(strainwave::check_drives(config, std::cout));
     strainwave::start_logging();
     strainwave::Supervisor supervisor(config);

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/unique_fd.h"
 
 namespace strainwave {
 
@@ -41,21 +42,9 @@ std::optional<double> whole_number(std::string_view text) noexcept {
   return number;
 }
 
-/// Closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(const std::filesystem::path& path)
-      : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int fd() const noexcept { return fd_; }
-
- private:
-  int fd_;
-};
+UniqueFd open_file(const std::filesystem::path& path) {
+  return UniqueFd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+}
 
 void check(const TemperatureFileConfig& config) {
   const auto require = [&](bool good, const char* key, double value, const char* allowed) {
@@ -66,7 +55,7 @@ void check(const TemperatureFileConfig& config) {
   require(std::isfinite(config.offset_C), "offset_C", config.offset_C, "must be finite");
   require(std::isfinite(config.period_s) && config.period_s > 0.0, "period_s", config.period_s,
           "must be finite and > 0");
-  if (const Descriptor file(config.file); file.fd() < 0)
+  if (const UniqueFd file = open_file(config.file); !file)
     throw InputError("thermometer", "file", config.file.string(),
                      "cannot be opened (" + std::generic_category().message(errno) +
                          "): is the sensor's driver loaded, and does the name still hold after a restart?");
@@ -111,9 +100,9 @@ void TemperatureFile::run(const std::stop_token& stop) {
 void TemperatureFile::read_once() {
   const std::int64_t began_ns = config_.clock_ns();
   // Opened anew each time: a sensor that was unplugged comes back as another file of the same name.
-  const Descriptor file(config_.file);
+  const UniqueFd file = open_file(config_.file);
   std::array<char, kMaxBytes> bytes{};
-  const ssize_t size = file.fd() < 0 ? -1 : ::read(file.fd(), bytes.data(), bytes.size());
+  const ssize_t size = !file ? -1 : ::read(file.get(), bytes.data(), bytes.size());
   std::optional<double> number;
   if (size > 0 && static_cast<std::size_t>(size) < bytes.size())
     number = parse_temperature(config_.kind, {bytes.data(), static_cast<std::size_t>(size)});

@@ -10,9 +10,15 @@ void can_scan(const Output& output, const std::string& interface_name) {
   scan_can_interface(interface_name, output.stream);
 }
 
-void can_check(const Output& output, const std::filesystem::path& config) {
+void can_check(const Output& output, const std::filesystem::path& config,
+               const std::filesystem::path& data_sheet) {
   output.stream.flush();
-  if (run_sibling("strainwaved", {"--config", config.string(), "--check-drives"}) != 0)
+  std::vector<std::string> arguments{"--config", config.string()};
+  if (data_sheet.empty())
+    arguments.emplace_back("--check-drives");
+  else
+    arguments.insert(arguments.end(), {"--check-data-sheet", data_sheet.string()});
+  if (run_sibling("strainwaved", arguments) != 0)
     throw ClientError(ExitStatus::kUsage, config.string() + ": start-up would refuse it, see above");
 }
 

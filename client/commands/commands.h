@@ -149,7 +149,8 @@ void keygen(const Output& output, const KeygenArguments& arguments);
 /// Who answers on a CAN bus; reads only.
 void can_scan(const Output& output, const std::string& interface_name);
 /// Runs the daemon's own start-up of the drives of `config`, without enabling any.
-void can_check(const Output& output, const std::filesystem::path& config);
+void can_check(const Output& output, const std::filesystem::path& config,
+               const std::filesystem::path& data_sheet);
 
 /// Throws ClientError (refused) with the reason unless `answer` accepts what `what` names.
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,

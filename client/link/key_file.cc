@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/unique_fd.h"
 
 namespace strainwave {
 
@@ -18,23 +19,9 @@ namespace {
   throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(errno));
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const noexcept { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 // O_EXCL: whoever put a file or a link there first keeps it.
 void write_new_file(const std::filesystem::path& path, const std::string& line, mode_t mode) {
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+  const UniqueFd file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file.get() < 0 && errno == EEXIST)
     throw InputError(path.string() + ": exists already and is not overwritten: give another name to --out");
   if (file.get() < 0) fail(path, "cannot be made");
@@ -53,7 +40,7 @@ std::filesystem::path public_path(const std::filesystem::path& path) {
 }  // namespace
 
 SecretKeyText read_secret_key(const std::filesystem::path& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const UniqueFd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) fail(path, "the key cannot be read");
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail(path, "the key cannot be read");

@@ -10,13 +10,34 @@ namespace strainwave {
 
 namespace {
 
-void add_check(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& help,
-               void (*check)(const Output&, const std::filesystem::path&)) {
-  CLI::App* command = app.add_subcommand(name, help);
+std::shared_ptr<std::filesystem::path> add_config(CLI::App& command) {
   auto config = std::make_shared<std::filesystem::path>();
-  command->add_option("CONFIG", *config, "the daemon's configuration file")->required()->type_name("");
-  command->callback([&invocation, config, check] {
-    invocation.local_command = [config, check](const Output& output) { check(output, *config); };
+  command.add_option("CONFIG", *config, "the daemon's configuration file")->required()->type_name("");
+  return config;
+}
+
+void add_can_check(CLI::App& app, Invocation& invocation) {
+  CLI::App* command =
+      app.add_subcommand("can-check", "do to the drives all that start-up does, enable none (no daemon)");
+  const auto config = add_config(*command);
+  auto data_sheet = std::make_shared<std::filesystem::path>();
+  command
+      ->add_option("--eds", *data_sheet,
+                   "a drive's electronic data sheet, to check against in the drives' place")
+      ->type_name("FILE");
+  command->callback([&invocation, config, data_sheet] {
+    invocation.local_command = [config, data_sheet](const Output& output) {
+      can_check(output, *config, *data_sheet);
+    };
+  });
+}
+
+void add_gpio_check(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand(
+      "gpio-check", "digital lines of a configuration: level and who holds them (no daemon)");
+  const auto config = add_config(*command);
+  command->callback([&invocation, config] {
+    invocation.local_command = [config](const Output& output) { gpio_check(output, *config); };
   });
 }
 
@@ -29,10 +50,8 @@ void add_hardware_commands(CLI::App& app, Invocation& invocation) {
   scan->callback([&invocation, interface_name] {
     invocation.local_command = [interface_name](const Output& output) { can_scan(output, *interface_name); };
   });
-  add_check(app, invocation, "can-check", "do to the drives all that start-up does, enable none (no daemon)",
-            can_check);
-  add_check(app, invocation, "gpio-check",
-            "digital lines of a configuration: level and who holds them (no daemon)", gpio_check);
+  add_can_check(app, invocation);
+  add_gpio_check(app, invocation);
 }
 
 }  // namespace strainwave

@@ -167,7 +167,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
                  "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
   HomingInputs inputs;
   if (joint.driver == "can")
-    can.read_joint(driver, joint);
+    inputs = can.read_joint(driver, joint);
   else if (joint.driver == "gpio")
     inputs = read_gpio_driver(driver, section.full_name("gpio"), period_s, joint);
   else

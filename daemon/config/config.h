@@ -40,6 +40,8 @@ struct JointConfig {
   ActuatorFactory make_actuator;  ///< of a drive of its own; unused when `bus` says which bus makes it
   /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
   std::function<bool(std::ostream&)> describe_lines;
+  /// Start-up against a drive's electronic data sheet; lines for the user. Throws InputError. Null: its drives have none.
+  std::function<std::vector<std::string>(const std::filesystem::path&)> check_data_sheet;
   DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
   int bus = -1;                               ///< index in DaemonConfig::buses; -1: on none
   std::size_t bus_slot = 0;                   ///< the drive's place on that bus

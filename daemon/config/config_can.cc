@@ -10,6 +10,7 @@
 #include "drivers/can/can_interface.h"
 #include "drivers/can/can_socket.h"
 #include "drivers/can/cia402/cia402_node.h"
+#include "drivers/can/cia402/eds_check.h"
 #include "drivers/can/odrive/odrive_node.h"
 
 namespace strainwave {
@@ -75,6 +76,15 @@ MotorLimits read_motor(TomlSection section, cia402::DriveConfig& drive) {
   return limits;
 }
 
+cia402::DriveInputs read_inputs(TomlSection section) {
+  cia402::DriveInputs inputs;
+  inputs.negative_limit = section.boolean_or("negative_limit", false);
+  inputs.positive_limit = section.boolean_or("positive_limit", false);
+  inputs.home = section.boolean_or("home", false);
+  section.refuse_unknown_keys();
+  return inputs;
+}
+
 void read_units(TomlSection& section, const JointConfig& joint, cia402::UnitConfig& units) {
   units.counts_per_output_revolution = section.number("counts_per_output_revolution", {1.0, 1e10});
   units.direction = section.choice_or("direction", "same", {"same", "reversed"}) == "same" ? 1 : -1;
@@ -104,6 +114,7 @@ void read_supervision(TomlSection& section, cia402::DriveConfig& drive) {
       static_cast<int>(section.integer_or("quick_stop_after", stop_after, drive.zero_torque_after, 1000));
   drive.quick_stop_timeout_s =
       section.number_or("quick_stop_timeout_s", drive.quick_stop_timeout_s, {0.0, 60.0});
+  drive.following_bit = section.boolean_or("following_bit", drive.following_bit);
   drive.step_timeout_s = section.number_or("step_timeout_s", drive.step_timeout_s, {0.01, 60.0});
   drive.boot_timeout_s = section.number_or("boot_timeout_s", drive.boot_timeout_s, {0.1, 60.0});
   drive.status_period_s = section.number_or("status_period_s", drive.status_period_s, {drive.period_s, 1.0});
@@ -152,7 +163,7 @@ CanConfig::Bus& CanConfig::find_bus(TomlSection& section) {
   return *found;
 }
 
-void CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
+HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   Bus& bus = find_bus(section);
   const bool is_odrive = section.choice("protocol", {"cia402", "odrive"}) == "odrive";
   const auto node_id = static_cast<int>(is_odrive ? section.integer("node_id", 0, odrive::kMaxNodeId)
@@ -164,19 +175,21 @@ void CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   joint.bus = static_cast<int>(&bus - buses_.data());
   joint.bus_slot = bus.make_nodes.size();
   joint.driver_resource = bus.config.interface_name + " node " + std::to_string(node_id);
+  bus.node_ids.push_back(node_id);
   // The protocols' identifiers overlap, so a bus has one of them: CiA 402 needs a SYNC, CANSimple has none.
   if (is_odrive) {
     if (bus.config.sync != SyncProducer::kNone)
       section.fail("protocol", "a bus of their own is what ODrives need: set can_bus.sync to \"none\"");
     const odrive::DriveConfig drive = read_odrive(section, node_id, period_s_, joint);
     bus.make_nodes.emplace_back([drive] { return std::make_unique<odrive::Node>(drive); });
-  } else {
-    read_cia402(section, bus, node_id, joint);
+    HomingInputs inputs;
+    inputs.counts_from_switch_on = !drive.absolute_encoder;
+    return inputs;
   }
-  bus.node_ids.push_back(node_id);
+  return read_cia402(section, bus, node_id, joint);
 }
 
-void CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint) {
+HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint) {
   if (bus.config.sync == SyncProducer::kNone)
     section.fail("protocol", "a bus with a SYNC is needed: set can_bus.sync to another than \"none\"");
   cia402::DriveConfig drive;
@@ -194,6 +207,8 @@ void CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id, JointCo
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
+  drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
+  drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);
   if (section.has("temperature"))
     drive.temperature = read_temperature(section.section("temperature"), period_s_);
@@ -203,10 +218,17 @@ void CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id, JointCo
   controller.encoder_resolution_rad = 2.0 * std::numbers::pi / drive.units.counts_per_output_revolution;
   // What is read was sampled with the last SYNC, and what is ordered acts from the next one on: one period.
   controller.delay_samples = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
+  drive.delay_periods = std::max(1, controller.delay_samples);
   joint.drive_error_text = [](Fault /*fault*/, std::uint32_t drive_error) {
     return cia402::drive_error_text(drive_error);
   };
+  (void)cia402::pdo_layout(drive);  // refuses what does not fit
+  joint.check_data_sheet = [drive](const std::filesystem::path& file) {
+    return cia402::check_data_sheet(canopen::read_eds(file, drive.node_id), drive);
+  };
   bus.make_nodes.emplace_back([drive] { return std::make_unique<cia402::Node>(drive); });
+  return {drive.inputs.home, drive.inputs.negative_limit, drive.inputs.positive_limit, false,
+          !drive.absolute_encoder};
 }
 
 std::vector<BusConfig> CanConfig::buses() const {

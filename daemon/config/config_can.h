@@ -8,6 +8,7 @@
 
 #include "base/toml_section.h"
 #include "daemon/config/config.h"
+#include "daemon/config/config_homing.h"
 #include "drivers/can/can_bus.h"
 
 namespace strainwave {
@@ -18,8 +19,9 @@ class CanConfig {
   /// Reads every [[can_bus]]; there may be none. Throws InputError.
   CanConfig(TomlSection& root, double period_s);
 
-  /// Reads [joint.can]: puts the drive on its bus, and sets what depends on the driver. Throws InputError.
-  void read_joint(TomlSection& section, JointConfig& joint);
+  /// Reads [joint.can]: puts the drive on its bus, and sets what depends on the driver. Returns what the joint can be homed
+  /// by. Throws InputError.
+  HomingInputs read_joint(TomlSection& section, JointConfig& joint);
 
   /// After all joints: what makes the buses. Throws InputError for a bus without joints, or one that would be
   /// too full.
@@ -37,7 +39,7 @@ class CanConfig {
     bool has_sync_drive = false;
   };
   Bus& find_bus(TomlSection& section);
-  void read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint);
+  HomingInputs read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint);
 
   double period_s_;
   std::vector<Bus> buses_;

@@ -16,7 +16,7 @@ namespace {
 constexpr Range kDelay_s{0.0, 10.0};
 constexpr Range kPositive{1e-9, 1e9};
 
-LineOptions read_line(TomlSection section) {
+LineOptions read_line(TomlSection section, LineRole role) {
   LineOptions line;
   line.chip = section.text("chip");
   line.line = section.text("line");
@@ -26,6 +26,7 @@ LineOptions read_line(TomlSection section) {
               : bias == "pull_up"   ? LineBias::kPullUp
               : bias == "pull_down" ? LineBias::kPullDown
                                     : LineBias::kAsIs;
+  line.debounce_s = section.number_or("debounce_s", 0.0, {0.0, is_output(role) ? 0.0 : 0.1});
   section.refuse_unknown_keys();
   return line;
 }
@@ -33,7 +34,7 @@ LineOptions read_line(TomlSection section) {
 JointLines read_lines(TomlSection& section) {
   JointLines lines;
   const auto read = [&](LineRole role, TomlSection line) {
-    lines[static_cast<std::size_t>(role)] = read_line(std::move(line));
+    lines[static_cast<std::size_t>(role)] = read_line(std::move(line), role);
   };
   read(LineRole::kEnable, section.section("enable"));
   if (section.has("direction")) read(LineRole::kDirection, section.section("direction"));
@@ -109,12 +110,17 @@ MotorLimits read_amplifier(TomlSection section, MotorData motor, GpioJointConfig
   return torque.motor;
 }
 
+/// For the loop to take hold of the joint, a few of its periods at any rate.
+constexpr double kHoldDelay_s = 0.02;
+
 void read_brake(TomlSection section, GpioJointConfig& gpio) {
+  const bool brake = has(gpio.lines, LineRole::kBrakeRelease);
+  gpio.sequence.hold_delay_s = section.number_or("hold_delay_s", brake ? kHoldDelay_s : 0.0, kDelay_s);
   gpio.sequence.release_delay_s = section.number_or("release_delay_s", 0.0, kDelay_s);
   gpio.sequence.engage_delay_s = section.number_or("engage_delay_s", 0.0, kDelay_s);
   gpio.sequence.stop_delay_s = section.number_or("stop_delay_s", 0.0, kDelay_s);
-  if (!has(gpio.lines, LineRole::kBrakeRelease))
-    for (const char* key : {"release_delay_s", "engage_delay_s", "stop_delay_s"})
+  if (!brake)
+    for (const char* key : {"hold_delay_s", "release_delay_s", "engage_delay_s", "stop_delay_s"})
       if (section.has(key)) section.fail(key, "a delay needs a joint.gpio.brake_release line");
   section.refuse_unknown_keys();
 }

@@ -11,8 +11,9 @@ constexpr double kSearchShare = 0.05;
 constexpr double kCreepShare = 0.1;  // of the search speed
 
 HomingTarget target_of(TomlSection& section, const HomingInputs& available) {
-  const std::string to =
-      section.choice_or("to", "none", {"none", "home", "negative_limit", "positive_limit", "index"});
+  const std::string to = section.choice_or(
+      "to", "none",
+      {"none", "home", "negative_limit", "positive_limit", "index", "negative_stop", "positive_stop"});
   const auto require = [&](bool there, const char* what) {
     if (!there)
       section.fail("to", std::string("something that this joint's driver has is allowed; it has no ") + what);
@@ -33,6 +34,8 @@ HomingTarget target_of(TomlSection& section, const HomingInputs& available) {
     require(available.index, "index input");
     return HomingTarget::kIndex;
   }
+  if (to == "negative_stop") return HomingTarget::kNegativeStop;
+  if (to == "positive_stop") return HomingTarget::kPositiveStop;
   return HomingTarget::kNone;
 }
 
@@ -43,12 +46,19 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
   const JointLimits& limits = joint.loop.limits;
   const double speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
   homing.target = target_of(section, available);
-  homing.required = section.boolean_or("required", homing.required);
+  if (available.counts_from_switch_on && homing.target == HomingTarget::kNone)
+    section.fail(
+        "to", "a place to look for is needed: this joint's encoder is incremental and forgets its position");
+  homing.required = section.boolean_or("required", available.counts_from_switch_on);
+  if (available.counts_from_switch_on && !homing.required)
+    section.fail("required", "true is allowed: this joint's encoder is incremental and forgets its position");
   if (homing.required && homing.target == HomingTarget::kNone)
     section.fail("required", "false is allowed while joint.homing.to names nothing to look for");
   homing.then_index = section.boolean_or("then_index", homing.then_index);
   if (homing.then_index && (!available.index || homing.target == HomingTarget::kIndex))
     section.fail("then_index", "true needs a driver with an index input, and a switch as joint.homing.to");
+  if (homing.target == HomingTarget::kNegativeStop || homing.target == HomingTarget::kPositiveStop)
+    homing.stop_torque_Nm = section.number("stop_torque_Nm", {1e-6, joint.loop.controller.torque_limit_Nm});
   homing.direction =
       section.choice_or("direction", "negative", {"negative", "positive"}) == "negative" ? -1.0 : 1.0;
   const Range within_limits{limits.position_min_rad - limits.position_margin_rad,

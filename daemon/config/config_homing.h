@@ -12,6 +12,7 @@ struct HomingInputs {
   bool negative_limit = false;
   bool positive_limit = false;
   bool index = false;
+  bool counts_from_switch_on = false;  ///< positions mean nothing before the joint is homed
 };
 
 /// Reads the section into `joint`, whose limits are known. Throws InputError, also when the driver lacks what

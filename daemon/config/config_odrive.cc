@@ -44,6 +44,7 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
   drive.period_s = period_s;
   drive.torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
   read_units(section, joint, drive.units);
+  drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.heartbeat_period_s = section.number_or("drive_heartbeat_s", drive.heartbeat_period_s, kRates_s);
   drive.heartbeat_timeout_s = section.number_or("drive_heartbeat_timeout_s", 3.5 * drive.heartbeat_period_s,
                                                 {drive.heartbeat_period_s, 60.0});

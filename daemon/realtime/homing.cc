@@ -4,6 +4,14 @@
 
 namespace strainwave {
 
+namespace {
+
+constexpr double kStands_s = 0.1;
+/// Of the way that the creep speed makes meanwhile.
+constexpr double kStandsShare = 0.1;
+
+}  // namespace
+
 bool Homing::active(const JointInputs& inputs) const noexcept {
   switch (config_.target) {
     case HomingTarget::kHomeSwitch:
@@ -13,6 +21,8 @@ bool Homing::active(const JointInputs& inputs) const noexcept {
     case HomingTarget::kPositiveLimit:
       return inputs.positive_limit;
     case HomingTarget::kIndex:
+    case HomingTarget::kNegativeStop:
+    case HomingTarget::kPositiveStop:
     case HomingTarget::kNone:
       return false;
   }
@@ -56,11 +66,19 @@ Homing::Order Homing::begin(const Observation& observation) noexcept {
   index_count_ = observation.inputs.index_count;
   turned_ = false;
   search_direction_ = config_.direction;
-  if (config_.target == HomingTarget::kNegativeLimit) search_direction_ = -1.0;
-  if (config_.target == HomingTarget::kPositiveLimit) search_direction_ = 1.0;
+  const bool negative =
+      config_.target == HomingTarget::kNegativeLimit || config_.target == HomingTarget::kNegativeStop;
+  const bool positive =
+      config_.target == HomingTarget::kPositiveLimit || config_.target == HomingTarget::kPositiveStop;
+  if (negative) search_direction_ = -1.0;
+  if (positive) search_direction_ = 1.0;
+  stands_at_rad_ = begin_rad_;
+  stands_since_ns_ = begin_ns_;
   if (!may_go_on(observation)) return fail();
   if (config_.target == HomingTarget::kIndex)
     return go(Phase::kToIndex, search_direction_, config_.creep_speed_rad_s);
+  if (config_.target == HomingTarget::kNegativeStop || config_.target == HomingTarget::kPositiveStop)
+    return go(Phase::kPushing, search_direction_, config_.creep_speed_rad_s);
   if (active(observation.inputs)) return go(Phase::kLeaving, -search_direction_, config_.creep_speed_rad_s);
   return go(Phase::kSearching, search_direction_, config_.search_speed_rad_s);
 }
@@ -85,6 +103,8 @@ Homing::Order Homing::step(const Observation& observation) noexcept {
       return go(Phase::kToIndex, -search_direction_, config_.creep_speed_rad_s);
     case Phase::kToIndex:
       return to_index(observation);
+    case Phase::kPushing:
+      return push(observation);
     case Phase::kResting:
       if (observation.at_rest) phase_ = Phase::kDone;
       return {};
@@ -102,6 +122,21 @@ Homing::Order Homing::search(const Observation& observation) noexcept {
   if (turned_) return fail();
   turned_ = true;
   return go(Phase::kSearching, -heading_, config_.search_speed_rad_s);
+}
+
+// Whoever stands under little torque has not met anything yet: it has friction to overcome.
+Homing::Order Homing::push(const Observation& observation) noexcept {
+  if (other_limit_ahead(observation.inputs)) return fail();
+  const double stands_rad = kStandsShare * config_.creep_speed_rad_s * kStands_s;
+  const bool moved = std::abs(observation.joint_position_rad - stands_at_rad_) > stands_rad;
+  if (moved || observation.torque_Nm * heading_ < config_.stop_torque_Nm) {
+    stands_at_rad_ = observation.joint_position_rad;
+    stands_since_ns_ = observation.now_ns;
+    return {};
+  }
+  if (static_cast<double>(observation.now_ns - stands_since_ns_) * 1e-9 < kStands_s) return {};
+  (void)found(observation.joint_position_rad);
+  return {Order::Kind::kMove, found_rad_, config_.creep_speed_rad_s};
 }
 
 // The switch may be narrower than the way to a stop.

@@ -12,6 +12,9 @@
 //
 // A limit switch that is not looked for turns the search round, once. What overshot the switch returns to it
 // first. The index alone: creep in d to the next pulse.
+//
+// A mechanical stop is home itself: creep in d until the joint stands, against `stop_torque_Nm`, for a tenth of a second; then
+// no more than to hold that place.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +23,15 @@
 
 namespace strainwave {
 
-enum class HomingTarget { kNone, kHomeSwitch, kNegativeLimit, kPositiveLimit, kIndex };
+enum class HomingTarget {
+  kNone,
+  kHomeSwitch,
+  kNegativeLimit,
+  kPositiveLimit,
+  kIndex,
+  kNegativeStop,
+  kPositiveStop
+};
 
 struct HomingConfig {
   HomingTarget target = HomingTarget::kNone;
@@ -30,13 +41,26 @@ struct HomingConfig {
   double home_position_rad = 0.0;   ///< what the place found is called
   double search_speed_rad_s = 0.1;  ///< > 0
   double creep_speed_rad_s = 0.01;  ///< > 0
-  double travel_rad = 1.0;          ///< > 0: no farther from where it began, to either side
-  double timeout_s = 60.0;          ///< > 0
+  double stop_torque_Nm =
+      0.0;                  ///< > 0: a joint that stands against this much torque is at its mechanical stop
+  double travel_rad = 1.0;  ///< > 0: no farther from where it began, to either side
+  double timeout_s = 60.0;  ///< > 0
 };
 
 class Homing {
  public:
-  enum class Phase { kIdle, kSearching, kStopping, kReturning, kLeaving, kToIndex, kResting, kDone, kFailed };
+  enum class Phase {
+    kIdle,
+    kSearching,
+    kStopping,
+    kReturning,
+    kLeaving,
+    kToIndex,
+    kPushing,
+    kResting,
+    kDone,
+    kFailed
+  };
 
   /// What the joint is to do from now on.
   struct Order {
@@ -52,6 +76,7 @@ class Homing {
     JointInputs inputs;
     bool at_rest = false;  ///< the reference has come to its end
     std::int64_t now_ns = 0;
+    double torque_Nm = 0.0;  ///< that the controller gives
   };
 
   explicit Homing(const HomingConfig& config) noexcept : config_(config) {}
@@ -77,6 +102,7 @@ class Homing {
   Order search(const Observation& observation) noexcept;
   Order after_stop(const Observation& observation) noexcept;
   Order to_index(const Observation& observation) noexcept;
+  Order push(const Observation& observation) noexcept;
   Order found(double position_rad) noexcept;
 
   HomingConfig config_;
@@ -86,6 +112,8 @@ class Homing {
   double begin_rad_ = 0.0;
   double found_rad_ = 0.0;
   std::int64_t begin_ns_ = 0;
+  double stands_at_rad_ = 0.0;  ///< while pushing
+  std::int64_t stands_since_ns_ = 0;
   std::int64_t index_count_ = 0;  ///< when the motion towards the index began
   bool turned_ = false;
 };

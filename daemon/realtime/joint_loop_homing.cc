@@ -4,7 +4,8 @@
 namespace strainwave {
 
 Homing::Observation JointLoop::observe(const CycleTime& time) const noexcept {
-  return {reading().joint_position_rad, reading().inputs, motion_.at_target, time.now_ns};
+  return {reading().joint_position_rad, reading().inputs, motion_.at_target, time.now_ns,
+          motion_.output.torque_Nm};
 }
 
 void JointLoop::obey_homing(const Homing::Order& order) noexcept {

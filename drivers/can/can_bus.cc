@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/input_error.h"
 #include "base/durations.h"
+#include "base/input_error.h"
 
 namespace strainwave {
 
@@ -102,7 +102,7 @@ void CanBus::set_up_nodes(const CanPortFactory& open) {
     for (const auto& node : nodes_)
       for (const std::uint32_t id : node->receive_ids()) options.receive_ids.push_back(id);
     const std::unique_ptr<CanPort> port = open(options);
-    for (const auto& node : nodes_) attempt([&] { node->verify(*port); });
+    for (const auto& node : nodes_) attempt([&] { say(node->verify(*port)); });
   }
   if (failures.empty()) return;
   for (const auto& node : nodes_) node->shut_down(*setup_port_);
@@ -122,6 +122,11 @@ void CanBus::open_loop_port(const CanPortFactory& open) {
       options.receive_ids.push_back(id);
     }
     for (const std::uint32_t id : nodes_[i]->transmit_ids()) ours.push_back(id);
+  }
+  if (config_.sync == SyncProducer::kOther) {
+    const std::uint32_t sync = canopen::cob_id(canopen::CobId::kSync);
+    owner_[sync] = kOthersSync;
+    options.receive_ids.push_back(sync);
   }
   for (const std::uint32_t id : ours) {
     owner_[id] = kOurs;
@@ -184,23 +189,32 @@ void CanBus::take(const ReceivedFrame& received) noexcept {
     case ReceivedFrame::Kind::kTrouble:
       return take_troubles(received.troubles);
     case ReceivedFrame::Kind::kOwn:
-      return take_own(received.frame);
+      return take_own(received);
     case ReceivedFrame::Kind::kData:
       break;
   }
   const std::int16_t owner = owner_[received.frame.id & kMaxCanId];
-  if (owner >= 0) return nodes_[static_cast<std::size_t>(owner)]->receive(received.frame);
+  if (owner >= 0)
+    return nodes_[static_cast<std::size_t>(owner)]->receive(received.frame, received.kernel_time_ns);
+  if (owner == kOthersSync) return note_sync(received.kernel_time_ns);
   // Two masters on one drive, or two producers of SYNC: neither knows what the drive does.
   if (owner == kOurs) latch(ActuatorFault::kWriteRefused, CanDetail::kForeignSender, received.frame.id);
 }
 
-// The heartbeat has the last priority: a full period may delay it without any harm, so it holds back only
-// itself.
-void CanBus::take_own(const CanFrame& frame) noexcept {
-  if (frame.id == our_heartbeat_id())
+// The heartbeat has the last priority: a full period may delay it without any harm, so it holds back only itself. What was sent
+// before it has left when it has, whether we were told so or not.
+void CanBus::take_own(const ReceivedFrame& received) noexcept {
+  if (received.frame.id == canopen::sync_frame().id) note_sync(received.kernel_time_ns);
+  if (received.frame.id == our_heartbeat_id()) {
     heartbeat_waits_ = false;
-  else
+    outstanding_ = std::min(outstanding_, sent_since_heartbeat_);
+  } else {
     outstanding_ = std::max<std::int64_t>(outstanding_ - 1, 0);
+  }
+}
+
+void CanBus::note_sync(std::int64_t kernel_time_ns) noexcept {
+  for (const auto& node : nodes_) node->note_sync(kernel_time_ns);
 }
 
 void CanBus::take_link(CanLink link) noexcept {
@@ -216,7 +230,12 @@ void CanBus::take_link(CanLink link) noexcept {
 
 void CanBus::take_troubles(std::uint32_t troubles) noexcept {
   add(counters_.error_frames);
-  if (has(troubles, CanTrouble::kRestarted)) bus_off_ = false;
+  if (has(troubles, CanTrouble::kRestarted)) {
+    // A controller that begins anew has forgotten what it held, and nobody tells us of it.
+    bus_off_ = false;
+    outstanding_ = 0;
+    heartbeat_waits_ = false;
+  }
   if (has(troubles, CanTrouble::kBusOff)) {
     bus_off_ = true;
     latch(ActuatorFault::kBusError, CanDetail::kBusOff);
@@ -254,14 +273,23 @@ void CanBus::end_cycle() noexcept {
   dropped_ = false;
   for (const auto& node : nodes_) node->transmit(*this);
   if (config_.sync == SyncProducer::kDaemon) (void)send(canopen::sync_frame());
-  if (config_.heartbeat_period_s > 0.0 && now_ns_ >= heartbeat_due_ns_ && !heartbeat_waits_) send_heartbeat();
+  // One that has waited for a whole period of its own while everything else came back is not waiting: we were not told of it.
+  const bool due = config_.heartbeat_period_s > 0.0 && now_ns_ >= heartbeat_due_ns_;
+  if (due && !heartbeat_withdrawn() && (!heartbeat_waits_ || outstanding_ <= sent_last_period_))
+    send_heartbeat();
   dropped_periods_ = dropped_ ? dropped_periods_ + 1 : 0;
   if (dropped_periods_ >= config_.stuck_periods) latch(ActuatorFault::kWriteRefused, CanDetail::kQueueFull);
+}
+
+bool CanBus::heartbeat_withdrawn() const noexcept {
+  return std::any_of(nodes_.begin(), nodes_.end(),
+                     [](const std::unique_ptr<CanNode>& node) { return node->withdraws_heartbeat(); });
 }
 
 void CanBus::send_heartbeat() noexcept {
   heartbeat_due_ns_ = now_ns_ + nanoseconds(config_.heartbeat_period_s);
   heartbeat_waits_ = send(canopen::heartbeat_frame(config_.our_node_id, canopen::NmtState::kOperational));
+  if (heartbeat_waits_) sent_since_heartbeat_ = 0;
 }
 
 bool CanBus::send(const CanFrame& frame) noexcept {
@@ -271,10 +299,11 @@ bool CanBus::send(const CanFrame& frame) noexcept {
   }
   switch (port_->send(frame)) {
     case SendResult::kSent:
-      // Remote frames pass no filter, so they never come back.
-      if (frame.id != our_heartbeat_id() && !frame.remote) {
+      // What passes no filter of ours never comes back.
+      if (owner_[frame.id] == kOurs && frame.id != our_heartbeat_id() && !frame.remote) {
         ++outstanding_;
         ++sent_last_period_;
+        ++sent_since_heartbeat_;
       }
       add(counters_.frames_sent);
       return true;

@@ -8,7 +8,8 @@
 // hear at most two periods' old orders, and their heartbeat supervision has disabled them by then. Trouble of
 // the bus is latched, told to every node, and leaves only by a joint's clear_fault().
 //
-// Our heartbeat comes from end_cycle() alone: when the loop ends or hangs, the drives notice.
+// Our heartbeat comes from end_cycle() alone: when the loop ends or hangs, the drives notice. It also ends when a node
+// withdraws it from a drive that obeys nothing else.
 //
 // Real time: begin_cycle() and end_cycle() are real-time safe; everything else is not. A background thread of
 // ordinary priority serves the nodes over a socket of its own; it shares only what the nodes keep lock-free.
@@ -86,6 +87,7 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   static constexpr std::size_t kMaxFramesPerCycle = 256;
   static constexpr std::int16_t kNobody = -1;
   static constexpr std::int16_t kOurs = -2;
+  static constexpr std::int16_t kOthersSync = -3;
 
   /// Forwards to a node; on clear_fault() the bus recovers first.
   class Joint;
@@ -97,10 +99,12 @@ class CanBus final : public Fieldbus, private CanTransmitter {
 
   bool send(const CanFrame& frame) noexcept override;
   void take(const ReceivedFrame& received) noexcept;
-  void take_own(const CanFrame& frame) noexcept;
+  void take_own(const ReceivedFrame& received) noexcept;
+  void note_sync(std::int64_t kernel_time_ns) noexcept;
   void take_link(CanLink link) noexcept;
   void take_troubles(std::uint32_t troubles) noexcept;
   void account_outstanding(bool emptied) noexcept;
+  bool heartbeat_withdrawn() const noexcept;
   void send_heartbeat() noexcept;
   std::uint32_t our_heartbeat_id() const noexcept {
     return canopen::cob_id(canopen::CobId::kHeartbeat, config_.our_node_id);
@@ -124,7 +128,8 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   bool bus_off_ = false;          ///< until the interface was down or the controller restarted
   std::int64_t outstanding_ = 0;  ///< frames sent that have not come back, heartbeats not counted
   std::int64_t sent_last_period_ = 0;
-  bool heartbeat_waits_ = false;  ///< sent and not come back
+  bool heartbeat_waits_ = false;           ///< sent and not come back
+  std::int64_t sent_since_heartbeat_ = 0;  ///< of what `outstanding_` counts, after the last heartbeat
   int held_back_periods_ = 0;
   int flooded_periods_ = 0;
   std::uint32_t overflows_seen_ = 0;

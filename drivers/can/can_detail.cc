@@ -53,6 +53,11 @@ std::string can_detail_text(std::uint32_t drive_error) {
       return "the drive could not be set up, see above";
     case CanDetail::kFlooded:
       return "more frames arrive than a period can take";
+    case CanDetail::kPositionLate:
+      return "positions come " + std::to_string(value) +
+             " us after their SYNC, later than delay_periods allows";
+    case CanDetail::kNotFollowing:
+      return "the drive does not follow the torque that it is ordered, " + status_text(value);
     case CanDetail::kQueueFull:
       return "the interface's queue is full";
   }

@@ -27,6 +27,8 @@ enum class CanDetail : std::uint8_t {
   kSetupFailed = 15,    ///< the log says why
   kQueueFull = 16,
   kFlooded = 17,
+  kNotFollowing = 18,  ///< below: the statusword
+  kPositionLate = 19,  ///< below: microseconds from SYNC to position
 };
 
 /// The largest number that can go with a detail.

@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/unique_fd.h"
 
 namespace strainwave {
 
@@ -24,20 +25,6 @@ namespace {
 
 /// NLA_TYPE_MASK, which is negative as an int.
 constexpr std::uint16_t kTypeMask = 0x3FFF;
-
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) noexcept : descriptor_(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  int get() const noexcept { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 using AttributeVisitor = std::function<void(std::uint16_t type, std::span<const std::byte> value)>;
 
@@ -77,7 +64,7 @@ bool ask(int socket, unsigned long request, const std::string& name, ifreq& answ
 // The bit rate is known to netlink alone. Without it (a service that may not open such sockets) it stays
 // unknown.
 void ask_netlink(const std::string& name, CanInterface& interface) {
-  const Descriptor socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
+  const UniqueFd socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
   if (socket.get() < 0) return;
   struct {
     nlmsghdr header;
@@ -116,7 +103,7 @@ void read_link_attributes(std::span<const std::byte> attributes, CanInterface& i
 
 CanInterface inspect_can_interface(const std::string& name) {
   CanInterface interface;
-  const Descriptor socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const UniqueFd socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (socket.get() < 0) throw std::system_error(errno, std::generic_category(), "creating a socket");
   ifreq answer{};
   if (name.size() >= IFNAMSIZ || !ask(socket.get(), SIOCGIFFLAGS, name, answer)) return interface;

@@ -41,8 +41,8 @@ class CanNode : public Actuator {
   virtual std::vector<FrameTraffic> traffic() const = 0;
   /// Finds, checks and configures the drive, which stays disabled. Returns lines for the log.
   virtual std::vector<std::string> set_up(CanPort& port) = 0;
-  /// Sees that the configured drive sends what the loop needs.
-  virtual void verify(CanPort& port) = 0;
+  /// Sees that the configured drive sends what the loop needs. Returns lines for the log.
+  virtual std::vector<std::string> verify(CanPort& port) = 0;
   /// A turn of the bus's background thread: slow readings, a set-up that clear_fault() asked for. Returns
   /// lines for the log.
   virtual std::vector<std::string> serve(CanPort& port) = 0;
@@ -52,12 +52,16 @@ class CanNode : public Actuator {
   // In the loop, real-time safe, besides read(), write(), stop() and clear_fault(), which only look and note.
 
   virtual void begin_cycle(std::int64_t now_ns) noexcept = 0;
-  /// A data frame with one of receive_ids(). Untrusted.
-  virtual void receive(const CanFrame& frame) noexcept = 0;
+  /// A SYNC was on the bus, at this time of the kernel; 0: unknown.
+  virtual void note_sync(std::int64_t /*kernel_time_ns*/) noexcept {}
+  /// A data frame with one of receive_ids(), and when the kernel saw it. Untrusted.
+  virtual void receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept = 0;
   /// The bus itself is in trouble: told each cycle, between the frames and read(); kNone when it is not.
   virtual void note_bus(const NodeFault& trouble) noexcept = 0;
   /// Sends this period's frames, after every joint wrote.
   virtual void transmit(CanTransmitter& bus) noexcept = 0;
+  /// Our heartbeat must end: the drive has torque, obeys nothing, and will stop only for want of it.
+  virtual bool withdraws_heartbeat() const noexcept { return false; }
 };
 
 }  // namespace strainwave

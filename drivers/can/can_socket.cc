@@ -138,16 +138,7 @@ std::uint32_t troubles_of(std::uint32_t can_id, std::span<const std::uint8_t, kM
 
 CanSocket::CanSocket(const std::string& interface_name, const CanPortOptions& options)
     : descriptor_(open_socket()) {
-  try {
-    configure(interface_name, options);
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
-  }
-}
-
-CanSocket::~CanSocket() {
-  ::close(descriptor_);
+  configure(interface_name, options);
 }
 
 // Filters come before bind(): until then a socket hears nothing, afterwards only what it asked for.
@@ -159,16 +150,16 @@ void CanSocket::configure(const std::string& interface_name, const CanPortOption
     throw InputError(interface_name + ": " + std::to_string(filters.size()) +
                      " identifiers are too many for one socket: put the joints on several buses");
   const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
-  if (::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0)
+  if (::setsockopt(descriptor_.get(), SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), bytes) != 0)
     fail("setting CAN filters");
   const can_err_mask_t errors = options.error_frames ? kWantedErrors : 0U;
-  set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors, "asking for CAN error frames");
-  set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, options.own_frames ? 1 : 0,
+  set_option(descriptor_.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors, "asking for CAN error frames");
+  set_option(descriptor_.get(), SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, options.own_frames ? 1 : 0,
              "asking for own CAN frames");
-  set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, 1, "asking for timestamps");
-  set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, 1, "asking for the count of lost frames");
+  set_option(descriptor_.get(), SOL_SOCKET, SO_TIMESTAMPNS, 1, "asking for timestamps");
+  set_option(descriptor_.get(), SOL_SOCKET, SO_RXQ_OVFL, 1, "asking for the count of lost frames");
   if (options.urgent)
-    set_option(descriptor_, SOL_SOCKET, SO_PRIORITY, kUrgentPriority, "raising the priority");
+    set_option(descriptor_.get(), SOL_SOCKET, SO_PRIORITY, kUrgentPriority, "raising the priority");
   bind_to(interface_name);
 }
 
@@ -178,7 +169,7 @@ void CanSocket::bind_to(const std::string& interface_name) {
   address.can_ifindex = static_cast<int>(::if_nametoindex(interface_name.c_str()));
   if (address.can_ifindex == 0)
     throw InputError(interface_name + ": there is no such interface: see `ip link`, and plug the adapter in");
-  if (::bind(descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return;
+  if (::bind(descriptor_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return;
   if (errno == ENODEV) throw InputError(interface_name + ": is no CAN interface");
   fail("binding to " + interface_name);
 }
@@ -188,7 +179,7 @@ SendResult CanSocket::send(const CanFrame& frame) noexcept {
   raw.can_id = frame.id | (frame.remote ? CAN_RTR_FLAG : 0U);
   raw.can_dlc = std::min<std::uint8_t>(frame.size, CAN_MAX_DLEN);
   std::copy_n(frame.bytes.begin(), raw.can_dlc, raw.data);
-  if (::send(descriptor_, &raw, sizeof raw, MSG_DONTWAIT) == sizeof raw) return SendResult::kSent;
+  if (::send(descriptor_.get(), &raw, sizeof raw, MSG_DONTWAIT) == sizeof raw) return SendResult::kSent;
   // ENOBUFS: the interface's queue is full. EAGAIN: the socket's. Anything that is not the link's end is a
   // lost frame.
   return link_of(errno) == CanLink::kUp ? SendResult::kQueueFull : SendResult::kLinkDown;
@@ -201,8 +192,8 @@ ReceiveResult CanSocket::receive(std::span<ReceivedFrame> frames) noexcept {
   for (std::size_t taken = 0; taken < frames.size();) {
     const std::size_t wanted = std::min(kBatch, frames.size() - taken);
     prepare(batch, wanted);
-    const int got =
-        ::recvmmsg(descriptor_, batch.messages.data(), static_cast<unsigned>(wanted), MSG_DONTWAIT, nullptr);
+    const int got = ::recvmmsg(descriptor_.get(), batch.messages.data(), static_cast<unsigned>(wanted),
+                               MSG_DONTWAIT, nullptr);
     if (got < 0) {
       result.link = link_of(errno);
       return result;
@@ -222,7 +213,7 @@ ReceiveResult CanSocket::receive(std::span<ReceivedFrame> frames) noexcept {
 bool CanSocket::wait(std::int64_t timeout_ns) {
   const std::int64_t bounded_ns = std::max<std::int64_t>(timeout_ns, 0);
   const timespec timeout{bounded_ns / kNanosecondsPerSecond, bounded_ns % kNanosecondsPerSecond};
-  pollfd waited{descriptor_, POLLIN, 0};
+  pollfd waited{descriptor_.get(), POLLIN, 0};
   return ::ppoll(&waited, 1, &timeout, nullptr) > 0;
 }
 

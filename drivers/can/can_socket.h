@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "base/unique_fd.h"
 #include "drivers/can/can_port.h"
 
 namespace strainwave {
@@ -19,7 +20,6 @@ class CanSocket final : public CanPort {
   /// Opens `interface_name`. Throws InputError that says what to do: no CAN in the kernel, no such interface,
   /// not a CAN interface, too many filters.
   CanSocket(const std::string& interface_name, const CanPortOptions& options);
-  ~CanSocket() override;
 
   SendResult send(const CanFrame& frame) noexcept override;
   ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept override;
@@ -27,13 +27,13 @@ class CanSocket final : public CanPort {
   bool wait(std::int64_t timeout_ns) override;
   std::int64_t now_ns() override;
 
-  int descriptor() const noexcept { return descriptor_; }
+  int descriptor() const noexcept { return descriptor_.get(); }
 
  private:
   void configure(const std::string& interface_name, const CanPortOptions& options);
   void bind_to(const std::string& interface_name);
 
-  int descriptor_;
+  UniqueFd descriptor_;
   std::uint32_t overflows_ = 0;
 };
 

@@ -8,6 +8,7 @@ namespace strainwave {
 
 DriveSequence::DriveSequence(const DriveSequenceConfig& config) noexcept
     : enable_delay_ns_(nanoseconds(config.enable_delay_s)),
+      hold_delay_ns_(nanoseconds(config.hold_delay_s)),
       release_delay_ns_(nanoseconds(config.release_delay_s)),
       engage_delay_ns_(nanoseconds(config.engage_delay_s)),
       stop_delay_ns_(nanoseconds(config.stop_delay_s)) {}
@@ -22,6 +23,7 @@ DriveSequence::Outputs DriveSequence::outputs() const noexcept {
     case State::kOff:
       return {false, false};
     case State::kEnabling:
+    case State::kHolding:
       return {true, false};
     case State::kReleasing:
     case State::kOn:
@@ -44,6 +46,12 @@ DriveSequence::Outputs DriveSequence::step(bool enable, std::int64_t now_ns) noe
       if (!enable)
         enter(State::kOff, now_ns);
       else if (elapsed_ns >= enable_delay_ns_)
+        enter(State::kHolding, now_ns);
+      break;
+    case State::kHolding:
+      if (!enable)
+        enter(State::kEngaging, now_ns);
+      else if (elapsed_ns >= hold_delay_ns_)
         enter(State::kReleasing, now_ns);
       break;
     case State::kReleasing:
@@ -83,10 +91,11 @@ DriveState DriveSequence::drive_state() const noexcept {
     case State::kStopping:
       return DriveState::kDisabled;
     case State::kEnabling:
-    case State::kReleasing:
     // Whoever wants it on again waits until the brake is shut.
     case State::kEngaging:
       return DriveState::kEnabling;
+    case State::kHolding:
+    case State::kReleasing:
     case State::kOn:
       return DriveState::kEnabled;
   }

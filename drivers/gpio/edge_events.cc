@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <system_error>
 
@@ -71,6 +72,13 @@ EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const 
     offsets_.push_back(place.offset);
   }
   wanted.config.flags = flags_of(first, kind);
+  if (first.debounce_s > 0.0) {
+    // Of all lines alike; the first one says it.
+    gpio_v2_line_config_attribute& attribute = wanted.config.attrs[wanted.config.num_attrs++];
+    attribute.attr.id = GPIO_V2_LINE_ATTR_ID_DEBOUNCE;
+    attribute.attr.debounce_period_us = static_cast<std::uint32_t>(std::lround(first.debounce_s * 1e6));
+    attribute.mask = (1ULL << lines.size()) - 1;
+  }
   wanted.event_buffer_size = kKernelBuffer;
   std::strncpy(wanted.consumer, consumer.c_str(), sizeof wanted.consumer - 1);
   fd_ = request(chip_path, wanted, where);

@@ -7,11 +7,12 @@
 namespace strainwave {
 
 GpioActuator::GpioActuator(GpioParts parts, const GpioMotionConfig& motion, const TorqueOutputConfig& torque,
-                           const DriveSequenceConfig& sequence)
+                           const DriveSequenceConfig& sequence, const Debounce& debounce)
     : parts_(std::move(parts)),
       motion_(motion),
       torque_(torque),
       sequence_(sequence),
+      debounce_(debounce),
       last_output_(torque_.idle()) {}
 
 GpioActuator::~GpioActuator() {
@@ -22,12 +23,14 @@ ActuatorReading GpioActuator::read(std::int64_t now_ns) noexcept {
   now_ns_ = now_ns;
   ActuatorReading reading;
   lines_failed_ = !parts_.lines->read(active_);
+  if (!lines_failed_) active_ = debounce_.step(active_, now_ns);
   read_position(reading);
   read_inputs(reading);
   reading.torque_applied_Nm = last_output_.torque_applied_Nm;
   // Of several causes the one that people must know first.
   if (const ActuatorFault fault = fault_of_inputs(); fault != ActuatorFault::kNone) reading.fault = fault;
   reading.drive_state = sequence_.drive_state();
+  reading.brake_shut = sequence_.has_torque() && !sequence_.may_move();
   return reading;
 }
 
@@ -76,7 +79,7 @@ void GpioActuator::write(const ActuatorCommand& command) noexcept {
   // Outputs in doubt are no outputs.
   if (lines_failed_ || write_failed_) return put_out(torque_.idle(), sequence_.stop(now_ns_));
   const DriveSequence::Outputs outputs = sequence_.step(command.enable, now_ns_);
-  if (sequence_.on())
+  if (sequence_.has_torque())
     put_out(torque_.step(command.torque_Nm, velocity_rad_s_), outputs);
   else
     put_out(sequence_.holds_torque() ? last_output_ : torque_.idle(), outputs);

@@ -12,6 +12,7 @@
 
 #include "drivers/actuator.h"
 #include "drivers/gpio/count_source.h"
+#include "drivers/gpio/debounce.h"
 #include "drivers/gpio/drive_sequence.h"
 #include "drivers/gpio/gpio_lines.h"
 #include "drivers/gpio/index_capture.h"
@@ -39,7 +40,7 @@ struct GpioParts {
 class GpioActuator final : public Actuator {
  public:
   GpioActuator(GpioParts parts, const GpioMotionConfig& motion, const TorqueOutputConfig& torque,
-               const DriveSequenceConfig& sequence);
+               const DriveSequenceConfig& sequence, const Debounce& debounce = {});
   /// Stops; the parts then leave their outputs safe, the brake shut.
   ~GpioActuator() override;
 
@@ -58,6 +59,7 @@ class GpioActuator final : public Actuator {
   GpioMotionConfig motion_;
   TorqueOutput torque_;
   DriveSequence sequence_;
+  Debounce debounce_;
   IndexCapture index_;
   TorqueOutput::Output last_output_;
   std::uint32_t active_ = 0;  ///< inputs of this period, by role

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 namespace {
@@ -17,6 +19,15 @@ std::unique_ptr<CountSource> make_counts(const GpioJointConfig& config) {
                                             config.where + ".quadrature");
 }
 
+/// Of levels; edges are the kernel's to debounce.
+Debounce debounce_of(const JointLines& lines) {
+  std::array<std::int64_t, kLineRoles> steady_ns{};
+  for (std::size_t i = 0; i < kLineRoles; ++i)
+    if (lines[i] && !is_edge_input(static_cast<LineRole>(i)))
+      steady_ns[i] = nanoseconds(lines[i]->debounce_s);
+  return Debounce(steady_ns);
+}
+
 }  // namespace
 
 std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config) {
@@ -29,7 +40,8 @@ std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config) {
                                                config.where + ".index");
   parts.pwm = std::make_unique<PwmChannel>(config.pwm, TorqueOutput(config.torque).idle_duty(),
                                            config.where + ".pwm");
-  return std::make_unique<GpioActuator>(std::move(parts), config.motion, config.torque, config.sequence);
+  return std::make_unique<GpioActuator>(std::move(parts), config.motion, config.torque, config.sequence,
+                                        debounce_of(config.lines));
 }
 
 }  // namespace strainwave

@@ -50,6 +50,7 @@ struct LineOptions {
   std::string line;  ///< its name, or its number on the chip
   LineBias bias = LineBias::kAsIs;
   bool active_low = false;
+  double debounce_s = 0.0;  ///< of an input: it must be steady for so long; 0: believed at once
 };
 using JointLines = std::array<std::optional<LineOptions>, kLineRoles>;
 

@@ -45,10 +45,12 @@ void PwmChannel::export_channel(const PwmConfig& config, const std::string& wher
   }
 }
 
-// The kernel changes the polarity only of a channel that is off, and refuses a period below the duty.
+// The kernel changes the polarity only of a channel that is off, and refuses a period below the duty. A channel that nobody has
+// used yet has no period, and kernels such as 6.1 refuse to apply any state without one, be it off.
 void PwmChannel::configure(const PwmConfig& config, const std::string& where) {
-  write_attribute(folder_ / "enable", "0", where);
-  write_attribute(folder_ / "duty_cycle", "0", where);
+  if (read_attribute(folder_ / "enable", where) != "0") write_attribute(folder_ / "enable", "0", where);
+  if (read_attribute(folder_ / "duty_cycle", where) != "0")
+    write_attribute(folder_ / "duty_cycle", "0", where);
   write_attribute(folder_ / "period", std::to_string(period_ns_), where);
   if (std::filesystem::exists(folder_ / "polarity"))
     write_attribute(folder_ / "polarity", config.inversed ? "inversed" : "normal", where);

@@ -27,16 +27,12 @@ constexpr std::size_t kMaxBytes = 32;  // a 64-bit number has 20 digits
 
 SysfsFile::SysfsFile(const std::filesystem::path& path, Access access, const std::string& where)
     : fd_(::open(path.c_str(), (access == Access::kRead ? O_RDONLY : O_WRONLY) | O_CLOEXEC)) {
-  if (fd_ < 0) fail(path, where, "opened", errno);
-}
-
-SysfsFile::~SysfsFile() {
-  ::close(fd_);
+  if (!fd_) fail(path, where, "opened", errno);
 }
 
 std::optional<std::uint64_t> SysfsFile::read() noexcept {
   std::array<char, kMaxBytes> text;
-  const ssize_t size = ::pread(fd_, text.data(), text.size(), 0);
+  const ssize_t size = ::pread(fd_.get(), text.data(), text.size(), 0);
   if (size <= 0) return std::nullopt;
   std::uint64_t number = 0;
   const char* end = text.data() + size;
@@ -50,29 +46,25 @@ bool SysfsFile::write(std::uint64_t number) noexcept {
   char* const end = std::to_chars(text.data(), text.data() + text.size() - 1, number).ptr;
   *end = '\n';
   const auto size = static_cast<std::size_t>(end + 1 - text.data());
-  return ::pwrite(fd_, text.data(), size, 0) == static_cast<ssize_t>(size);
+  return ::pwrite(fd_.get(), text.data(), size, 0) == static_cast<ssize_t>(size);
 }
 
 std::string read_attribute(const std::filesystem::path& path, const std::string& where) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) fail(path, where, "read", errno);
+  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!fd) fail(path, where, "read", errno);
   std::array<char, 256> text;
-  const ssize_t size = ::read(fd, text.data(), text.size());
-  const int error = errno;
-  ::close(fd);
-  if (size < 0) fail(path, where, "read", error);
+  const ssize_t size = ::read(fd.get(), text.data(), text.size());
+  if (size < 0) fail(path, where, "read", errno);
   std::string value(text.data(), static_cast<std::size_t>(size));
   while (!value.empty() && (value.back() == '\n' || value.back() == ' ')) value.pop_back();
   return value;
 }
 
 void write_attribute(const std::filesystem::path& path, std::string_view text, const std::string& where) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC);
-  if (fd < 0) fail(path, where, "written", errno);
-  const ssize_t size = ::write(fd, text.data(), text.size());
-  const int error = errno;
-  ::close(fd);
-  if (size != static_cast<ssize_t>(text.size())) fail(path, where, "set", error);
+  const UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC));
+  if (!fd) fail(path, where, "written", errno);
+  const ssize_t size = ::write(fd.get(), text.data(), text.size());
+  if (size != static_cast<ssize_t>(text.size())) fail(path, where, "set", errno);
 }
 
 }  // namespace strainwave

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 class SysfsFile {
@@ -16,16 +18,13 @@ class SysfsFile {
   enum class Access { kRead, kWrite };
   /// Throws InputError naming `where` when the file cannot be opened.
   SysfsFile(const std::filesystem::path& path, Access access, const std::string& where);
-  ~SysfsFile();
-  SysfsFile(const SysfsFile&) = delete;
-  SysfsFile& operator=(const SysfsFile&) = delete;
 
   /// The number that the file holds, or nothing.
   std::optional<std::uint64_t> read() noexcept;
   bool write(std::uint64_t number) noexcept;
 
  private:
-  int fd_;
+  UniqueFd fd_;
 };
 
 /// Whole small attributes; not real-time. Throws InputError naming `where`.

@@ -19,8 +19,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto temperatures = odrive::decode_temperatures(frame))
     STRAINWAVE_FUZZ_CHECK(std::isfinite(temperatures->motor_C.value_or(0.0)) &&
                           std::isfinite(temperatures->inverter_C.value_or(0.0)));
-  if (const auto supply = odrive::decode_supply(frame))
-    STRAINWAVE_FUZZ_CHECK(full && std::isfinite(supply->voltage_V) && std::isfinite(supply->current_A));
   const auto endpoint = static_cast<std::uint16_t>(input.number(2));
   (void)odrive::decode_parameter_bool(frame, endpoint);
   if (const auto value = odrive::decode_parameter_float(frame, endpoint))

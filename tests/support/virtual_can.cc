@@ -35,9 +35,11 @@ class VirtualCan::Port final : public CanPort {
 
   void hear(const CanFrame& frame, bool own) {
     if (!ids_.contains(frame.id) || (own && !options_.own_frames)) return;
+    if (own && bus_.echo_is_lost(frame.id)) return;
     ReceivedFrame received;
     received.frame = frame;
     received.kind = own ? ReceivedFrame::Kind::kOwn : ReceivedFrame::Kind::kData;
+    received.kernel_time_ns = bus_.now_ns_;
     if (own && bus_.echo_delay_ns_ > 0)
       late_.emplace_back(bus_.now_ns_ + bus_.echo_delay_ns_, received);
     else
@@ -97,6 +99,16 @@ void VirtualCan::put_on_bus(const CanFrame& frame, Port* sender, bool from_node)
   can_nodes::Frame theirs(frame.id, frame.payload());
   theirs.remote = frame.remote;
   for (const auto& node : nodes_) node->receive(theirs, now_ns_ / 1000);
+}
+
+bool VirtualCan::echo_is_lost(std::uint32_t id) {
+  if (lost_echo_id_ == id) {
+    lost_echo_id_.reset();
+    return true;
+  }
+  if (lost_echoes_ == 0) return false;
+  --lost_echoes_;
+  return true;
 }
 
 void VirtualCan::forget_port(Port& port) {

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -50,6 +51,10 @@ class VirtualCan {
   void set_queue_room(int frames) { queue_room_ = frames; }
   /// A port's own frames come back so late, as from an adapter on USB.
   void set_echo_delay(std::int64_t delay_ns) { echo_delay_ns_ = delay_ns; }
+  /// The next so many own frames do not come back, though they were sent.
+  void lose_echoes(int count) { lost_echoes_ = count; }
+  /// The next own frame with this identifier does not come back.
+  void lose_echo_of(std::uint32_t id) { lost_echo_id_ = id; }
   /// The kernel lost frames of every port.
   void lose_frames(std::uint32_t count);
 
@@ -86,6 +91,10 @@ class VirtualCan {
   bool hold_ = false;
   int queue_room_ = 10;
   std::int64_t echo_delay_ns_ = 0;
+  int lost_echoes_ = 0;
+  std::optional<std::uint32_t> lost_echo_id_;
+
+  bool echo_is_lost(std::uint32_t id);
 };
 
 }  // namespace strainwave::testing

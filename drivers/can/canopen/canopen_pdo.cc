@@ -57,7 +57,7 @@ std::vector<SdoWrite> pdo_configuration(const Pdo& pdo, std::uint8_t node, std::
   const auto count = static_cast<std::uint8_t>(pdo.objects.size());
   std::vector<SdoWrite> writes;
   writes.push_back(
-      {pdo.communication(kIdentifierSub), identifier | kPdoInvalid, 4, kPdoInvalid, name + " off"});
+      {pdo.communication(kIdentifierSub), old_identifier | kPdoInvalid, 4, kPdoInvalid, name + " off"});
   writes.push_back({pdo.mapping(0), 0, 1, ~0U, name + " emptied"});
   writes.push_back({pdo.communication(kTypeSub), pdo.transmission_type, 1, ~0U, name + " transmission type"});
   for (std::uint8_t i = 0; i < count; ++i)

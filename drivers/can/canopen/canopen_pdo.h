@@ -47,16 +47,10 @@ struct SdoWrite {
 };
 
 /// What to write, in the standard's order: invalid, no objects, type, objects, their count, valid.
-/// `old_identifier` is what the drive holds now; its bit 30 is kept.
+/// `old_identifier` is what the drive holds now; its bit 30 is kept. An identifier may not change while its PDO
+/// exists, so the first write changes bit 31 alone and the last one brings the new identifier.
 std::vector<SdoWrite> pdo_configuration(const Pdo& pdo, std::uint8_t node, std::uint32_t old_identifier);
 /// Switches off a PDO that nobody wants.
 SdoWrite pdo_switched_off(PdoDirection direction, int number, std::uint32_t old_identifier);
-
-/// The little-endian field at `offset`, with its sign.
-constexpr std::int64_t signed_field(const CanFrame& frame, std::size_t offset, std::size_t bytes) noexcept {
-  const std::uint64_t value = little_endian(&frame.bytes[offset], bytes);
-  const unsigned unused = 64U - 8U * static_cast<unsigned>(bytes);
-  return static_cast<std::int64_t>(value << unused) >> unused;
-}
 
 }  // namespace strainwave::canopen

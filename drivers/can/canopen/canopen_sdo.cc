@@ -46,6 +46,19 @@ std::string to_text(Entry entry) {
   return text.data();
 }
 
+CanFrame expedited_download(std::uint8_t node, Entry entry, std::uint32_t value, std::size_t bytes) noexcept {
+  assert(bytes >= 1 && bytes <= kExpeditedBytes);
+  CanFrame frame;
+  frame.id = cob_id(CobId::kSdoRequest, node);
+  frame.size = kMaxCanBytes;
+  frame.bytes[0] = static_cast<std::uint8_t>(command(kClientDownload) | (kExpeditedBytes - bytes) << 2U |
+                                             kExpedited | kSizeTold);
+  put_little_endian(&frame.bytes[1], 2, entry.index);
+  frame.bytes[3] = entry.sub_index;
+  put_little_endian(&frame.bytes[4], bytes, value);
+  return frame;
+}
+
 SdoTransfer::SdoTransfer(std::uint8_t node, Entry entry, Step step) : entry_(entry), step_(step) {
   request_.id = cob_id(CobId::kSdoRequest, node);
   request_.size = kMaxCanBytes;
@@ -69,10 +82,8 @@ SdoTransfer SdoTransfer::download(std::uint8_t node, Entry entry, std::span<cons
   SdoTransfer transfer(node, entry, Step::kDownloadInitiate);
   transfer.value_.assign(value.begin(), value.end());
   if (value.size() <= kExpeditedBytes) {
-    const auto unused = static_cast<std::uint8_t>((kExpeditedBytes - value.size()) << 2U);
-    transfer.start_request(
-        static_cast<std::uint8_t>(command(kClientDownload) | unused | kExpedited | kSizeTold));
-    std::copy(value.begin(), value.end(), transfer.request_.bytes.begin() + 4);
+    const auto number = static_cast<std::uint32_t>(little_endian(value.data(), value.size()));
+    transfer.request_ = expedited_download(node, entry, number, value.size());
   } else {
     transfer.start_request(static_cast<std::uint8_t>(command(kClientDownload) | kSizeTold));
     put_little_endian(&transfer.request_.bytes[4], 4, value.size());

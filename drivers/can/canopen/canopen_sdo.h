@@ -3,6 +3,7 @@
 // only. Source: CiA 301 v4.2.0, section 7.2.4.3.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,7 +18,7 @@ namespace strainwave::canopen {
 struct Entry {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  bool operator==(const Entry&) const = default;
+  auto operator<=>(const Entry&) const = default;
 };
 /// "6076h:00"
 std::string to_text(Entry entry);
@@ -30,6 +31,7 @@ enum class SdoAbort : std::uint32_t {
   kToggle = 0x05030000,
   kTimeout = 0x05040000,
   kBadCommand = 0x05040001,
+  kReadOnly = 0x06010002,
   kOutOfMemory = 0x05040005,
   kNoObject = 0x06020000,
   kLengthMismatch = 0x06070010,
@@ -38,6 +40,9 @@ enum class SdoAbort : std::uint32_t {
 };
 /// The abort code in words; every code of the standard.
 std::string_view sdo_abort_text(std::uint32_t code) noexcept;
+
+/// The request that writes the lowest `bytes` (1 to 4) of `value`, all in one frame. Real-time safe.
+CanFrame expedited_download(std::uint8_t node, Entry entry, std::uint32_t value, std::size_t bytes) noexcept;
 
 class SdoTransfer {
  public:

@@ -23,6 +23,14 @@ bool SdoError::no_such_entry() const noexcept {
          code_ == static_cast<std::uint32_t>(SdoAbort::kNoSubIndex);
 }
 
+bool SdoError::read_only() const noexcept {
+  return code_ == static_cast<std::uint32_t>(SdoAbort::kReadOnly);
+}
+
+bool SdoError::no_answer() const noexcept {
+  return code_ == static_cast<std::uint32_t>(SdoAbort::kTimeout);
+}
+
 SdoClient::SdoClient(CanPort& port, std::uint8_t node, std::string who, std::int64_t timeout_ns)
     : port_(port), node_(node), who_(std::move(who)), timeout_ns_(timeout_ns) {}
 
@@ -150,8 +158,15 @@ void SdoClient::download(Entry entry, std::uint64_t value, std::size_t bytes) {
 void SdoClient::write_verified(const SdoWrite& write) {
   const std::uint64_t mask =
       write.bytes >= 4 ? write.verified : write.verified & ((1U << 8U * write.bytes) - 1U);
-  download(write.entry, write.value, write.bytes);
-  const std::uint64_t kept = upload_number(write.entry, write.bytes);
+  // What is refused may be what the value means (an object that cannot be mapped), not the entry that it is written to.
+  const std::uint64_t kept = [&] {
+    try {
+      download(write.entry, write.value, write.bytes);
+      return upload_number(write.entry, write.bytes);
+    } catch (const SdoError& error) {
+      throw SdoError(error.what() + (", for " + write.purpose), error.code());
+    }
+  }();
   if ((kept & mask) == (write.value & mask)) return;
   throw InputError(who_ + ": node " + std::to_string(node_) + ": " + write.purpose + ": " +
                    to_text(write.entry) + " was set to " + hexadecimal(write.value, 2 * write.bytes) +
@@ -161,6 +176,21 @@ void SdoClient::write_verified(const SdoWrite& write) {
 
 void SdoClient::send_nmt(NmtCommand command) {
   send(nmt_frame(command, node_));
+}
+
+bool SdoClient::wait_for_state(NmtState state, std::int64_t timeout_ns) {
+  const std::int64_t deadline_ns = port_.now_ns() + timeout_ns;
+  while (const auto frame = next_frame(cob_id(CobId::kHeartbeat, node_), deadline_ns))
+    if (decode_heartbeat(*frame) == state) return true;
+  return false;
+}
+
+bool SdoClient::two_answer(Entry entry, std::int64_t wait_ns) {
+  (void)upload(entry);
+  const std::int64_t deadline_ns = port_.now_ns() + wait_ns;
+  while (const auto frame = next_frame(cob_id(CobId::kSdoAnswer, node_), deadline_ns))
+    if (little_endian(&frame->bytes[1], 2) == entry.index && frame->bytes[3] == entry.sub_index) return true;
+  return false;
 }
 
 bool SdoClient::reset_communication(std::int64_t timeout_ns) {

@@ -23,6 +23,10 @@ class SdoError : public InputError {
   std::uint32_t code() const noexcept { return code_; }
   /// Whether the drive said that it has no such entry.
   bool no_such_entry() const noexcept;
+  /// Whether the drive said that the entry may not be written.
+  bool read_only() const noexcept;
+  /// Whether the drive said nothing at all.
+  bool no_answer() const noexcept;
 
  private:
   std::uint32_t code_;
@@ -44,11 +48,16 @@ class SdoClient {
 
   void download(Entry entry, std::uint64_t value, std::size_t bytes);
   /// Writes and reads back; throws InputError when the drive kept another value.
+  /// What it throws names the purpose of the write as well.
   void write_verified(const SdoWrite& write);
 
   void send_nmt(NmtCommand command);
   /// Resets the node's communication and waits for its boot-up message; false when none came.
   bool reset_communication(std::int64_t timeout_ns);
+  /// Waits for a heartbeat that shows `state`; false when none came.
+  bool wait_for_state(NmtState state, std::int64_t timeout_ns);
+  /// Reads `entry` and listens for `wait_ns` whether somebody else answers as well.
+  bool two_answer(Entry entry, std::int64_t wait_ns);
 
   CanPort& port() noexcept { return port_; }
   std::uint8_t node() const noexcept { return node_; }

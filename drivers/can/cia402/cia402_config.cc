@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/input_error.h"
+
 namespace strainwave::cia402 {
 
 namespace {
@@ -19,6 +21,7 @@ constexpr MappedObject kPosition{{0x6064, 0}, 4};
 constexpr MappedObject kVelocity{{0x606C, 0}, 4};
 constexpr MappedObject kTargetTorque{{0x6071, 0}, 2};
 constexpr MappedObject kTorque{{0x6077, 0}, 2};
+constexpr MappedObject kDigitalInputs{{0x60FD, 0}, 4};
 
 constexpr std::uint8_t kEverySync = 1;
 constexpr int kMaxSyncDivider = 240;
@@ -80,8 +83,14 @@ PdoLayout pdo_layout(const DriveConfig& config) {
   Pdo& status = config.uses_drive_velocity() ? layout.slow : layout.fast;
   layout.statusword = map(status, kStatusword);
   layout.torque = map(status, kTorque);
-  if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo)
+  if (config.inputs.any()) layout.inputs = map(layout.slow, kDigitalInputs);
+  if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo) {
     layout.temperature = map(layout.slow, {config.temperature->entry, bytes_of(config.temperature->type)});
+    if (layout.temperature.pdo == 0)
+      throw InputError(
+          config.name +
+          ": TPDO2 has no room for the temperature beside the inputs: read it with way = \"sdo\"");
+  }
   layout.mode = map(layout.slow, kModeDisplay);
   return layout;
 }

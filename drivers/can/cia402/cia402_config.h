@@ -60,16 +60,27 @@ struct Identity {
   std::optional<std::uint32_t> serial_number;
 };
 
+/// The inputs of 60FDh that are wired. Bits 0 to 2 by the profile: negative limit, positive limit, home.
+struct DriveInputs {
+  bool negative_limit = false;
+  bool positive_limit = false;
+  bool home = false;
+  bool any() const noexcept { return negative_limit || positive_limit || home; }
+};
+
 struct DriveConfig {
   std::string name;          ///< of the joint
   std::uint8_t node_id = 1;  ///< 1..127
   std::uint8_t our_node_id = 127;
   Identity identity;
   UnitConfig units;
-  double torque_limit_Nm = 0.0;  ///< at the joint; written to 6072h
-  double rated_current_A = 0.0;  ///< of a drive that has no 6075h; 0: not given
+  bool absolute_encoder = false;  ///< the drive knows its position when it has restarted
+  DriveInputs inputs;             ///< what is wired to the drive; 60FDh
+  double torque_limit_Nm = 0.0;   ///< at the joint; written to 6072h, or 60E0h and 60E1h
+  double rated_current_A = 0.0;   ///< of a drive that has no 6075h; 0: not given
   double period_s = 0.001;
-  bool produces_sync = false;       ///< this drive is the bus's SYNC producer
+  int delay_periods = 1;       ///< that the control law reckons with; a position that stays older is a fault
+  bool produces_sync = false;  ///< this drive is the bus's SYNC producer
   bool daemon_sends_sync = true;    ///< we are
   double drive_heartbeat_s = 0.05;  ///< 1017h
   double drive_heartbeat_timeout_s = 0.15;
@@ -82,6 +93,8 @@ struct DriveConfig {
   double step_timeout_s = 0.5;                    ///< of each step of enabling
   double boot_timeout_s = 5.0;                    ///< from the reset of its communication
   double status_period_s = 0.01;                  ///< of the slow TPDO
+  bool following_bit =
+      true;  ///< in CST, statusword bit 12 shows whether the drive follows the ordered torque
   std::optional<TemperatureObject> temperature;
 
   bool uses_drive_velocity() const noexcept { return units.velocity_rad_s_per_unit != 0.0; }
@@ -97,11 +110,11 @@ struct PdoLayout {
   canopen::Pdo command;  ///< RPDO1: controlword, target torque
   canopen::Pdo fast;     ///< TPDO1, with every SYNC
   canopen::Pdo slow;     ///< TPDO2, with every nth; without objects when it is not needed
-  Field position, velocity, statusword, torque, mode, temperature;
+  Field position, velocity, statusword, torque, mode, temperature, inputs;
 };
 
 /// TPDO1 has position, statusword and torque, or position and velocity when the drive's velocity is used;
-/// TPDO2 the rest.
+/// TPDO2 the rest. Throws InputError when there is no room for what the configuration asks.
 PdoLayout pdo_layout(const DriveConfig& config);
 
 /// What set-up found.

@@ -12,7 +12,15 @@ using canopen::NmtState;
 
 /// Statusword bit 4: the supply of the power stage is there.
 constexpr std::uint16_t kVoltageEnabled = 1U << 4U;
+/// Bit 12, in CST: the drive follows the torque that it is ordered.
+constexpr std::uint16_t kFollowing = 1U << 12U;
+/// Once it has followed; a statusword may be of the period before the order.
+constexpr std::int64_t kNotFollowing_ns = 20'000'000;
 constexpr std::uint16_t kVoltageErrors = 0x3000;
+// 60FDh
+constexpr std::uint32_t kNegativeLimitBit = 1U << 0U;
+constexpr std::uint32_t kPositiveLimitBit = 1U << 1U;
+constexpr std::uint32_t kHomeBit = 1U << 2U;
 constexpr std::uint16_t kErrorClass = 0xF000;
 
 /// The fault that an emergency means: what begins with 3 is about the supply.
@@ -52,14 +60,20 @@ void Node::forget_drive() noexcept {
   position_scale_ = PositionScale(config_.units);
   restarted_ = {};
   emergency_ = initial_error_;
-  heartbeat_ns_ = now_ns_;
+  watch_.hear(now_ns_);
+  last_resort_.end();
+  age_.restart(sync_to_position_ns_);
+  late_samples_ = 0;
   missed_ = 0;
   has_status_ = has_pdo_temperature_ = wrong_mode_ = stop_ordered_ = needs_set_up_ = false;
 }
 
-void Node::receive(const CanFrame& frame) noexcept {
+void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept {
   if (!setup_.ready()) return;
-  if (frame.id == layout_.fast.cob_id(config_.node_id)) return receive_pdo(layout_.fast, frame);
+  if (frame.id == layout_.fast.cob_id(config_.node_id)) {
+    judge_age(kernel_time_ns);
+    return receive_pdo(layout_.fast, frame);
+  }
   if (frame.id == layout_.slow.cob_id(config_.node_id)) return receive_pdo(layout_.slow, frame);
   if (frame.id == cob_id(CobId::kEmergency, config_.node_id)) {
     if (const auto emergency = canopen::decode_emergency(frame)) return receive_emergency(*emergency);
@@ -67,6 +81,14 @@ void Node::receive(const CanFrame& frame) noexcept {
     return receive_heartbeat(*state);
   }
   ++malformed_;
+}
+
+// A position that is late now and then is a matter of the bus; one that stays late misleads the control law, which takes it
+// for newer than it is.
+void Node::judge_age(std::int64_t kernel_time_ns) noexcept {
+  age_.sample(kernel_time_ns);
+  const bool late = age_.delay_ns() > config_.delay_periods * period_ns_;
+  late_samples_ = late ? std::min(late_samples_ + 1, config_.zero_torque_after + 1) : 0;
 }
 
 void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept {
@@ -78,12 +100,21 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
   if (has(layout_.statusword)) {
     power_.see(static_cast<std::uint16_t>(raw_field(frame, layout_.statusword)), now_ns_);
     has_status_ = true;
+    if (power_.state() != PowerState::kOperationEnabled) followed_ = false;
+    if (following() || power_.state() != PowerState::kOperationEnabled) followed_ns_ = now_ns_;
+    if (following()) followed_ = true;
   }
   if (has(layout_.torque))
     torque_applied_Nm_ = torque_scale_.torque_Nm(static_cast<std::int16_t>(raw_field(frame, layout_.torque)));
   if (has(layout_.velocity))
     velocity_rad_s_ =
         position_scale_.velocity_rad_s(static_cast<std::int32_t>(raw_field(frame, layout_.velocity)));
+  if (has(layout_.inputs)) {
+    const std::uint64_t bits = raw_field(frame, layout_.inputs);
+    inputs_.negative_limit = config_.inputs.negative_limit && (bits & kNegativeLimitBit) != 0;
+    inputs_.positive_limit = config_.inputs.positive_limit && (bits & kPositiveLimitBit) != 0;
+    inputs_.home = config_.inputs.home && (bits & kHomeBit) != 0;
+  }
   if (has(layout_.mode)) {
     shown_mode_ = static_cast<std::uint8_t>(raw_field(frame, layout_.mode));
     wrong_mode_ = shown_mode_ != static_cast<std::uint8_t>(mode_);
@@ -102,27 +133,40 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
 
 void Node::receive_emergency(const canopen::Emergency& emergency) noexcept {
   emergency_ = emergency.code == 0 ? 0 : canopen::drive_error_of(emergency);
-  if (emergency_ != 0 && command_.enable) latch({fault_of_emergency(emergency_), emergency_});
+  if (emergency_ != 0 && command_.enable) watch_.latch({fault_of_emergency(emergency_), emergency_});
 }
 
 void Node::receive_heartbeat(NmtState state) noexcept {
-  heartbeat_ns_ = now_ns_;
+  watch_.hear(now_ns_);
+  const bool boot_up = state == NmtState::kBootUp;
+  if (boot_up) {
+    last_resort_.hear_boot_up();
+    power_.restart();
+  } else {
+    last_resort_.hear(now_ns_);
+  }
   if (state == NmtState::kOperational || restarted_.fault != ActuatorFault::kNone) return;
-  const CanDetail detail = state == NmtState::kBootUp ? CanDetail::kBootUp : CanDetail::kNetworkState;
-  restarted_ = {ActuatorFault::kDriveRestarted, drive_error_of(detail, static_cast<std::uint32_t>(state))};
+  restarted_ =
+      watch_.trouble(ActuatorFault::kDriveRestarted, boot_up ? CanDetail::kBootUp : CanDetail::kNetworkState,
+                     static_cast<std::uint32_t>(state));
 }
 
 ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   supervise();
-  const NodeFault present = present_trouble();
-  const NodeFault& shown = latched_.fault != ActuatorFault::kNone ? latched_ : present;
+  const NodeFault shown = watch_.shown(present_trouble());
   ActuatorReading reading;
+  // An incremental encoder counts from wherever the drive was switched on.
+  reading.position_lost = !config_.absolute_encoder &&
+                          (!setup_.ready() || needs_set_up_ || restarted_.fault != ActuatorFault::kNone);
   reading.joint_position_rad = position_rad_;
   reading.has_position = fresh_;
+  // Sampled with a SYNC at the end of a period, read at the next one's beginning.
+  reading.position_age_ns = (1 + age_.lag_periods()) * period_ns_;
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_velocity = fresh_ && layout_.velocity.pdo != 0;
   reading.torque_applied_Nm = torque_applied_Nm_;
   fill_temperature(reading);
+  reading.inputs = inputs_;
   reading.drive_state = drive_state();
   reading.fault = shown.fault;
   reading.drive_error = shown.fault != ActuatorFault::kNone ? shown.drive_error : emergency_;
@@ -132,7 +176,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
 // Whoever was out of sight may have restarted, or left its network state, as the standard has it when we were
 // out of its.
 void Node::note_bus(const NodeFault& trouble) noexcept {
-  bus_trouble_ = trouble;
+  watch_.note_bus(trouble);
   if (trouble.fault == ActuatorFault::kLinkLost || detail_of(trouble.drive_error) == CanDetail::kBusOff)
     needs_set_up_ = true;
 }
@@ -142,52 +186,69 @@ void Node::supervise() noexcept {
   const NodeFault present = present_trouble();
   if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted)
     needs_set_up_ = true;
+  if (out_of_reach() && (command_.enable || power_.has_torque())) {
+    last_resort_.begin(now_ns_);
+    needs_set_up_ = true;
+  }
   if (!command_.enable) return;
-  latch(present);
-  latch(power_trouble());
+  watch_.latch(present);
+  watch_.latch(power_trouble());
+}
+
+// What tells of a lost network state or of missing positions is believed only while no position comes: one that comes with our
+// SYNC shows that process data arrive.
+bool Node::out_of_reach() const noexcept {
+  return setup_.ready() && !fresh_ &&
+         (missed_ > config_.quick_stop_after || restarted_.fault != ActuatorFault::kNone);
 }
 
 // What holds as long as its cause lasts, in use or not.
 NodeFault Node::present_trouble() const noexcept {
-  if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
-  if (setup_.failed()) return {ActuatorFault::kDriveRestarted, drive_error_of(CanDetail::kSetupFailed)};
-  if (!setup_.ready()) return {};
-  if (restarted_.fault != ActuatorFault::kNone) return restarted_;
-  if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)
-    return {ActuatorFault::kLinkLost, drive_error_of(CanDetail::kHeartbeatMissing)};
-  if (wrong_mode_) return {ActuatorFault::kWriteRefused, drive_error_of(CanDetail::kWrongMode, shown_mode_)};
+  if (watch_.bus_is_well() && setup_.ready() && restarted_.fault != ActuatorFault::kNone) return restarted_;
+  const NodeFault link = watch_.link_trouble(setup_, now_ns_);
+  if (link.fault != ActuatorFault::kNone || !setup_.ready()) return link;
+  if (wrong_mode_) return watch_.trouble(ActuatorFault::kWriteRefused, CanDetail::kWrongMode, shown_mode_);
   return {};
+}
+
+bool Node::following() const noexcept {
+  const bool shown = mode_ == OperationMode::kCyclicTorque && config_.following_bit;
+  return power_.state() == PowerState::kOperationEnabled &&
+         (!shown || (power_.statusword() & kFollowing) != 0);
 }
 
 // What is a fault only of a drive that is in use.
 NodeFault Node::power_trouble() const noexcept {
+  if (late_samples_ > config_.zero_torque_after)
+    return watch_.trouble(
+        ActuatorFault::kReadFailed, CanDetail::kPositionLate,
+        static_cast<std::uint32_t>(std::min<std::int64_t>(age_.delay_ns() / 1000, kMaxCanDetailValue)));
   if (missed_ > config_.quick_stop_after)
-    return {ActuatorFault::kReadFailed, drive_error_of(CanDetail::kPositionMissing)};
+    return watch_.trouble(ActuatorFault::kReadFailed, CanDetail::kPositionMissing);
   if (!has_status_ || power_.resetting()) return {};
   const std::uint16_t statusword = power_.statusword();
   if (power_.in_fault()) {
     if (emergency_ != 0) return {fault_of_emergency(emergency_), emergency_};
-    return {ActuatorFault::kDriveFault, drive_error_of(CanDetail::kFaultState, statusword)};
+    return watch_.trouble(ActuatorFault::kDriveFault, CanDetail::kFaultState, statusword);
   }
   if (power_.left_operation()) {
     const bool powered = (statusword & kVoltageEnabled) != 0;
-    return {powered ? ActuatorFault::kDriveFault : ActuatorFault::kPowerLost,
-            drive_error_of(CanDetail::kLeftOperation, statusword)};
+    return watch_.trouble(powered ? ActuatorFault::kDriveFault : ActuatorFault::kPowerLost,
+                          CanDetail::kLeftOperation, statusword);
   }
+  const std::int64_t allowed_ns = followed_ ? kNotFollowing_ns : step_timeout_ns_;
+  if (power_.state() == PowerState::kOperationEnabled && now_ns_ - followed_ns_ > allowed_ns)
+    return watch_.trouble(ActuatorFault::kDriveFault, CanDetail::kNotFollowing, statusword);
   if (power_.stuck(now_ns_))
-    return {ActuatorFault::kDriveFault, drive_error_of(CanDetail::kEnableStep, statusword)};
+    return watch_.trouble(ActuatorFault::kDriveFault, CanDetail::kEnableStep, statusword);
   return {};
 }
 
-void Node::latch(const NodeFault& fault) noexcept {
-  if (latched_.fault == ActuatorFault::kNone) latched_ = fault;
-}
-
 DriveState Node::drive_state() const noexcept {
-  if (latched_.fault != ActuatorFault::kNone && power_.has_torque()) return DriveState::kFault;
+  if (watch_.latched() && power_.has_torque()) return DriveState::kFault;
   if (has_status_ && power_.in_fault()) return command_.enable ? DriveState::kFault : DriveState::kDisabled;
   if (command_.enable)
-    return fresh_ && power_.state() == PowerState::kOperationEnabled && !stop_ordered_
+    return fresh_ && power_.state() == PowerState::kOperationEnabled && followed_ && !stop_ordered_
                ? DriveState::kEnabled
                : DriveState::kEnabling;
   return power_.has_torque() ? DriveState::kEnabled : DriveState::kDisabled;
@@ -210,11 +271,11 @@ void Node::fill_temperature(ActuatorReading& reading) const noexcept {
 void Node::write(const ActuatorCommand& command) noexcept {
   command_ = command;
   if (command_.enable && !std::isfinite(command_.torque_Nm))
-    latch({ActuatorFault::kWriteRefused, drive_error_of(CanDetail::kNone)});
+    watch_.latch(watch_.trouble(ActuatorFault::kWriteRefused, CanDetail::kNone));
 }
 
 Goal Node::goal() const noexcept {
-  if (latched_.fault != ActuatorFault::kNone || stop_ordered_) return Goal::kQuickStop;
+  if (watch_.latched() || stop_ordered_) return Goal::kQuickStop;
   return command_.enable ? Goal::kEnabled : Goal::kDisabled;
 }
 
@@ -222,6 +283,13 @@ void Node::transmit(CanTransmitter& bus) noexcept {
   // A drive that said it restarted gets the order to stop, too: if it did not restart after all it still has torque, and if
   // it did it takes no PDO.
   if (!setup_.ready()) return;
+  transmit_order(bus);
+  if (last_resort_.due(now_ns_) && bus.send(last_resort_.frame())) last_resort_.sent(now_ns_);
+  // A stop is done when the drive says that it has no torque.
+  if (fresh_ && has_status_ && !power_.has_torque()) stop_ordered_ = false;
+}
+
+void Node::transmit_order(CanTransmitter& bus) noexcept {
   const Goal wanted = goal();
   const std::uint16_t controlword = power_.controlword(wanted, now_ns_);
   const bool driven = wanted == Goal::kEnabled && power_.state() == PowerState::kOperationEnabled &&
@@ -233,13 +301,11 @@ void Node::transmit(CanTransmitter& bus) noexcept {
   put_little_endian(&frame.bytes[0], 2, controlword);
   put_little_endian(&frame.bytes[2], 2, static_cast<std::uint16_t>(torque));
   (void)bus.send(frame);
-  // A stop is done when the drive says that it has no torque.
-  if (fresh_ && has_status_ && !power_.has_torque()) stop_ordered_ = false;
 }
 
 void Node::clear_fault() noexcept {
-  latched_ = {};
-  if (bus_trouble_.fault != ActuatorFault::kNone) return;
+  watch_.clear();
+  if (!watch_.bus_is_well()) return;
   if (needs_set_up_ || setup_.failed()) {
     setup_.request();
     has_status_ = false;

@@ -4,7 +4,8 @@
 //
 // Faults are latched while the drive is in use. While it is not, they are told as long as their cause lasts,
 // so that enabling shows them. A drive that has restarted or was out of sight is set up again by the
-// background thread, after clear_fault() only.
+// background thread, after clear_fault() only; unless its encoder is absolute, its position is then not known
+// any more. A drive with torque that process data do not reach is disabled by other ways: last_resort.h.
 #pragma once
 
 #include <string>
@@ -15,7 +16,10 @@
 #include "drivers/can/can_node.h"
 #include "drivers/can/canopen/canopen.h"
 #include "drivers/can/cia402/cia402_config.h"
+#include "drivers/can/cia402/last_resort.h"
 #include "drivers/can/cia402/power_sequence.h"
+#include "drivers/can/node_watch.h"
+#include "drivers/can/sample_age.h"
 #include "drivers/can/set_up_state.h"
 #include "drivers/temperature_sample.h"
 
@@ -34,32 +38,37 @@ class Node final : public CanNode {
   std::vector<std::uint32_t> setup_ids() const override;
   std::vector<FrameTraffic> traffic() const override;
   std::vector<std::string> set_up(CanPort& port) override;
-  void verify(CanPort& port) override;
+  std::vector<std::string> verify(CanPort& port) override;
   std::vector<std::string> serve(CanPort& port) override;
   void shut_down(CanPort& port) noexcept override;
 
   void begin_cycle(std::int64_t now_ns) noexcept override;
-  void receive(const CanFrame& frame) noexcept override;
+  void note_sync(std::int64_t kernel_time_ns) noexcept override { age_.sync(kernel_time_ns); }
+  void receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept override;
   void note_bus(const NodeFault& trouble) noexcept override;
   void transmit(CanTransmitter& bus) noexcept override;
+  bool withdraws_heartbeat() const noexcept override { return last_resort_.withdraws_heartbeat(); }
 
   ActuatorReading read(std::int64_t now_ns) noexcept override;
   void write(const ActuatorCommand& command) noexcept override;
   void stop() noexcept override { stop_ordered_ = true; }
   void clear_fault() noexcept override;
 
-  /// Counts since the start, for tests.
+  /// Count since the start, for tests.
   std::int64_t malformed_frames() const noexcept { return malformed_; }
 
  private:
   void receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept;
+  void judge_age(std::int64_t kernel_time_ns) noexcept;
   void receive_emergency(const canopen::Emergency& emergency) noexcept;
   void receive_heartbeat(canopen::NmtState state) noexcept;
   void forget_drive() noexcept;
   void supervise() noexcept;
   NodeFault present_trouble() const noexcept;
   NodeFault power_trouble() const noexcept;
-  void latch(const NodeFault& fault) noexcept;
+  bool out_of_reach() const noexcept;
+  bool following() const noexcept;
+  void transmit_order(CanTransmitter& bus) noexcept;
   Goal goal() const noexcept;
   DriveState drive_state() const noexcept;
   void fill_temperature(ActuatorReading& reading) const noexcept;
@@ -67,15 +76,18 @@ class Node final : public CanNode {
 
   DriveConfig config_;
   PdoLayout layout_;
-  std::int64_t heartbeat_timeout_ns_;
+  std::int64_t step_timeout_ns_;
+  std::int64_t period_ns_;
 
   // Written by set-up, read by the loop while setup_ is ready.
   OperationMode mode_ = OperationMode::kCyclicTorque;
   TorqueScale torque_scale_;
   std::uint16_t initial_error_ = 0;
+  std::int64_t sync_to_position_ns_ = 0;
   SetUpState setup_;
   LatestValue<TemperatureSample> sdo_temperature_;  ///< from the background thread
-  // Background thread alone.
+  // Start-up and background thread alone.
+  bool identified_ = false;  ///< it is the drive that the configuration means, and may be written to
   std::int64_t temperature_due_ns_ = 0;
   bool temperature_failed_ = false;
 
@@ -86,15 +98,19 @@ class Node final : public CanNode {
   double position_rad_ = 0.0;
   double velocity_rad_s_ = 0.0;
   double torque_applied_Nm_ = 0.0;
+  JointInputs inputs_;
   double pdo_temperature_C_ = 0.0;
   std::int64_t pdo_temperature_ns_ = 0;
-  std::int64_t heartbeat_ns_ = 0;
   std::int64_t malformed_ = 0;
+  std::int64_t followed_ns_ = 0;  ///< when the drive last followed, or had no torque to follow
+  bool followed_ = false;         ///< since operation was enabled
   int missed_ = 0;
   std::uint32_t emergency_ = 0;  ///< the last one, until the drive takes it back
   NodeFault restarted_;          ///< boot-up or another network state; ends by a new set-up
-  NodeFault bus_trouble_;
-  NodeFault latched_;
+  NodeWatch watch_;
+  SampleAge age_;
+  int late_samples_ = 0;  ///< in a row, later than delay_periods allows
+  LastResort last_resort_;
   ActuatorCommand command_;
   bool fresh_ = false;
   bool has_status_ = false;

@@ -1,6 +1,8 @@
 // The part of cia402_node.h that runs outside the loop.
 #include "drivers/can/cia402/cia402_node.h"
 
+#include <sstream>
+
 #include "base/durations.h"
 #include "base/input_error.h"
 #include "drivers/can/canopen/sdo_client.h"
@@ -11,8 +13,6 @@ namespace strainwave::cia402 {
 namespace {
 
 using canopen::CobId;
-
-constexpr std::int64_t kShutDownTimeout_ns = 100'000'000;
 
 PowerTimes times_of(const DriveConfig& config) noexcept {
   PowerTimes times;
@@ -26,9 +26,13 @@ PowerTimes times_of(const DriveConfig& config) noexcept {
 Node::Node(const DriveConfig& config)
     : config_(config),
       layout_(pdo_layout(config)),
-      heartbeat_timeout_ns_(nanoseconds(config.drive_heartbeat_timeout_s)),
+      step_timeout_ns_(nanoseconds(config.step_timeout_s)),
+      period_ns_(nanoseconds(config.period_s)),
       power_(times_of(config)),
-      position_scale_(config.units) {}
+      position_scale_(config.units),
+      watch_(nanoseconds(config.drive_heartbeat_timeout_s)),
+      age_(period_ns_),
+      last_resort_(config.node_id) {}
 
 std::vector<std::uint32_t> Node::receive_ids() const {
   std::vector<std::uint32_t> ids{layout_.fast.cob_id(config_.node_id),
@@ -63,7 +67,10 @@ std::vector<FrameTraffic> Node::traffic() const {
 
 std::vector<std::string> Node::set_up(CanPort& port) {
   canopen::SdoClient client(port, config_.node_id, config_.name);
-  const Found found = set_up_drive(client, config_, layout_);
+  identified_ = false;
+  const Description description = identify_drive(client, config_);
+  identified_ = true;
+  const Found found = set_up_drive(client, config_, layout_, description);
   mode_ = found.mode;
   torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
   initial_error_ = found.error_code;
@@ -71,8 +78,14 @@ std::vector<std::string> Node::set_up(CanPort& port) {
   return found.report;
 }
 
-void Node::verify(CanPort& port) {
+std::vector<std::string> Node::verify(CanPort& port) {
   verify_drive(port, config_, layout_);
+  if (!config_.daemon_sends_sync) return {};
+  sync_to_position_ns_ = measure_position_delay_ns(port, config_, layout_);
+  std::ostringstream text;
+  text << config_.name << ": a position comes " << static_cast<double>(sync_to_position_ns_) * 1e-6
+       << " ms after its SYNC";
+  return {text.str()};
 }
 
 std::vector<std::string> Node::serve(CanPort& port) {
@@ -110,8 +123,10 @@ void Node::read_temperature(CanPort& port, std::vector<std::string>& messages) {
 }
 
 void Node::shut_down(CanPort& port) noexcept {
+  // A drive that is none of ours stays as it is.
+  if (!identified_) return;
   try {
-    canopen::SdoClient client(port, config_.node_id, config_.name, kShutDownTimeout_ns);
+    canopen::SdoClient client(port, config_.node_id, config_.name);
     release_drive(client);
   } catch (const std::exception&) {
     // A drive that cannot be reached is disabled by its own supervision of our heartbeat.

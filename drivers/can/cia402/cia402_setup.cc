@@ -1,6 +1,7 @@
 #include "drivers/can/cia402/cia402_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -36,6 +37,12 @@ constexpr Entry kTargetTorque{0x6071, 0};
 constexpr Entry kMaxTorque{0x6072, 0};
 constexpr Entry kRatedCurrent_mA{0x6075, 0};
 constexpr Entry kRatedTorque{0x6076, 0};
+constexpr Entry kPolarity{0x607E, 0};
+constexpr Entry kTorqueSlope{0x6087, 0};
+constexpr Entry kTorqueOffset{0x60B2, 0};
+constexpr Entry kPositiveTorqueLimit{0x60E0, 0};
+constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
+constexpr Entry kDeviceType{0x1000, 0};
 constexpr Entry kInterpolationMantissa{0x60C2, 1};
 constexpr Entry kInterpolationExponent{0x60C2, 2};
 
@@ -47,6 +54,12 @@ constexpr int kPdosOfADrive = 4;
 constexpr std::int64_t kPoll_ns = 5'000'000;
 constexpr std::int64_t kModeWait_ns = 1'000'000'000;
 constexpr std::int64_t kDisableWait_ns = 500'000'000;
+/// Two nodes that answer do so one right after the other.
+constexpr std::int64_t kSecondAnswer_ns = 20'000'000;
+/// A late position, and how often it is looked for.
+constexpr std::int64_t kLongestDelay_ns = 20'000'000;
+constexpr int kDelaySamples = 5;
+constexpr int kOldPositions = 100;
 /// SYNCs until a drive must have sent both of its TPDOs.
 constexpr int kVerifySyncs = 2 * 240;
 
@@ -63,11 +76,39 @@ std::uint32_t thousandths(double value) {
   throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
 }
 
+std::int64_t boot_timeout_ns(const DriveConfig& config) {
+  return std::llround(config.boot_timeout_s * 1e9);
+}
+
+/// A drive that has just been switched on is silent for a while; resetting it would only let it begin anew.
+void wait_until_it_answers(SdoClient& client, const DriveConfig& config) {
+  const std::int64_t deadline_ns = client.port().now_ns() + boot_timeout_ns(config);
+  for (;;) {
+    try {
+      (void)client.upload(kDeviceType);
+      return;
+    } catch (const canopen::SdoError& error) {
+      if (!error.no_answer()) throw;
+    }
+    if (client.port().now_ns() >= deadline_ns)
+      refuse(client,
+             "no answer within boot_timeout_s = " + std::to_string(config.boot_timeout_s) +
+                 ": check supply, node_id, bit rate and wiring; `strainwavectl can-scan` shows who answers");
+  }
+}
+
 void reset_communication(SdoClient& client, const DriveConfig& config) {
-  if (!client.reset_communication(std::llround(config.boot_timeout_s * 1e9)))
-    refuse(client, "no boot-up message within " + std::to_string(config.boot_timeout_s) +
-                       " s of the reset of its communication: check supply, node_id, bit rate and wiring; "
-                       "`strainwavectl can-scan` shows who answers");
+  if (!client.reset_communication(boot_timeout_ns(config)))
+    refuse(client, "no boot-up message within boot_timeout_s = " + std::to_string(config.boot_timeout_s) +
+                       " of the reset of its communication: it takes longer to start, or does not reset");
+}
+
+/// An order to start takes some drives a while; until then their heartbeat would look like a lost network state.
+void start_node(SdoClient& client, const DriveConfig& config) {
+  client.send_nmt(NmtCommand::kStart);
+  if (!client.wait_for_state(canopen::NmtState::kOperational, boot_timeout_ns(config)))
+    refuse(client, "no heartbeat shows it operational within boot_timeout_s = " +
+                       std::to_string(config.boot_timeout_s) + " of the network's start");
 }
 
 void check_identity(SdoClient& client, const Identity& wanted, const Description& found) {
@@ -91,11 +132,26 @@ OperationMode choose_mode(SdoClient& client, std::uint32_t supported) {
                      "); it cannot be driven by torque");
 }
 
+/// False when the drive has this identifier for good; then it must be ours. Such a drive lets its mapping be changed as it is.
+bool switch_off(SdoClient& client, const canopen::Pdo& pdo, const SdoWrite& off,
+                std::uint32_t old_identifier) {
+  try {
+    client.write_verified(off);
+    return true;
+  } catch (const canopen::SdoError& error) {
+    const bool ours = (old_identifier & (canopen::kPdoInvalid | kMaxCanId)) == pdo.cob_id(client.node());
+    if (!error.read_only() || !ours) throw;
+    return false;
+  }
+}
+
 void configure_pdos(SdoClient& client, const PdoLayout& layout) {
   for (const canopen::Pdo* pdo : {&layout.command, &layout.fast, &layout.slow}) {
+    if (pdo->objects.empty()) continue;
     const std::uint32_t old_identifier = number(client, pdo->communication(1));
-    for (const SdoWrite& write : canopen::pdo_configuration(*pdo, client.node(), old_identifier))
-      client.write_verified(write);
+    std::vector<SdoWrite> writes = canopen::pdo_configuration(*pdo, client.node(), old_identifier);
+    if (!switch_off(client, *pdo, writes.front(), old_identifier)) writes.pop_back();
+    for (std::size_t i = 1; i < writes.size(); ++i) client.write_verified(writes[i]);
   }
 }
 
@@ -152,7 +208,23 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
                          "unit of the interpolation period"});
 }
 
-double configure_torque(SdoClient& client, const DriveConfig& config) {
+/// In the drive as well, by whichever objects it has.
+void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, std::vector<std::string>& report) {
+  bool limited = false;
+  const auto limit_by = [&](Entry entry, const char* purpose) {
+    if (!client.upload_if_there(entry, 2)) return;
+    client.write_verified({entry, limit_per_mille, 2, ~0U, purpose});
+    limited = true;
+  };
+  limit_by(kMaxTorque, "torque limit");
+  limit_by(kPositiveTorqueLimit, "positive torque limit");
+  limit_by(kNegativeTorqueLimit, "negative torque limit");
+  if (!limited)
+    report.push_back(client.who() +
+                     ": the drive has none of 6072h, 60E0h and 60E1h: only this daemon limits the torque");
+}
+
+double configure_torque(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
   const auto current_mA = client.upload_if_there(kRatedCurrent_mA, 4);
   if (!current_mA && config.rated_current_A <= 0.0)
     refuse(client,
@@ -166,8 +238,29 @@ double configure_torque(SdoClient& client, const DriveConfig& config) {
     refuse(client, "torque_Nm = " + std::to_string(config.torque_limit_Nm) +
                        " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
                        " N.m at the joint, which is the drive's step");
-  client.write_verified({kMaxTorque, scale.limit_per_mille(), 2, ~0U, "torque limit"});
+  limit_torque(client, scale.limit_per_mille(), report);
   return rated_Nm;
+}
+
+/// What would turn, shift or slow the torque that is ordered.
+void configure_torque_path(SdoClient& client, const DriveConfig& config, OperationMode mode,
+                           std::vector<std::string>& report) {
+  const auto polarity = client.upload_if_there(kPolarity, 1);
+  if (polarity.value_or(0) != 0)
+    refuse(client,
+           "607Eh (polarity) = " + hexadecimal(*polarity, 2) +
+               " turns signs in the drive: set it to 0 and store it, and say the direction by `direction`");
+  if (client.upload_if_there(kTorqueOffset, 2))
+    client.write_verified({kTorqueOffset, 0, 2, ~0U, "torque offset"});
+  if (mode != OperationMode::kTorque || !client.upload_if_there(kTorqueSlope, 4)) return;
+  // All of the torque there and back within a period.
+  const auto slope = static_cast<std::uint32_t>(std::lround(2.0 * INT16_MAX / config.period_s));
+  try {
+    client.write_verified({kTorqueSlope, slope, 4, ~0U, "torque slope"});
+  } catch (const InputError&) {
+    report.push_back(client.who() + ": the drive limits how fast torque changes: 6087h = " +
+                     std::to_string(number(client, kTorqueSlope)) + " per mille of rated torque in a second");
+  }
 }
 
 void set_mode(SdoClient& client, OperationMode mode) {
@@ -216,27 +309,36 @@ void report_found(Found& found, const Description& description, const DriveConfi
 
 }  // namespace
 
-Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout& layout) {
-  Found found;
-  reset_communication(client, config);
-  const Description description = describe(client);
+Description identify_drive(SdoClient& client, const DriveConfig& config) {
+  wait_until_it_answers(client, config);
+  Description description = describe(client);
   if (!is_servo_drive(description))
     refuse(client, "is no CiA 402 drive: device type 1000h = " + hexadecimal(description.device_type, 8) +
                        ", the profile must be 0192h");
   check_identity(client, config.identity, description);
+  if (client.two_answer(kDeviceType, kSecondAnswer_ns))
+    refuse(client, "two nodes answer with this id: give each drive on the bus an id of its own");
+  return description;
+}
+
+Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout& layout,
+                   const Description& description) {
+  Found found;
   found.mode = choose_mode(client, description.supported_modes);
+  reset_communication(client, config);
   take_torque_off(client);
   configure_pdos(client, layout);
   switch_off_other_pdos(client);
   configure_supervision(client, config);
-  found.rated_torque_Nm = configure_torque(client, config);
+  found.rated_torque_Nm = configure_torque(client, config, found.report);
+  configure_torque_path(client, config, found.mode, found.report);
   configure_period(client, config);
   set_mode(client, found.mode);
   found.statusword = static_cast<std::uint16_t>(number(client, kStatusword, 2));
   if (power_state_of(found.statusword) == PowerState::kFault)
     found.error_code = static_cast<std::uint16_t>(client.upload_if_there(kErrorCode, 2).value_or(0));
   report_found(found, description, config);
-  client.send_nmt(NmtCommand::kStart);
+  start_node(client, config);
   return found;
 }
 
@@ -271,6 +373,41 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
   throw InputError(
       who + "no TPDO" + (fast_seen ? "2" : "1") + " came in " + std::to_string(kVerifySyncs) + " periods: " +
       (config.daemon_sends_sync ? "the drive does not answer our SYNC" : "is the SYNC producer running?"));
+}
+
+std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
+  const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s * 1e9));
+  std::array<ReceivedFrame, 16> frames;
+  /// When the first position came, or nothing at `end_ns`.
+  const auto position_until = [&](std::int64_t end_ns) -> std::optional<std::int64_t> {
+    while (port.now_ns() < end_ns) {
+      const ReceiveResult result = port.receive(frames);
+      for (std::size_t i = 0; i < result.count; ++i)
+        if (frames[i].frame.id == layout.fast.cob_id(config.node_id)) return port.now_ns();
+      if (result.count == 0) (void)port.wait(end_ns - port.now_ns());
+    }
+    return std::nullopt;
+  };
+  std::optional<std::int64_t> shortest_ns;
+  for (int i = 0; i < kDelaySamples; ++i) {
+    // What is still on its way belongs to another SYNC; what never ends, to another producer's.
+    for (int old = 0; old < kOldPositions && position_until(port.now_ns() + kLongestDelay_ns); ++old)
+      continue;
+    const std::int64_t sync_ns = port.now_ns();
+    (void)port.send(canopen::sync_frame());
+    if (const auto came_ns = position_until(sync_ns + kLongestDelay_ns))
+      shortest_ns = std::min(shortest_ns.value_or(INT64_MAX), *came_ns - sync_ns);
+  }
+  const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
+  if (!shortest_ns)
+    throw InputError(
+        who + "no position came within 20 ms of a SYNC, though some come: is there another SYNC producer?");
+  if (*shortest_ns > config.delay_periods * period_ns)
+    throw InputError(who + "a position comes " + std::to_string(static_cast<double>(*shortest_ns) * 1e-6) +
+                     " ms after its SYNC, delay_periods = " + std::to_string(config.delay_periods) +
+                     " allows for " + std::to_string(config.delay_periods * period_ns / 1000) +
+                     " us: let the drive send TPDO1 at once, or raise delay_periods");
+  return *shortest_ns;
 }
 
 void release_drive(SdoClient& client) {

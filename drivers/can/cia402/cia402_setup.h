@@ -1,20 +1,30 @@
 // Bringing a CiA 402 drive to where the loop can use it: identify, check, configure, read back, start; it
-// stays disabled. Blocking; not real-time. docs/can.md shows the sequence frame by frame. Source: CiA 301 and
+// stays disabled. Objects that the profile leaves to the vendor are used where they are. Blocking; not real-time. docs/can.md shows the sequence frame by frame. Source: CiA 301 and
 // CiA 402-2.
 #pragma once
 
 #include "drivers/can/canopen/sdo_client.h"
 #include "drivers/can/cia402/cia402_config.h"
+#include "drivers/can/cia402/cia402_description.h"
 
 namespace strainwave::cia402 {
 
-/// The whole sequence up to the start of the network, in the order of docs/can.md. Throws InputError naming
+/// Whether it is the drive that the configuration means; reads only. A drive that is still starting has boot_timeout_s to
+/// answer. Throws InputError naming joint, node and what is wrong: then nothing has been changed.
+Description identify_drive(canopen::SdoClient& client, const DriveConfig& config);
+
+/// The whole sequence from there until the drive is operational, in the order of docs/can.md. Throws InputError naming
 /// joint, node, object, value and what is allowed.
-Found set_up_drive(canopen::SdoClient& client, const DriveConfig& config, const PdoLayout& layout);
+Found set_up_drive(canopen::SdoClient& client, const DriveConfig& config, const PdoLayout& layout,
+                   const Description& description);
 
 /// Waits for fresh TPDOs of the mapped sizes, sending SYNC if that is our task. Throws InputError naming what
 /// is missing.
 void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
+
+/// From a SYNC of ours until the position that was sampled with it has come: the shortest of some, with no other SYNC in between.
+/// Throws InputError when it is more than config.delay_periods allow.
+std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
 
 /// Takes the torque off and ends the drive's supervision of us, so that our going is no fault.
 void release_drive(canopen::SdoClient& client);

@@ -118,12 +118,6 @@ std::optional<Temperatures> decode_temperatures(const CanFrame& frame) noexcept 
   return temperatures;
 }
 
-std::optional<Supply> decode_supply(const CanFrame& frame) noexcept {
-  const std::optional<Pair> pair = decode_pair(frame);
-  if (!pair) return std::nullopt;
-  return Supply{pair->first, pair->second};
-}
-
 std::optional<bool> decode_parameter_bool(const CanFrame& frame, std::uint16_t endpoint) noexcept {
   if (!answers(frame, endpoint, 5) || frame.bytes[4] > 1) return std::nullopt;
   return frame.bytes[4] != 0;

@@ -63,17 +63,12 @@ struct Temperatures {
   std::optional<double> inverter_C;
   std::optional<double> motor_C;
 };
-struct Supply {
-  double voltage_V = 0.0;
-  double current_A = 0.0;
-};
 
 // Nothing for a frame of another size, or with a number that is not finite (of temperatures: both).
 std::optional<Version> decode_version(const CanFrame& frame) noexcept;
 std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept;
 std::optional<Estimates> decode_estimates(const CanFrame& frame) noexcept;
 std::optional<Temperatures> decode_temperatures(const CanFrame& frame) noexcept;
-std::optional<Supply> decode_supply(const CanFrame& frame) noexcept;
 
 /// The value of a parameter that was asked for by read_parameter_frame(): a boolean or a REAL32.
 std::optional<bool> decode_parameter_bool(const CanFrame& frame, std::uint16_t endpoint) noexcept;

@@ -35,7 +35,8 @@ struct DriveConfig {
   std::string name;  ///< of the joint
   std::uint8_t node_id = 0;
   UnitConfig units;
-  double torque_limit_Nm = 0.0;  ///< at the joint, > 0
+  bool absolute_encoder = false;  ///< the drive knows its position when it has restarted
+  double torque_limit_Nm = 0.0;   ///< at the joint, > 0
   double period_s = 0.001;
   double heartbeat_period_s = 0.1;  ///< axis0.config.can.heartbeat_msg_rate_ms, for the bus load
   double heartbeat_timeout_s = 0.35;

@@ -21,10 +21,6 @@ ActuatorFault fault_of(std::uint32_t errors) noexcept {
   return ActuatorFault::kDriveFault;
 }
 
-constexpr std::uint32_t our_detail(CanDetail detail, std::uint32_t value = 0) noexcept {
-  return kOurDetail | drive_error_of(detail, value);
-}
-
 }  // namespace
 
 std::string drive_error_text(std::uint32_t drive_error) {
@@ -42,8 +38,8 @@ std::string drive_error_text(std::uint32_t drive_error) {
 
 Node::Node(const DriveConfig& config)
     : config_(config),
-      heartbeat_timeout_ns_(nanoseconds(config.heartbeat_timeout_s)),
-      arm_timeout_ns_(nanoseconds(config.arm_timeout_s)) {}
+      arm_timeout_ns_(nanoseconds(config.arm_timeout_s)),
+      watch_(nanoseconds(config.heartbeat_timeout_s), kOurDetail) {}
 
 std::vector<std::uint32_t> Node::receive_ids() const {
   std::vector<std::uint32_t> ids;
@@ -84,8 +80,9 @@ std::vector<std::string> Node::set_up(CanPort& port) {
   return report;
 }
 
-void Node::verify(CanPort& port) {
+std::vector<std::string> Node::verify(CanPort& port) {
   verify_axis(port, config_);
+  return {};
 }
 
 std::vector<std::string> Node::serve(CanPort& port) {
@@ -121,11 +118,12 @@ void Node::begin_cycle(std::int64_t now_ns) noexcept {
 void Node::forget_drive() noexcept {
   heartbeat_ = {};
   heartbeat_ns_ = now_ns_;
+  watch_.hear(now_ns_);
   missed_ = 0;
   has_heartbeat_ = has_temperature_ = was_armed_ = stop_ordered_ = false;
 }
 
-void Node::receive(const CanFrame& frame) noexcept {
+void Node::receive(const CanFrame& frame, std::int64_t /*kernel_time_ns*/) noexcept {
   if (!setup_.ready()) return;
   const auto is = [&](Command command) { return frame.id == can_id(command, config_.node_id); };
   if (is(Command::kEstimates)) {
@@ -139,6 +137,7 @@ void Node::receive(const CanFrame& frame) noexcept {
     if (const auto heartbeat = decode_heartbeat(frame)) {
       heartbeat_ = *heartbeat;
       heartbeat_ns_ = now_ns_;
+      watch_.hear(now_ns_);
       has_heartbeat_ = true;
       return;
     }
@@ -154,19 +153,19 @@ void Node::receive(const CanFrame& frame) noexcept {
 }
 
 void Node::note_bus(const NodeFault& trouble) noexcept {
-  bus_trouble_ = trouble;
-  // The bus's details and the drive's error bits share one number.
-  if (trouble.fault != ActuatorFault::kNone) bus_trouble_.drive_error |= kOurDetail;
+  watch_.note_bus(trouble);
 }
 
 ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   supervise();
-  const NodeFault present = present_trouble();
-  const NodeFault& shown = latched_.fault != ActuatorFault::kNone ? latched_ : present;
+  const NodeFault shown = watch_.shown(watch_.link_trouble(setup_, now_ns_));
   ActuatorReading reading;
   reading.joint_position_rad = position_rad_;
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_position = fresh_;
+  // One that was out of sight may have restarted: it has no message that tells of it.
+  reading.position_lost = !config_.absolute_encoder &&
+                          (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kLinkLost);
   reading.torque_applied_Nm = closed_loop() ? torque_sent_Nm_ : 0.0;
   reading.has_temperature = has_temperature_;
   reading.temperature_C = temperature_C_;
@@ -189,19 +188,9 @@ void Node::supervise() noexcept {
   // Nobody fed the idle drive before this loop began; being enabled is the operator's order to go on from
   // there.
   if (heartbeat_.errors == kWatchdogExpired && !was_armed_ && !closed_loop()) clear_ordered_ = true;
-  latch(present_trouble());
-  latch(use_trouble());
+  watch_.latch(watch_.link_trouble(setup_, now_ns_));
+  watch_.latch(use_trouble());
   was_armed_ = was_armed_ || closed_loop();
-}
-
-// What holds as long as its cause lasts, in use or not.
-NodeFault Node::present_trouble() const noexcept {
-  if (bus_trouble_.fault != ActuatorFault::kNone) return bus_trouble_;
-  if (setup_.failed()) return {ActuatorFault::kLinkLost, our_detail(CanDetail::kSetupFailed)};
-  if (!setup_.ready()) return {};
-  if (now_ns_ - heartbeat_ns_ > heartbeat_timeout_ns_)
-    return {ActuatorFault::kLinkLost, our_detail(CanDetail::kHeartbeatMissing)};
-  return {};
 }
 
 // What is a fault only of a drive that is in use.
@@ -209,16 +198,12 @@ NodeFault Node::use_trouble() const noexcept {
   const auto state = static_cast<std::uint32_t>(heartbeat_.state);
   if (heartbeat_.errors != 0 && !clear_ordered_) return {fault_of(heartbeat_.errors), heartbeat_.errors};
   if (missed_ > config_.fault_after)
-    return {ActuatorFault::kReadFailed, our_detail(CanDetail::kPositionMissing)};
+    return watch_.trouble(ActuatorFault::kReadFailed, CanDetail::kPositionMissing);
   if (was_armed_ && !closed_loop())
-    return {ActuatorFault::kDriveFault, our_detail(CanDetail::kLeftOperation, state)};
+    return watch_.trouble(ActuatorFault::kDriveFault, CanDetail::kLeftOperation, state);
   if (!was_armed_ && enabling_since_ns_ != 0 && now_ns_ - enabling_since_ns_ > arm_timeout_ns_)
-    return {ActuatorFault::kDriveFault, our_detail(CanDetail::kEnableStep, state)};
+    return watch_.trouble(ActuatorFault::kDriveFault, CanDetail::kEnableStep, state);
   return {};
-}
-
-void Node::latch(const NodeFault& fault) noexcept {
-  if (latched_.fault == ActuatorFault::kNone) latched_ = fault;
 }
 
 void Node::write(const ActuatorCommand& command) noexcept {
@@ -228,11 +213,11 @@ void Node::write(const ActuatorCommand& command) noexcept {
   }
   command_ = command;
   if (command_.enable && !std::isfinite(command_.torque_Nm))
-    latch({ActuatorFault::kWriteRefused, our_detail(CanDetail::kNone)});
+    watch_.latch(watch_.trouble(ActuatorFault::kWriteRefused, CanDetail::kNone));
 }
 
 bool Node::wants_torque() const noexcept {
-  return command_.enable && !stop_ordered_ && latched_.fault == ActuatorFault::kNone;
+  return command_.enable && !stop_ordered_ && !watch_.latched();
 }
 
 void Node::transmit(CanTransmitter& bus) noexcept {
@@ -266,8 +251,8 @@ void Node::lead_state(CanTransmitter& bus) noexcept {
 }
 
 void Node::clear_fault() noexcept {
-  const bool was_away = latched_.fault == ActuatorFault::kLinkLost || setup_.failed();
-  latched_ = {};
+  const bool was_away = watch_.latched_fault().fault == ActuatorFault::kLinkLost || setup_.failed();
+  watch_.clear();
   clear_ordered_ = true;
   was_armed_ = false;
   if (!was_away) return;

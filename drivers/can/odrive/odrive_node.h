@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drivers/can/can_node.h"
+#include "drivers/can/node_watch.h"
 #include "drivers/can/odrive/odrive_config.h"
 #include "drivers/can/set_up_state.h"
 
@@ -31,12 +32,12 @@ class Node final : public CanNode {
   std::vector<std::uint32_t> setup_ids() const override;
   std::vector<FrameTraffic> traffic() const override;
   std::vector<std::string> set_up(CanPort& port) override;
-  void verify(CanPort& port) override;
+  std::vector<std::string> verify(CanPort& port) override;
   std::vector<std::string> serve(CanPort& port) override;
   void shut_down(CanPort& port) noexcept override;
 
   void begin_cycle(std::int64_t now_ns) noexcept override;
-  void receive(const CanFrame& frame) noexcept override;
+  void receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept override;
   void note_bus(const NodeFault& trouble) noexcept override;
   void transmit(CanTransmitter& bus) noexcept override;
 
@@ -52,13 +53,10 @@ class Node final : public CanNode {
   bool wants_torque() const noexcept;
   void forget_drive() noexcept;
   void supervise() noexcept;
-  NodeFault present_trouble() const noexcept;
   NodeFault use_trouble() const noexcept;
-  void latch(const NodeFault& fault) noexcept;
   void lead_state(CanTransmitter& bus) noexcept;
 
   DriveConfig config_;
-  std::int64_t heartbeat_timeout_ns_;
   std::int64_t arm_timeout_ns_;
   SetUpState setup_;
 
@@ -75,8 +73,7 @@ class Node final : public CanNode {
   double temperature_C_ = 0.0;
   double torque_sent_Nm_ = 0.0;
   int missed_ = 0;
-  NodeFault bus_trouble_;
-  NodeFault latched_;
+  NodeWatch watch_;
   ActuatorCommand command_;
   bool fresh_ = false;
   bool has_heartbeat_ = false;

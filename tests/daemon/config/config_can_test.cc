@@ -36,6 +36,28 @@ TEST_F(CanConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLeaves
   EXPECT_NEAR(controller.motor.torque_per_speed_Nms_rad, 9.6 * 9.6 / 4.8, 1e-9);
 }
 
+TEST_F(CanConfigTest, WantsAnIncrementalEncoderToBeHomed) {
+  const HomingConfig homing = read(example("epos4.toml")).joints[0].loop.homing;
+  EXPECT_TRUE(homing.required) << "without its being said";
+  EXPECT_EQ(homing.target, HomingTarget::kNegativeLimit);
+  expect_mentions(error_after("epos4.toml", "to = \"negative_limit\"", "to = \"none\""),
+                  {"joint[0].homing.to", "incremental"});
+  expect_mentions(
+      error_after("epos4.toml", "to = \"negative_limit\"", "to = \"negative_limit\"\nrequired = false"),
+      {"joint[0].homing.required", "incremental"});
+  expect_mentions(error_after("epos4.toml", "to = \"negative_limit\"", "to = \"home\""), {"no home switch"});
+  expect_mentions(error_after("epos4.toml", "encoder = \"incremental\"", ""),
+                  {"joint[0].can.encoder", "required"});
+  EXPECT_FALSE(read(example("elmo.toml")).joints[0].loop.homing.required) << "absolute";
+}
+
+TEST_F(CanConfigTest, WantsTheTorqueThatTellsAMechanicalStop) {
+  const HomingConfig homing = read(example("odrive.toml")).joints[0].loop.homing;
+  EXPECT_EQ(homing.target, HomingTarget::kNegativeStop);
+  EXPECT_EQ(homing.stop_torque_Nm, 12.0);
+  expect_mentions(error_after("odrive.toml", "stop_torque_Nm = 12", ""), {"stop_torque_Nm", "required"});
+}
+
 TEST_F(CanConfigTest, RefusesNodesThatCollide) {
   expect_mentions(error_after("elmo.toml", "node_id = 2", "node_id = 1"),
                   {"joint[1].can.node_id", "of its own"});

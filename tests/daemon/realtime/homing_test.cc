@@ -26,8 +26,8 @@ class Walker {
   }
 
   Homing::Observation observe() {
-    return {position_rad_, falsify(inputs_.at(position_rad_, position_rad_)), velocity_rad_s_ == 0.0,
-            now_ns_};
+    return {position_rad_, falsify(inputs_.at(position_rad_, position_rad_)), velocity_rad_s_ == 0.0, now_ns_,
+            torque_Nm_};
   }
   void obey(const Homing::Order& order) {
     if (order.kind == Homing::Order::Kind::kMove) {
@@ -37,9 +37,16 @@ class Walker {
     } else if (order.kind == Homing::Order::Kind::kStop) {
       wanted_rad_s_ = 0.0;
     }
+    if (std::abs(target_rad_ - position_rad_) <= std::abs(wanted_rad_s_) * kPeriod_s)
+      wanted_rad_s_ = velocity_rad_s_ = 0.0;
     const double step = kDeceleration_rad_s2 * kPeriod_s;
     velocity_rad_s_ += std::clamp(wanted_rad_s_ - velocity_rad_s_, -step, step);
     position_rad_ += velocity_rad_s_ * kPeriod_s;
+    // At its mechanical stop the joint stands, and the control law pushes harder and harder; elsewhere there is friction.
+    const bool pushes = position_rad_ <= stop_rad && wanted_rad_s_ < 0.0;
+    if (pushes) position_rad_ = stop_rad;
+    torque_Nm_ = pushes ? torque_Nm_ - kPush_Nm_s * kPeriod_s : std::copysign(friction_Nm, velocity_rad_s_);
+    hardest_Nm = std::max(hardest_Nm, std::abs(torque_Nm_));
     lowest_rad_ = std::min(lowest_rad_, position_rad_);
     highest_rad_ = std::max(highest_rad_, position_rad_);
     now_ns_ += 1'000'000;
@@ -58,6 +65,9 @@ class Walker {
   double lowest_rad_ = kInfinity;
   double highest_rad_ = -kInfinity;
   double fastest_rad_s_ = 0.0;
+  double stop_rad = -kInfinity;
+  double friction_Nm = 4.0;
+  double hardest_Nm = 0.0;
   std::int64_t now_ns_ = 0;
   std::function<JointInputs(JointInputs)> falsify = [](JointInputs inputs) { return inputs; };
 
@@ -66,7 +76,38 @@ class Walker {
   double velocity_rad_s_ = 0.0;
   double wanted_rad_s_ = 0.0;
   double target_rad_ = 0.0;
+  double torque_Nm_ = 0.0;
+  static constexpr double kPush_Nm_s = 50.0;
 };
+
+HomingConfig against_a_stop() {
+  HomingConfig config;
+  config.target = HomingTarget::kNegativeStop;
+  config.stop_torque_Nm = 10.0;
+  config.creep_speed_rad_s = 0.05;
+  config.travel_rad = 2.0;
+  return config;
+}
+
+TEST(Homing, FindsItsMechanicalStopAndPushesNoHarderThanItMust) {
+  Walker walker(0.5, {});
+  walker.stop_rad = -0.3;
+  Homing homing(against_a_stop());
+  walker.run(homing);
+  ASSERT_EQ(homing.phase(), Homing::Phase::kDone);
+  EXPECT_NEAR(homing.found_rad(), -0.3, 1e-6);
+  EXPECT_LT(walker.hardest_Nm, 10.0 + 50.0 * 0.12) << "a tenth of a second longer than the stop torque";
+  EXPECT_LE(walker.fastest_rad_s_, 0.05);
+}
+
+TEST(Homing, TakesFrictionForNoStopAndFailsWhereThereIsNone) {
+  Walker walker(0.5, {});
+  walker.friction_Nm = 12.0;  // more than the stop torque, but the joint moves
+  Homing homing(against_a_stop());
+  walker.run(homing);
+  EXPECT_EQ(homing.phase(), Homing::Phase::kFailed);
+  EXPECT_LE(walker.position_rad_, 0.5 - 1.9) << "after the whole travel";
+}
 
 HomingConfig config_to(HomingTarget target) {
   HomingConfig config;

@@ -19,6 +19,7 @@ BenchDrive bench_drive(std::uint8_t node_id) {
   config.units.gear_ratio = kReferenceGearRatio;
   config.units.torque_constant_Nm_A = 0.192;
   config.torque_limit_Nm = 20.0;
+  config.absolute_encoder = true;
   config.temperature = cia402::TemperatureObject{{0x3201, 1}, cia402::NumberType::kInt16,           0.1,
                                                  0.0,         cia402::TemperatureObject::Way::kPdo, 0.1};
   return drive;

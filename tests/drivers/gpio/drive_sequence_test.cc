@@ -7,7 +7,7 @@
 namespace strainwave {
 namespace {
 
-constexpr DriveSequenceConfig kConfig{0.010, 0.030, 0.020, 0.050};
+constexpr DriveSequenceConfig kConfig{0.010, 0.005, 0.030, 0.020, 0.050};
 
 class DriveSequenceTest : public ::testing::Test {
  protected:
@@ -23,7 +23,7 @@ class DriveSequenceTest : public ::testing::Test {
     return -1;
   }
   void switch_on() {
-    ASSERT_GT(periods_until(true, [&] { return sequence_.on(); }), 0);
+    ASSERT_GT(periods_until(true, [&] { return sequence_.may_move(); }), 0);
   }
 
   DriveSequence sequence_{kConfig};
@@ -31,13 +31,16 @@ class DriveSequenceTest : public ::testing::Test {
   std::int64_t now_ns_ = 0;
 };
 
-TEST_F(DriveSequenceTest, OpensTheBrakeOnlyOnceTheAmplifierIsReadyAndThenWaitsForIt) {
+TEST_F(DriveSequenceTest, OpensTheBrakeUnderTorqueAndThenWaitsForIt) {
   step(true);
   EXPECT_TRUE(outputs_.enable);
   EXPECT_FALSE(outputs_.brake_open);
-  EXPECT_EQ(periods_until(true, [&] { return outputs_.brake_open; }), 10);
-  EXPECT_FALSE(sequence_.on());
-  EXPECT_EQ(periods_until(true, [&] { return sequence_.on(); }), 30);
+  EXPECT_EQ(periods_until(true, [&] { return sequence_.has_torque(); }), 10);
+  EXPECT_FALSE(outputs_.brake_open) << "torque comes first";
+  EXPECT_EQ(periods_until(true, [&] { return outputs_.brake_open; }), 5);
+  EXPECT_FALSE(sequence_.may_move());
+  EXPECT_EQ(sequence_.drive_state(), DriveState::kEnabled) << "it is held while the brake opens";
+  EXPECT_EQ(periods_until(true, [&] { return sequence_.may_move(); }), 30);
   EXPECT_EQ(sequence_.drive_state(), DriveState::kEnabled);
 }
 
@@ -66,6 +69,25 @@ TEST_F(DriveSequenceTest, ShutsTheBrakeInTimeHoweverOftenItIsStopped) {
   EXPECT_FALSE(outputs_.brake_open);
 }
 
+TEST_F(DriveSequenceTest, ShutsTheBrakeInTheCallThatStopsItUnlessTheConfigurationSaysOtherwise) {
+  DriveSequence sequence({0.010, 0.005, 0.030, 0.020});
+  std::int64_t now_ns = 0;
+  while (!sequence.may_move()) (void)sequence.step(true, now_ns += 1'000'000);
+  const DriveSequence::Outputs outputs = sequence.stop(now_ns);
+  EXPECT_FALSE(outputs.brake_open);
+  EXPECT_FALSE(outputs.enable);
+}
+
+TEST_F(DriveSequenceTest, NeverHasTheBrakeOpenBeforeThereIsTorque) {
+  std::mt19937 random(11);
+  bool enable = false;
+  for (int i = 0; i < 100'000; ++i) {
+    if (random() % 30 == 0) enable = !enable;
+    step(enable);
+    ASSERT_TRUE(!outputs_.brake_open || sequence_.has_torque()) << i;
+  }
+}
+
 TEST_F(DriveSequenceTest, DoesNotOpenABrakeForAStop) {
   step(true);
   EXPECT_FALSE(sequence_.stop(now_ns_).brake_open);
@@ -76,7 +98,7 @@ TEST_F(DriveSequenceTest, CanBeSwitchedOnAgainOnlyWithTheBrakeShutInBetween) {
   switch_on();
   step(false);
   EXPECT_GT(periods_until(true, [&] { return !outputs_.brake_open && !outputs_.enable; }), 0);
-  EXPECT_GT(periods_until(true, [&] { return sequence_.on(); }), 40);
+  EXPECT_GT(periods_until(true, [&] { return sequence_.may_move(); }), 40);
 }
 
 TEST_F(DriveSequenceTest, NeverHasTheBrakeOpenWithoutTheAmplifierExceptAfterAStop) {

@@ -56,7 +56,7 @@ class GpioActuatorTest : public ::testing::Test {
     GpioMotionConfig motion;
     motion.count_rad = 0.001;
     drive_ = std::make_unique<GpioActuator>(std::move(parts), motion, torque_,
-                                            DriveSequenceConfig{0.002, 0.003, 0.002, 0.004});
+                                            DriveSequenceConfig{0.002, 0.003, 0.003, 0.002, 0.004});
   }
   double duty() const {
     std::ifstream file(folder_.path() / "pwmchip0/pwm0/duty_cycle");
@@ -83,13 +83,19 @@ class GpioActuatorTest : public ::testing::Test {
   std::int64_t now_ns_ = 1'000'000'000;
 };
 
-TEST_F(GpioActuatorTest, GivesNoTorqueBeforeTheBrakeIsOpen) {
-  for (int i = 0; i < 10; ++i) {
-    (void)cycle(true, 20.0);
-    ASSERT_TRUE(lines_->out(LineRole::kBrakeRelease) || duty() == 0.0) << i;
+TEST_F(GpioActuatorTest, GivesTorqueBeforeTheBrakeOpensAndLetsTheJointMoveOnlyOnceItHas) {
+  int held_periods = 0;
+  for (int i = 0; i < 20; ++i) {
+    const ActuatorReading reading = cycle(true, 20.0);
+    const bool opens = lines_->out(LineRole::kBrakeRelease);
+    if (duty() > 0.4 && !opens) ++held_periods;
+    ASSERT_TRUE(!opens || duty() > 0.4) << i << ": the brake opens without torque";
+    EXPECT_TRUE(opens || reading.drive_state != DriveState::kEnabled || reading.brake_shut) << i;
   }
-  EXPECT_TRUE(lines_->out(LineRole::kBrakeRelease));
-  EXPECT_GT(duty(), 0.4);
+  EXPECT_EQ(held_periods, 3);
+  const ActuatorReading reading = cycle(true, 20.0);
+  EXPECT_FALSE(reading.brake_shut);
+  EXPECT_EQ(reading.drive_state, DriveState::kEnabled);
 }
 
 TEST_F(GpioActuatorTest, PutsTheTorqueOutAndTellsIt) {

@@ -1,12 +1,17 @@
 // PWM and counter on plain files in the place of sysfs.
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <random>
 #include <sstream>
 
 #include "base/input_error.h"
+#include "base/unique_fd.h"
 #include "drivers/gpio/counter_counts.h"
 #include "drivers/gpio/pwm_channel.h"
 #include "tests/support/temporary_folder.h"
@@ -50,6 +55,31 @@ TEST_F(SysfsParts, PwmStartsIdleAndFollowsTheDuty) {
     EXPECT_TRUE(channel.set_duty(duty));
     EXPECT_EQ(read("pwmchip0/pwm2/duty_cycle"), text);
   }
+}
+
+// Linux 6.1 refuses any change of a channel that has no period yet, and a plain file refuses nothing: what is tested is the order.
+TEST_F(SysfsParts, PwmThatIsOffIsWrittenItsPeriodBeforeAnythingElse) {
+  make_pwm();
+  const UniqueFd watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+  ASSERT_TRUE(watch);
+  ASSERT_GE(::inotify_add_watch(watch.get(), (folder_.path() / "pwmchip0/pwm2").c_str(), IN_MODIFY), 0);
+  const PwmChannel channel(pwm(), 0.5, "pwm");
+  alignas(inotify_event) std::array<char, 4096> events{};
+  ASSERT_GT(::read(watch.get(), events.data(), events.size()), 0);
+  inotify_event first{};
+  std::memcpy(&first, events.data(), sizeof first);
+  EXPECT_STREQ(events.data() + sizeof first, "period");
+}
+
+TEST_F(SysfsParts, PwmThatSomebodyLeftOnIsSwitchedOffFirst) {
+  make_pwm();
+  write("pwmchip0/pwm2/enable", "1\n");
+  const UniqueFd watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+  ASSERT_GE(::inotify_add_watch(watch.get(), (folder_.path() / "pwmchip0/pwm2").c_str(), IN_MODIFY), 0);
+  const PwmChannel channel(pwm(), 0.5, "pwm");
+  alignas(inotify_event) std::array<char, 4096> events{};
+  ASSERT_GT(::read(watch.get(), events.data(), events.size()), 0);
+  EXPECT_STREQ(events.data() + sizeof(inotify_event), "enable");
 }
 
 TEST_F(SysfsParts, PwmIsIdleAtTheEnd) {

@@ -4,9 +4,12 @@
 //   cut | reconnect               the cable: no frame in or out; the drive lives on
 //   reboot [MS]                   power off and on; silent for MS (default: its boot time)
 //   emcy CODE                     a fault of the drive with this error code, and its reaction
-//   pretend INDEX SUB VALUE       show this value to every reader (6061h: wrong mode; 1018h: wrong identity;
-//   6076h: unit) pretend nothing skip-tpdo COUNT               no TPDO at the next COUNT SYNCs late-tpdo US
-//   COUNT            TPDOs late by US at the next COUNT SYNCs heartbeat on|off              the producer
+//   pretend INDEX SUB VALUE       show this value to every reader (6061h: wrong mode; 1018h: wrong identity; 6076h: unit)
+//   pretend nothing
+//   skip-tpdo COUNT               no TPDO at the next COUNT SYNCs
+//   late-tpdo US COUNT            TPDOs late by US at the next COUNT SYNCs
+//   heartbeat on|off              the producer
+//   ignore-nmt on|off             obey no order of network management
 //   refuse INDEX SUB ABORT        answer SDOs to this object with the abort code; 0: no longer
 //   load TORQUE_NM                an external torque on the joint
 //   note-torque on|off            record where torque begins and ends
@@ -53,6 +56,8 @@ std::string Cia402Node::command(std::string_view line, std::int64_t now_us) {
     late_syncs_ = n[1];
   } else if (verb == "heartbeat" && switch_of(words, on)) {
     heartbeat_off_ = !on;
+  } else if (verb == "ignore-nmt" && switch_of(words, on)) {
+    ignores_nmt_ = on;
   } else if (verb == "refuse" && numbers_of(words, 3, n)) {
     sdo_.refuse(key_of(n), static_cast<Abort>(n[2]));
   } else if (verb == "load" && number_of(words, number)) {

@@ -60,6 +60,8 @@ Cia402Node::Cia402Node(const Cia402NodeConfig& config, NodeOutput& output)
                 output_.note(format("at-rest position_rad=%.6f", drive_.plant().state().position_rad));
               }}) {
   add_objects();
+  for (const std::uint16_t index : config.lacks) dictionary_.remove(index);
+  for (const Key key : config.read_only) dictionary_.make_read_only(key);
   dictionary_.listen([this](Key key) { written(key); });
 }
 
@@ -115,6 +117,8 @@ void Cia402Node::reset(Reset what) {
   sdo_.reset();
   consumer_.restart();
   late_.clear();
+  answers_.clear();
+  start_done_us_.reset();
   last_sync_us_.reset();
   change_nmt(NmtState::kBooting);
   boot_done_us_ = now_us_ + config_.boot_us;
@@ -130,6 +134,11 @@ void Cia402Node::finish_boot() {
   change_nmt(NmtState::kPreOperational);
 }
 
+void Cia402Node::finish_start() {
+  start_done_us_.reset();
+  change_nmt(NmtState::kOperational);
+}
+
 void Cia402Node::change_nmt(NmtState state) {
   if (state == nmt_) return;
   nmt_ = state;
@@ -139,10 +148,11 @@ void Cia402Node::change_nmt(NmtState state) {
 }
 
 void Cia402Node::obey_nmt(const Frame& frame) {
-  if (frame.length != 2 || (frame.data[1] != 0 && frame.data[1] != config_.node_id)) return;
+  if (ignores_nmt_ || frame.length != 2 || (frame.data[1] != 0 && frame.data[1] != config_.node_id)) return;
   switch (frame.data[0]) {
     case 0x01:
-      change_nmt(NmtState::kOperational);
+      if (nmt_ != NmtState::kOperational) start_done_us_ = now_us_ + config_.start_us;
+      if (config_.start_us == 0) finish_start();
       break;
     case 0x02:
       leave_operation();
@@ -186,7 +196,10 @@ void Cia402Node::answer_sdo(const Frame& frame) {
   if (answer->data[0] == 0x80)
     output_.note(format("sdo-abort %02X%02X:%02X %08X", answer->data[2], answer->data[1], answer->data[3],
                         static_cast<unsigned>(little_endian(answer->bytes().subspan(4, 4)))));
-  send(*answer);
+  if (config_.sdo_answer_us > 0)
+    answers_.push_back({now_us_ + config_.sdo_answer_us, *answer});
+  else
+    send(*answer);
 }
 
 void Cia402Node::receive_pdo(const Frame& frame) {
@@ -244,6 +257,11 @@ void Cia402Node::advance(std::int64_t now_us) {
     if (now_us >= boot_done_us_) finish_boot();
     if (nmt_ == NmtState::kBooting) return;
   }
+  if (start_done_us_ && now_us >= *start_done_us_) finish_start();
+  while (!answers_.empty() && answers_.front().due_us <= now_us) {
+    send(answers_.front().frame);
+    answers_.pop_front();
+  }
   while (!late_.empty() && late_.front().due_us <= now_us) {
     send(late_.front().frame);
     late_.pop_front();
@@ -262,6 +280,8 @@ std::int64_t Cia402Node::next_deadline_us() const {
   std::int64_t next = next_step_us_;
   if (nmt_ == NmtState::kBooting) return std::min(next, boot_done_us_);
   if (dictionary_.number({0x1017, 0}) > 0) next = std::min(next, next_heartbeat_us_);
+  if (start_done_us_) next = std::min(next, *start_done_us_);
+  if (!answers_.empty()) next = std::min(next, answers_.front().due_us);
   if (!late_.empty()) next = std::min(next, late_.front().due_us);
   if (const auto consumer = consumer_.next_deadline_us()) next = std::min(next, *consumer);
   return next;

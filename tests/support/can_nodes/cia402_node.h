@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tests/support/can_nodes/heartbeat_consumer.h"
 #include "tests/support/can_nodes/node.h"
@@ -27,6 +28,10 @@ struct Cia402NodeConfig {
   std::uint32_t serial = 0x00000001;
   std::string device_name = "Strainwave simulated servo drive";
   std::int64_t boot_us = 50000;  ///< from power-on or reset to the boot-up message
+  std::int64_t start_us = 0;     ///< from NMT start to operational
+  std::int64_t sdo_answer_us = 0;
+  std::vector<std::uint16_t> lacks{};  ///< indices that this drive does not have
+  std::vector<Key> read_only{};        ///< entries that others let write
   ServoDriveConfig drive;
 };
 
@@ -62,6 +67,7 @@ class Cia402Node final : public Node {
   void reset(Reset what);
   void leave_operation();
   void finish_boot();
+  void finish_start();
   void on_sync();
   void step_drive();
   void send_synchronous();
@@ -85,6 +91,7 @@ class Cia402Node final : public Node {
   std::int64_t now_us_ = 0;
   NmtState nmt_ = NmtState::kBooting;
   std::int64_t boot_done_us_ = 0;
+  std::optional<std::int64_t> start_done_us_;
   std::int64_t next_heartbeat_us_ = 0;
   std::int64_t next_step_us_ = 0;  ///< of the drive's own clock, when no SYNC comes
   std::optional<std::int64_t> last_sync_us_;
@@ -94,6 +101,7 @@ class Cia402Node final : public Node {
   // What it does wrong.
   bool cable_cut_ = false;
   bool heartbeat_off_ = false;
+  bool ignores_nmt_ = false;
   long skipped_syncs_ = 0;
   long late_syncs_ = 0;
   std::int64_t late_us_ = 0;
@@ -102,6 +110,7 @@ class Cia402Node final : public Node {
     Frame frame;
   };
   std::deque<Late> late_;
+  std::deque<Late> answers_;
   bool notes_torque_ = false;
   bool had_torque_ = false;
 };

@@ -77,6 +77,12 @@ class ObjectDictionary {
   using Listener = std::function<void(Key)>;
 
   void add(Key key, Object object);
+  /// The device has no such object; guards of it stay without effect.
+  void remove(std::uint16_t index) {
+    std::erase_if(objects_, [index](const auto& object) { return object.first.index == index; });
+  }
+  /// From the bus it may only be read.
+  void make_read_only(Key key) { objects_.at(key).access = Access::kReadOnly; }
   void guard(std::uint16_t first, std::uint16_t last, Guard guard);
   void listen(Listener listener) { listener_ = std::move(listener); }
 

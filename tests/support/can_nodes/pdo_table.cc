@@ -83,12 +83,12 @@ std::uint32_t PdoTable::id_of(std::uint16_t communication) const {
 Abort PdoTable::check_communication(Key key, std::int64_t value) const {
   switch (key.sub) {
     case 1: {
+      // The identifier of a PDO that exists stays; disable it first, without changing it.
+      if (enabled(key.index) && (dictionary_.number(key) & kIdMask) != (value & kIdMask))
+        return Abort::kInvalidValue;
       if ((value & kDisabled) != 0) return Abort::kNone;
       if ((value & kExtendedId) != 0 || restricted(value & kIdMask)) return Abort::kInvalidValue;
-      if (!configurable_) return Abort::kDeviceState;
-      // The identifier of a PDO that exists stays; disable it first.
-      const bool same = (dictionary_.number(key) & kIdMask) == (value & kIdMask);
-      return enabled(key.index) && !same ? Abort::kInvalidValue : Abort::kNone;
+      return configurable_ ? Abort::kNone : Abort::kDeviceState;
     }
     case 2:
       return value <= kLastSynchronousType || value >= 254 ? Abort::kNone : Abort::kInvalidValue;

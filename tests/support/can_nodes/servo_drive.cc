@@ -63,6 +63,11 @@ void ServoDrive::add_objects() {
   variable(0x6076, kUnsigned32, Mappable::kNo,
            std::llround(config_.rated_torque_Nm * config_.rated_torque_units_per_Nm));
   variable(0x6077, kInteger16, Mappable::kTransmit);
+  setting(0x607E, kUnsigned8, 0, 0, 255);
+  setting(0x60B2, kInteger16, 0, INT16_MIN, INT16_MAX, Mappable::kBoth);
+  setting(0x60E0, kUnsigned16, 1000, 0, UINT16_MAX, Mappable::kBoth);
+  setting(0x60E1, kUnsigned16, 1000, 0, UINT16_MAX, Mappable::kBoth);
+  variable(0x60FD, kUnsigned32, Mappable::kTransmit);
   setting(0x6087, kUnsigned32, 1000000, 1, UINT32_MAX);
   dictionary_.add({0x60C2, 0}, {kUnsigned8, Access::kConstant, 2});
   dictionary_.add({0x60C2, 1}, {kUnsigned8, Access::kReadWrite, 1, Mappable::kNo, 1, 255, {}});
@@ -154,6 +159,12 @@ void ServoDrive::advance_power() {
   }
 }
 
+// What a drive lacks limits nothing.
+double ServoDrive::limit_permille(std::uint16_t index) const {
+  return dictionary_.find({index, 0}) == nullptr ? INT16_MAX
+                                                 : static_cast<double>(dictionary_.number({index, 0}));
+}
+
 // Joint side, from 6071h.
 double ServoDrive::target_torque_Nm() {
   const auto target = static_cast<double>(dictionary_.number({0x6071, 0}));
@@ -165,15 +176,18 @@ double ServoDrive::target_torque_Nm() {
   } else {
     ramped_permille_ = mode == kModeCyclicTorque ? target : 0.0;
   }
-  const auto limit = static_cast<double>(dictionary_.number({0x6072, 0}));
-  limited_ = std::abs(ramped_permille_) > limit;
-  return std::clamp(ramped_permille_, -limit, limit) * joint_torque_per_permille();
+  const double low = -std::min(limit_permille(0x6072), limit_permille(0x60E1));
+  const double high = std::min(limit_permille(0x6072), limit_permille(0x60E0));
+  const double wanted =
+      ramped_permille_ +
+      (dictionary_.find({0x60B2, 0}) == nullptr ? 0.0 : static_cast<double>(dictionary_.number({0x60B2, 0})));
+  limited_ = wanted < low || wanted > high;
+  return std::clamp(wanted, low, high) * joint_torque_per_permille();
 }
 
 // Joint side: against the motion.
 double ServoDrive::braking_torque_Nm() const {
-  const double limit_Nm =
-      static_cast<double>(dictionary_.number({0x6072, 0})) * std::abs(joint_torque_per_permille());
+  const double limit_Nm = limit_permille(0x6072) * std::abs(joint_torque_per_permille());
   const double wanted_Nm = -kBrakingShare * plant_.config().joint.inertia_kgm2 *
                            plant_.state().velocity_rad_s / plant_.config().period_s;
   return std::clamp(wanted_Nm, -limit_Nm, limit_Nm);

@@ -76,6 +76,7 @@ class ServoDrive {
   void react_to_fault();
   double target_torque_Nm();
   double braking_torque_Nm() const;
+  double limit_permille(std::uint16_t index) const;
   void show_state();
   void show_temperature();
   double joint_torque_per_permille() const;

@@ -103,8 +103,9 @@ class Failures(unittest.TestCase):
         # One period is the command's way into the drive and the SYNC's.
         self.assertLessEqual(zero_us - at_us, (ZERO_TORQUE_AFTER + 3) * PERIOD_US)
         self.assertGreaterEqual(zero_us - at_us, ZERO_TORQUE_AFTER * PERIOD_US)
-        quick_stop_us = self.drive.find('power QuickStopActive', at_us)
-        self.assertLessEqual(quick_stop_us - at_us, (QUICK_STOP_AFTER + 4) * PERIOD_US)
+        # By SDO: whether it takes process data, nobody knows.
+        off_us = self.drive.find('power SwitchOnDisabled', at_us)
+        self.assertLessEqual(off_us - at_us, (QUICK_STOP_AFTER + 4) * PERIOD_US)
         self.drive.tell('note-torque off')
         self.expect_rest(at_us, 400000)
         self.expect_way_back()

@@ -35,6 +35,7 @@ check "the hardware watchdog is fed" bash -c 'for i in $(seq 20); do cat lines/a
 check "gpio-check names the daemon" bash -c './strainwavectl gpio-check gpio.toml | grep -q "^  estop .*held by \"strainwaved elbow\""'
 
 check "enable" ctl enable elbow
+sleep 0.2 # the brake opens under torque
 check "the amplifier is on" level_is enable 1
 check "the brake is open" level_is brake_release 1
 check "a move before homing is refused" refused move elbow 0.0
@@ -53,6 +54,7 @@ sleep 0.2
 check "the brake shuts after its delay" level_is brake_release 0
 check "the fault is cleared" ctl clear-fault elbow
 check "enable at the switch" ctl enable elbow
+sleep 0.2 # the brake opens under torque
 check "farther into it is refused" refused move elbow 0.58
 check "out of it is allowed" ctl move elbow 0.2 --wait
 
@@ -63,6 +65,7 @@ check "and is told" status_has "drive fault"
 pull amplifier_fault pull-up
 ctl clear-fault elbow
 check "enable after it" ctl enable elbow
+sleep 0.2 # the brake opens under torque
 
 # Released and pressed while it moves: within a period all outputs are safe.
 ctl move elbow -0.4
@@ -94,11 +97,13 @@ for pause in 0.0103 0.0205 0.0307 0.0409; do
   ctl clear-fault elbow
 done
 check "enable after it" ctl enable elbow
+sleep 0.2 # the brake opens under torque
 check "disable" ctl disable elbow
 sleep 0.1
 check "then everything is safe" bash -c 'test "$(cat lines/enable/value)$(cat lines/brake_release/value)$(head -n1 tree/pwm/pwm0/duty_cycle)" = 000'
 
 check "enable once more" ctl enable elbow
+sleep 0.2 # the brake opens under torque
 kill $daemon
 wait $daemon || failed=1
 check "the daemon's end leaves everything safe" bash -c 'test "$(cat lines/enable/value)$(cat lines/brake_release/value)$(head -n1 tree/pwm/pwm0/duty_cycle)" = 000'

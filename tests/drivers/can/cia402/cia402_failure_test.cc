@@ -69,6 +69,31 @@ TEST_F(Cia402Failure, MissingPositionsTakeTheTorqueThenStopTheDrive) {
   EXPECT_EQ(last_controlword(), 0x02U);
 }
 
+TEST_F(Cia402Failure, PositionsThatStayLateAreAFaultThoughOneComesInEveryPeriod) {
+  for (const char* late : {"late-tpdo 2400 100000", "late-tpdo 10400 100000"}) {
+    DriveBench bench({bench_drive(3)});
+    bench.config().quick_stop_after = 20;  // the gap at the beginning alone would be a fault
+    bench.config().zero_torque_after = 2;
+    bench.start();
+    ASSERT_TRUE(bench.enable());
+    bench.run(50, kMoving);
+    bench.tell_node(late);
+    const int periods = bench.periods_until_fault(100, kMoving);
+    EXPECT_GT(periods, 0) << late;
+    EXPECT_LE(periods, 20) << late;
+    EXPECT_EQ(detail_of(bench.reading().drive_error), CanDetail::kPositionLate)
+        << can_detail_text(bench.reading().drive_error);
+  }
+}
+
+TEST_F(Cia402Failure, ADriveWhosePositionsAreLateFromTheStartIsRefusedWithTheirDelay) {
+  DriveBench bench({bench_drive(3)});
+  bench.tell_node("late-tpdo 2400 100000");
+  const std::string text = bench.start_refusal();
+  EXPECT_NE(text.find("2.4"), std::string::npos) << text;
+  EXPECT_NE(text.find("delay_periods = 1"), std::string::npos) << text;
+}
+
 TEST_F(Cia402Failure, AFewMissingPositionsAreCountedAndForgiven) {
   bench_.tell_node("skip-tpdo 2");
   bench_.step(kMoving);
@@ -101,6 +126,7 @@ TEST_F(Cia402Failure, ABootUpAloneIsAFaultInTheSamePeriod) {
   expect_fault(ActuatorFault::kDriveRestarted, CanDetail::kBootUp);
 }
 
+// The torque afterwards: tests/adversary/foreign_nmt_master.cc.
 TEST_F(Cia402Failure, ADriveThatLeavesTheOperationalStateIsAFault) {
   CanFrame order;
   order.size = 2;
@@ -109,6 +135,83 @@ TEST_F(Cia402Failure, ADriveThatLeavesTheOperationalStateIsAFault) {
   const int periods = bench_.periods_until_fault(100, kMoving);
   EXPECT_GT(periods, 0);
   EXPECT_LE(periods, 60) << "a heartbeat period, or the missing positions";
+}
+
+TEST_F(Cia402Failure, ADriveThatDoesNotFollowItsTorqueIsAFault) {
+  bench_.tell_node("pretend 0x6041 0 0x0237");  // operation enabled, bit 12 not set
+  const int periods = bench_.periods_until_fault(100, kMoving);
+  EXPECT_GE(periods, 20);
+  EXPECT_LE(periods, 25);
+  expect_fault(ActuatorFault::kDriveFault, CanDetail::kNotFollowing);
+}
+
+TEST_F(Cia402Failure, ARestartedDriveLosesItsPositionUnlessItsEncoderIsAbsolute) {
+  for (const bool absolute : {true, false}) {
+    BenchDrive drive = bench_drive(3);
+    drive.config.absolute_encoder = absolute;
+    DriveBench bench({drive});
+    bench.start();
+    ASSERT_TRUE(bench.enable());
+    EXPECT_FALSE(bench.reading().position_lost);
+    bench.tell_node("reboot 100");
+    bool lost = false;
+    for (int i = 0; i < 300; ++i) {
+      bench.step({0.0, false});
+      lost = lost || bench.reading().position_lost;
+    }
+    EXPECT_EQ(lost, !absolute);
+    bench.clear();
+    bench.run(5, {0.0, false});
+    EXPECT_EQ(bench.reading().fault, ActuatorFault::kNone);
+    EXPECT_FALSE(bench.reading().position_lost) << "it may be homed again";
+  }
+}
+
+TEST_F(Cia402Failure, ShowsTheInputsThatAreWiredAndNoOthers) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.inputs.negative_limit = true;
+  drive.config.inputs.home = true;
+  DriveBench bench({drive});
+  bench.start();
+  bench.run(20, {0.0, false});
+  EXPECT_FALSE(bench.reading().inputs.negative_limit || bench.reading().inputs.home);
+  bench.tell_node("pretend 0x60FD 0 0xFFFF0007");
+  bench.run(20, {0.0, false});
+  EXPECT_TRUE(bench.reading().inputs.negative_limit);
+  EXPECT_TRUE(bench.reading().inputs.home);
+  EXPECT_FALSE(bench.reading().inputs.positive_limit);
+}
+
+TEST_F(Cia402Failure, FramesThatNeverComeBackAreForgivenOneAtATimeForEver) {
+  for (int i = 0; i < 20; ++i) {
+    bench_.can().lose_echoes(i % 3 == 2 ? 1 : 2);
+    bench_.run(120, kMoving);
+    ASSERT_EQ(bench_.reading().fault, ActuatorFault::kNone)
+        << i << ": " << can_detail_text(bench_.reading().drive_error);
+  }
+  EXPECT_EQ(bench_.bus().counters().frames_dropped, 0);
+}
+
+TEST_F(Cia402Failure, ALostHeartbeatEchoDoesNotEndTheHeartbeat) {
+  bench_.can().lose_echo_of(0x77F);
+  const std::int64_t since_ns = bench_.can().now_ns();
+  bench_.run(1000, kMoving);
+  EXPECT_GE(bench_.frames(0x77F, since_ns).size(), 18U);
+  EXPECT_EQ(bench_.reading().fault, ActuatorFault::kNone);
+}
+
+TEST_F(Cia402Failure, WhatABusOffSwallowedIsNotWaitedForAfterTheRestart) {
+  bench_.can().lose_echoes(100);
+  bench_.step(kMoving);
+  bench_.step(kMoving);
+  bench_.can().lose_echoes(0);
+  bench_.can().tell_trouble(CanTrouble::kBusOff);
+  bench_.run(20, {0.0, false});
+  bench_.can().tell_trouble(CanTrouble::kRestarted);
+  bench_.run(5, {0.0, false});
+  bench_.clear(300);
+  EXPECT_EQ(bench_.reading().fault, ActuatorFault::kNone) << can_detail_text(bench_.reading().drive_error);
+  EXPECT_TRUE(bench_.enable());
 }
 
 TEST_F(Cia402Failure, AMissingHeartbeatIsAFaultAfterItsTimeOut) {

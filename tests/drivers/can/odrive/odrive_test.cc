@@ -63,8 +63,8 @@ TEST(Odrive, TakesOnlyWholeFrames) {
   ASSERT_TRUE(decode_estimates(frame));
   for (std::uint8_t size = 0; size < 8; ++size) {
     frame.size = size;
-    EXPECT_FALSE(decode_estimates(frame) || decode_temperatures(frame) || decode_supply(frame) ||
-                 decode_version(frame) || decode_heartbeat(frame))
+    EXPECT_FALSE(decode_estimates(frame) || decode_temperatures(frame) || decode_version(frame) ||
+                 decode_heartbeat(frame))
         << int{size};
   }
 }
@@ -74,7 +74,7 @@ TEST(Odrive, TakesOnlyFiniteNumbers) {
   const float infinity = std::numeric_limits<float>::infinity();
   EXPECT_FALSE(decode_estimates(pair_of(nan, 0.0F)));
   EXPECT_FALSE(decode_estimates(pair_of(0.0F, infinity)));
-  EXPECT_FALSE(decode_supply(pair_of(-infinity, 0.0F)));
+  EXPECT_FALSE(decode_estimates(pair_of(-infinity, 0.0F)));
   EXPECT_FALSE(decode_temperatures(pair_of(nan, nan)));
 }
 

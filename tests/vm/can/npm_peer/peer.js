@@ -83,7 +83,8 @@ function statusAfter(status, order) {
   else if ((order & 0x07) === 0x06) next = ready;
   else if (state !== switchOnDisabled && (order & 0x0F) === 0x07) next = switchedOn;
   else if ((state === switchedOn || state === ready) && (order & 0x0F) === 0x0F) next = enabled;
-  return (status & ~0x6F) | next;
+  const followsOrder = next === enabled ? 0x1000 : 0;  // CST: the drive follows what it is ordered
+  return (status & ~0x106F) | next | followsOrder;
 }
 
 function main() {

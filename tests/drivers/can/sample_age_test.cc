@@ -1,0 +1,85 @@
+#include "drivers/can/sample_age.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+#include <random>
+
+namespace strainwave {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 1'000'000;
+constexpr std::int64_t kUsual_ns = 150'000;
+
+class SampleAgeTest : public ::testing::Test {
+ protected:
+  SampleAgeTest() { age_.restart(kUsual_ns); }
+  /// `periods` SYNCs, each followed by its TPDO after `delay_ns`; none with `delay_ns` < 0.
+  void run(int periods, std::int64_t delay_ns) {
+    for (int i = 0; i < periods; ++i) {
+      const std::int64_t sync_ns = next_sync_ns_;
+      next_sync_ns_ += kPeriod_ns;
+      deliver_until(sync_ns);
+      age_.sync(sync_ns);
+      if (delay_ns >= 0) due_.push_back(sync_ns + delay_ns);
+      deliver_until(next_sync_ns_);
+    }
+  }
+  void deliver_until(std::int64_t time_ns) {
+    std::sort(due_.begin(), due_.end());
+    for (; !due_.empty() && due_.front() < time_ns; due_.pop_front()) age_.sample(due_.front());
+  }
+  SampleAge age_{kPeriod_ns};
+  std::int64_t next_sync_ns_ = 1'000'000'000;
+  std::deque<std::int64_t> due_;
+};
+
+TEST_F(SampleAgeTest, IsTheDelayOfADriveThatAnswersEachSync) {
+  run(100, kUsual_ns);
+  EXPECT_EQ(age_.delay_ns(), kUsual_ns);
+  EXPECT_EQ(age_.lag_periods(), 0);
+}
+
+TEST_F(SampleAgeTest, SeesADriveThatBecomesLateByMoreThanAPeriodAndIsOnTimeAgain) {
+  run(100, kUsual_ns);
+  for (const std::int64_t late_ns : {2'400'000, 10'400'000, 1'500'000}) {
+    run(60, late_ns);
+    EXPECT_EQ(age_.delay_ns(), late_ns);
+    run(100, kUsual_ns);
+    EXPECT_EQ(age_.delay_ns(), kUsual_ns) << "after " << late_ns;
+  }
+}
+
+TEST_F(SampleAgeTest, TakesLostSamplesForLostAndNotForLate) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 200; ++i) {
+    run(static_cast<int>(random() % 20), kUsual_ns);
+    run(1 + static_cast<int>(random() % 3), -1);
+    run(1, kUsual_ns);
+    ASSERT_EQ(age_.lag_periods(), 0) << i;
+  }
+}
+
+TEST_F(SampleAgeTest, BearsTheJitterOfAnOrdinaryAdapter) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 2000; ++i) {
+    run(1, random() % 10 == 0 ? -1 : kUsual_ns + static_cast<std::int64_t>(random() % 150'000));
+    ASSERT_EQ(age_.lag_periods(), 0) << i;
+  }
+}
+
+TEST_F(SampleAgeTest, KeepsTheLagThatADriveHadFromTheStart) {
+  age_.restart(2'400'000);
+  run(200, 2'400'000);
+  EXPECT_EQ(age_.delay_ns(), 2'400'000);
+}
+
+TEST_F(SampleAgeTest, SaysNothingOfFramesWithoutATime) {
+  age_.sync(0);
+  age_.sample(0);
+  EXPECT_EQ(age_.delay_ns(), kUsual_ns);
+}
+
+}  // namespace
+}  // namespace strainwave
