@@ -66,7 +66,7 @@ TEST_F(StateRecordTest, ShowsReferenceTargetAndEstimateUnderControlAllFromOneZer
 
 TEST_F(StateRecordTest, ShowsTheTargetToTheBitAsItWasOrdered) {
   enable();
-  ordered_.accept(1.7500000001, 0.75, 0.0, 0);
+  ordered_.accept({.joint_rad = 1.7500000001, .drive_rad = 0.75}, 0);
   EXPECT_EQ(filled().target_position_rad, 1.7500000001);
 }
 
