@@ -47,7 +47,7 @@ class Peer(unittest.TestCase):
         daemon = Daemon(daemon_toml([patient + '\n[joint.supervision]\nmissed_readings_limit = 1000\n']))
         must('enable', JOINT)
         self.assertEqual(joint_state()['mode'], MODES['holding'])
-        self.assertIn('status 237', self.log.read_text(), 'Operation enabled')
+        self.assertIn('status 1237', self.log.read_text(), 'Operation enabled, and it follows (bit 12)')
         daemon.kill()
 
 
