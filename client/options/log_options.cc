@@ -19,7 +19,8 @@ void add_record(CLI::App& app, Invocation& invocation) {
   auto duration_s = std::make_shared<double>(0.0);
   add_seconds(*command, "--duration_s", *duration_s, "end after this time");
   command->add_flag("--overwrite", arguments->overwrite, "replace the file if it exists");
-  command->add_flag("--mcap", arguments->mcap, "an MCAP file (Foxglove, PlotJuggler) instead of an LCM event log");
+  command->add_flag("--mcap", arguments->mcap,
+                    "an MCAP file (Foxglove, PlotJuggler) instead of an LCM event log");
   command->callback([&invocation, arguments, duration_s] {
     if (*duration_s > 0.0) arguments->duration_s = *duration_s;
     invocation.command = [arguments](Client& client, const Output& output) {

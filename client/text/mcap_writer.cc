@@ -34,7 +34,8 @@ class Content {
  public:
   template <std::unsigned_integral Integer>
   Content& number(Integer value) {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) bytes_ += static_cast<char>((std::uint64_t{value} >> (8U * i)) & 0xFFU);
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
+      bytes_ += static_cast<char>((std::uint64_t{value} >> (8U * i)) & 0xFFU);
     return *this;
   }
   /// A byte count, then the bytes: text, and arrays and maps whose entries are bytes already.

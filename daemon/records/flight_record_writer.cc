@@ -117,8 +117,8 @@ void FlightRecordWriter::handle(State& state, std::int64_t now_ns) {
         now_ns);
   const FlightRecorder& recorder = *state.source.recorder;
   const std::int64_t since_fault_us = (now_ns - recorder.sample(recorder.fault_index()).time_ns) / 1000;
-  const FlightRecordHeader header{joint, state.source.joint_model, session_id_,
-                                  utime_now() - since_fault_us, period_s_};
+  const FlightRecordHeader header{joint, state.source.joint_model, session_id_, utime_now() - since_fault_us,
+                                  period_s_};
   const std::string name = flight_record_name(header, recorder);
   std::string problem;
   if (!write(name, flight_record_text(header, recorder), problem))

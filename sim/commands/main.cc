@@ -16,8 +16,8 @@ std::filesystem::path shared_folder(const std::filesystem::path& name) {
   const auto tree = folder.parent_path().parent_path().parent_path() / name;
   for (const auto& place : {installed, tree})
     if (!error && std::filesystem::is_directory(place)) return place;
-  throw InputError("the folder '" + name.string() + "' is neither at " + installed.string() + " nor at " + tree.string() +
-                   "; say where it is");
+  throw InputError("the folder '" + name.string() + "' is neither at " + installed.string() + " nor at " +
+                   tree.string() + "; say where it is");
 }
 
 }  // namespace strainwave

@@ -39,7 +39,7 @@ struct JointInput {
   double torque_Nm = 0.0;       ///< commanded motor torque
   double load_torque_Nm = 0.0;  ///< external torque; positive opposes positive motor torque
   FrictionParameters friction;  ///< at this period's temperature
-  MotorLimits motor;         ///< what the motor can deliver
+  MotorLimits motor;            ///< what the motor can deliver
 };
 
 /// Advances `state` by `duration_s` in `substeps` >= 1 equal steps.

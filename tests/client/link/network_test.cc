@@ -10,9 +10,9 @@
 #include <sstream>
 #include <thread>
 
-#include "lcmtypes/multicast_check.h"
 #include "client/options/command_line.h"
 #include "lcmtypes/event_log.h"
+#include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
 #include "tests/client/link/fake_daemon.h"
 
@@ -134,8 +134,7 @@ TEST(ClientWithoutMulticast, SaysHowToAddTheRoute) {
     if (::unshare(CLONE_NEWNET) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) ::_exit(kNotPermitted);
     const std::string problem = find_multicast_problem("udpm://239.255.76.67:7667?ttl=0").value_or("");
     const bool helpful = problem.find("ip route add 239.255.76.67/32 dev lo") != std::string::npos;
-    const bool status_5 =
-        run("udpm://239.255.76.67:7667?ttl=0", {"status"}).status == ExitStatus::kNoAnswer;
+    const bool status_5 = run("udpm://239.255.76.67:7667?ttl=0", {"status"}).status == ExitStatus::kNoAnswer;
     ::_exit(helpful && status_5 ? 0 : 1);
   }
   int status = -1;
