@@ -63,10 +63,12 @@ TEST(LcmWire, RefusesAnotherMagic) {
 }
 
 TEST(LcmWire, FindsAChannelInTheFirstFragmentOnly) {
-  const LcmDatagram first = parse_lcm_datagram(fragment_datagram({5, 150, 0, 0, 2}, with_channel("SW", 100)));
+  const auto first_bytes = fragment_datagram({5, 150, 0, 0, 2}, with_channel("SW", 100));
+  const LcmDatagram first = parse_lcm_datagram(first_bytes);
   EXPECT_EQ(first.channel, "SW");
   EXPECT_EQ(first.part.size(), 100U);
-  const LcmDatagram second = parse_lcm_datagram(fragment_datagram({5, 150, 100, 1, 2}, pattern(50)));
+  const auto second_bytes = fragment_datagram({5, 150, 100, 1, 2}, pattern(50));
+  const LcmDatagram second = parse_lcm_datagram(second_bytes);
   EXPECT_EQ(second.channel, "");
   EXPECT_EQ(second.part.size(), 50U);
   EXPECT_EQ(second.offset, 100U);
