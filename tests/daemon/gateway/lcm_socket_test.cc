@@ -66,8 +66,8 @@ TEST(LcmSocket, UnderstandsWhatLcmsLibrarySendsFrom0BytesTo300kB) {
   for (const std::size_t size : {0U, 1U, 148U, 8120U, 65'000U, 65'490U, 65'491U, 65'492U, 65'500U, 130'000U,
                                  131'000U, 200'000U, 300'000U}) {
     const Bytes sent = pattern(size, static_cast<std::uint32_t>(size));
-    ASSERT_EQ(sender.publish("SW.elbow.TABLE", sent.data(), static_cast<unsigned int>(sent.size())), 0);
-    const auto received = receiver.next("SW.elbow.TABLE");
+    ASSERT_EQ(sender.publish("SOCKET.alone.TABLE", sent.data(), static_cast<unsigned int>(sent.size())), 0);
+    const auto received = receiver.next("SOCKET.alone.TABLE");
     ASSERT_TRUE(received.has_value()) << size;
     EXPECT_EQ(*received, sent) << size;
   }
@@ -79,39 +79,39 @@ TEST(LcmSocket, DropsAndCountsWhatIsLongerThanTheLargestMessage) {
   lcm::LCM sender(kUrl);
   for (const std::size_t size : {8121U, 65'000U, 100'000U, 300'000U}) {
     const Bytes sent = pattern(size);
-    sender.publish("SW.elbow.TABLE", sent.data(), static_cast<unsigned int>(sent.size()));
+    sender.publish("SOCKET.alone.TABLE", sent.data(), static_cast<unsigned int>(sent.size()));
   }
   const Bytes sound = pattern(8120);
-  sender.publish("SW.elbow.TABLE", sound.data(), static_cast<unsigned int>(sound.size()));
-  EXPECT_EQ(receiver.next("SW.elbow.TABLE"), sound);
+  sender.publish("SOCKET.alone.TABLE", sound.data(), static_cast<unsigned int>(sound.size()));
+  EXPECT_EQ(receiver.next("SOCKET.alone.TABLE"), sound);
   EXPECT_EQ(receiver.counts().too_long, 1U + 1U + 2U + 5U) << "one for each datagram";
 }
 
 TEST(LcmSocket, LetsTheKernelDropWhatIsLongerThanTheLargestDatagram) {
   LcmReceiver receiver(8120, 8204);
   for (int i = 0; i < 100; ++i)
-    send_to("239.255.76.67", testing::short_datagram("SW.elbow.TABLE", pattern(60'000)));
-  send_to("239.255.76.67", testing::short_datagram("SW.elbow.TABLE", pattern(8120)));
-  EXPECT_EQ(receiver.next("SW.elbow.TABLE"), pattern(8120));
+    send_to("239.255.76.67", testing::short_datagram("SOCKET.alone.TABLE", pattern(60'000)));
+  send_to("239.255.76.67", testing::short_datagram("SOCKET.alone.TABLE", pattern(8120)));
+  EXPECT_EQ(receiver.next("SOCKET.alone.TABLE"), pattern(8120));
   EXPECT_EQ(receiver.counts().too_long, 0U) << "they took room in the queue";
 }
 
 TEST(LcmSocket, HearsItsGroupAndNothingThatIsSentToThisMachineItself) {
   LcmReceiver receiver(8120, 8204);
-  const Bytes datagram = testing::short_datagram("SW.elbow.COMMAND", pattern(20));
+  const Bytes datagram = testing::short_datagram("SOCKET.alone.COMMAND", pattern(20));
   send_to("127.0.0.1", datagram);
   send_to("127.0.0.2", datagram);
-  EXPECT_FALSE(receiver.next("SW.elbow.COMMAND").has_value());
+  EXPECT_FALSE(receiver.next("SOCKET.alone.COMMAND").has_value());
   send_to("239.255.76.67", datagram);
-  EXPECT_TRUE(receiver.next("SW.elbow.COMMAND").has_value());
+  EXPECT_TRUE(receiver.next("SOCKET.alone.COMMAND").has_value());
 }
 
 TEST(LcmSocket, SharesItsPortWithOtherProgramsOfThisMachine) {
   LcmReceiver first(8120, 8204);
   LcmReceiver second(8120, 8204);
-  send_to("239.255.76.67", testing::short_datagram("SW.elbow.COMMAND", pattern(20)));
-  EXPECT_TRUE(first.next("SW.elbow.COMMAND").has_value());
-  EXPECT_TRUE(second.next("SW.elbow.COMMAND").has_value());
+  send_to("239.255.76.67", testing::short_datagram("SOCKET.alone.COMMAND", pattern(20)));
+  EXPECT_TRUE(first.next("SOCKET.alone.COMMAND").has_value());
+  EXPECT_TRUE(second.next("SOCKET.alone.COMMAND").has_value());
 }
 
 }  // namespace
