@@ -65,7 +65,7 @@ void run(const Options& options, bool one_reference) {
   TextTable result;
   result.title =
       std::string(flexible ? "Least error of the link" : "Time-optimal motion of the rigid joint") +
-      ", plant " + options.loop.plant + ", temperature " + options.loop.temperature;
+      ", plant " + options.loop.plant + ", surroundings " + options.loop.ambient_temperature_C;
   result.header = flexible
                       ? std::vector<std::string>{"reference", "settled within 40 urad (ms)",
                                                  "PI2 of the link", "counting |e| > 40 urad"}
@@ -75,7 +75,7 @@ void run(const Options& options, bool one_reference) {
     result.header.push_back("x limit");
   }
   if (one_reference) {
-    add_row(result, options.loop.reference, config, contenders);
+    add_row(result, options.loop.reference_rad, config, contenders);
   } else {
     for (const double start_rad : kRangeStart_rad) {
       config.setpoint_rad = TimeProfile::constant(start_rad, {"setpoint_position_rad"});
@@ -90,14 +90,15 @@ void run(const Options& options, bool one_reference) {
 void add_bound_command(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   options->loop.plant = "limited";
-  options->loop.temperature = "constant:-10";
+  options->loop.ambient_temperature_C = "constant:-10";
   CLI::App* command = program.add_subcommand("bound",
                                              "The physical limit: the best motion of the same plant (of a "
                                              "flexible one, its link), and controllers as ratios to it");
   command->add_option("--table", options->table, "gain table (JSON) to compare; the PID is always compared");
   add_loop_options(*command, options->loop);
-  command->get_option("--reference")->default_str("constant: 0.001, 0.01, 0.1 and 1 rad in turn");
-  command->callback([options, command] { run(*options, command->get_option("--reference")->count() > 0); });
+  command->get_option("--reference_rad")->default_str("constant: 0.001, 0.01, 0.1 and 1 rad in turn");
+  command->callback(
+      [options, command] { run(*options, command->get_option("--reference_rad")->count() > 0); });
 }
 
 }  // namespace strainwave

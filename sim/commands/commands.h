@@ -28,13 +28,13 @@ std::filesystem::path shared_folder(const std::filesystem::path& name);
 /// What a single closed loop is made of, as the user gives it.
 struct LoopOptions {
   std::string plant = "realistic";
-  std::string reference = "constant:0.1";
-  std::string temperature = "constant:20";
-  std::string load = "constant:0";
+  std::string reference_rad = "constant:0.1";
+  std::string ambient_temperature_C = "constant:20";
+  std::string load_torque_Nm = "constant:0";
   double duration_s = 2.0;
 };
 
-/// Adds --plant, --reference, --temperature, --load and --duration.
+/// Adds --plant, --reference_rad, --ambient_temperature_C, --load_torque_Nm and --duration_s.
 void add_loop_options(CLI::App& command, LoopOptions& options);
 /// Throws InputError.
 ClosedLoopConfig loop_config(const LoopOptions& options);

@@ -51,14 +51,15 @@ void add_heat_command(CLI::App& program) {
   command->add_option("--table", options->table, "gain table (JSON)")->required();
   command->add_option("--plant", options->plant, "flexible, realistic, limited, ideal or a plant file")
       ->capture_default_str();
-  command->add_option("--ambient", study.ambient_C, "degC")->capture_default_str();
-  command->add_option("--stroke", study.stroke_rad, "rad, there and back")->capture_default_str();
-  command->add_option("--interval", study.interval_s, "from one setpoint to the next, s")
+  command->add_option("--ambient_temperature_C", study.ambient_temperature_C, "surroundings")
       ->capture_default_str();
-  command->add_option("--duration", study.duration_s, "s")->capture_default_str();
-  command->add_option("--sensor-lag", study.sensor_lag_s, "time constant of the late sensor, s")
+  command->add_option("--stroke_rad", study.stroke_rad, "there and back")->capture_default_str();
+  command->add_option("--interval_s", study.interval_s, "from one setpoint to the next")
       ->capture_default_str();
-  command->add_option("--bias", study.bias_C, "of the biased sensors, degC")->capture_default_str();
+  command->add_option("--duration_s", study.duration_s, "length of the run")->capture_default_str();
+  command->add_option("--sensor-lag_s", study.sensor_lag_s, "time constant of the late sensor")
+      ->capture_default_str();
+  command->add_option("--bias_C", study.bias_C, "of the biased sensors")->capture_default_str();
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->callback([options] { run(*options); });
 }

@@ -11,27 +11,28 @@ void add_loop_options(CLI::App& command, LoopOptions& options) {
       ->capture_default_str();
   command
       .add_option(
-          "--reference", options.reference,
-          "setpoint over time in rad: constant:R, steps:START,RISE,INTERVAL_S,COUNT, "
+          "--reference_rad", options.reference_rad,
+          "setpoint over time: constant:R, steps:START,RISE,INTERVAL_S,COUNT, "
           "square:FIRST,SECOND,INTERVAL_S, csv:FILE or hold:FILE (columns time_s,setpoint_position_rad)")
       ->capture_default_str();
   command
-      .add_option("--temperature", options.temperature,
-                  "surroundings over time in degC: constant:C, steps:START,RISE,INTERVAL_S,COUNT, "
-                  "sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or hold:FILE (columns time_s,temperature_C)")
+      .add_option("--ambient_temperature_C", options.ambient_temperature_C,
+                  "surroundings over time: constant:C, steps:START,RISE,INTERVAL_S,COUNT, "
+                  "sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or hold:FILE (columns time_s,ambient_temperature_C)")
       ->capture_default_str();
   command
-      .add_option("--load", options.load, "load torque over time in N.m, likewise (column load_torque_Nm)")
+      .add_option("--load_torque_Nm", options.load_torque_Nm,
+                  "load torque over time, likewise (column load_torque_Nm)")
       ->capture_default_str();
-  command.add_option("--duration", options.duration_s, "length of the run in s")->capture_default_str();
+  command.add_option("--duration_s", options.duration_s, "length of the run")->capture_default_str();
 }
 
 ClosedLoopConfig loop_config(const LoopOptions& options) {
   ClosedLoopConfig config;
   config.plant = plant_named(options.plant);
-  config.setpoint_rad = TimeProfile::parse(options.reference, {"setpoint_position_rad", -1e5, 1e5});
-  config.ambient = TemperatureProfile::parse(options.temperature);
-  config.load_torque_Nm = TimeProfile::parse(options.load, {"load_torque_Nm", -1e4, 1e4});
+  config.setpoint_rad = TimeProfile::parse(options.reference_rad, {"setpoint_position_rad", -1e5, 1e5});
+  config.ambient = TemperatureProfile::parse(options.ambient_temperature_C);
+  config.load_torque_Nm = TimeProfile::parse(options.load_torque_Nm, {"load_torque_Nm", -1e4, 1e4});
   config.duration_s = options.duration_s;
   return config;
 }

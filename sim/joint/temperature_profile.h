@@ -21,7 +21,7 @@ class TemperatureProfile {
   static TemperatureProfile sine(double mean_C, double amplitude_C, double angular_frequency_rad_s) {
     return {TimeProfile::sine(mean_C, amplitude_C, angular_frequency_rad_s, quantity())};
   }
-  /// Columns time_s, temperature_C; straight lines between the rows.
+  /// Columns time_s, ambient_temperature_C; straight lines between the rows.
   static TemperatureProfile from_csv(const std::filesystem::path& path) {
     return {TimeProfile::from_csv(path, false, quantity())};
   }
@@ -33,7 +33,7 @@ class TemperatureProfile {
 
  private:
   TemperatureProfile(TimeProfile profile) : profile_(std::move(profile)) {}
-  static ProfileQuantity quantity() { return {"temperature_C", -273.15, 1e4}; }
+  static ProfileQuantity quantity() { return {"ambient_temperature_C", -273.15, 1e4}; }
 
   TimeProfile profile_;
 };

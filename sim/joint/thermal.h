@@ -22,10 +22,10 @@ class ThermalModel {
                              ? -std::expm1(-period_s / parameters.sensor_time_constant_s)
                              : 1.0) {}
 
-  /// Start of a period: the surroundings are at `ambient_C`; the sensor takes its sample. The first call
+  /// Start of a period: the surroundings are at `ambient_temperature_C`; the sensor takes its sample. The first call
   /// finds the sensor settled.
-  void set_ambient(double ambient_C) noexcept {
-    joint_C_ = ambient_C + rise_C_;
+  void set_ambient(double ambient_temperature_C) noexcept {
+    joint_C_ = ambient_temperature_C + rise_C_;
     sensor_C_ = started_ ? sensor_C_ + sensor_fraction_ * (joint_C_ - sensor_C_) : joint_C_;
     started_ = true;
   }

@@ -13,7 +13,7 @@ namespace strainwave {
 /// What the numbers of a profile are: named in messages and as the CSV column, and the range they must stay
 /// in.
 struct ProfileQuantity {
-  std::string key;  ///< e.g. "temperature_C"
+  std::string key;  ///< e.g. "ambient_temperature_C"
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
 };

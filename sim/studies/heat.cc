@@ -39,12 +39,12 @@ class ToldTemperature final : public LoopController {
 std::vector<Sensing> sensings(const HeatConfig& config) {
   const auto exact = [](double sensor_C) { return sensor_C; };
   const auto shifted = [](double bias_C) { return [bias_C](double sensor_C) { return sensor_C + bias_C; }; };
-  const double ambient_C = config.ambient_C;
+  const double ambient_temperature_C = config.ambient_temperature_C;
   return {{"exact", 0.0, exact},
           {"lag " + number(config.sensor_lag_s) + " s", config.sensor_lag_s, exact},
           {"+" + number(config.bias_C) + " degC", 0.0, shifted(config.bias_C)},
           {"-" + number(config.bias_C) + " degC", 0.0, shifted(-config.bias_C)},
-          {"ambient only", 0.0, [ambient_C](double) { return ambient_C; }},
+          {"ambient only", 0.0, [ambient_temperature_C](double) { return ambient_temperature_C; }},
           {"none (fallback)", 0.0, [](double) { return std::numeric_limits<double>::quiet_NaN(); }}};
 }
 
@@ -99,7 +99,7 @@ HeatRun run_one(const HeatConfig& config, const GainTable& table, const Sensing&
   ClosedLoopConfig loop;
   loop.plant = config.plant;
   loop.plant.thermal.sensor_time_constant_s = sensing.lag_s;
-  loop.ambient = TemperatureProfile::constant(config.ambient_C);
+  loop.ambient = TemperatureProfile::constant(config.ambient_temperature_C);
   loop.setpoint_rad =
       TimeProfile::square(config.stroke_rad, 0.0, config.interval_s, {"setpoint_position_rad"});
   loop.duration_s = config.duration_s;

@@ -13,7 +13,7 @@ namespace strainwave {
 
 struct HeatConfig {
   JointPlantConfig plant;  ///< its thermal resistance and time constant must be set
-  double ambient_C = 0.0;
+  double ambient_temperature_C = 0.0;
   double stroke_rad = 1.0;  ///< between 0 and this
   double interval_s = 1.0;  ///< from one setpoint to the next
   double duration_s = 1200.0;

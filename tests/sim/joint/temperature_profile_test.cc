@@ -42,7 +42,7 @@ TEST(TemperatureProfile, FollowsTheSine) {
 }
 
 TEST(TemperatureProfile, InterpolatesARecordAndHoldsItsEnds) {
-  const auto path = file_with("# recorded\ntime_s,temperature_C\n1,10\n3,20\n\n4,0\n");
+  const auto path = file_with("# recorded\ntime_s,ambient_temperature_C\n1,10\n3,20\n\n4,0\n");
   const auto profile = TemperatureProfile::parse("csv:" + path.string());
   EXPECT_EQ(profile.at(0.0), 10.0);
   EXPECT_EQ(profile.at(1.5), 12.5);
@@ -52,7 +52,7 @@ TEST(TemperatureProfile, InterpolatesARecordAndHoldsItsEnds) {
 }
 
 TEST(TemperatureProfile, HoldsEachRowUntilTheNextWhenTold) {
-  const auto path = file_with("time_s,temperature_C\n1,10\n3,20\n");
+  const auto path = file_with("time_s,ambient_temperature_C\n1,10\n3,20\n");
   const auto profile = TemperatureProfile::parse("hold:" + path.string());
   EXPECT_EQ(profile.at(2.999), 10.0);
   EXPECT_EQ(profile.at(3.0), 20.0);
@@ -65,14 +65,17 @@ TEST(TemperatureProfile, NamesTheFileAndLineOfABadRecord) {
     EXPECT_EQ(message.find(path.string() + place), 0U) << message;
     return message;
   };
-  EXPECT_NE(refused_at("time,temperature\n1,2\n", ":1:").find("time_s,temperature_C"), std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n0,20\n1,warm\n", ":3:").find("warm"), std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n0,20\n1,nan\n", ":3:").find("nan"), std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n0,20\n1,21,22\n", ":3:").find("fields"), std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n0,20\n# pause\n0,21\n", ":4:").find("greater"),
+  EXPECT_NE(refused_at("time,temperature\n1,2\n", ":1:").find("time_s,ambient_temperature_C"),
             std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n0,-300\n", ":2:").find("-273.15"), std::string::npos);
-  EXPECT_NE(refused_at("time_s,temperature_C\n", ": has no data").find("at least one row"),
+  EXPECT_NE(refused_at("time_s,ambient_temperature_C\n0,20\n1,warm\n", ":3:").find("warm"),
+            std::string::npos);
+  EXPECT_NE(refused_at("time_s,ambient_temperature_C\n0,20\n1,nan\n", ":3:").find("nan"), std::string::npos);
+  EXPECT_NE(refused_at("time_s,ambient_temperature_C\n0,20\n1,21,22\n", ":3:").find("fields"),
+            std::string::npos);
+  EXPECT_NE(refused_at("time_s,ambient_temperature_C\n0,20\n# pause\n0,21\n", ":4:").find("greater"),
+            std::string::npos);
+  EXPECT_NE(refused_at("time_s,ambient_temperature_C\n0,-300\n", ":2:").find("-273.15"), std::string::npos);
+  EXPECT_NE(refused_at("time_s,ambient_temperature_C\n", ": has no data").find("at least one row"),
             std::string::npos);
   EXPECT_NE(refusal("csv:/nonexistent/profile.csv").find("cannot be read"), std::string::npos);
 }

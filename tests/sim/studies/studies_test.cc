@@ -153,7 +153,7 @@ TEST(Heat, WarmsTheJointAndCostsMostWhenToldTooCold) {
   ASSERT_EQ(runs.size(), 6U);
   for (const HeatRun& run : runs) {
     EXPECT_EQ(run.pi2_over_time.size(), 100U) << run.name;
-    EXPECT_GT(run.joint_temperature_C.back().second, config.ambient_C + 3.0) << run.name;
+    EXPECT_GT(run.joint_temperature_C.back().second, config.ambient_temperature_C + 3.0) << run.name;
   }
   EXPECT_LT(runs[1].told_temperature_C[10].second, runs[1].joint_temperature_C[10].second)
       << "the sensor lags";

@@ -36,22 +36,22 @@ void add_options(CLI::App& app, Options& options, Cia402NodeConfig& config) {
   app.add_option("--product", config.product, "1018h:2");
   app.add_option("--counts-per-revolution", drive.counts_per_joint_revolution,
                  "of 6064h, per turn of the joint");
-  app.add_option("--rated-torque", drive.rated_torque_Nm, "in N m, on the side of --torque-side");
+  app.add_option("--rated-torque_Nm", drive.rated_torque_Nm, "on the side of --torque-side");
   app.add_option("--rated-torque-unit", drive.rated_torque_units_per_Nm, "of 6076h: mNm or uNm")
       ->transform(CLI::CheckedTransformer(torque_units));
   app.add_option("--torque-side", options.torque_side)->check(CLI::IsMember({"motor", "joint"}));
   app.add_option("--gear-ratio", options.gear_ratio)->check(CLI::PositiveNumber);
-  app.add_option("--rated-current", drive.rated_current_A, "6075h, in A");
+  app.add_option("--rated-current_A", drive.rated_current_A, "6075h");
   app.add_flag("--reversed", options.reversed, "the drive's positive direction is the joint's negative one");
   app.add_option("--modes", options.modes, "of 6502h: cst, tq")->delimiter(',');
-  app.add_option("--ambient", options.ambient,
+  app.add_option("--ambient_temperature_C", options.ambient,
                  "temperature over time, as in the configuration of a simulated joint");
   app.add_option("--temperature-object", options.temperature_object, "index and sub-index")->expected(2);
   app.add_option("--temperature-type", options.temperature_type)->check(CLI::IsMember({"int16", "real32"}));
-  app.add_option("--temperature-unit", drive.temperature.unit_C, "degC of one count of an int16");
-  app.add_option("--initial-position", drive.plant.initial_position_rad, "rad");
-  app.add_option("--inertia", drive.plant.joint.inertia_kgm2, "kg m^2, at the joint");
-  app.add_option("--period", options.period_s, "the drive's control period in s");
+  app.add_option("--temperature-unit_C", drive.temperature.unit_C, "of one count of an int16");
+  app.add_option("--initial-position_rad", drive.plant.initial_position_rad, "at the start");
+  app.add_option("--inertia_kgm2", drive.plant.joint.inertia_kgm2, "at the joint");
+  app.add_option("--period_s", options.period_s, "the drive's control period");
 }
 
 void finish(const Options& options, Cia402NodeConfig& config) {

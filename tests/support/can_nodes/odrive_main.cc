@@ -34,12 +34,13 @@ int run(int argc, char** argv) {
   app.add_flag("--reversed", reversed, "the drive's positive direction is the joint's negative one");
   app.add_option("--counts-per-revolution", config.counts_per_joint_revolution, "per turn of the joint");
   app.add_option("--firmware", config.version.firmware, "three numbers")->expected(3);
-  app.add_option("--ambient", ambient, "temperature over time, as in the configuration of a simulated joint");
-  app.add_option("--watchdog", config.watchdog_timeout_s, "its time-out in s");
+  app.add_option("--ambient_temperature_C", ambient,
+                 "temperature over time, as in the configuration of a simulated joint");
+  app.add_option("--watchdog_s", config.watchdog_timeout_s, "its time-out");
   app.add_option("--watchdog-enabled", config.watchdog_enabled);
-  app.add_option("--encoder-ms", encoder_ms, "period of the cyclic encoder message; 0: on request only");
-  app.add_option("--heartbeat-ms", heartbeat_ms, "period of the heartbeat");
-  app.add_option("--temperature-ms", temperature_ms,
+  app.add_option("--encoder_ms", encoder_ms, "period of the cyclic encoder message; 0: on request only");
+  app.add_option("--heartbeat_ms", heartbeat_ms, "period of the heartbeat");
+  app.add_option("--temperature_ms", temperature_ms,
                  "period of the cyclic temperature message; 0: on request only");
   CLI11_PARSE(app, argc, argv);
 

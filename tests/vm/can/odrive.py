@@ -10,7 +10,7 @@ WATCHDOG_US = 100000
 PERIOD_US = 1000
 STATE_US = 5000
 FAULT_AFTER = 10
-OPTIONS = ['--encoder-ms', '1', '--temperature-ms', '100', '--heartbeat-ms', '20', '--watchdog', '0.1']
+OPTIONS = ['--encoder_ms', '1', '--temperature_ms', '100', '--heartbeat_ms', '20', '--watchdog_s', '0.1']
 
 
 def make_daemon(name):
