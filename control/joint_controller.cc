@@ -50,7 +50,7 @@ LandingConfig landing_config(const JointControllerConfig& config) noexcept {
   LandingConfig landing;
   landing.period_s = config.period_s;
   landing.encoder_resolution_rad = config.encoder_resolution_rad;
-  landing.delay_samples = config.delay_samples;
+  landing.delay_periods = config.delay_periods;
   return landing;
 }
 
@@ -65,7 +65,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       monitor_(config.period_s),
       rest_detector_(config.encoder_resolution_rad),
       motion_(config.motion) {
-  assert(config.delay_samples >= 0 && config.delay_samples <= kMaxControlDelay);
+  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxControlDelay);
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   shaper_.set_limits(config.motion);
   ordered_.set_limits(config.motion);
@@ -183,7 +183,7 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
 void JointController::let_torque_act(int periods) noexcept {
   for (int period = 0; period < periods; ++period) {
     if (period > 0) push_back(torques_Nm_.front());
-    if (observing()) observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_samples)], model_);
+    if (observing()) observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_periods)], model_);
   }
 }
 
@@ -213,7 +213,7 @@ void JointController::estimate_state(const JointMeasurement& measurement, int el
 void JointController::look_ahead() noexcept {
   then_ = now_;
   if (!observing()) return;
-  for (int i = config_.delay_samples - 1; i >= 0; --i) {
+  for (int i = config_.delay_periods - 1; i >= 0; --i) {
     const ModelMotion motion = adapted_.advance(torques_Nm_[static_cast<std::size_t>(i)], then_.disturbance,
                                                 then_.velocity_rad_s, config_.period_s);
     then_.position_rad += motion.displacement_rad;

@@ -17,6 +17,7 @@
 
 #include "control/chatter_monitor.h"
 #include "control/gain_table.h"
+#include "control/gains_in_use.h"
 #include "control/joint_model.h"
 #include "control/landing.h"
 #include "control/landing_attempts.h"
@@ -39,7 +40,7 @@ struct JointControllerConfig {
   double encoder_resolution_rad = 0.0;     ///< position of one count at the joint; 0: exact
   double encoder_deviation_counts = 0.02;  ///< how evenly its edges lie, noise included, standard deviation
   /// Periods between a torque's computation and its effect, 0..kMaxControlDelay.
-  int delay_samples = 0;
+  int delay_periods = 0;
   double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
   MotorLimits motor;
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
@@ -68,8 +69,6 @@ struct JointMeasurement {
   /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
   int elapsed_periods = 1;
 };
-
-enum class GainsInUse : int { kNone = 0, kPrimary = 1, kFallback = 2 };
 
 /// How the torque comes about.
 enum class MotionPhase : int { kTracking = 0, kLanding = 1, kResting = 2 };

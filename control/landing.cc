@@ -104,7 +104,7 @@ double Landing::step(const JointEstimate& now, const JointEstimate& then, double
   still_samples_ = still ? still_samples_ + 1 : 0;
   if (then.velocity_rad_s == 0.0) {
     // Until the encoder has shown where the last push ended, nothing is decided.
-    if (still_samples_ <= config_.delay_samples) return then.disturbance.load_Nm;
+    if (still_samples_ <= config_.delay_periods) return then.disturbance.load_Nm;
     choose_push(then, reading_rad, model);
     const double tolerance_rad = std::max(kExactTolerance_rad, 0.5 * then.position_deviation_rad);
     resting_ = aim_rad_ == target_rad_ && std::abs(aim_rad_ - then.position_rad) <= tolerance_rad;

@@ -27,7 +27,7 @@ double landing_torque_Nm(const JointModel& model, const JointDisturbance& distur
 struct LandingConfig {
   double period_s = 0.001;              ///< > 0
   double encoder_resolution_rad = 0.0;  ///< 0: exact, nothing to find out
-  int delay_samples = 0;                ///< periods between a torque's computation and its effect
+  int delay_periods = 0;                ///< periods between a torque's computation and its effect
 };
 
 class Landing {

@@ -34,12 +34,9 @@ constexpr double joint_viscous_Nms_rad_from_motor_Ncm_per_rpm(double motor_visco
   return gear_ratio * gear_ratio * kNmPerNcm / kRadPerSecondPerRpm * motor_viscous_Ncm_per_rpm;
 }
 
-/// Inverses of the three above, for tables printed beside the catalogue.
+/// Inverses of the above, for tables printed beside the catalogue.
 constexpr double motor_torque_Ncm_from_joint_Nm(double joint_torque_Nm, double gear_ratio) {
   return joint_torque_Nm / (gear_ratio * kNmPerNcm);
-}
-constexpr double motor_rpm_from_joint_velocity_rad_s(double joint_velocity_rad_s, double gear_ratio) {
-  return joint_velocity_rad_s * gear_ratio / kRadPerSecondPerRpm;
 }
 constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_viscous_Nms_rad,
                                                               double gear_ratio) {

@@ -8,12 +8,6 @@
 
 namespace strainwave {
 
-namespace {
-
-constexpr double kNanosecondsPerSecond = 1e9;
-
-}  // namespace
-
 FaultyActuator::FaultyActuator(std::unique_ptr<Actuator> actuator, FaultyActuatorConfig config)
     : actuator_(std::move(actuator)), config_(std::move(config)), random_(config_.seed) {
   std::stable_sort(config_.schedule.begin(), config_.schedule.end(),
@@ -94,9 +88,7 @@ void FaultyActuator::falsify_temperature(ActuatorReading& reading) noexcept {
   if (stuck.on && !stuck.begun) stuck_temperature_C_ = reading.temperature_C;
   if (stuck.on) reading.temperature_C = stuck_temperature_C_;
   const Active& drift = of(InjectedFault::kTemperatureDrifting);
-  if (drift.on)
-    reading.temperature_C +=
-        drift.amount * static_cast<double>(now_ns_ - drift.since_ns) / kNanosecondsPerSecond;
+  if (drift.on) reading.temperature_C += drift.amount * seconds(now_ns_ - drift.since_ns);
   if (of(InjectedFault::kTemperatureLost).on) reading.has_temperature = false;
 }
 

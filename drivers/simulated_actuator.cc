@@ -3,14 +3,13 @@
 #include <cmath>
 #include <string>
 
+#include "base/durations.h"
 #include "base/input_error.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave {
 
 namespace {
-
-constexpr double kNanosecondsPerSecond = 1e9;
 
 double checked_not_negative(double value, const char* key) {
   if (!(std::isfinite(value) && value >= 0.0))
@@ -44,7 +43,7 @@ SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
           checked_not_negative(config.temperature_period_s, "temperature_period_s"), config.plant.period_s)),
       temperature_noise_C_(checked_not_negative(config.temperature_noise_C, "temperature_noise_C")),
       random_(config.seed),
-      period_ns_(std::llround(config.plant.period_s * kNanosecondsPerSecond)) {
+      period_ns_(nanoseconds(config.plant.period_s)) {
   if (!std::isfinite(config.load_torque_Nm))
     throw InputError("simulated actuator", "load_torque_Nm", std::to_string(config.load_torque_Nm),
                      "must be finite");

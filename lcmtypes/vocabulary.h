@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "control/joint_controller.h"
+#include "control/gains_in_use.h"
 
 namespace strainwave {
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 class Ownership {
@@ -19,8 +21,7 @@ class Ownership {
   };
   static constexpr std::int64_t kReservation_ns = 500'000'000;
 
-  Ownership(std::size_t joints, double lease_s)
-      : lease_ns_(static_cast<std::int64_t>(lease_s * 1e9)), leases_(joints) {}
+  Ownership(std::size_t joints, double lease_s) : lease_ns_(nanoseconds(lease_s)), leases_(joints) {}
 
   /// Whether `holder` may order `joint`: nobody has it, or he has. A free joint is reserved for him.
   bool reserve(std::size_t joint, const Holder& holder, std::int64_t now_ns) {

@@ -105,7 +105,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   controller.encoder_resolution_rad = config.plant.feedback == EncoderSide::kLink
                                           ? config.plant.link_encoder.resolution_rad()
                                           : config.plant.encoder.resolution_rad();
-  controller.delay_samples = static_cast<int>(std::lround(config.plant.delay.periods));
+  controller.delay_periods = static_cast<int>(std::lround(config.plant.delay.periods));
   controller.motor = config.plant.motor;
   const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
   joint.takes_injected_faults = true;

@@ -1,17 +1,15 @@
 #include "daemon/realtime/ordered_target.h"
 
-namespace strainwave {
+#include "base/durations.h"
 
-namespace {
-constexpr double kNanosecondsPerSecond = 1e9;
-}
+namespace strainwave {
 
 void OrderedTarget::accept(const Setpoint& setpoint, std::int64_t now_ns) noexcept {
   joint_rad_ = setpoint.joint_rad;
   drive_rad_ = setpoint.drive_rad;
   stream_id_ = setpoint.stream_id;
   stream_ = setpoint.stream_id != 0 ? Stream::kLive : Stream::kNone;
-  expires_ns_ = now_ns + static_cast<std::int64_t>(setpoint.valid_for_s * kNanosecondsPerSecond);
+  expires_ns_ = now_ns + nanoseconds(setpoint.valid_for_s);
 }
 
 bool OrderedTarget::expire(std::int64_t now_ns) noexcept {

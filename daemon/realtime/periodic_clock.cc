@@ -3,16 +3,14 @@
 #include <cerrno>
 #include <ctime>
 
-namespace strainwave {
+#include "base/durations.h"
 
-namespace {
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-}
+namespace strainwave {
 
 std::int64_t monotonic_now_ns() noexcept {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+  return nanoseconds(now);
 }
 
 void busy_wait(std::int64_t duration_ns) noexcept {
@@ -28,7 +26,7 @@ PeriodicClock::Wake PeriodicClock::wait() noexcept {
     wake.skipped = (late_ns + period_ns_ - 1) / period_ns_;
     next_ns_ += wake.skipped * period_ns_;
   }
-  const timespec until{next_ns_ / kNanosecondsPerSecond, next_ns_ % kNanosecondsPerSecond};
+  const timespec until = to_timespec(next_ns_);
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
   wake.due_ns = next_ns_;

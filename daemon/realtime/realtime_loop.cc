@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/durations.h"
 #include "base/input_error.h"
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
@@ -15,7 +16,7 @@ namespace strainwave {
 RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
                            decltype(OutboundMemory::states)& states)
     : config_(config),
-      period_ns_(std::llround(config.period_s * 1e9)),
+      period_ns_(nanoseconds(config.period_s)),
       publish_every_(std::max<std::int64_t>(1, std::llround(1.0 / (config.period_s * config.state_rate_Hz)))),
       stop_deadline_periods_(0),
       states_(states),

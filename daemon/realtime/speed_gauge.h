@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 class SpeedGauge {
@@ -27,7 +29,7 @@ class SpeedGauge {
   /// 0 before two positions have been seen.
   double velocity_rad_s() const noexcept {
     if (seen_ != Seen::kMotion) return 0.0;
-    return (now_.position_rad - before_.position_rad) * 1e9 / static_cast<double>(now_.at_ns - before_.at_ns);
+    return (now_.position_rad - before_.position_rad) / seconds(now_.at_ns - before_.at_ns);
   }
 
  private:

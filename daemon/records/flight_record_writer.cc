@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/durations.h"
 #include "base/utime.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/records/flight_record_file.h"
@@ -23,7 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr auto kTurn = std::chrono::milliseconds(50);
 constexpr double kBytesPerMB = 1e6;
-constexpr double kNanosecondsPerSecond = 1e9;
 constexpr const char* kUnfinished = ".part";
 
 std::string error_text(const std::string& what) {
@@ -123,7 +123,7 @@ void FlightRecordWriter::handle(State& state, std::int64_t now_ns) {
   std::string problem;
   if (!write(name, flight_record_text(header, recorder), problem))
     return report_(true, joint + ": flight record lost: " + problem, now_ns);
-  state.not_before_ns = now_ns + static_cast<std::int64_t>(config_.min_interval_s * kNanosecondsPerSecond);
+  state.not_before_ns = now_ns + nanoseconds(config_.min_interval_s);
   report_(false, joint + ": flight record " + (config_.directory / name).string(), now_ns);
 }
 

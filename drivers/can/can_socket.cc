@@ -13,13 +13,13 @@
 #include <ctime>
 #include <system_error>
 
+#include "base/durations.h"
 #include "base/input_error.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 /// Frames taken by one system call.
 constexpr std::size_t kBatch = 32;
 /// The highest priority that needs no privilege (TC_PRIO_INTERACTIVE).
@@ -93,7 +93,7 @@ void read_control(msghdr& header, ReceivedFrame& frame, std::uint32_t& overflows
     if (control->cmsg_type == SO_TIMESTAMPNS) {
       timespec time{};
       std::memcpy(&time, CMSG_DATA(control), sizeof time);
-      frame.kernel_time_ns = time.tv_sec * kNanosecondsPerSecond + time.tv_nsec;
+      frame.kernel_time_ns = nanoseconds(time);
     } else if (control->cmsg_type == SO_RXQ_OVFL) {
       std::memcpy(&overflows, CMSG_DATA(control), sizeof overflows);
     }
@@ -211,8 +211,7 @@ ReceiveResult CanSocket::receive(std::span<ReceivedFrame> frames) noexcept {
 }
 
 bool CanSocket::wait(std::int64_t timeout_ns) {
-  const std::int64_t bounded_ns = std::max<std::int64_t>(timeout_ns, 0);
-  const timespec timeout{bounded_ns / kNanosecondsPerSecond, bounded_ns % kNanosecondsPerSecond};
+  const timespec timeout = to_timespec(std::max<std::int64_t>(timeout_ns, 0));
   pollfd waited{descriptor_.get(), POLLIN, 0};
   return ::ppoll(&waited, 1, &timeout, nullptr) > 0;
 }
@@ -220,7 +219,7 @@ bool CanSocket::wait(std::int64_t timeout_ns) {
 std::int64_t CanSocket::now_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNanosecondsPerSecond + now.tv_nsec;
+  return nanoseconds(now);
 }
 
 }  // namespace strainwave

@@ -32,7 +32,7 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   JointControllerConfig config;
   config.period_s = plant.period_s;
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
-  config.delay_samples = static_cast<int>(std::lround(plant.delay.periods));
+  config.delay_periods = static_cast<int>(std::lround(plant.delay.periods));
   config.torque_limit_Nm = table.torque_limit_Nm;
   config.motor = plant.motor;
   config.motor.peak_torque_Nm = config.torque_limit_Nm;

@@ -111,7 +111,7 @@ class FallingLoad : public ::testing::Test {
     const DriveSequenceConfig sequence{0.01, 0.02, kBrakeOpens_s + 0.02, kBrakeShuts_s, 0.0};
     JointLoopConfig loop = demo_joint().loop;
     loop.controller.encoder_resolution_rad = kCount_rad;
-    loop.controller.delay_samples = 0;  // an order moves the plant in its own period
+    loop.controller.delay_periods = 0;  // an order moves the plant in its own period
     loop.initial_load_Nm = initial_load_Nm;
     joint_ = std::make_unique<JointLoop>(
         0, loop, std::make_unique<GpioActuator>(std::move(parts), motion, torque, sequence), *replies_,

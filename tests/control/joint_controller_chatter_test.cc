@@ -87,7 +87,7 @@ GainTable table_for(double inertia_kgm2) {
 JointControllerConfig config_for(bool rigid) {
   JointControllerConfig config;
   config.encoder_resolution_rad = kCount_rad;
-  config.delay_samples = 1;
+  config.delay_periods = 1;
   config.torque_limit_Nm = kLimit_Nm;
   config.motor = {kLimit_Nm, 150.0, 18.3};
   config.motion = {5.0, 60.0, 60.0};

@@ -20,7 +20,7 @@ JointControllerConfig realistic_config() {
   const JointPlantConfig plant = realistic_plant();
   JointControllerConfig config;
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
-  config.delay_samples = static_cast<int>(std::lround(plant.delay.periods));
+  config.delay_periods = static_cast<int>(std::lround(plant.delay.periods));
   config.torque_limit_Nm = kReferencePeakTorque_Nm;
   config.motor = plant.motor;
   config.motion = {100.0, 1e4, 1e4};

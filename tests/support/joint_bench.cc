@@ -26,7 +26,7 @@ BenchJoint demo_joint() {
   joint.drive.temperature_noise_C = 0.02;
   JointControllerConfig& controller = joint.loop.controller;
   controller.encoder_resolution_rad = joint.drive.plant.encoder.resolution_rad();
-  controller.delay_samples = static_cast<int>(std::lround(joint.drive.plant.delay.periods));
+  controller.delay_periods = static_cast<int>(std::lround(joint.drive.plant.delay.periods));
   controller.motor = joint.drive.plant.motor;
   controller.torque_limit_Nm = kReferencePeakTorque_Nm;
   controller.motion = {6.0, 150.0, 150.0};

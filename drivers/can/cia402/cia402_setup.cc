@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/durations.h"
 #include "drivers/can/cia402/cia402_description.h"
 #include "drivers/can/cia402/cia402_state.h"
 #include "drivers/can/hexadecimal.h"
@@ -77,7 +78,7 @@ std::uint32_t thousandths(double value) {
 }
 
 std::int64_t boot_timeout_ns(const DriveConfig& config) {
-  return std::llround(config.boot_timeout_s * 1e9);
+  return nanoseconds(config.boot_timeout_s);
 }
 
 /// A drive that has just been switched on is silent for a while; resetting it would only let it begin anew.
@@ -344,7 +345,7 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout
 
 void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
   const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
-  const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s * 1e9));
+  const std::int64_t period_ns = nanoseconds(config.period_s);
   bool fast_seen = false;
   bool slow_seen = layout.slow.objects.empty();
   std::vector<ReceivedFrame> frames(16);
@@ -376,7 +377,7 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
 }
 
 std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
-  const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s * 1e9));
+  const std::int64_t period_ns = nanoseconds(config.period_s);
   std::array<ReceivedFrame, 16> frames;
   /// When the first position came, or nothing at `end_ns`.
   const auto position_until = [&](std::int64_t end_ns) -> std::optional<std::int64_t> {

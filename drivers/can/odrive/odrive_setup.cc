@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "base/durations.h"
 #include "base/input_error.h"
 
 namespace strainwave::odrive {
@@ -12,7 +13,6 @@ namespace {
 
 constexpr std::int64_t kAnswerTimeout_ns = 500'000'000;
 constexpr std::int64_t kListenFor_ns = 500'000'000;
-constexpr double kNanosecondsPerSecond = 1e9;
 /// Share of the expected encoder messages that must have come: two clocks never agree exactly.
 constexpr double kEnoughEstimates = 0.9;
 
@@ -122,7 +122,7 @@ void verify_axis(CanPort& port, const DriveConfig& config) {
   if (!heartbeat)
     throw InputError(settings + "heartbeat_msg_rate_ms: no heartbeat within 0.5 s; set it to " +
                      std::to_string(static_cast<int>(config.heartbeat_period_s * 1e3)));
-  const double expected = static_cast<double>(kListenFor_ns) / kNanosecondsPerSecond / config.period_s;
+  const double expected = seconds(kListenFor_ns) / config.period_s;
   if (estimates < kEnoughEstimates * expected)
     throw InputError(settings + "encoder_msg_rate_ms: " + std::to_string(estimates) +
                      " encoder messages in 0.5 s, but the loop "

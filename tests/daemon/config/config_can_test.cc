@@ -31,7 +31,7 @@ TEST_F(CanConfigTest, PutsJointsOnTheirBusAndKeepsOtherDaemonsOffTheirNodes) {
 TEST_F(CanConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLeaves) {
   const JointControllerConfig controller = read(example("epos4.toml")).joints[0].loop.controller;
   EXPECT_NEAR(controller.encoder_resolution_rad, 2 * std::numbers::pi / 320000, 1e-15);
-  EXPECT_EQ(controller.delay_samples, 1);
+  EXPECT_EQ(controller.delay_periods, 1);
   EXPECT_NEAR(controller.motor.stall_torque_Nm, 9.6 * 48 / 4.8, 1e-9);
   EXPECT_NEAR(controller.motor.torque_per_speed_Nms_rad, 9.6 * 9.6 / 4.8, 1e-9);
 }

@@ -25,7 +25,7 @@ TEST_F(OdriveConfigTest, TellsTheControllerTheEncoderTheDelayAndWhatTheSupplyLea
   EXPECT_EQ(config.joints[0].driver_resource, "can0 node 1");
   const JointControllerConfig& controller = config.joints[0].loop.controller;
   EXPECT_NEAR(controller.encoder_resolution_rad, 2 * std::numbers::pi / 320000, 1e-15);
-  EXPECT_EQ(controller.delay_samples, 1);
+  EXPECT_EQ(controller.delay_periods, 1);
   EXPECT_NEAR(controller.motor.stall_torque_Nm, 9.6 * 48 / 4.8, 1e-9);
   EXPECT_EQ(config.joints[0].drive_error_text(Fault::kDriveFault, 0x2000), "MOTOR_OVER_TEMP");
 }
