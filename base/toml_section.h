@@ -47,7 +47,7 @@ class TomlSection {
   /// Throws when the table has a key that was never asked for, with the nearest known key as a suggestion.
   void refuse_unknown_keys() const;
 
-  /// How messages name `key`: "joint[0].limits.torque_Nm".
+  /// How messages name `key`: "joint[0].limits.torque_limit_Nm".
   std::string full_name(std::string_view key) const;
   /// An InputError about `key` of this table.
   [[noreturn]] void fail(std::string_view key, const std::string& allowed) const;

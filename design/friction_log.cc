@@ -75,7 +75,7 @@ FrictionLog read_friction_log(const std::filesystem::path& file, const std::stri
     log.samples.push_back({static_cast<double>(state.cycle) * limits.period_s,
                            static_cast<Mode>(state.mode) == Mode::kTracking, state.setpoint_velocity_rad_s,
                            state.joint_position_rad, state.joint_velocity_rad_s, state.torque_applied_Nm,
-                           known ? state.temperature_C : std::numeric_limits<double>::quiet_NaN()});
+                           known ? state.temperature_used_C : std::numeric_limits<double>::quiet_NaN()});
   }
   return log;
 }

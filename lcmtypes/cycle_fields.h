@@ -26,7 +26,7 @@ constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
   visit(FieldName{"torque_applied_Nm", "N.m"}, cycle.torque_applied_Nm);
   visit(FieldName{"torque_feedback_Nm", "N.m"}, cycle.torque_feedback_Nm);
   visit(FieldName{"torque_feedforward_Nm", "N.m"}, cycle.torque_feedforward_Nm);
-  visit(FieldName{"temperature_C", "degC"}, cycle.temperature_C);
+  visit(FieldName{"temperature_used_C", "degC"}, cycle.temperature_used_C);
   if constexpr (requires { cycle.temperature_measured_C; })
     visit(FieldName{"temperature_measured_C", "degC"}, cycle.temperature_measured_C);
   visit(FieldName{"zero_velocity_weight", "1"}, cycle.zero_velocity_weight);

@@ -249,7 +249,7 @@ std::string_view configuration_key(Fault fault) noexcept {
     case Fault::kOverruns:
       return "daemon.overrun_limit";
     case Fault::kTemperatureLimit:
-      return "joint.limits.temperature_C";
+      return "joint.limits.temperature_limit_C";
     case Fault::kGroup:
       return "joint.on_fault";
     case Fault::kHomingFailed:
@@ -284,7 +284,7 @@ std::string_view configuration_key(Fault fault) noexcept {
 std::string_view configuration_key(Notice notice) noexcept {
   switch (notice) {
     case Notice::kTorqueLimited:
-      return "joint.limits.torque_Nm";
+      return "joint.limits.torque_limit_Nm";
     case Notice::kTemperatureClamped:
       return "joint.table";
     case Notice::kFallbackGains:
@@ -294,7 +294,7 @@ std::string_view configuration_key(Notice notice) noexcept {
     case Notice::kReadingMissed:
       return "joint.supervision.missed_readings_limit";
     case Notice::kSpeedLimited:
-      return "joint.limits.speed_rad_s";
+      return "joint.limits.speed_limit_rad_s";
     case Notice::kNotHomed:
       return "joint.homing.required";
     case Notice::kAtLimitSwitch:

@@ -134,7 +134,7 @@ std::string_view to_text(Action action) noexcept;
 std::string_view to_text(TemperatureStatus status) noexcept;
 std::string_view to_text(GainsInUse gains) noexcept;  // state_v1.gains_in_use
 
-/// Where the limit behind a fault or notice is configured ("joint.limits.torque_Nm"); empty when nothing can be set.
+/// Where the limit behind a fault or notice is configured ("joint.limits.torque_limit_Nm"); empty when nothing can be set.
 std::string_view configuration_key(Fault fault) noexcept;
 std::string_view configuration_key(Notice notice) noexcept;
 

@@ -33,7 +33,7 @@ unset logscale y
 
 set ylabel "temperature, degC"
 set yrange [-15:50]
-plot record using (time_s(0)):(column("temperature_C")) with lines lc rgb "#d07a00" title "as the gains are scheduled by"
+plot record using (time_s(0)):(column("temperature_used_C")) with lines lc rgb "#d07a00" title "as the gains are scheduled by"
 
 set ylabel "torque, N.m"
 set xlabel "time, s"

@@ -137,7 +137,8 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   const limits_v1 limits = wait_for_limits(client, joint);
   const IdentifyPlan plan = plan_identification(arguments, limits, view.state.joint_position_rad);
   if (!output.json)
-    output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_C, to_text(plan));
+    output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_used_C,
+                                 to_text(plan));
   output.stream.flush();
   if (arguments.dry_run) return;
   require_ready(view, joint);
@@ -148,10 +149,10 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
     Identification(client, joint, plan).run([&](const Sweep& sweep) {
       say(output,
           fmt::format("{}: {:.4f} rad/s done, {:.1f} degC", joint, sweep.speed_rad_s,
-                      view.state.temperature_C),
+                      view.state.temperature_used_C),
           {{"joint", joint},
            {"speed_rad_s", sweep.speed_rad_s},
-           {"temperature_C", view.state.temperature_C}});
+           {"temperature_used_C", view.state.temperature_used_C}});
       output.stream.flush();
     });
   });

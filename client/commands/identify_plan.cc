@@ -37,10 +37,11 @@ std::pair<double, double> checked_range(const IdentifyArguments& arguments, cons
 }
 
 double checked_fastest(const IdentifyArguments& arguments, const limits_v1& limits) {
-  const double fastest =
-      arguments.fastest_rad_s > 0.0 ? arguments.fastest_rad_s : kDefaultShareOfSpeed * limits.speed_rad_s;
-  if (fastest > limits.speed_rad_s)
-    refuse(fmt::format("--fastest_rad_s {}: the joint's limit is {} rad/s", fastest, limits.speed_rad_s));
+  const double fastest = arguments.fastest_rad_s > 0.0 ? arguments.fastest_rad_s
+                                                       : kDefaultShareOfSpeed * limits.speed_limit_rad_s;
+  if (fastest > limits.speed_limit_rad_s)
+    refuse(
+        fmt::format("--fastest_rad_s {}: the joint's limit is {} rad/s", fastest, limits.speed_limit_rad_s));
   if (arguments.slowest_rad_s >= fastest)
     refuse(fmt::format("--slowest_rad_s {}: must be below the fastest speed, {} rad/s",
                        arguments.slowest_rad_s, fastest));
@@ -48,9 +49,9 @@ double checked_fastest(const IdentifyArguments& arguments, const limits_v1& limi
 }
 
 double checked_torque(const IdentifyArguments& arguments, const limits_v1& limits) {
-  const double torque_Nm = arguments.max_torque_Nm.value_or(limits.torque_Nm);
-  if (torque_Nm > limits.torque_Nm)
-    refuse(fmt::format("--max-torque_Nm {}: the joint's limit is {} N.m", torque_Nm, limits.torque_Nm));
+  const double torque_Nm = arguments.max_torque_Nm.value_or(limits.torque_limit_Nm);
+  if (torque_Nm > limits.torque_limit_Nm)
+    refuse(fmt::format("--max-torque_Nm {}: the joint's limit is {} N.m", torque_Nm, limits.torque_limit_Nm));
   return torque_Nm;
 }
 

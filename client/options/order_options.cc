@@ -44,7 +44,7 @@ void add_move(CLI::App& app, Invocation& invocation) {
   auto position = std::make_shared<std::string>();
   add_joint(*command, arguments->joint)->required();
   command->add_option("POSITION_rad", *position, "where to, in rad, joint side")->required()->type_name("");
-  add_positive(*command, "--speed_rad_s", arguments->speed_limit_rad_s, "RAD/S",
+  add_positive(*command, "--speed_limit_rad_s", arguments->speed_limit_rad_s, "RAD/S",
                "no faster than this; otherwise as fast as the joint may");
   command->add_flag("--wait", arguments->wait,
                     "return once the joint is there and stays; says how long it took");

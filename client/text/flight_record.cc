@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 9> kNeeded{"time_s",
                                                   "joint_position_rad",
                                                   "torque_commanded_Nm",
                                                   "torque_applied_Nm",
-                                                  "temperature_C",
+                                                  "temperature_used_C",
                                                   "temperature_measured_C"};
 
 void read_head_line(const std::string& line, FlightRecordInfo& info) {
@@ -122,7 +122,7 @@ std::string plot_script(const FlightRecordInfo& info, const std::filesystem::pat
   script += "set ylabel 'torque in N.m'\nplot " + curve("torque_commanded_Nm", "commanded", 2) + ", " +
             curve("torque_applied_Nm", "applied", 1) + "\n";
   script += "set ylabel 'temperature in degC'\nplot " + curve("temperature_measured_C", "measured", 2) +
-            ", " + curve("temperature_C", "used", 1) + "\n";
+            ", " + curve("temperature_used_C", "used", 1) + "\n";
   script += fmt::format(
       "set ylabel 'mode'\nset ytics ({})\nset yrange [-0.5:{}]\nset xlabel 'time after the fault in s'\n"
       "plot FILE using {}:{} with steps linestyle 1 title 'mode', NaN with lines linecolor rgb '#c00000' "

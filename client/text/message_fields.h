@@ -36,8 +36,8 @@ void visit_fields(const state_v1& message, Visit&& visit) {
 template <typename Visit>
 void visit_fields(const temperature_v1& message, Visit&& visit) {
   visit("utime", message.utime);
-  visit("measured_C", message.measured_C);
-  visit("used_C", message.used_C);
+  visit("temperature_measured_C", message.temperature_measured_C);
+  visit("temperature_used_C", message.temperature_used_C);
   visit("age_s", message.age_s);
   visit("status", message.status);
   visit("fallback_in_use", message.fallback_in_use);
@@ -68,13 +68,13 @@ void visit_fields(const limits_v1& message, Visit&& visit) {
   visit("session_id", message.session_id);
   visit("position_min_rad", message.position_min_rad);
   visit("position_max_rad", message.position_max_rad);
-  visit("speed_rad_s", message.speed_rad_s);
+  visit("speed_limit_rad_s", message.speed_limit_rad_s);
   visit("acceleration_rad_s2", message.acceleration_rad_s2);
   visit("deceleration_rad_s2", message.deceleration_rad_s2);
-  visit("torque_Nm", message.torque_Nm);
+  visit("torque_limit_Nm", message.torque_limit_Nm);
   visit("overspeed_rad_s", message.overspeed_rad_s);
   visit("following_error_rad", message.following_error_rad);
-  visit("temperature_C", message.temperature_C);
+  visit("temperature_limit_C", message.temperature_limit_C);
   visit("period_s", message.period_s);
   visit("inertia_kgm2", message.inertia_kgm2);
   visit("gear_ratio", message.gear_ratio);

@@ -93,7 +93,7 @@ std::string state_row(const std::string& joint, const JointView& view, double ag
   return fmt::format("{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>+13.1f}  {:<16}  {}", joint,
                      to_text(static_cast<Mode>(state.mode)), state.setpoint_position_rad,
                      state.joint_position_rad, tracking_error_rad(view), state.torque_commanded_Nm,
-                     state.temperature_C, to_text(static_cast<GainsInUse>(state.gains_in_use)),
+                     state.temperature_used_C, to_text(static_cast<GainsInUse>(state.gains_in_use)),
                      state_notes(view, age_s));
 }
 

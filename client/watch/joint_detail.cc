@@ -63,7 +63,8 @@ std::string limits_text(const WatchedJoint& joint) {
   const limits_v1& limits = *joint.limits;
   return position_scale(joint) +
          fmt::format("speed {:.3g} rad/s, torque {:.3g} N.m, following error {:.3g} rad, {:.3g} degC",
-                     limits.speed_rad_s, limits.torque_Nm, limits.following_error_rad, limits.temperature_C);
+                     limits.speed_limit_rad_s, limits.torque_limit_Nm, limits.following_error_rad,
+                     limits.temperature_limit_C);
 }
 
 std::string gains_text(const WatchModel& model, const WatchedJoint& joint) {
@@ -74,7 +75,7 @@ std::string gains_text(const WatchModel& model, const WatchedJoint& joint) {
   return fmt::format("{}, rules {}, standstill {:.2f}; temperature {:+.1f} degC from {}",
                      to_text(static_cast<GainsInUse>(state.gains_in_use)),
                      sparkline(weights, static_cast<int>(weights.size()), 1.0, model.unicode),
-                     state.zero_velocity_weight, state.temperature_C, temperature_source(joint));
+                     state.zero_velocity_weight, state.temperature_used_C, temperature_source(joint));
 }
 
 /// What the daemon has refused since its start, from anybody.
@@ -161,7 +162,7 @@ PlotSpans plot_spans(const WatchedJoint& joint) {
   const limits_v1& limits = *joint.limits;
   // Of the limits, what an operator would call nothing.
   if (limits.following_error_rad > 0.0) spans.error_rad = 0.01 * limits.following_error_rad;
-  if (limits.torque_Nm > 0.0) spans.torque_Nm = 0.1 * limits.torque_Nm;
+  if (limits.torque_limit_Nm > 0.0) spans.torque_Nm = 0.1 * limits.torque_limit_Nm;
   if (limits.position_max_rad > limits.position_min_rad)
     spans.position_rad = 1e-3 * (limits.position_max_rad - limits.position_min_rad);
   return spans;

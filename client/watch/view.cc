@@ -53,7 +53,7 @@ const std::array<Column, 10> kColumns{{
      }},
     {"temp_C", 6, 4,
      [](const WatchModel&, const WatchedJoint& j) {
-       return fmt::format("{:+6.1f}", j.view.state.temperature_C);
+       return fmt::format("{:+6.1f}", j.view.state.temperature_used_C);
      }},
     {"from", 14, 9, [](const WatchModel&, const WatchedJoint& j) { return temperature_source(j); }},
     {"error", kSparkWidth, 7,

@@ -101,7 +101,7 @@ class WatchScreen {
     remember(result.history.error_rad, tracking_error_rad(result.view));
     remember(result.history.torque_Nm, state.torque_applied_Nm);
     remember(result.history.position_rad, state.joint_position_rad);
-    remember(result.history.temperature_C, state.temperature_C);
+    remember(result.history.temperature_C, state.temperature_used_C);
     if (const auto* temperature = temperatures_.find(prefix, joint))
       result.temperature = temperature->message;
     if (const auto* limits = limits_.find(prefix, joint)) result.limits = limits->message;

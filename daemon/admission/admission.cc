@@ -241,7 +241,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   }
   if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
     text << "speed_limit_rad_s = " << setpoint->speed_limit_rad_s << ": from 0 (no limit of its own) to "
-         << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_rad_s of " << limits.name << ")";
+         << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_limit_rad_s of " << limits.name
+         << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   Verdict verdict = pass(requester, OrderKind::kSetpoint, setpoint->challenge);

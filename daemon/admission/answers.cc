@@ -62,9 +62,10 @@ void Answers::temperature(const StateRecord& record) {
   const auto status = static_cast<TemperatureStatus>(record.state.temperature_status);
   temperature_v1 message{};
   message.utime = utime_now();
-  message.measured_C = status == TemperatureStatus::kNeverSeen ? std::numeric_limits<double>::quiet_NaN()
-                                                               : record.temperature_measured_C;
-  message.used_C = record.state.temperature_C;
+  message.temperature_measured_C = status == TemperatureStatus::kNeverSeen
+                                       ? std::numeric_limits<double>::quiet_NaN()
+                                       : record.temperature_measured_C;
+  message.temperature_used_C = record.state.temperature_used_C;
   message.age_s = record.temperature_age_s;
   message.status = record.state.temperature_status;
   message.fallback_in_use =
@@ -80,13 +81,13 @@ void Answers::limits(std::size_t joint, const PlantIdentity& plant, const JointL
   message.session_id = session_id_;
   message.position_min_rad = config.limits.position_min_rad;
   message.position_max_rad = config.limits.position_max_rad;
-  message.speed_rad_s = motion.velocity_rad_s;
+  message.speed_limit_rad_s = motion.velocity_rad_s;
   message.acceleration_rad_s2 = motion.acceleration_rad_s2;
   message.deceleration_rad_s2 = motion.deceleration_rad_s2;
-  message.torque_Nm = config.controller.torque_limit_Nm;
+  message.torque_limit_Nm = config.controller.torque_limit_Nm;
   message.overspeed_rad_s = config.limits.overspeed_rad_s;
   message.following_error_rad = config.limits.following_error_rad;
-  message.temperature_C = config.limits.hot_C;
+  message.temperature_limit_C = config.limits.temperature_limit_C;
   message.period_s = plant.period_s;
   message.inertia_kgm2 = plant.inertia_kgm2;
   message.gear_ratio = plant.gear_ratio;

@@ -42,7 +42,7 @@ TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, 
   if (table.torque_limit_Nm > torque_limit_Nm * (1.0 + kPeriodTolerance)) {
     std::ostringstream text;
     text << "torque_limit_Nm = " << table.torque_limit_Nm
-         << " in the table, joint.limits.torque_Nm = " << torque_limit_Nm
+         << " in the table, joint.limits.torque_limit_Nm = " << torque_limit_Nm
          << ": the table may not ask for more";
     return {Reason::kTableDefect, text.str()};
   }

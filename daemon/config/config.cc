@@ -78,15 +78,15 @@ void read_limits(TomlSection section, JointLoopConfig& loop) {
   if (limits.position_min_rad >= limits.position_max_rad)
     section.fail("position_max_rad", "a position above position_min_rad is allowed");
   limits.position_margin_rad = section.number_or("position_margin_rad", 0.05, {0.0, 10.0});
-  loop.controller.motion.velocity_rad_s = section.number("speed_rad_s", {1e-4, 1e3});
+  loop.controller.motion.velocity_rad_s = section.number("speed_limit_rad_s", {1e-4, 1e3});
   loop.controller.motion.acceleration_rad_s2 = section.number("acceleration_rad_s2", {1e-3, 1e6});
   loop.controller.motion.deceleration_rad_s2 =
       section.number_or("deceleration_rad_s2", loop.controller.motion.acceleration_rad_s2, {1e-3, 1e6});
   const double speed_rad_s = loop.controller.motion.velocity_rad_s;
   limits.overspeed_rad_s = section.number_or("overspeed_rad_s", 1.25 * speed_rad_s + 0.1, {speed_rad_s, 1e3});
   limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
-  loop.controller.torque_limit_Nm = section.number("torque_Nm", kPositive);
-  limits.hot_C = section.number_or("temperature_C", 80.0, {-50.0, 200.0});
+  loop.controller.torque_limit_Nm = section.number("torque_limit_Nm", kPositive);
+  limits.temperature_limit_C = section.number_or("temperature_limit_C", 80.0, {-50.0, 200.0});
   limits.load_Nm = section.number_or("load_Nm", loop.controller.torque_limit_Nm, kPositive);
   section.refuse_unknown_keys();
 }
@@ -104,10 +104,10 @@ void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   check.recovery_s = section.number_or("recovery_s", check.recovery_s, {0.0, 3600.0});
   check.loss_is_fault = section.choice_or("on_loss", "fallback", {"fallback", "fault"}) == "fault";
   // What is above max_C is not believed: the limit must be reached before.
-  if (loop.limits.hot_C >= check.max_C)
-    section.fail("max_C",
-                 "a temperature above joint.limits.temperature_C = " + std::to_string(loop.limits.hot_C) +
-                     " is allowed: a joint at its limit must be believed");
+  if (loop.limits.temperature_limit_C >= check.max_C)
+    section.fail("max_C", "a temperature above joint.limits.temperature_limit_C = " +
+                              std::to_string(loop.limits.temperature_limit_C) +
+                              " is allowed: a joint at its limit must be believed");
   section.refuse_unknown_keys();
 }
 

@@ -159,7 +159,7 @@ double read_encoder(TomlSection section, double period_s, const JointConfig& joi
     quadrature.clock_ns = &monotonic_now_ns;
     const double wanted_Hz = joint.loop.controller.motion.velocity_rad_s * counts_per_rad;
     if (wanted_Hz > quadrature.max_rate_Hz)
-      section.fail("source", "\"counter\" is allowed: joint.limits.speed_rad_s makes " +
+      section.fail("source", "\"counter\" is allowed: joint.limits.speed_limit_rad_s makes " +
                                  std::to_string(std::lround(wanted_Hz)) +
                                  " edges a second, and edges are counted up to max_rate_Hz = " +
                                  std::to_string(std::lround(quadrature.max_rate_Hz)));
@@ -190,7 +190,7 @@ HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, do
   if (controller.torque_limit_Nm > controller.motor.peak_torque_Nm * (1.0 + 1e-9)) {
     std::ostringstream most;
     most << controller.motor.peak_torque_Nm;
-    section.fail("motor", "more current, or a joint.limits.torque_Nm of at most " + most.str() +
+    section.fail("motor", "more current, or a joint.limits.torque_limit_Nm of at most " + most.str() +
                               ", is needed: torque constant * gear ratio * efficiency * current");
   }
   joint.driver_resource = "pwm " + gpio.pwm.chip_folder.string() + " " + std::to_string(gpio.pwm.channel);

@@ -27,7 +27,7 @@ struct FlightSample {
   double torque_applied_Nm = 0.0;
   double torque_feedback_Nm = 0.0;
   double torque_feedforward_Nm = 0.0;
-  double temperature_C = 0.0;
+  double temperature_used_C = 0.0;
   double temperature_measured_C = 0.0;
   double zero_velocity_weight = 0.0;
   std::uint16_t notices = 0;

@@ -102,7 +102,8 @@ void JointLoop::check_temperature(const CycleTime& time) noexcept {
   temperature_.update(reading().has_temperature, reading().temperature_C, reading().temperature_produced_ns,
                       time.now_ns);
   if (mode_.is(Mode::kOff)) return;
-  if (temperature_.hotter_than(config_.limits.hot_C)) return raise_fault(Fault::kTemperatureLimit, time);
+  if (temperature_.hotter_than(config_.limits.temperature_limit_C))
+    return raise_fault(Fault::kTemperatureLimit, time);
   if (temperature_.lost()) raise_fault(Fault::kTemperatureLost, time);
 }
 

@@ -34,7 +34,7 @@ struct JointLimits {
   double position_margin_rad = 0.0;  ///< fault beyond position_min - margin and position_max + margin
   double overspeed_rad_s = 0.0;      ///< fault
   double following_error_rad = 0.0;  ///< fault: |what the orders make of the reference - position|
-  double hot_C = 0.0;                ///< fault above
+  double temperature_limit_C = 0.0;  ///< fault above
   double load_Nm = 0.0;              ///< fault: the estimated load is larger for blocked_s
 };
 

@@ -32,7 +32,7 @@ void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
   state.cycle = cycle.time.cycle;
   state.table_id = cycle.table_id;
   fill_motion(cycle, state);
-  state.temperature_C = cycle.temperature.used_C();
+  state.temperature_used_C = cycle.temperature.used_C();
   std::copy(cycle.weights.weight.begin(), cycle.weights.weight.end(), state.temperature_weights);
   state.rule_count = cycle.temperature_rules;
   state.temperature_status = static_cast<std::int32_t>(cycle.temperature.status());
@@ -62,7 +62,7 @@ FlightSample flight_sample(const StateRecord& record, const CycleTime& time, Dri
   sample.torque_applied_Nm = state.torque_applied_Nm;
   sample.torque_feedback_Nm = state.torque_feedback_Nm;
   sample.torque_feedforward_Nm = state.torque_feedforward_Nm;
-  sample.temperature_C = state.temperature_C;
+  sample.temperature_used_C = state.temperature_used_C;
   sample.temperature_measured_C = record.temperature_measured_C;
   sample.zero_velocity_weight = state.zero_velocity_weight;
   sample.notices = static_cast<std::uint16_t>(state.notices);

@@ -32,7 +32,7 @@ class FrictionLogTest : public ::testing::Test {
     message.cycle = cycle;
     message.mode = static_cast<std::int32_t>(Mode::kTracking);
     message.torque_applied_Nm = 0.25 * static_cast<double>(cycle);
-    message.temperature_C = 21.0;
+    message.temperature_used_C = 21.0;
     return message;
   }
   std::string refusal(const std::string& joint = "") const {

@@ -46,8 +46,8 @@ TEST_F(DaemonSystem, TracksMovesWhileTheTemperatureRises) {
                                         }))
         << "at " << target_rad << " rad the joint is at " << client_->state("elbow")->joint_position_rad;
   }
-  EXPECT_TRUE(
-      client_->wait_for_state("elbow", [](const state_v1& state) { return state.temperature_C > 40.0; }));
+  EXPECT_TRUE(client_->wait_for_state("elbow",
+                                      [](const state_v1& state) { return state.temperature_used_C > 40.0; }));
   const state_v1 state = *client_->state("elbow");
   EXPECT_EQ(state.gains_in_use, static_cast<std::int32_t>(GainsInUse::kPrimary));
   double sum = 0.0;

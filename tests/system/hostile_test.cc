@@ -169,7 +169,7 @@ class HostileSystem : public DaemonTest {
       text.replace(text.find(from), from.size(), to);
     };
     replace("unsigned_orders = \"allow\"", "authorized_keys = \"keys\"");
-    replace("speed_rad_s = 6", "speed_rad_s = 0.05");
+    replace("speed_limit_rad_s = 6", "speed_limit_rad_s = 0.05");
     replace("position_max_rad = 3.2", "position_max_rad = 12");
     daemon_.emplace(folder_, text, start);
     TestClient client;

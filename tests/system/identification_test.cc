@@ -37,10 +37,10 @@ limits_v1 limits_of(const BenchJoint& joint) {
   limits_v1 limits{};
   limits.position_min_rad = joint.loop.limits.position_min_rad;
   limits.position_max_rad = joint.loop.limits.position_max_rad;
-  limits.speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
+  limits.speed_limit_rad_s = joint.loop.controller.motion.velocity_rad_s;
   limits.acceleration_rad_s2 = joint.loop.controller.motion.acceleration_rad_s2;
   limits.deceleration_rad_s2 = joint.loop.controller.motion.deceleration_rad_s2;
-  limits.torque_Nm = joint.loop.controller.torque_limit_Nm;
+  limits.torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
   return limits;
 }
 
@@ -56,7 +56,7 @@ void leg(JointBench& bench, double target_rad, double speed_rad_s, std::vector<M
     if (state.cycle % kStateEvery == 0)
       samples.push_back({1e-3 * static_cast<double>(state.cycle), bench.mode(0) == Mode::kTracking,
                          state.setpoint_velocity_rad_s, state.joint_position_rad, state.joint_velocity_rad_s,
-                         state.torque_applied_Nm, state.temperature_C});
+                         state.torque_applied_Nm, state.temperature_used_C});
     return state.setpoint_position_rad == target_rad && state.setpoint_velocity_rad_s == 0.0;
   };
   ASSERT_GE(bench.step_until(arrived, 60'000), 0) << target_rad << " rad at " << speed_rad_s << " rad/s";

@@ -113,7 +113,7 @@ public final class JointPlot extends JPanel {
     put(setpoint, time_s, state.setpoint_position_rad);
     put(position, time_s, state.joint_position_rad);
     put(error, time_s, RAD_TO_MRAD * sample.error_rad());
-    put(temperature, time_s, state.temperature_C);
+    put(temperature, time_s, state.temperature_used_C);
   }
 
   /** A temperature may be unknown: what is no number is not drawn. */
@@ -126,6 +126,6 @@ public final class JointPlot extends JPanel {
     final String fault = state.fault == 0 ? "" : ", fault " + state.fault + " (docs/faults.md)";
     return String.format("%s%s   position %+.6f rad   error %+.1e rad   torque %+.3f N m   %.1f °C", mode, fault,
         state.joint_position_rad, state.setpoint_position_rad - state.joint_position_rad, state.torque_applied_Nm,
-        state.temperature_C);
+        state.temperature_used_C);
   }
 }

@@ -282,12 +282,12 @@ TEST_F(CommandsTest, StatusShowsEveryJointOrEveryFieldOfOne) {
 }
 
 TEST_F(CommandsTest, StatusAsJsonWritesNullForWhatIsNotFinite) {
-  daemon.state.temperature_C = std::numeric_limits<double>::quiet_NaN();
+  daemon.state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
   daemon.state.session_id = 0x7fff'ffff'ffff'fff1;
   daemon.publish_state(Mode::kHolding);
   output.json = true;
   show_status(client, output, {"elbow"});
-  EXPECT_TRUE(output_has("\"temperature_C\": null")) << stream.str();
+  EXPECT_TRUE(output_has("\"temperature_used_C\": null")) << stream.str();
   EXPECT_TRUE(output_has("\"session_id\": 9223372036854775793")) << stream.str();
   EXPECT_TRUE(output_has("\"mode_text\": \"holding\"")) << stream.str();
 }

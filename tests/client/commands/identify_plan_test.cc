@@ -14,10 +14,10 @@ limits_v1 limits() {
   limits_v1 message{};
   message.position_min_rad = -2.0;
   message.position_max_rad = 3.0;
-  message.speed_rad_s = 6.0;
+  message.speed_limit_rad_s = 6.0;
   message.acceleration_rad_s2 = 150.0;
   message.deceleration_rad_s2 = 100.0;
-  message.torque_Nm = 34.0;
+  message.torque_limit_Nm = 34.0;
   return message;
 }
 
@@ -41,9 +41,9 @@ TEST(IdentifyPlan, NeverLeavesTheRangeTheSpeedLimitOrTheLimitsOfTheJoint) {
       EXPECT_GE(sweep.from_rad, plan.range_rad.first - 1e-12);
       EXPECT_LE(sweep.to_rad, plan.range_rad.second + 1e-12);
       EXPECT_LT(sweep.from_rad, sweep.to_rad);
-      EXPECT_LE(sweep.speed_rad_s, limits().speed_rad_s);
+      EXPECT_LE(sweep.speed_rad_s, limits().speed_limit_rad_s);
     }
-    EXPECT_LE(plan.approach_speed_rad_s, limits().speed_rad_s);
+    EXPECT_LE(plan.approach_speed_rad_s, limits().speed_limit_rad_s);
   }
 }
 

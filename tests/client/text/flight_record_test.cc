@@ -23,7 +23,7 @@ constexpr const char* kHead =
 constexpr const char* kColumns =
     "cycle,time_s,mode,fault,setpoint_position_rad,setpoint_velocity_rad_s,joint_position_rad,torque_"
     "commanded_Nm,torque_applied_Nm,"
-    "temperature_C,temperature_measured_C\n";
+    "temperature_used_C,temperature_measured_C\n";
 constexpr const char* kRows =
     "1,-0.001,6,0,0.1,0,0.1,1,1,20,20\n2,0,5,13,0.1,0,0.11,0,1,20,nan\n3,0.001,5,13,0.11,0,0.11,0,0,20,20\n";
 

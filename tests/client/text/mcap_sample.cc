@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     state.session_id = std::numeric_limits<std::int64_t>::max();
     state.cycle = 5 * k;
     state.joint_position_rad = std::sin(0.01 * static_cast<double>(k));
-    state.temperature_C = std::numeric_limits<double>::quiet_NaN();
+    state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
     state.rule_count = 5;
     state.mode = static_cast<std::int32_t>(Mode::kTracking);
     log.add(state.utime + kLate_us, "SW.elbow.STATE", state);

@@ -63,7 +63,7 @@ TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
   view.state.setpoint_position_rad = 0.1;
   view.state.joint_position_rad = 0.100002;
   view.state.torque_commanded_Nm = -3.25;
-  view.state.temperature_C = -10.0;
+  view.state.temperature_used_C = -10.0;
   view.state.gains_in_use = 1;
   const std::string row = state_row("elbow", view, 0.0);
   for (const char* part :

@@ -127,7 +127,7 @@ TEST(WatchView, ShowsTheNumbersOfAJointOn80By24) {
   state_v1& state = one.joints[0].view.state;
   state.setpoint_position_rad = 0.25002;
   state.torque_applied_Nm = -4.702;
-  state.temperature_C = -9.5;
+  state.temperature_used_C = -9.5;
   const Screen screen = render(one, 24, 80);
   const std::string row = screen.text(row_of(screen, ">joint0"));
   for (const char* part : {"holding", "+0.250000", "+2.0e-05", "-4.702", "-9.5"})
@@ -143,7 +143,7 @@ TEST(WatchView, HasRoomForWhatItKnowsOfTheSelectedJoint) {
   one.joints[0].limits.emplace();
   one.joints[0].limits->position_min_rad = -3.0;
   one.joints[0].limits->position_max_rad = 3.0;
-  one.joints[0].limits->torque_Nm = 34.0;
+  one.joints[0].limits->torque_limit_Nm = 34.0;
   one.joints[0].history.error_rad = {0.0, 1e-3};
   one.refusals = {{"SW.joint0: enable: refused, joint is faulted", 12.0}};
   one.daemons[0].timing.rejects[static_cast<int>(Reason::kOldSequence)] = 3;

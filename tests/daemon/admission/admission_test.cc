@@ -69,7 +69,7 @@ TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
     const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
     EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
     EXPECT_EQ(verdict.reason, Reason::kOutOfRange);
-    EXPECT_NE(verdict.text.find("joint.limits.speed_rad_s"), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("joint.limits.speed_limit_rad_s"), std::string::npos) << verdict.text;
   }
   message = setpoint(0.5);
   message.speed_limit_rad_s = std::nan("");

@@ -26,10 +26,10 @@ driver = "simulated"
 [joint.limits]
 position_min_rad = -3.2
 position_max_rad = 3.2
-speed_rad_s = 6.0
+speed_limit_rad_s = 6.0
 acceleration_rad_s2 = 150
 following_error_rad = 0.1
-torque_Nm = 34
+torque_limit_Nm = 34
 [joint.simulated]
 ambient_temperature_C = "sine:15,25,1"
 )";
@@ -58,9 +58,9 @@ TEST_F(ConfigTest, NamesFileLineKeyAndTheUnitThatWasForgotten) {
 TEST_F(ConfigTest, NamesKeyValueAndRangeOfAnImpossibleValue) {
   expect_mentions(error_after("inertia_kgm2 = 0.089", "inertia_kgm2 = -1"),
                   {"joint[0].inertia_kgm2 = -1", "from"});
-  expect_mentions(error_after("torque_Nm = 34", "torque_Nm = nan"), {"torque_Nm = nan"});
-  expect_mentions(error_after("speed_rad_s = 6.0", "speed_rad_s = \"fast\""),
-                  {"speed_rad_s", "fast", "a number"});
+  expect_mentions(error_after("torque_limit_Nm = 34", "torque_limit_Nm = nan"), {"torque_limit_Nm = nan"});
+  expect_mentions(error_after("speed_limit_rad_s = 6.0", "speed_limit_rad_s = \"fast\""),
+                  {"speed_limit_rad_s", "fast", "a number"});
 }
 
 TEST_F(ConfigTest, NamesAMissingKey) {
@@ -85,16 +85,19 @@ TEST_F(ConfigTest, RefusesLimitsThatCross) {
 
 TEST_F(ConfigTest, RefusesATemperatureLimitThatNoBelievableReadingReaches) {
   for (const char* limit : {"90", "95"})
-    expect_mentions(error_after("torque_Nm = 34", std::string("torque_Nm = 34\ntemperature_C = ") + limit),
-                    {"joint[0].temperature.max_C", "joint.limits.temperature_C"});
-  EXPECT_NO_THROW(read(replaced(kSound, "torque_Nm = 34", "torque_Nm = 34\ntemperature_C = 89")));
+    expect_mentions(error_after("torque_limit_Nm = 34",
+                                std::string("torque_limit_Nm = 34\ntemperature_limit_C = ") + limit),
+                    {"joint[0].temperature.max_C", "joint.limits.temperature_limit_C"});
+  EXPECT_NO_THROW(
+      read(replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\ntemperature_limit_C = 89")));
 }
 
 TEST_F(ConfigTest, BoundsTheLoadByTheTorqueUnlessTold) {
   EXPECT_EQ(read(kSound).joints[0].loop.limits.load_Nm, 34.0);
-  EXPECT_EQ(
-      read(replaced(kSound, "torque_Nm = 34", "torque_Nm = 34\nload_Nm = 12")).joints[0].loop.limits.load_Nm,
-      12.0);
+  EXPECT_EQ(read(replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\nload_Nm = 12"))
+                .joints[0]
+                .loop.limits.load_Nm,
+            12.0);
 }
 
 TEST_F(ConfigTest, AllowsNoStallLimitWithinWhichNoPeriodCanBeMissed) {

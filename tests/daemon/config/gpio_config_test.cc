@@ -62,7 +62,8 @@ TEST_F(GpioConfig, NeedsADirectionLineExactlyForSignMagnitude) {
 }
 
 TEST_F(GpioConfig, RefusesMoreTorqueThanTheMotorMayHave) {
-  expect_refused(replaced("torque_Nm = 34", "torque_Nm = 45"), {"joint[0].gpio.motor", "41.28", "torque_Nm"});
+  expect_refused(replaced("torque_limit_Nm = 34", "torque_limit_Nm = 45"),
+                 {"joint[0].gpio.motor", "41.28", "torque_limit_Nm"});
 }
 
 TEST_F(GpioConfig, RefusesASpeedThatEdgesCannotFollow) {
@@ -72,7 +73,7 @@ TEST_F(GpioConfig, RefusesASpeedThatEdgesCannotFollow) {
   expect_refused(text, {"quadrature_a"});
   for (const char* line : {"quadrature_a", "quadrature_b"})
     text += std::string("\n[joint.gpio.") + line + "]\nchip = \"gpiochip0\"\nline = \"" + line + "\"\n";
-  expect_refused(text, {"joint[0].gpio.encoder.source", "speed_rad_s", "edges"});
+  expect_refused(text, {"joint[0].gpio.encoder.source", "speed_limit_rad_s", "edges"});
 }
 
 TEST_F(GpioConfig, RefusesACeilingThatOnePeriodCouldWrap) {

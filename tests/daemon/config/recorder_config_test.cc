@@ -17,9 +17,10 @@ class RecorderConfigTest : public ConfigFileTest {
                            const std::string& tables = "") {
     return "[[joint]]\nname = \"" + name +
            "\"\njoint_model = \"rhs17-6006\"\ninertia_kgm2 = 0.089\ngear_ratio = 50\ndriver = \"simulated\"\n"
-           "limits = { position_min_rad = -3, position_max_rad = 3, speed_rad_s = 6, acceleration_rad_s2 = "
+           "limits = { position_min_rad = -3, position_max_rad = 3, speed_limit_rad_s = 6, "
+           "acceleration_rad_s2 = "
            "150, "
-           "following_error_rad = 0.1, torque_Nm = 34 }\n" +
+           "following_error_rad = 0.1, torque_limit_Nm = 34 }\n" +
            keys + tables;
   }
   static std::string simulated(const std::string& text) {

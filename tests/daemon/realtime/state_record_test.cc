@@ -95,7 +95,7 @@ TEST_F(StateRecordTest, TellsTheAgeOfTheTemperatureAndThatThereWasNone) {
   EXPECT_EQ(record_.temperature_age_s, -1.0);
   temperature_.update(true, 21.5, 1'000'000'000, time_.now_ns);
   filled();
-  EXPECT_EQ(record_.state.temperature_C, 21.5);
+  EXPECT_EQ(record_.state.temperature_used_C, 21.5);
   EXPECT_EQ(record_.temperature_measured_C, 21.5);
   EXPECT_DOUBLE_EQ(record_.temperature_age_s, 2.0);
 }

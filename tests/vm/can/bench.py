@@ -26,10 +26,10 @@ rigid = true
 [joint.limits]
 position_min_rad = -3.2
 position_max_rad = 3.2
-speed_rad_s = 6.0
+speed_limit_rad_s = 6.0
 acceleration_rad_s2 = 150
 following_error_rad = 0.2
-torque_Nm = 34
+torque_limit_Nm = 34
 '''
 
 # What the motor of the catalogue's joint leaves at 75 V, as the simulated drives have it.

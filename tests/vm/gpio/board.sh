@@ -93,10 +93,10 @@ rigid = true
 [joint.limits]
 position_min_rad = -0.6
 position_max_rad = 0.6
-speed_rad_s = 1.0
+speed_limit_rad_s = 1.0
 acceleration_rad_s2 = 40
 following_error_rad = 0.1
-torque_Nm = 34
+torque_limit_Nm = 34
 [joint.homing]
 to = "home"
 required = true
