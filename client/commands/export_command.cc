@@ -6,7 +6,7 @@
 #include <map>
 
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
+#include "client/link/output_file.h"
 #include "client/text/mcap_log.h"
 #include "client/text/message_csv.h"
 #include "client/text/state_csv.h"
@@ -19,12 +19,9 @@ namespace strainwave {
 namespace {
 
 std::ofstream create(const std::filesystem::path& path, bool overwrite) {
-  if (!overwrite && std::filesystem::exists(path))
-    throw ClientError(ExitStatus::kUsage, path.string() + " exists: choose another name, or say --overwrite");
+  refuse_to_replace(path, overwrite);
   std::ofstream file(path);
-  if (!file)
-    throw ClientError(ExitStatus::kUsage,
-                      path.string() + " cannot be written: does its folder exist, is it yours?");
+  if (!file) throw not_writable(path);
   return file;
 }
 

@@ -135,7 +135,7 @@ void send_stop(Client& client, const std::string& joint) {
   } catch (const ClientError& error) {
     if (error.status() != ExitStatus::kNoAnswer) throw;
     throw ClientError(error.status(), fmt::format("{}: the stop was sent {} times, and nothing answered: {}",
-                                                  joint, 1 + Client::kRepetitions, error.what()));
+                                                  joint, 1 + PendingOrder::kRepetitions, error.what()));
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "client/commands/commands.h"
 #include "client/link/event_log_writer.h"
-#include "client/link/exit_status.h"
+#include "client/link/output_file.h"
 #include "client/text/mcap_log.h"
 
 namespace strainwave {
@@ -28,9 +28,7 @@ class McapRecording {
 
  private:
   static const std::filesystem::path& checked(const RecordArguments& arguments) {
-    if (!arguments.overwrite && std::filesystem::exists(arguments.file))
-      throw ClientError(ExitStatus::kUsage,
-                        arguments.file.string() + " exists: choose another name, or say --overwrite");
+    refuse_to_replace(arguments.file, arguments.overwrite);
     return arguments.file;
   }
   // Called through C, so nothing may be thrown past it.

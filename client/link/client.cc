@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "base/printable.h"
 #include "client/link/exit_status.h"
 #include "client/link/interrupt.h"
 
@@ -16,11 +15,6 @@ namespace {
 // All joints of a daemon are published together; at the slowest sensible rate the next round comes within
 // this time.
 constexpr double kOtherJoints_s = 0.3;
-
-Answer to_answer(const ack_v1& ack) {
-  const std::string text(std::begin(ack.text), std::end(ack.text));
-  return {ack.accepted == 1, static_cast<Reason>(ack.reason), printable(text)};
-}
 
 }  // namespace
 
@@ -72,24 +66,20 @@ bool Client::may_try_again(const std::string& joint, const Answer& answer, const
   return answer.reason == Reason::kTooOld && wait_until(news, Deadline(options_.timeout_s));
 }
 
-Answer Client::exchange(const std::string& joint, const SealedMessage& order) {
-  awaited_ = &order;
-  awaited_channel_ = channel(options_.prefix, joint, channel_kind::kAck);
+Answer Client::exchange(const std::string& joint, SealedMessage order) {
   ack_.reset();
-  for (int transmission = 0; transmission <= kRepetitions && !ack_; ++transmission) {
-    connection_.publish(order.channel, order.bytes);
-    wait_until([&] { return ack_.has_value(); }, Deadline(options_.timeout_s / (1 + kRepetitions)));
-  }
-  awaited_ = nullptr;
+  awaited_.emplace(connection_, std::move(order), channel(options_.prefix, joint, channel_kind::kAck),
+                   options_.timeout_s);
+  while (!ack_ && awaited_->keep_on()) handle(awaited_->remaining_ms());
+  awaited_.reset();
   if (ack_) return to_answer(*ack_);
   if (find(joint) == nullptr) explain_silence(joint);
   throw ClientError(
       ExitStatus::kNoAnswer,
       fmt::format(
           "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
-          "not "
-          "answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
-          joint, options_.timeout_s, 1 + kRepetitions, joint));
+          "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
+          joint, options_.timeout_s, 1 + PendingOrder::kRepetitions, joint));
 }
 
 void Client::handle(int timeout_ms) {
@@ -100,7 +90,7 @@ void Client::handle(int timeout_ms) {
 void Client::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   const auto ack = decode_exactly<ack_v1>(payload(*buffer));
   if (!ack || ack->sender_id != sender_.sender_id()) return;
-  if (awaited_ != nullptr && channel == awaited_channel_ && ack->sequence == awaited_->sequence) {
+  if (awaited_ && awaited_->is_answer(*ack, channel)) {
     if (!ack_) ack_ = ack;
   } else if (ack->accepted != 1 && std::find(sent_.begin(), sent_.end(), ack->sequence) != sent_.end()) {
     refusal_ = to_answer(*ack);

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "client/link/connection.h"
+#include "client/link/pending_order.h"
 #include "client/link/sender.h"
 #include "client/link/state_view.h"
 #include "lcmtypes/channels.h"
-#include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
 
@@ -32,18 +32,8 @@ struct ClientOptions {
   bool all_prefixes = false;  ///< what only looks (status, watch) looks at every daemon that is heard
 };
 
-/// The daemon's answer to one order.
-struct Answer {
-  bool accepted = false;
-  Reason reason = Reason::kAccepted;
-  std::string text;  ///< the daemon's words, safe to print
-};
-
 class Client {
  public:
-  /// How often an order is repeated while no answer comes: LCM may lose messages. The daemon answers a
-  /// repetition as it answered the first.
-  static constexpr int kRepetitions = 3;
   /// How often a refused order is made anew, when it was refused for its age or its sequence alone.
   static constexpr int kAttempts = 3;
 
@@ -118,7 +108,7 @@ class Client {
 
  private:
   bool may_try_again(const std::string& joint, const Answer& answer, const Quote& quote);
-  Answer exchange(const std::string& joint, const SealedMessage& order);
+  Answer exchange(const std::string& joint, SealedMessage order);
   void handle(int timeout_ms);
   void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   [[noreturn]] void explain_silence(const std::string& joint) const;
@@ -127,8 +117,7 @@ class Client {
   ClientOptions options_;
   StateView states_;
   Sender sender_;
-  const SealedMessage* awaited_ = nullptr;  ///< the order whose answer counts
-  std::string awaited_channel_;             ///< where its answer comes from
+  std::optional<PendingOrder> awaited_;  ///< the order whose answer counts
   std::optional<ack_v1> ack_;
   std::array<std::int64_t, 256> sent_{};  ///< sequences of the latest messages of send()
   std::size_t sent_count_ = 0;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "client/link/exit_status.h"
+#include "client/link/output_file.h"
 #include "lcmtypes/channels.h"
 
 namespace strainwave {
@@ -11,12 +11,9 @@ namespace strainwave {
 namespace {
 
 lcm_eventlog_t* create(const std::filesystem::path& file, bool overwrite) {
-  if (!overwrite && std::filesystem::exists(file))
-    throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
+  refuse_to_replace(file, overwrite);
   lcm_eventlog_t* const log = ::lcm_eventlog_create(file.c_str(), "w");
-  if (log == nullptr)
-    throw ClientError(ExitStatus::kUsage,
-                      file.string() + " cannot be written: does its folder exist, is it yours?");
+  if (log == nullptr) throw not_writable(file);
   return log;
 }
 

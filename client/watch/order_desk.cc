@@ -7,7 +7,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "base/printable.h"
+#include "lcmtypes/channels.h"
 
 namespace strainwave {
 
@@ -30,7 +30,7 @@ std::string full_name(const OrderDesk::Name& joint) {
 OrderDesk::OrderDesk(Connection& connection, const std::filesystem::path& key_file, double timeout_s)
     : connection_(connection),
       sender_(key_file),
-      repeat_s_(timeout_s / (1 + Client::kRepetitions)),
+      timeout_s_(timeout_s),
       acknowledgements_(
           connection.subscribe(channel_pattern("[^.]+", channel_kind::kAck), &OrderDesk::on_ack, this)) {}
 
@@ -70,24 +70,14 @@ void OrderDesk::move(const Name& joint, const Quote& quote, double position_rad)
 }
 
 void OrderDesk::post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch) {
-  waiting_.push_back({std::move(order), channel(joint.first, joint.second, channel_kind::kAck),
-                      full_name(joint), std::move(batch), now(), 0});
-  transmit(waiting_.back());
-}
-
-void OrderDesk::transmit(Waiting& waiting) {
-  connection_.publish(waiting.order.channel, waiting.order.bytes);
-  waiting.sent = now();
-  ++waiting.transmissions;
+  waiting_.push_back({PendingOrder(connection_, std::move(order),
+                                   channel(joint.first, joint.second, channel_kind::kAck), timeout_s_),
+                      full_name(joint), std::move(batch)});
 }
 
 void OrderDesk::tick() {
   std::erase_if(waiting_, [&](Waiting& waiting) {
-    if (seconds_between(waiting.sent, now()) < repeat_s_) return false;
-    if (waiting.transmissions <= Client::kRepetitions) {
-      transmit(waiting);
-      return false;
-    }
+    if (waiting.order.keep_on()) return false;
     fail(waiting, "no answer");
     return true;
   });
@@ -112,20 +102,20 @@ void OrderDesk::report(const Batch& batch) {
 
 void OrderDesk::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   const auto ack = decode_exactly<ack_v1>(payload(*buffer));
-  if (!ack || ack->sender_id != sender_.sender_id()) return;
+  if (!ack) return;
   const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.ack_channel == channel && waiting.order.sequence == ack->sequence;
+    return waiting.order.is_answer(*ack, channel);
   });
   if (found == waiting_.end()) return;
   const Waiting waiting = std::move(*found);
   waiting_.erase(found);
-  if (ack->accepted == 1) {
+  const Answer answer = to_answer(*ack);
+  if (answer.accepted) {
     ++waiting.batch->accepted;
     return report(*waiting.batch);
   }
-  const std::string text = printable(std::string(std::begin(ack->text), std::end(ack->text)));
-  fail(waiting, fmt::format("refused, {}{}{}", to_text(static_cast<Reason>(ack->reason)),
-                            text.empty() ? "" : ": ", text));
+  fail(waiting,
+       fmt::format("refused, {}{}{}", to_text(answer.reason), answer.text.empty() ? "" : ": ", answer.text));
 }
 
 }  // namespace strainwave

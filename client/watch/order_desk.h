@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/link/client.h"
+#include "client/link/connection.h"
+#include "client/link/pending_order.h"
+#include "client/link/sender.h"
 
 namespace strainwave {
 
@@ -51,25 +53,21 @@ class OrderDesk {
     std::vector<std::string> failures;
   };
   struct Waiting {
-    SealedMessage order;
-    std::string ack_channel;
+    PendingOrder order;
     std::string name;
     std::shared_ptr<Batch> batch;
-    Instant sent;
-    int transmissions = 0;
   };
   template <typename Message>
   void post(const Name& joint, std::string_view kind, const Message& message, const Quote& quote,
             std::string what);
   void post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch);
-  void transmit(Waiting& waiting);
   void fail(const Waiting& waiting, const std::string& why);
   void report(const Batch& batch);
   void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
 
   Connection& connection_;
   Sender sender_;
-  double repeat_s_;
+  double timeout_s_;
   std::vector<Waiting> waiting_;
   std::string message_;
   bool alarm_ = false;

@@ -55,9 +55,9 @@ TEST_F(ClientTest, PassesOnAReasonAndItsText) {
 
 TEST_F(ClientTest, RepeatsTheIdenticalMessageUntilItIsAnswered) {
   daemon.publish_state();
-  daemon.drop = Client::kRepetitions;
+  daemon.drop = PendingOrder::kRepetitions;
   EXPECT_TRUE(order("elbow").accepted);
-  ASSERT_EQ(daemon.heard().size(), 1U + Client::kRepetitions);
+  ASSERT_EQ(daemon.heard().size(), 1U + PendingOrder::kRepetitions);
   for (const auto& heard : daemon.heard()) EXPECT_EQ(heard.bytes, daemon.heard()[0].bytes);
 }
 
@@ -65,7 +65,7 @@ TEST_F(ClientTest, GivesUpAfterItsRepetitionsAndSaysThatTheOutcomeIsUnknown) {
   daemon.publish_state();
   daemon.drop = 100;
   EXPECT_NE(failure("elbow").find("not known"), std::string::npos);
-  EXPECT_EQ(daemon.heard().size(), 1U + Client::kRepetitions);
+  EXPECT_EQ(daemon.heard().size(), 1U + PendingOrder::kRepetitions);
 }
 
 TEST_F(ClientTest, DoesNotTakeAnAnswerToAnotherMessageForItsOwn) {

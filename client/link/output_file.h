@@ -1,0 +1,21 @@
+// Files that commands write. Not real-time.
+#pragma once
+
+#include <filesystem>
+
+#include "client/link/exit_status.h"
+
+namespace strainwave {
+
+/// Throws ClientError (usage) when `file` exists and `overwrite` is false.
+inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite) {
+  if (!overwrite && std::filesystem::exists(file))
+    throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
+}
+
+/// That `file` could not be created or opened for writing.
+inline ClientError not_writable(const std::filesystem::path& file) {
+  return {ExitStatus::kUsage, file.string() + " cannot be written: does its folder exist, is it yours?"};
+}
+
+}  // namespace strainwave

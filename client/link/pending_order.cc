@@ -1,0 +1,38 @@
+#include "client/link/pending_order.h"
+
+#include <iterator>
+#include <utility>
+
+#include "base/printable.h"
+
+namespace strainwave {
+
+Answer to_answer(const ack_v1& ack) {
+  const std::string text(std::begin(ack.text), std::end(ack.text));
+  return {ack.accepted == 1, static_cast<Reason>(ack.reason), printable(text)};
+}
+
+PendingOrder::PendingOrder(Connection& connection, SealedMessage order, std::string ack_channel,
+                           double timeout_s)
+    : connection_(&connection),
+      order_(std::move(order)),
+      ack_channel_(std::move(ack_channel)),
+      repeat_s_(timeout_s / (1 + kRepetitions)),
+      next_(repeat_s_) {
+  transmit();
+}
+
+bool PendingOrder::keep_on() {
+  if (!next_.passed()) return true;
+  if (transmissions_ > kRepetitions) return false;
+  transmit();
+  return true;
+}
+
+void PendingOrder::transmit() {
+  connection_->publish(order_.channel, order_.bytes);
+  next_ = Deadline(repeat_s_);
+  ++transmissions_;
+}
+
+}  // namespace strainwave
