@@ -15,6 +15,8 @@ constexpr double kStribeckShare = 0.5;
 constexpr double kStribeckExponent = 2.0;
 // What the fallback takes for the load is the estimate's mean over about this time: longer than a spring swings.
 constexpr double kUsualLoad_s = 0.1;
+// Farther than this from the stream, a joint is off it: a tenth of a count of a fine encoder.
+constexpr double kOnStream_rad = 2e-6;
 // Share of the torque that the reference leaves to a joint that has fallen back: half of what drove it into
 // chatter.
 constexpr double kFallbackReserve = 0.5;
@@ -60,6 +62,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
       shaper_(config.period_s),
       ordered_(config.period_s),
+      stream_(config.period_s),
       observer_(observer_config(config)),
       landing_(landing_config(config)),
       monitor_(config.period_s),
@@ -115,20 +118,43 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   reference_rest_s_ = 0.0;
   carry_over_ = false;
   replan_ = false;
+  streamed_ = false;
 }
 
-void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
+void JointController::limit_speed(double speed_limit_rad_s) noexcept {
   motion_ = config_.motion;
   if (speed_limit_rad_s > 0.0) motion_.velocity_rad_s = std::min(motion_.velocity_rad_s, speed_limit_rad_s);
-  if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
-  shaper_.set_target(position_rad);
-  ordered_.set_target(position_rad);
-  plans_ = 0;
+}
+
+void JointController::new_target() noexcept {
   attempts_.new_target();
   enter(MotionPhase::kTracking);
 }
 
+void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
+  limit_speed(speed_limit_rad_s);
+  streamed_ = false;
+  if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
+  shaper_.set_target(position_rad);
+  ordered_.set_target(position_rad);
+  plans_ = 0;
+  new_target();
+}
+
+void JointController::follow(const StreamSample& sample, double speed_limit_rad_s,
+                             const PositionRange& range) noexcept {
+  limit_speed(speed_limit_rad_s);
+  stream_range_ = range;
+  if (!streamed_) {
+    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s());
+    plans_ = 0;
+  }
+  streamed_ = true;
+  stream_.take(sample, motion_.velocity_rad_s);
+}
+
 void JointController::stop() noexcept {
+  streamed_ = false;
   shaper_.stop();
   ordered_ = shaper_;
 }
@@ -155,6 +181,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   result.joint_velocity_rad_s = then_.velocity_rad_s;
   result.gains_in_use = gains_in_use_;
   result.at_target = shaper_.at_target();
+  result.off_stream = streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
   result.phase = phase_;
   result.estimate = now_;
   result.replans = replans_;
@@ -223,6 +250,10 @@ void JointController::look_ahead() noexcept {
 
 void JointController::advance_reference(int elapsed_periods) noexcept {
   if (!config_.use_shaping) {
+    if (streamed_) {
+      shaper_.set_target(stream_.step().next_position_rad);
+      ordered_.set_target(shaper_.target_rad());
+    }
     shaper_.jump();
     ordered_.jump();
     reference_ = {shaper_.target_rad(), 0.0, 0.0};
@@ -237,19 +268,37 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
       ++replans_;
       replan_ = false;
     }
-    reference_ = advanced(shaper_, reference_);
-    ordered_reference_ = advanced(ordered_, ordered_reference_);
+    limit_reference(shaper_, reference_);
+    limit_reference(ordered_, ordered_reference_);
+    advance_references();
   }
 }
 
-// One period, within what the joint can do at the speed that the reference has reached.
-Reference JointController::advanced(ReferenceShaper& shaper, const Reference& last) const noexcept {
+// What the joint can do at the speed that the reference has reached.
+void JointController::limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept {
   const double speed = std::abs(last.velocity_rad_s + config_.period_s * last.acceleration_rad_s2);
   const double reserve =
       fallen_back() ? std::max(kFallbackReserve, config_.torque_reserve) : config_.torque_reserve;
   shaper.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
                                      reserve, speed, config_.period_s));
-  return shaper.step();
+}
+
+void JointController::advance_references() noexcept {
+  if (!streamed_) {
+    reference_ = shaper_.step();
+    ordered_reference_ = ordered_.step();
+    return;
+  }
+  const double last_target_rad = shaper_.target_rad();
+  const MovingTarget target = stream_.step();
+  reference_ = shaper_.follow(target, stream_range_);
+  ordered_reference_ = ordered_.follow(target, stream_range_);
+  if (shaper_.target_rad() != last_target_rad) new_target();
+  if (stream_.ended()) {
+    streamed_ = false;
+    shaper_.stop();
+    ordered_.stop();
+  }
 }
 
 }  // namespace strainwave

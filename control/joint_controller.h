@@ -25,6 +25,7 @@
 #include "control/reference_shaper.h"
 #include "control/rest_detector.h"
 #include "control/scheduled_controller.h"
+#include "control/stream_target.h"
 #include "control/velocity_observer.h"
 
 namespace strainwave {
@@ -83,6 +84,8 @@ struct JointStep {
   double joint_velocity_rad_s = 0.0;  ///< measured or estimated, as the feedback used it
   GainsInUse gains_in_use = GainsInUse::kNone;
   bool at_target = false;  ///< the reference has ended on the target
+  /// The reference is not where the stream is: the limits do not let it, or not yet.
+  bool off_stream = false;
   MotionPhase phase = MotionPhase::kTracking;
   JointEstimate estimate;  ///< of this sample
   int replans = 0;         ///< since start(): how often `reference` began anew from where the joint was
@@ -104,6 +107,9 @@ class JointController {
   void start(double position_rad, double velocity_rad_s = 0.0, double holding_torque_Nm = 0.0) noexcept;
   /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
+  /// One setpoint of a stream; the first one begins it. Speed as above, and inside `range`. Until set_target(), stop(),
+  /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
+  void follow(const StreamSample& sample, double speed_limit_rad_s, const PositionRange& range) noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept;
   /// Where the motion ends.
@@ -129,7 +135,10 @@ class JointController {
   void remember(double torque_Nm) noexcept;
 
   void push_back(double torque_Nm) noexcept;
-  Reference advanced(ReferenceShaper& shaper, const Reference& last) const noexcept;
+  void limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept;
+  void advance_references() noexcept;
+  void limit_speed(double speed_limit_rad_s) noexcept;
+  void new_target() noexcept;
 
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
@@ -150,6 +159,7 @@ class JointController {
   JointControllerConfig config_;
   ReferenceShaper shaper_;
   ReferenceShaper ordered_;  ///< the same orders, never restarted
+  StreamTarget stream_;
   VelocityObserver observer_;
   Landing landing_;
   LandingAttempts attempts_;
@@ -167,6 +177,7 @@ class JointController {
   std::array<double, kMaxControlDelay + 1>
       torques_Nm_{};     ///< newest first, as far as the motor can deliver them
   MotionLimits motion_;  ///< the configuration's, and this order's speed
+  PositionRange stream_range_;
   double torque_limit_Nm_ = 0.0;
   double temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;
@@ -187,6 +198,7 @@ class JointController {
   bool has_temperature_ = false;
   bool carry_over_ = false;  ///< the gains have changed since the last torque
   bool replan_ = false;      ///< the reference begins anew from where the joint is
+  bool streamed_ = false;    ///< the reference follows stream_
 };
 
 }  // namespace strainwave

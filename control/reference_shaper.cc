@@ -13,6 +13,8 @@ namespace {
 constexpr double kRelativeRounding = 1e-9;
 // What thousands of samples may add up to; far below any encoder's count.
 constexpr double kPositionRounding_rad = 1e-12;
+// What a target that accelerates leaves at least of the limits, to come up with it.
+constexpr double kLeastShare = 0.2;
 }  // namespace
 
 void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept {
@@ -34,9 +36,11 @@ double ReferenceShaper::brake_to_rest(double velocity_rad_s) const noexcept {
 }
 
 // Inverse of G(v') = S(v') + h v' / 2, which is piecewise linear with G(n D h) = D h^2 n (n + 1) / 2.
-double ReferenceShaper::largest_stoppable_velocity(double distance_rad) const noexcept {
+double ReferenceShaper::largest_stoppable_velocity(double distance_rad,
+                                                   double deceleration_rad_s2) const noexcept {
   if (distance_rad <= 0.0) return 0.0;
-  const double speed_step = period_s_ * limits_.deceleration_rad_s2;
+  if (!std::isfinite(distance_rad)) return distance_rad;
+  const double speed_step = period_s_ * deceleration_rad_s2;
   const double scaled = distance_rad / (period_s_ * speed_step);
   const double whole = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * scaled) - 1.0));
   const double beyond = scaled - 0.5 * whole * (whole + 1.0);
@@ -44,27 +48,74 @@ double ReferenceShaper::largest_stoppable_velocity(double distance_rad) const no
 }
 
 // In the direction of the target: `velocity` < 0 moves away from it.
-double ReferenceShaper::next_velocity_rad_s() const noexcept {
-  const double to_target_rad = target_rad_ - position_rad_;
-  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s_);
-  const double velocity = direction * velocity_rad_s_;
-  const double speed_up = period_s_ * limits_.acceleration_rad_s2;
-  const double slow_down = period_s_ * limits_.deceleration_rad_s2;
+double ReferenceShaper::next_velocity_rad_s(double to_target_rad, double velocity_rad_s,
+                                            const MotionLimits& limits) const noexcept {
+  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s);
+  const double velocity = direction * velocity_rad_s;
+  const double speed_up = period_s_ * limits.acceleration_rad_s2;
+  const double slow_down = period_s_ * limits.deceleration_rad_s2;
 
   if (velocity < 0.0) {
     // A sample that turns round has one acceleration, so both limits hold in it.
     const double turned = velocity + std::min(speed_up, slow_down);
     if (turned <= 0.0) return direction * std::min(0.0, velocity + slow_down);
-    const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity);
-    return direction * std::min({turned, limits_.velocity_rad_s, stoppable});
+    const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
+                                                        limits.deceleration_rad_s2);
+    return direction * std::min({turned, limits.velocity_rad_s, stoppable});
   }
-  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity);
-  const double wanted = std::min({velocity + speed_up, limits_.velocity_rad_s, stoppable});
+  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
+                                                      limits.deceleration_rad_s2);
+  const double wanted = std::min({velocity + speed_up, limits.velocity_rad_s, stoppable});
   return direction * std::max({wanted, velocity - slow_down, 0.0});
 }
 
+// What the limits allow of a wanted velocity: accelerations, the range, the speed, in the order in which they give way.
+double ReferenceShaper::possible_velocity_rad_s(double wanted_rad_s,
+                                                const PositionRange& range) const noexcept {
+  const double decelerating = period_s_ * limits_.deceleration_rad_s2;
+  const double accelerating = period_s_ * limits_.acceleration_rad_s2;
+  const double middle_rad = position_rad_ + 0.5 * period_s_ * velocity_rad_s_;
+  const double up = std::min(limits_.velocity_rad_s, largest_stoppable_velocity(
+                                                         range.max_rad - middle_rad, limits_.deceleration_rad_s2));
+  const double down = std::min(limits_.velocity_rad_s, largest_stoppable_velocity(
+                                                           middle_rad - range.min_rad, limits_.deceleration_rad_s2));
+  const double inside = std::clamp(wanted_rad_s, -down, up);
+  // A sample that turns round has one acceleration, so both limits hold in it.
+  const double turning = std::min(accelerating, decelerating);
+  const bool forward = velocity_rad_s_ > 0.0;
+  const bool backward = velocity_rad_s_ < 0.0;
+  const double slowest = velocity_rad_s_ - (forward ? std::max(turning, std::min(decelerating, velocity_rad_s_))
+                                                    : accelerating);
+  const double fastest = velocity_rad_s_ + (backward ? std::max(turning, std::min(decelerating, -velocity_rad_s_))
+                                                     : accelerating);
+  return std::clamp(inside, slowest, fastest);
+}
+
+Reference ReferenceShaper::advance_to(double velocity_rad_s) noexcept {
+  const Reference reference{position_rad_, velocity_rad_s_, (velocity_rad_s - velocity_rad_s_) / period_s_};
+  position_rad_ += 0.5 * period_s_ * (velocity_rad_s_ + velocity_rad_s);
+  velocity_rad_s_ = velocity_rad_s;
+  return reference;
+}
+
+Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRange& range) noexcept {
+  set_target(target.next_position_rad);
+  if (target.rests()) return step();
+  const double own_rad_s2 = std::abs(target.next_velocity_rad_s - target.velocity_rad_s) / period_s_;
+  const auto left = [own_rad_s2](double limit) { return std::max(kLeastShare * limit, limit - own_rad_s2); };
+  const MotionLimits relative{limits_.velocity_rad_s, left(limits_.acceleration_rad_s2),
+                              left(limits_.deceleration_rad_s2)};
+  // From where the target, were its motion the mean of its two velocities, would reach its end exactly.
+  const double to_target_rad = target.next_position_rad - position_rad_ -
+                               0.5 * period_s_ * (target.velocity_rad_s + target.next_velocity_rad_s);
+  const double relative_rad_s =
+      next_velocity_rad_s(to_target_rad, velocity_rad_s_ - target.velocity_rad_s, relative);
+  return advance_to(possible_velocity_rad_s(target.next_velocity_rad_s + relative_rad_s, range));
+}
+
 Reference ReferenceShaper::step() noexcept {
-  double velocity = stopping_ ? brake_to_rest(velocity_rad_s_) : next_velocity_rad_s();
+  double velocity = stopping_ ? brake_to_rest(velocity_rad_s_)
+                             : next_velocity_rad_s(target_rad_ - position_rad_, velocity_rad_s_, limits_);
   double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
 
   if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {

@@ -12,7 +12,14 @@
 //   v' <= V
 //   S(v') + h v' / 2 <= d - h v / 2,    d: distance to the target
 // which keeps the target reachable exactly, at rest, on a sample: no overshoot, no chatter around the target.
+//
+// A target that moves (p0 to p1 at v0 to v1 in a sample) is followed in its own frame by the same rule: x = p - x',
+// w = v' - v1, with what its own acceleration leaves of the limits; on the target nothing is left but its motion.
 #pragma once
+
+#include <limits>
+
+#include "control/stream_target.h"
 
 namespace strainwave {
 
@@ -21,6 +28,12 @@ struct MotionLimits {
   double velocity_rad_s = 1.0;
   double acceleration_rad_s2 = 1.0;  ///< while the speed grows
   double deceleration_rad_s2 = 1.0;  ///< while it falls; friction makes it the larger one
+};
+
+/// Where a reference that follows a moving target may be.
+struct PositionRange {
+  double min_rad = -std::numeric_limits<double>::infinity();
+  double max_rad = std::numeric_limits<double>::infinity();
 };
 
 /// The reference at a sample. The acceleration is that of the period that follows it.
@@ -55,15 +68,24 @@ class ReferenceShaper {
 
   /// The reference for this sample; the motion then advances by one period.
   Reference step() noexcept;
+  /// The same, towards a target that moves: on it as soon as the limits allow, and never beyond where it can still
+  /// stop inside `range`. Afterwards at_target() says whether the target rests and is reached.
+  Reference follow(const MovingTarget& target, const PositionRange& range) noexcept;
 
   /// Whether the motion has ended, exactly on the target.
   bool at_target() const noexcept { return position_rad_ == target_rad_ && velocity_rad_s_ == 0.0; }
   double target_rad() const noexcept { return target_rad_; }
+  /// Where the next sample begins.
+  double position_rad() const noexcept { return position_rad_; }
+  double velocity_rad_s() const noexcept { return velocity_rad_s_; }
 
  private:
-  double next_velocity_rad_s() const noexcept;
+  double next_velocity_rad_s(double to_target_rad, double velocity_rad_s,
+                             const MotionLimits& limits) const noexcept;
   double brake_to_rest(double velocity_rad_s) const noexcept;
-  double largest_stoppable_velocity(double distance_rad) const noexcept;
+  double largest_stoppable_velocity(double distance_rad, double deceleration_rad_s2) const noexcept;
+  double possible_velocity_rad_s(double wanted_rad_s, const PositionRange& range) const noexcept;
+  Reference advance_to(double velocity_rad_s) noexcept;
 
   double period_s_;
   MotionLimits limits_;

@@ -104,6 +104,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "at a limit switch";
     case Notice::kPlainLaw:
       return "chatter, plain control law";
+    case Notice::kOffStream:
+      return "off the stream";
   }
   return "unknown";
 }
@@ -301,6 +303,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "";
     case Notice::kPlainLaw:
       return "joint.control.rigid";
+    case Notice::kOffStream:
+      return "joint.limits";
   }
   return "";
 }

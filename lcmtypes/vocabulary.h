@@ -64,6 +64,7 @@ enum class Notice : std::int32_t {
   kNotHomed = 1 << 6,
   kAtLimitSwitch = 1 << 7,
   kPlainLaw = 1 << 8,
+  kOffStream = 1 << 9,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

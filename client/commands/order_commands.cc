@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "client/commands/commands.h"
 #include "client/link/exit_status.h"
@@ -265,7 +265,7 @@ void home(Client& client, const Output& output, const std::string& joint) {
 
 void move(Client& client, const Output& output, const MoveArguments& arguments) {
   const auto& [joint, position_rad, wait, speed_limit_rad_s, tolerance_rad] = arguments;
-  setpoint_v1 message{};
+  setpoint_v2 message{};
   message.position_rad = position_rad;
   message.speed_limit_rad_s = speed_limit_rad_s;
   message.acknowledge = 1;

@@ -38,7 +38,7 @@ bool McapLog::take(const ChannelName& name, const std::string& channel, std::int
   if (name.kind == channel_kind::kTemperature) return write<temperature_v1>(channel, received_us, data);
   if (name.kind == channel_kind::kLimits) return write<limits_v1>(channel, received_us, data);
   if (name.kind == channel_kind::kTiming) return write<timing_v1>(channel, received_us, data);
-  if (name.kind == channel_kind::kSetpoint) return write<setpoint_v1>(channel, received_us, data);
+  if (name.kind == channel_kind::kSetpoint) return write<setpoint_v2>(channel, received_us, data);
   if (name.kind == channel_kind::kCommand) return write<command_v1>(channel, received_us, data);
   if (name.kind == channel_kind::kInject) return write<inject_v1>(channel, received_us, data);
   if (name.kind == channel_kind::kAck) return write<ack_v1>(channel, received_us, data);

@@ -8,7 +8,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/limits_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 #include <string_view>
@@ -94,10 +94,14 @@ void visit_envelope(const Order& order, Visit&& visit) {
 }  // namespace field
 
 template <typename Visit>
-void visit_fields(const setpoint_v1& message, Visit&& visit) {
+void visit_fields(const setpoint_v2& message, Visit&& visit) {
   field::visit_envelope(message, visit);
   visit("stream_id", message.stream_id);
   visit("position_rad", message.position_rad);
+  visit("velocity_rad_s", message.velocity_rad_s);
+  visit("acceleration_rad_s2", message.acceleration_rad_s2);
+  visit("at_cycle", message.at_cycle);
+  visit("derivatives", message.derivatives);
   visit("valid_for_s", message.valid_for_s);
   visit("speed_limit_rad_s", message.speed_limit_rad_s);
   visit("begins_stream", message.begins_stream);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "lcmtypes/channels.h"
 
@@ -63,7 +63,7 @@ void OrderDesk::order(const Name& joint, const Quote& quote, Action action) {
 }
 
 void OrderDesk::move(const Name& joint, const Quote& quote, double position_rad) {
-  setpoint_v1 message{};
+  setpoint_v2 message{};
   message.position_rad = position_rad;
   message.acknowledge = 1;
   post(joint, channel_kind::kSetpoint, message, quote, fmt::format("move to {:.6g} rad", position_rad));

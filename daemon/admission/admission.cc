@@ -7,7 +7,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "daemon/admission/table_admission.h"
 #include "lcmtypes/channels.h"
@@ -20,6 +20,9 @@ namespace {
 
 constexpr double kMaxValidFor_s = 3600.0;
 constexpr double kMaxInjection_s = 3600.0;
+// Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
+constexpr double kMaxVelocity_rad_s = 1000.0;
+constexpr double kMaxAcceleration_rad_s2 = 1e6;
 
 std::span<const std::uint8_t> payload(const WireMessage& message) {
   return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
@@ -38,6 +41,24 @@ Verdict discard(Reason reason) {
   Verdict verdict;
   verdict.reason = reason;
   return verdict;
+}
+
+// What a setpoint says beyond its position must be possible, and is for streams only.
+std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
+  std::ostringstream text;
+  if (setpoint.derivatives < 0 || setpoint.derivatives > 2)
+    text << "derivatives = " << setpoint.derivatives << ": 0, 1 (velocity) or 2 (acceleration, too)";
+  else if (setpoint.stream_id == 0 && (setpoint.derivatives != 0 || setpoint.at_cycle != 0))
+    text << "a move (stream_id 0) ends at rest, as soon as it can: derivatives and at_cycle must be 0";
+  else if (setpoint.at_cycle < 0)
+    text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none";
+  else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
+    text << "velocity_rad_s = " << setpoint.velocity_rad_s << ": at most " << kMaxVelocity_rad_s;
+  else if (std::abs(setpoint.acceleration_rad_s2) > kMaxAcceleration_rad_s2)
+    text << "acceleration_rad_s2 = " << setpoint.acceleration_rad_s2 << ": at most " << kMaxAcceleration_rad_s2;
+  else
+    return std::nullopt;
+  return text.str();
 }
 
 std::optional<OrderKind> order_of(Action action) {
@@ -216,16 +237,18 @@ Verdict Admission::change_owner(Action action, const Requester& requester) {
 }
 
 Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message) {
-  const auto setpoint = decode_exactly<setpoint_v1>(payload(message));
+  const auto setpoint = decode_exactly<setpoint_v2>(payload(message));
   if (!setpoint) return discard(Reason::kMalformed);
   Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
   if (auto verdict = check_envelope(
           message, {setpoint->session_id, setpoint->challenge, Role::kOperator, true}, requester))
     return std::move(*verdict);
   if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
-      !std::isfinite(setpoint->speed_limit_rad_s))
+      !std::isfinite(setpoint->speed_limit_rad_s) || !std::isfinite(setpoint->velocity_rad_s) ||
+      !std::isfinite(setpoint->acceleration_rad_s2))
     return refuse(requester, Reason::kNotFinite,
-                  "position_rad, valid_for_s and speed_limit_rad_s must be finite numbers");
+                  "position_rad, velocity_rad_s, acceleration_rad_s2, valid_for_s and speed_limit_rad_s must be "
+                  "finite numbers");
   const JointAdmission& limits = joints_[joint];
   std::ostringstream text;
   if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
@@ -245,7 +268,13 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
          << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
+  if (auto complaint = complaint_about_motion(*setpoint))
+    return refuse(requester, Reason::kOutOfRange, *complaint);
   Verdict verdict = pass(requester, OrderKind::kSetpoint, setpoint->challenge);
+  verdict.order.velocity_rad_s = setpoint->velocity_rad_s;
+  verdict.order.acceleration_rad_s2 = setpoint->acceleration_rad_s2;
+  verdict.order.derivatives = setpoint->derivatives;
+  verdict.order.at_cycle = setpoint->at_cycle;
   verdict.order.stream_id = setpoint->stream_id;
   verdict.order.begins_stream = setpoint->begins_stream != 0;
   verdict.order.position_rad = setpoint->position_rad;

@@ -139,6 +139,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
 void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
   if (motion_.monitor != MonitorState::kWatching) notice(Notice::kPlainLaw);
+  if (motion_.off_stream) notice(Notice::kOffStream);
   const FuzzyFriction& friction = table_->table.friction;
   if (motion_.gains_in_use == GainsInUse::kFallback)
     notice(Notice::kFallbackGains);

@@ -120,6 +120,7 @@ class JointLoop {
   Reason enable(const CycleTime& time) noexcept;
   Reason use_table(const TableSlot& slot) noexcept;
   Reason begin_setpoint(const Order& order, const CycleTime& time) noexcept;
+  PositionRange reachable_range() const noexcept;
   Reason hold() noexcept;
   Reason clear_fault(const CycleTime& time) noexcept;
   Reason inject(const Injection& injection) noexcept;

@@ -8,6 +8,8 @@ namespace strainwave {
 
 namespace {
 
+constexpr double kFarthestAhead_s = 1.0;  // of a setpoint that says when it is for
+
 double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   double largest_Nm = 0.0;
   for (std::int32_t i = 0; i < friction.rule_count; ++i)
@@ -81,12 +83,26 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   // A late packet of a stream that has ended must not set the joint moving again.
   if (!ordered_.takes(order.stream_id, order.begins_stream)) return Reason::kStreamEnded;
   if (!zero_.known()) return Reason::kNotHomed;
+  const std::int64_t in_periods = order.at_cycle == 0 ? 0 : order.at_cycle - time.cycle;
+  if (order.at_cycle != 0 && in_periods <= 0) return Reason::kTooOld;
+  if (static_cast<double>(in_periods) * config_.controller.period_s > kFarthestAhead_s)
+    return Reason::kOutOfRange;
   const double target_rad = zero_.to_drive_rad(order.position_rad);
   if (into_limit_switch(target_rad - reading().joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
-  controller_.set_target(target_rad, order.speed_limit_rad_s);
+  if (order.stream_id == 0)
+    controller_.set_target(target_rad, order.speed_limit_rad_s);
+  else
+    controller_.follow({target_rad, order.velocity_rad_s, order.acceleration_rad_s2, order.derivatives, in_periods},
+                       order.speed_limit_rad_s, reachable_range());
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   return Reason::kAccepted;
+}
+
+// As the drive counts it.
+PositionRange JointLoop::reachable_range() const noexcept {
+  return {zero_.to_drive_rad(config_.limits.position_min_rad),
+          zero_.to_drive_rad(config_.limits.position_max_rad)};
 }
 
 Reason JointLoop::hold() noexcept {

@@ -24,14 +24,18 @@ enum class OrderKind : std::int32_t {
 struct Order {
   std::int64_t id = 0;  ///< quoted in the reply; 0: nobody waits for one
   OrderKind kind = OrderKind::kDisable;
-  std::int32_t table_slot = 0;      ///< kUseTable
-  double position_rad = 0.0;        ///< kSetpoint
-  double valid_for_s = 0.0;         ///< kSetpoint; 0: a move
-  Injection injection;              ///< kInject
-  double speed_limit_rad_s = 0.0;   ///< kSetpoint; 0: the joint's own
-  std::int64_t stream_id = 0;       ///< kSetpoint; 0: a move
-  bool begins_stream = false;       ///< kSetpoint: the stream begins with this one
-  std::int64_t expires_cycle = -1;  ///< in a later cycle it is refused as too old; -1: never
+  std::int32_t table_slot = 0;       ///< kUseTable
+  double position_rad = 0.0;         ///< kSetpoint
+  double valid_for_s = 0.0;          ///< kSetpoint; 0: a move
+  Injection injection{};             ///< kInject
+  double speed_limit_rad_s = 0.0;    ///< kSetpoint; 0: the joint's own
+  std::int64_t stream_id = 0;        ///< kSetpoint; 0: a move
+  bool begins_stream = false;        ///< kSetpoint: the stream begins with this one
+  double velocity_rad_s = 0.0;       ///< kSetpoint of a stream, with derivatives >= 1
+  double acceleration_rad_s2 = 0.0;  ///< kSetpoint of a stream, with derivatives 2
+  std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
+  std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: as it comes
+  std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
 };
 
 /// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.

@@ -129,7 +129,7 @@ TEST_F(OnPathRelay, CannotEnableAJointThatWasDisabledMeanwhile) {
 
 TEST_F(OnPathRelay, CannotLetAnOrderOvertakeALaterOne) {
   relay_->keep_back(true);
-  const setpoint_v1 move = client_->make_setpoint("elbow", 0.5);
+  const setpoint_v2 move = client_->make_setpoint("elbow", 0.5);
   publish(*client_, "SETPOINT", move);
   while (relay_->kept() == 0) client_->pump(std::chrono::milliseconds(5));
   relay_->keep_back(false);

@@ -4,7 +4,7 @@
 
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 #include <vector>
 
 #include "lcmtypes/wire.h"
@@ -81,7 +81,7 @@ void expect_seal_at_the_end() {
 }
 
 TEST(Signing, FindsKeyAndSignatureAtTheEndOfEveryOrder) {
-  expect_seal_at_the_end<setpoint_v1>();
+  expect_seal_at_the_end<setpoint_v2>();
   expect_seal_at_the_end<command_v1>();
   expect_seal_at_the_end<gain_table_v1>();
 }

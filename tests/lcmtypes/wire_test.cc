@@ -7,7 +7,7 @@
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
@@ -34,7 +34,7 @@ class WireTest : public testing::Test {
 };
 
 using Messages =
-    testing::Types<ack_v1, command_v1, gain_table_v1, setpoint_v1, state_v1, temperature_v1, timing_v1>;
+    testing::Types<ack_v1, command_v1, gain_table_v1, setpoint_v2, state_v1, temperature_v1, timing_v1>;
 class MessageNames {
  public:
   template <typename Message>
@@ -84,13 +84,13 @@ TYPED_TEST(WireTest, FitsIntoOneDatagram) {
 
 TEST(Wire, NoTypeIsTakenForAnother) {
   const std::vector<std::vector<std::uint8_t>> all{
-      encode(ack_v1{}),   encode(command_v1{}), encode(gain_table_v1{}), encode(setpoint_v1{}),
+      encode(ack_v1{}),   encode(command_v1{}), encode(gain_table_v1{}), encode(setpoint_v2{}),
       encode(state_v1{}), encode(timing_v1{}),  encode(temperature_v1{})};
   int taken = 0;
   for (const auto& bytes : all) {
     taken += decode_exactly<ack_v1>(bytes).has_value() + decode_exactly<command_v1>(bytes).has_value() +
              decode_exactly<gain_table_v1>(bytes).has_value() +
-             decode_exactly<setpoint_v1>(bytes).has_value() + decode_exactly<state_v1>(bytes).has_value() +
+             decode_exactly<setpoint_v2>(bytes).has_value() + decode_exactly<state_v1>(bytes).has_value() +
              decode_exactly<timing_v1>(bytes).has_value() + decode_exactly<temperature_v1>(bytes).has_value();
   }
   EXPECT_EQ(taken, static_cast<int>(all.size()));

@@ -194,8 +194,8 @@ command_v1 TestClient::make_command(const std::string& joint, Action action) {
   return message;
 }
 
-setpoint_v1 TestClient::make_setpoint(const std::string& joint, double position_rad, double valid_for_s) {
-  setpoint_v1 message{};
+setpoint_v2 TestClient::make_setpoint(const std::string& joint, double position_rad, double valid_for_s) {
+  setpoint_v2 message{};
   fill_envelope(joint, message);
   message.position_rad = position_rad;
   message.valid_for_s = valid_for_s;

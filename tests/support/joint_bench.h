@@ -75,24 +75,18 @@ class JointBench {
 
   /// Gives the order and makes one step; the loop's answer.
   Reason order(std::size_t joint, Order order);
-  Reason order(std::size_t joint, OrderKind kind) {
-    return this->order(joint, Order{0, kind, 0, 0.0, 0.0, {}});
-  }
+  Reason order(std::size_t joint, OrderKind kind) { return this->order(joint, Order{.kind = kind}); }
   /// A move, or with `valid_for_s` a setpoint of stream 1, which begins with it unless `begins` is false.
   Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0, bool begins = true) {
     const bool streamed = valid_for_s > 0.0;
-    return order(joint, Order{0,
-                              OrderKind::kSetpoint,
-                              0,
-                              position_rad,
-                              valid_for_s,
-                              {},
-                              0.0,
-                              streamed ? 1 : 0,
-                              streamed && begins});
+    return order(joint, Order{.kind = OrderKind::kSetpoint,
+                              .position_rad = position_rad,
+                              .valid_for_s = valid_for_s,
+                              .stream_id = streamed ? 1 : 0,
+                              .begins_stream = streamed && begins});
   }
   Reason inject(std::size_t joint, const Injection& injection) {
-    return order(joint, Order{0, OrderKind::kInject, 0, 0.0, 0.0, injection});
+    return order(joint, Order{.kind = OrderKind::kInject, .injection = injection});
   }
   /// Loads the table, enables, and runs until the joint holds.
   void bring_to_hold(std::size_t joint);

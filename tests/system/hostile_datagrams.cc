@@ -9,7 +9,7 @@
 #include <chrono>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 #include <thread>
 
 #include "lcmtypes/vocabulary.h"
@@ -111,7 +111,7 @@ void HostileDatagrams::order_with_random_fields() {
   switch (random_() % 3) {
     case 0:
       put_text("SW.elbow.SETPOINT", true);
-      order = encode(setpoint_v1{});
+      order = encode(setpoint_v2{});
       break;
     case 1:
       put_text("SW.elbow.COMMAND", true);

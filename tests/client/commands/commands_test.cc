@@ -8,7 +8,7 @@
 #include <sstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/inject_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 #include <strainwave/timing_v1.hpp>
 
 #include "base/input_error.h"
@@ -150,7 +150,7 @@ TEST_F(CommandsTest, DisableReachesAJointThatIsNotHeard) {
 TEST_F(CommandsTest, MoveAsksForAnAcknowledgementOfAMoveNotAStream) {
   daemon.publish_state(Mode::kHolding);
   move(client, output, {"elbow", -0.25, false});
-  const auto setpoint = decode_exactly<setpoint_v1>(daemon.heard().at(0).bytes);
+  const auto setpoint = decode_exactly<setpoint_v2>(daemon.heard().at(0).bytes);
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->position_rad, -0.25);
   EXPECT_EQ(setpoint->valid_for_s, 0.0);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "client/link/exit_status.h"
 #include "tests/client/link/fake_daemon.h"
@@ -16,7 +16,7 @@ constexpr double kShort_s = 0.2;
 class ClientTest : public testing::Test {
  protected:
   Answer order(const std::string& joint) {
-    return client.request(joint, channel_kind::kSetpoint, setpoint_v1{});
+    return client.request(joint, channel_kind::kSetpoint, setpoint_v2{});
   }
 
   std::string failure(const std::string& joint) {
@@ -40,7 +40,7 @@ TEST_F(ClientTest, LearnsTheSessionFromTheStateAndQuotesIt) {
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 1U);
   EXPECT_EQ(daemon.heard()[0].channel, "SW.elbow.SETPOINT");
-  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->session_id, 4711);
+  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->session_id, 4711);
 }
 
 TEST_F(ClientTest, PassesOnAReasonAndItsText) {
@@ -85,8 +85,8 @@ TEST_F(ClientTest, UsesANewSequenceForEveryOrder) {
   daemon.publish_state();
   order("elbow");
   order("elbow");
-  EXPECT_GT(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->sequence,
-            decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->sequence);
+  EXPECT_GT(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->sequence,
+            decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->sequence);
 }
 
 TEST_F(ClientTest, SaysThatNoDaemonIsThere) {
@@ -116,8 +116,8 @@ TEST_F(ClientTest, GivesAnOrderThatCameTooLateAnewFromANewerState) {
   };
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 2U);
-  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->challenge, 100);
-  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->challenge, 101);
+  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->challenge, 100);
+  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->challenge, 101);
 }
 
 TEST_F(ClientTest, RisesAboveTheSequenceThatTheDaemonNames) {
@@ -127,7 +127,7 @@ TEST_F(ClientTest, RisesAboveTheSequenceThatTheDaemonNames) {
   daemon.after_answer = [&] { daemon.reason = Reason::kAccepted; };
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 2U);
-  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->sequence, INT64_MAX / 2 + 1);
+  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->sequence, INT64_MAX / 2 + 1);
 }
 
 TEST_F(ClientTest, ListsAllJointsOfItsPrefixOnly) {

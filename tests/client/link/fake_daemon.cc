@@ -5,7 +5,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "lcmtypes/wire.h"
 
@@ -38,7 +38,7 @@ void FakeDaemon::on_order(const lcm::ReceiveBuffer* buffer, const std::string& c
     --drop;
     return;
   }
-  if (const auto setpoint = decode_exactly<setpoint_v1>(bytes)) {
+  if (const auto setpoint = decode_exactly<setpoint_v2>(bytes)) {
     if (obeys_moves && reason == Reason::kAccepted)
       state.target_position_rad = state.joint_position_rad = setpoint->position_rad;
     answer(setpoint->sender_id, setpoint->sequence);

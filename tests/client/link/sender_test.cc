@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 namespace strainwave {
 namespace {
@@ -15,7 +15,7 @@ TEST(Sender, SequencesRiseOverAllKindsOfMessages) {
   std::int64_t last = 0;
   for (int i = 0; i < 10; ++i) {
     for (const std::int64_t sequence :
-         {sender.seal("a", setpoint_v1{}, {1, 2}).sequence, sender.seal("b", command_v1{}, {1, 2}).sequence,
+         {sender.seal("a", setpoint_v2{}, {1, 2}).sequence, sender.seal("b", command_v1{}, {1, 2}).sequence,
           sender.seal("c", gain_table_v1{}, {1, 2}).sequence}) {
       EXPECT_GT(sequence, last);
       last = sequence;
@@ -25,10 +25,10 @@ TEST(Sender, SequencesRiseOverAllKindsOfMessages) {
 
 TEST(Sender, WritesTheEnvelopeIntoTheMessageAndKeepsItsContent) {
   Sender sender(5);
-  setpoint_v1 message{};
+  setpoint_v2 message{};
   message.position_rad = 0.25;
   const SealedMessage sealed = sender.seal("SW.elbow.SETPOINT", message, {77, 815});
-  const auto read = decode_exactly<setpoint_v1>(sealed.bytes);
+  const auto read = decode_exactly<setpoint_v2>(sealed.bytes);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->session_id, 77);
   EXPECT_EQ(read->challenge, 815);

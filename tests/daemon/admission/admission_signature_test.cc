@@ -4,7 +4,7 @@
 #include <array>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "daemon/admission/admission.h"
 #include "lcmtypes/wire.h"
@@ -57,14 +57,14 @@ class SignedAdmission : public ::testing::Test {
 };
 
 TEST_F(SignedAdmission, ObeysAnOperatorsSetpointsAndCommands) {
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kEnable, 1, 2), &operator_)).kind, Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, TellsWhoOrderedForTheAnswer) {
-  EXPECT_TRUE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).requester.authentic);
-  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), nullptr)).requester.authentic);
-  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_)).requester.authentic);
+  EXPECT_TRUE(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v2>(1, 2), nullptr)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v2>(1, 2), &stranger_)).requester.authentic);
   EXPECT_FALSE(consider(wire(kCommand, command(Action::kDisable, 1, 3), nullptr)).requester.authentic);
 }
 
@@ -78,7 +78,7 @@ TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
   EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &engineer_)).reason, Reason::kTableDefect);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind,
             Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, LetsEverybodyStop) {
@@ -93,25 +93,25 @@ TEST_F(SignedAdmission, LetsEverybodyStop) {
 }
 
 TEST_F(SignedAdmission, RefusesAnOrderThatWasSignedForAnotherJoint) {
-  WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  WireMessage message = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
   message.channel = FixedString<64>("SW.wrist.SETPOINT");
   EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, ASignatureWithoutAKeyIdIsNotTakenForNoSignature) {
-  WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  WireMessage message = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
   std::fill_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(message.size - kSealBytes), sizeof(KeyId),
               0);
   EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, AForgeryDoesNotUseUpASequenceNumber) {
-  const auto order = filled<setpoint_v1>(1, 5);
-  WireMessage forged = wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &operator_);
+  const auto order = filled<setpoint_v2>(1, 5);
+  WireMessage forged = wire(kSetpoint, filled<setpoint_v2>(1, INT64_MAX), &operator_);
   forged.bytes[forged.size - 1] ^= 1;
   EXPECT_EQ(consider(forged).reason, Reason::kBadSignature);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), nullptr)).reason, Reason::kUnsigned);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &stranger_)).reason,
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, INT64_MAX), nullptr)).reason, Reason::kUnsigned);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, INT64_MAX), &stranger_)).reason,
             Reason::kBadSignature);
   EXPECT_EQ(consider(wire(kSetpoint, order, &operator_)).kind, Verdict::Kind::kOrder);
 }
@@ -125,11 +125,11 @@ TEST_F(SignedAdmission, SequencesOfOneKeySayNothingAboutAnotherKeys) {
 TEST_F(SignedAdmission, ARoleThatIsNotEnoughUsesUpNothing) {
   EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 100), &operator_)).reason,
             Reason::kRoleNotAllowed);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) {
-  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v1>(1, 1000), &operator_);
+  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v2>(1, 1000), &operator_);
   ASSERT_EQ(consider(recorded).kind, Verdict::Kind::kOrder);
   for (std::int64_t sender = 2; sender < 1000; ++sender)
     ASSERT_NE(consider(wire(kCommand, command(Action::kHold, sender, 1000 + sender), &operator_)).reason,
@@ -141,7 +141,7 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) 
 
 TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless) {
   // Somebody on the path lets the second sender's hold pass first, then delivers the move that came before it.
-  const WireMessage move = wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_);
+  const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
   ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 2, 101), &operator_)).kind, Verdict::Kind::kOrder);
   const Verdict late = consider(move);
   EXPECT_EQ(late.reason, Reason::kOldSequence);
@@ -158,28 +158,28 @@ TEST_F(SignedAdmission, KnowsWhoStopsWhenASignatureProvesItAndStopsForTheOthersA
 }
 
 TEST_F(SignedAdmission, LetsOnlyAnEngineerTakeAJointOver) {
-  admission_.settle(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).requester, true,
+  admission_.settle(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).requester, true,
                     now_ns_);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(2, 1), &engineer_)).reason, Reason::kNotOwner);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 1), &engineer_)).reason, Reason::kNotOwner);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 1, 2), &operator_)).reason,
             Reason::kRoleNotAllowed);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 2, 3), &engineer_)).kind,
             Verdict::Kind::kDone);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(2, 4), &engineer_)).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 5), &operator_)).reason, Reason::kNotOwner);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 4), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 5), &operator_)).reason, Reason::kNotOwner);
 }
 
 TEST_F(SignedAdmission, ChecksASignatureThatIsThereEvenWhereNoneIsNeeded) {
   Admission open("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}}, {{}, true});
   open.advance(0, kChallenge);
-  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), nullptr), 0).kind,
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), nullptr), 0).kind,
             Verdict::Kind::kOrder);
-  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_), 0).reason,
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v2>(1, 2), &stranger_), 0).reason,
             Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
-  WireMessage forged = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  WireMessage forged = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
   forged.bytes[forged.size - 1] ^= 1;
   constexpr int kForgeries = 20'000;
   constexpr double kSeconds = 2.0;
@@ -190,15 +190,15 @@ TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
               Admission::kWastedVerificationsPer_s * kSeconds + Admission::kWastedVerificationsAtOnce, 2.0);
   EXPECT_EQ(rejects(Reason::kBadSignature) + rejects(Reason::kBusy), kForgeries);
   // A millisecond later the owner of the key is heard again, and a stop was at all times.
-  EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_), 2'001'000'000).kind,
+  EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_), 2'001'000'000).kind,
             Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, CountsReplaysAgainstTheSameBoundButNotGoodOrders) {
-  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
+  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
   constexpr int kOrders = 1000;
   for (int i = 1; i <= kOrders; ++i)
-    ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, i), &operator_), 0).kind,
+    ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v2>(1, i), &operator_), 0).kind,
               Verdict::Kind::kOrder);
   for (int i = 0; i < kOrders; ++i) admission_.consider(recorded, 0);
   EXPECT_EQ(rejects(Reason::kOldSequence), static_cast<std::int64_t>(Admission::kWastedVerificationsAtOnce));

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
 
 #include "lcmtypes/wire.h"
 #include "tests/support/wire_message.h"
@@ -23,8 +23,8 @@ class AdmissionTest : public ::testing::Test {
     admission_.advance(0, kChallenge);
   }
 
-  setpoint_v1 setpoint(double position_rad) {
-    setpoint_v1 message{};
+  setpoint_v2 setpoint(double position_rad) {
+    setpoint_v2 message{};
     message.session_id = kSession;
     message.challenge = kChallenge;
     message.sender_id = 1;
@@ -58,7 +58,7 @@ TEST_F(AdmissionTest, PassesASoundSetpointToItsJoint) {
 }
 
 TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
-  setpoint_v1 message = setpoint(0.5);
+  setpoint_v2 message = setpoint(0.5);
   message.speed_limit_rad_s = 6.0;
   const Verdict passed = consider(wire("SW.elbow.SETPOINT", message));
   ASSERT_EQ(passed.kind, Verdict::Kind::kOrder);
@@ -114,14 +114,14 @@ TEST_F(AdmissionTest, DiscardsOtherPrefixesUnknownJointsAndKinds) {
 }
 
 TEST_F(AdmissionTest, RefusesAnotherSession) {
-  setpoint_v1 message = setpoint(0.5);
+  setpoint_v2 message = setpoint(0.5);
   message.session_id = kSession + 1;
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kWrongSession);
 }
 
 TEST_F(AdmissionTest, RepeatsAResentOrderAndRefusesAnOlderOne) {
-  const setpoint_v1 first = setpoint(0.1);
-  const setpoint_v1 second = setpoint(0.2);
+  const setpoint_v2 first = setpoint(0.1);
+  const setpoint_v2 second = setpoint(0.2);
   consider(wire("SW.elbow.SETPOINT", first));
   consider(wire("SW.elbow.SETPOINT", second));
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", second)).kind, Verdict::Kind::kRepeat);
@@ -168,7 +168,7 @@ TEST_F(AdmissionTest, SaysInWhichCycleAnOrderExpiresThatMustYetWaitForItsLoop) {
 TEST_F(AdmissionTest, LetsAnotherHoldAndStopAJointThatSomebodyHasButNotMoveIt) {
   const Verdict move = consider(wire("SW.elbow.SETPOINT", setpoint(0.5)));
   admission_.settle(move.requester, true, 0);
-  setpoint_v1 others = setpoint(0.1);
+  setpoint_v2 others = setpoint(0.1);
   others.sender_id = 2;
   const Verdict refused = consider(wire("SW.elbow.SETPOINT", others));
   EXPECT_EQ(refused.reason, Reason::kNotOwner);
@@ -196,7 +196,7 @@ TEST_F(AdmissionTest, ReleasesAndTakesOverWithoutTheLoop) {
 }
 
 TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
-  setpoint_v1 message = setpoint(0.5);
+  setpoint_v2 message = setpoint(0.5);
   message.valid_for_s = 0.1;
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kOutOfRange);
   message = setpoint(0.5);

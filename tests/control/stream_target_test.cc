@@ -1,0 +1,236 @@
+// Streams as motions, and the reference that follows them: a sine at every rate with all that a network does to it.
+#include "control/stream_target.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "control/reference_shaper.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+constexpr double kAmplitude_rad = 0.5;
+constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
+constexpr MotionLimits kLimits{8.0, 60.0, 80.0};
+
+StreamSample sine(double t_s, int derivatives) {
+  return {kAmplitude_rad * std::sin(kOmega_rad_s * t_s),
+          derivatives >= 1 ? kAmplitude_rad * kOmega_rad_s * std::cos(kOmega_rad_s * t_s) : 0.0,
+          derivatives >= 2 ? -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(kOmega_rad_s * t_s) : 0.0,
+          derivatives};
+}
+
+/// What is sent: `at_s` for `of_s`.
+struct Sent {
+  double at_s = 0.0;
+  double of_s = 0.0;
+};
+
+/// A reference that follows a stream, period by period.
+class Following {
+ public:
+  explicit Following(const MotionLimits& limits = kLimits) { shaper_.set_limits(limits); }
+  void begin(double position_rad) {
+    shaper_.reset(position_rad, 0.0);
+    target_.begin(position_rad, 0.0);
+  }
+  void take(const StreamSample& sample) { target_.take(sample, kLimits.velocity_rad_s); }
+  Reference step(const PositionRange& range = {}) { return shaper_.follow(target_.step(), range); }
+  const StreamTarget& target() const { return target_; }
+
+ private:
+  StreamTarget target_{kPeriod_s};
+  ReferenceShaper shaper_{kPeriod_s};
+};
+
+struct Tracked {
+  double rms_error_rad = 0.0;     ///< from the sine, `lag_s` ago
+  double largest_error_rad = 0.0;
+  double rms_acceleration = 0.0;  ///< over the sine's own
+  double largest_step_rad_s2 = 0.0;  ///< of the acceleration, between two periods, beyond the sine's own
+};
+
+/// Follows `sent` for 6 s and judges the last 4.
+Tracked track(const std::vector<Sent>& sent, int derivatives, double lag_s) {
+  Following following;
+  following.begin(0.0);
+  Tracked result;
+  double squares = 0.0;
+  double accelerations = 0.0;
+  double last_rad_s2 = 0.0;
+  int counted = 0;
+  std::size_t next = 0;
+  for (int k = 0; k < 6000; ++k) {
+    const double t_s = k * kPeriod_s;
+    for (; next < sent.size() && sent[next].at_s <= t_s + 1e-12; ++next)
+      following.take(sine(sent[next].of_s, derivatives));
+    const Reference reference = following.step();
+    if (t_s >= 2.0) {
+      const double error_rad = reference.position_rad - sine(t_s - lag_s, 0).position_rad;
+      squares += error_rad * error_rad;
+      accelerations += reference.acceleration_rad_s2 * reference.acceleration_rad_s2;
+      result.largest_error_rad = std::max(result.largest_error_rad, std::abs(error_rad));
+      result.largest_step_rad_s2 =
+          std::max(result.largest_step_rad_s2, std::abs(reference.acceleration_rad_s2 - last_rad_s2));
+      ++counted;
+    }
+    last_rad_s2 = reference.acceleration_rad_s2;
+  }
+  result.rms_error_rad = std::sqrt(squares / counted);
+  result.rms_acceleration =
+      std::sqrt(accelerations / counted) / (kAmplitude_rad * kOmega_rad_s * kOmega_rad_s / std::numbers::sqrt2);
+  return result;
+}
+
+std::vector<Sent> regular(double rate_Hz) {
+  std::vector<Sent> sent;
+  for (int i = 0; i / rate_Hz < 6.0; ++i) sent.push_back({i / rate_Hz, i / rate_Hz});
+  return sent;
+}
+
+TEST(StreamTarget, FollowsASineWithoutLagWhereItsVelocityIsGiven) {
+  for (const double rate_Hz : {20.0, 50.0, 100.0, 200.0, 333.0, 500.0}) {
+    const Tracked tracked = track(regular(rate_Hz), 1, 0.0);
+    EXPECT_LT(tracked.rms_error_rad, 1e-3) << rate_Hz << " Hz";
+    EXPECT_LT(tracked.rms_acceleration, 1.05) << rate_Hz << " Hz";
+    EXPECT_LT(tracked.largest_step_rad_s2, 2.5) << rate_Hz << " Hz";
+  }
+}
+
+TEST(StreamTarget, LagsOneSampleWhereOnlyPositionsAreGiven) {
+  for (const double rate_Hz : {20.0, 50.0, 100.0, 200.0, 333.0, 500.0}) {
+    const Tracked tracked = track(regular(rate_Hz), 0, 1.0 / rate_Hz);
+    EXPECT_LT(tracked.rms_error_rad, 1e-3) << rate_Hz << " Hz";
+    EXPECT_LT(tracked.rms_acceleration, 1.1) << rate_Hz << " Hz";
+    EXPECT_LT(tracked.largest_step_rad_s2, 2.5) << rate_Hz << " Hz";
+  }
+}
+
+TEST(StreamTarget, BridgesLostSamplesAndGaps) {
+  for (const int derivatives : {0, 1, 2}) {
+    std::mt19937 random(17);
+    std::vector<Sent> sent;
+    for (const Sent& one : regular(100.0)) {
+      const bool gap = std::fmod(one.at_s, 1.0) > 0.5 && std::fmod(one.at_s, 1.0) < 0.53;
+      if (!gap && random() % 10 != 0) sent.push_back(one);
+    }
+    const Tracked tracked = track(sent, derivatives, derivatives == 0 ? 0.01 : 0.0);
+    EXPECT_LT(tracked.largest_error_rad, 5e-3) << derivatives;
+    EXPECT_LT(tracked.rms_acceleration, 1.5) << derivatives;
+  }
+}
+
+TEST(StreamTarget, AveragesTheJitterOfTheNetwork) {
+  for (const int derivatives : {0, 1}) {
+    std::mt19937 random(3);
+    std::vector<Sent> sent;
+    for (Sent one : regular(100.0)) {
+      one.at_s += std::uniform_real_distribution<double>(0.0, 0.003)(random);
+      sent.push_back(one);
+    }
+    const Tracked tracked = track(sent, derivatives, derivatives == 0 ? 0.0115 : 0.0015);
+    EXPECT_LT(tracked.rms_error_rad, 1e-3) << derivatives;
+    EXPECT_LT(tracked.rms_acceleration, 1.6) << derivatives;
+  }
+}
+
+TEST(StreamTarget, MeetsKnotsAtTheirOwnTime) {
+  StreamTarget target(kPeriod_s);
+  target.begin(0.0, 0.0);
+  for (int i = 1; i <= 5; ++i) {
+    StreamSample sample = sine(0.02 * i, 1);
+    sample.in_periods = 20 * i;
+    target.take(sample, kLimits.velocity_rad_s);
+  }
+  for (int k = 0; k <= 100; ++k) {
+    const MovingTarget now = target.step();
+    if (k % 20 == 0) {
+      EXPECT_NEAR(now.position_rad, sine(k * kPeriod_s, 0).position_rad, 1e-12) << k;
+    }
+  }
+}
+
+TEST(StreamTarget, EndsSoonAfterTheLastSampleOfAMotion) {
+  Following following;
+  following.begin(0.0);
+  int ended_at = -1;
+  for (int k = 0; k < 500 && ended_at < 0; ++k) {
+    if (k % 10 == 0 && k <= 200) following.take({0.001 * k, 1.0, 0.0, 1});
+    (void)following.step();
+    if (following.target().ended()) ended_at = k;
+  }
+  EXPECT_NEAR(ended_at, 200 + 20 + 30, 3);
+}
+
+TEST(StreamTarget, NeverEndsWhereItStandsStill) {
+  Following following;
+  following.begin(0.0);
+  following.take({0.3});
+  for (int k = 0; k < 5000; ++k) (void)following.step();
+  EXPECT_FALSE(following.target().ended());
+}
+
+TEST(StreamTarget, APlaceFarAwayIsReachedAsFastAsTheLimitsAllowAndExactly) {
+  Following following;
+  following.begin(0.0);
+  Reference reference;
+  int arrived = -1;
+  for (int k = 0; k < 2000 && arrived < 0; ++k) {
+    if (k % 10 == 0) following.take({1.0});
+    reference = following.step();
+    ASSERT_LE(reference.position_rad, 1.0);
+    if (reference.position_rad == 1.0 && reference.velocity_rad_s == 0.0) arrived = k;
+  }
+  ReferenceShaper move(kPeriod_s);
+  move.set_limits(kLimits);
+  move.set_target(1.0);
+  int moved = 0;
+  while (!move.at_target()) {
+    (void)move.step();
+    ++moved;
+  }
+  EXPECT_NEAR(arrived, moved, 2) << "as a move there";
+}
+
+// Whatever is sent, at whatever times.
+TEST(ReferenceShaper, KeepsAllLimitsWhileItFollowsAnything) {
+  std::mt19937 random(5);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const PositionRange range{-1.0, 1.2};
+  for (int run = 0; run < 200; ++run) {
+    Following following;
+    following.begin(uniform(-0.9, 0.9));
+    Reference last = following.step(range);
+    for (int k = 0; k < 1000; ++k) {
+      if (random() % 8 == 0) {
+        StreamSample sample{uniform(-1.0, 1.2), uniform(-20.0, 20.0), uniform(-500.0, 500.0),
+                            static_cast<int>(random() % 3)};
+        if (random() % 3 == 0) sample.in_periods = 1 + static_cast<int>(random() % 50);
+        following.take(sample);
+      }
+      const Reference reference = following.step(range);
+      ASSERT_TRUE(std::isfinite(reference.position_rad));
+      ASSERT_LE(std::abs(reference.velocity_rad_s), kLimits.velocity_rad_s + 1e-9) << run << ", " << k;
+      const double change = reference.velocity_rad_s - last.velocity_rad_s;
+      const double allowed = (std::abs(reference.velocity_rad_s) > std::abs(last.velocity_rad_s)
+                                  ? kLimits.acceleration_rad_s2
+                                  : kLimits.deceleration_rad_s2) * kPeriod_s;
+      ASSERT_LE(std::abs(change), allowed + 1e-9) << run << ", " << k;
+      ASSERT_GE(reference.position_rad, range.min_rad - 1e-9) << run << ", " << k;
+      ASSERT_LE(reference.position_rad, range.max_rad + 1e-9) << run << ", " << k;
+      last = reference;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strainwave
