@@ -17,6 +17,8 @@ constexpr double kStribeckExponent = 2.0;
 constexpr double kUsualLoad_s = 0.1;
 // Farther than this from the stream, a joint is off it: a tenth of a count of a fine encoder.
 constexpr double kOnStream_rad = 2e-6;
+// A joint without friction has none to estimate; what is estimated needs a scale all the same.
+constexpr double kLeastFrictionShare = 1e-4;  // of the torque limit
 // Share of the torque that the reference leaves to a joint that has fallen back: half of what drove it into
 // chatter.
 constexpr double kFallbackReserve = 0.5;
@@ -83,11 +85,12 @@ void JointController::load(const GainTable& table) noexcept {
   model_.inertia_kgm2 = table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
   model_.friction = primary_.friction();
-  model_.friction_scale_Nm = least_static_friction_Nm(table.friction);
   count_torque_Nm_ = config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, true);
   difference_torque_Nm_ =
       config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, false);
   torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
+  model_.friction_scale_Nm =
+      std::max(least_static_friction_Nm(table.friction), kLeastFrictionShare * torque_limit_Nm_);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
   has_table_ = true;
 }

@@ -127,11 +127,11 @@ bool is_enabled(Mode mode) {
   return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
 }
 
-/// Sends the disable; that it was sent is said whatever comes of it.
-void send_stop(Client& client, const std::string& joint) {
+/// Sends a disable or hold, without waiting for a state; that it was sent is said whatever comes of it.
+void send_stop(Client& client, const std::string& joint, Action stop) {
   try {
-    const Answer answer = client.request_unseen(joint, channel_kind::kCommand, command(Action::kDisable));
-    require_accepted(answer, joint, std::string(to_text(Action::kDisable)));
+    const Answer answer = client.request_unseen(joint, channel_kind::kCommand, command(stop));
+    require_accepted(answer, joint, std::string(to_text(stop)));
   } catch (const ClientError& error) {
     if (error.status() != ExitStatus::kNoAnswer) throw;
     throw ClientError(error.status(), fmt::format("{}: the stop was sent {} times, and nothing answered: {}",
@@ -192,7 +192,7 @@ void enable(Client& client, const Output& output, const std::string& joint) {
 }
 
 void disable(Client& client, const Output& output, const std::string& joint) {
-  send_stop(client, joint);
+  send_stop(client, joint, Action::kDisable);
   wait_until_off(client, output, joint);
 }
 
@@ -211,14 +211,15 @@ void disable_all(Client& client, const Output& output) {
     }
   };
   for (const std::string& joint : client.wait_for_joints())
-    if (attempt(joint, [&](const std::string& name) { send_stop(client, name); })) stopping.push_back(joint);
+    if (attempt(joint, [&](const std::string& name) { send_stop(client, name, Action::kDisable); }))
+      stopping.push_back(joint);
   for (const std::string& joint : stopping)
     attempt(joint, [&](const std::string& name) { wait_until_off(client, output, name); });
   if (failure) throw *failure;
 }
 
 void hold(Client& client, const Output& output, const std::string& joint) {
-  order(client, joint, Action::kHold);
+  send_stop(client, joint, Action::kHold);
   say(output, joint + ": holding where it stops", {{"joint", joint}, {"accepted", true}});
 }
 

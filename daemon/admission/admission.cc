@@ -90,7 +90,7 @@ Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<Jo
       session_id_(session_id),
       joints_(std::move(joints)),
       security_(std::move(security)),
-      challenges_(security_.order_lifetime_cycles),
+      challenges_(security_.order_lifetime_cycles, joints_.size()),
       ownership_(joints_.size(), security_.lease_s),
       sequences_(challenges_.lifetime_cycles(), security_.keys.size() * joints_.size()),
       unsigned_sequences_(challenges_.lifetime_cycles(), kUnsignedSenders) {}
@@ -142,6 +142,9 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
         requester, Reason::kTooOld,
         "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
         "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
+  if (challenges_.stopped_since(envelope.challenge, requester.joint))
+    return refuse(requester, Reason::kTooOld,
+                  "the joint was stopped since this order was made: give it anew from the next state");
   if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
   return envelope.needs_joint ? check_owner(requester) : std::nullopt;
 }
@@ -213,15 +216,16 @@ std::optional<Verdict> Admission::check_owner(Requester& requester) {
   return refuse(requester, Reason::kNotOwner, text.str());
 }
 
-// Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are. Who proves who
-// he is gets his answer however many others ask for one.
-Verdict Admission::stop(const WireMessage& message, std::int64_t session_id, std::int64_t challenge,
-                        Requester requester) {
+// Stopping is for everybody, whatever session they believe in, whatever they sent before and whoever they are: by torque taken
+// away (disable), or under control (hold). Who proves who he is gets his answer however many others ask for one.
+Verdict Admission::stop(const WireMessage& message, OrderKind kind, std::int64_t session_id,
+                        std::int64_t challenge, Requester requester) {
   requester.stop = true;
   const bool meant_for_us = session_id == session_id_ && challenges_.expiry_cycle(challenge) >= 0;
   if (meant_for_us && !is_unsigned(payload(message)))
     (void)check_sender(message, Role::kOperator, requester, stop_verifications_);
-  return pass(requester, OrderKind::kDisable, 0);
+  challenges_.stop(requester.joint);
+  return pass(requester, kind, 0);
 }
 
 Verdict Admission::change_owner(Action action, const Requester& requester) {
@@ -288,11 +292,11 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
   if (!command) return discard(Reason::kMalformed);
   Requester requester{joint, command->sender_id, command->sequence};
   const auto action = static_cast<Action>(command->action);
-  if (action == Action::kDisable) return stop(message, command->session_id, command->challenge, requester);
+  if (action == Action::kDisable || action == Action::kHold)
+    return stop(message, *order_of(action), command->session_id, command->challenge, requester);
   const bool engineers = action == Action::kRevertTable || action == Action::kTakeOver;
   const auto kind = order_of(action);
-  // A hold is a stop that keeps the joint under control: nobody needs to have the joint for it.
-  const bool needs_joint = kind && action != Action::kHold;
+  const bool needs_joint = kind.has_value();
   if (auto verdict = check_envelope(message,
                                     {command->session_id, command->challenge,
                                      engineers ? Role::kEngineer : Role::kOperator, needs_joint},

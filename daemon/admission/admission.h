@@ -46,7 +46,7 @@ struct Requester {
   /// From somebody who may give orders, and new: its answer is worth remembering for a resend. Others could
   /// make the daemon forget answers or flood the bus with new ones.
   bool authentic = false;
-  bool stop = false;      ///< of a disable, whose answers have a share of their own
+  bool stop = false;      ///< of a disable or hold, whose answers have a share of their own
   bool owns = false;      ///< the order needed the joint: Admission::settle() wants to know what became of it
   std::int64_t key = -1;  ///< index of the key that signed, -1: none
   std::int64_t last_sequence = 0;  ///< with kOldSequence: what the sequence must rise above
@@ -123,7 +123,7 @@ class Admission {
   std::optional<Verdict> check_owner(Requester& requester);
   std::optional<Verdict> check_sender(const WireMessage& message, Role needed, Requester& requester,
                                       TokenBucket& verifications);
-  Verdict stop(const WireMessage& message, std::int64_t session_id, std::int64_t challenge,
+  Verdict stop(const WireMessage& message, OrderKind kind, std::int64_t session_id, std::int64_t challenge,
                Requester requester);
   Verdict change_owner(Action action, const Requester& requester);
   Verdict pass(const Requester& requester, OrderKind kind, std::int64_t challenge) const;

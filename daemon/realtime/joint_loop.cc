@@ -267,6 +267,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad = controller_.target_rad();
+  cycle.joint_velocity_rad_s = measured_velocity_rad_s();
   cycle.table_id = table_ != nullptr ? table_->id : 0;
   cycle.temperature_rules = table_ != nullptr ? table_->table.friction.rule_count : 0;
   cycle.notices = notices_;

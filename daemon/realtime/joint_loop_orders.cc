@@ -71,6 +71,9 @@ Reason JointLoop::use_table(const TableSlot& slot) noexcept {
   const bool at_standstill = mode_.is(Mode::kHolding);
   if (!at_rest() && !at_standstill) return Reason::kMoving;
   const GainTable& table = slot.table;
+  // Less torque than the joint needs to stay where it is would let it fall.
+  if (mode_.controlled() && std::abs(motion_.output.torque_Nm) > table.torque_limit_Nm)
+    return Reason::kOutOfRange;
   controller_.load(table);
   table_ = &slot;
   watch_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));

@@ -16,7 +16,7 @@ void fill_motion(const JointCycle& cycle, state_v1& state) noexcept {
   state.target_position_rad =
       controlled ? cycle.ordered.shown_rad(cycle.target_rad, cycle.zero) : position_rad;
   state.joint_position_rad = position_rad;
-  state.joint_velocity_rad_s = controlled ? motion.joint_velocity_rad_s : cycle.reading.joint_velocity_rad_s;
+  state.joint_velocity_rad_s = cycle.joint_velocity_rad_s;
   state.torque_commanded_Nm = controlled ? motion.output.torque_Nm : 0.0;
   state.torque_applied_Nm = cycle.reading.torque_applied_Nm;
   state.torque_feedback_Nm = motion.output.feedback_torque_Nm;

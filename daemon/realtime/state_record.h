@@ -26,6 +26,7 @@ struct JointCycle {
   const TemperatureCheck& temperature;
   const TemperatureWeights& weights;
   double target_rad = 0.0;             ///< of the controller
+  double joint_velocity_rad_s = 0.0;   ///< measured or estimated, controlled or not
   std::int64_t table_id = 0;           ///< 0: none
   std::int32_t temperature_rules = 0;  ///< of the table
   std::int32_t notices = 0;

@@ -103,6 +103,24 @@ TEST(JointController, EndsWithinACountAndRestsQuietlyWhereverAndHoweverColdItIs)
   }
 }
 
+TEST(JointController, RunsATableOfAJointWithoutFriction) {
+  GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
+  for (int i = 0; i < table.friction.rule_count; ++i) {
+    FrictionParameters& friction = table.friction.rules[static_cast<std::size_t>(i)].friction;
+    friction.static_Nm = 0.0;
+    friction.coulomb_Nm = 0.0;
+  }
+  Loop loop;
+  loop.controller().load(table);
+  loop.controller().start(loop.position_rad());
+  loop.controller().set_target(0.1);
+  for (int k = 0; k < 2000; ++k) {
+    const JointStep step = loop.step();
+    ASSERT_TRUE(std::isfinite(step.output.torque_Nm) && std::isfinite(step.output.feedforward_torque_Nm))
+        << k;
+  }
+}
+
 TEST(JointController, BringsALoadStepBackToWithinACount) {
   for (const double load_Nm : {-8.0, 3.0, 8.0}) {
     Loop loop;

@@ -178,7 +178,11 @@ template <typename Message>
 void TestClient::fill_envelope(const std::string& joint, Message& message) {
   // What is quoted must be recent: what waits is taken first, and a state that came before a pause of the test is none.
   for (pollfd waiting{lcm_.getFileno(), POLLIN, 0}; ::poll(&waiting, 1, 0) > 0;) lcm_.handle();
-  const auto recent = [&] { return states_[joint] && utime_now() - heard_us_[joint] < kRecent.count(); };
+  // Nor is one from before a stop of ours.
+  const auto recent = [&] {
+    return states_[joint] && utime_now() - heard_us_[joint] < kRecent.count() &&
+           states_[joint]->challenge != stopped_challenge_[joint];
+  };
   const auto deadline = Clock::now() + (states_[joint] ? kRecent : kFirstState);
   while (!recent() && Clock::now() < deadline) pump(std::chrono::milliseconds(5));
   message.session_id = states_[joint] ? states_[joint]->session_id : 0;
@@ -191,6 +195,7 @@ command_v1 TestClient::make_command(const std::string& joint, Action action) {
   command_v1 message{};
   fill_envelope(joint, message);
   message.action = static_cast<std::int32_t>(action);
+  if (action == Action::kDisable || action == Action::kHold) stopped_challenge_[joint] = message.challenge;
   return message;
 }
 

@@ -135,6 +135,7 @@ class TestClient {
   bool stream_begins_ = true;
   std::map<std::string, std::optional<state_v1>> states_;
   std::map<std::string, std::int64_t> heard_us_;  ///< when the latest state arrived
+  std::map<std::string, std::int64_t> stopped_challenge_;  ///< of the last stop
   std::map<std::string, std::vector<state_v1>> history_;
   std::map<std::int64_t, ack_v1> acks_;
   std::optional<timing_v1> timing_;

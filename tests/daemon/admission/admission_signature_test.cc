@@ -117,9 +117,9 @@ TEST_F(SignedAdmission, AForgeryDoesNotUseUpASequenceNumber) {
 }
 
 TEST_F(SignedAdmission, SequencesOfOneKeySayNothingAboutAnotherKeys) {
-  EXPECT_EQ(consider(wire(kCommand, command(Action::kHold, 1, 100), &operator_)).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kCommand, command(Action::kHold, 1, 50), &engineer_)).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kCommand, command(Action::kHold, 1, 50), &operator_)).reason, Reason::kOldSequence);
+  EXPECT_TRUE(consider(wire(kCommand, command(Action::kHold, 1, 100), &operator_)).requester.authentic);
+  EXPECT_TRUE(consider(wire(kCommand, command(Action::kHold, 1, 50), &engineer_)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kCommand, command(Action::kHold, 1, 50), &operator_)).requester.authentic);
 }
 
 TEST_F(SignedAdmission, ARoleThatIsNotEnoughUsesUpNothing) {
@@ -132,7 +132,7 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) 
   const WireMessage recorded = wire(kSetpoint, filled<setpoint_v2>(1, 1000), &operator_);
   ASSERT_EQ(consider(recorded).kind, Verdict::Kind::kOrder);
   for (std::int64_t sender = 2; sender < 1000; ++sender)
-    ASSERT_NE(consider(wire(kCommand, command(Action::kHold, sender, 1000 + sender), &operator_)).reason,
+    ASSERT_NE(consider(wire(kSetpoint, filled<setpoint_v2>(sender, 1000 + sender), &operator_)).reason,
               Reason::kOldSequence);
   EXPECT_EQ(consider(recorded).reason, Reason::kOldSequence);
   admission_.advance(1126, 9);
@@ -140,12 +140,36 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) 
 }
 
 TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless) {
-  // Somebody on the path lets the second sender's hold pass first, then delivers the move that came before it.
+  // Somebody on the path lets the second move pass first, then delivers the one that came before it.
   const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
-  ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 2, 101), &operator_)).kind, Verdict::Kind::kOrder);
+  ASSERT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 101), &operator_)).kind, Verdict::Kind::kOrder);
   const Verdict late = consider(move);
   EXPECT_EQ(late.reason, Reason::kOldSequence);
   EXPECT_EQ(late.requester.last_sequence, 101);
+}
+
+// An order and a stop that overtakes it, in a burst or because somebody keeps the order back: by anybody, with a key or without.
+TEST_F(SignedAdmission, NothingThatWasSentBeforeAStopIsObeyedAfterIt) {
+  for (const Action stop : {Action::kDisable, Action::kHold}) {
+    const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
+    const WireMessage enable = wire(kCommand, command(Action::kEnable, 1, 101), &operator_);
+    ASSERT_EQ(consider(wire(kCommand, command(stop, 2, 1), nullptr)).kind, Verdict::Kind::kOrder);
+    EXPECT_EQ(consider(move).reason, Reason::kTooOld);
+    EXPECT_EQ(consider(enable).reason, Reason::kTooOld);
+  }
+}
+
+TEST_F(SignedAdmission, AStopOfOneJointLeavesTheOthersTheirOrders) {
+  ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 2, 1), nullptr)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire("SW.wrist.SETPOINT", filled<setpoint_v2>(1, 100), &operator_)).kind,
+            Verdict::Kind::kOrder);
+}
+
+TEST_F(SignedAdmission, AHoldIsObeyedHoweverManyForgeriesThereAre) {
+  WireMessage forged = wire(kCommand, command(Action::kHold, 1, 1), &operator_);
+  forged.bytes[forged.size - 1] ^= 1;
+  for (int i = 0; i < 5000; ++i) ASSERT_EQ(consider(forged).order.kind, OrderKind::kHold);
+  EXPECT_EQ(consider(wire(kCommand, command(Action::kHold, 1, 2), &operator_)).order.kind, OrderKind::kHold);
 }
 
 TEST_F(SignedAdmission, KnowsWhoStopsWhenASignatureProvesItAndStopsForTheOthersAllTheSame) {

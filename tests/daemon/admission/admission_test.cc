@@ -214,13 +214,14 @@ TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
 
 TEST_F(AdmissionTest, PassesNothingButStopsOnceTheDaemonEnds) {
   admission_.end_orders();
-  for (const Action action : {Action::kEnable, Action::kHold, Action::kHome, Action::kTakeOver}) {
+  for (const Action action : {Action::kEnable, Action::kHome, Action::kTakeOver}) {
     const Verdict verdict = consider(wire("SW.elbow.COMMAND", command(action)));
     EXPECT_EQ(verdict.reason, Reason::kEnding);
     EXPECT_NE(verdict.text.find("ending"), std::string::npos) << verdict.text;
   }
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", setpoint(0.5))).reason, Reason::kEnding);
   EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kDisable))).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kHold))).kind, Verdict::Kind::kOrder);
 }
 
 }  // namespace

@@ -119,6 +119,19 @@ TEST_F(JointLoopBrake, TakesOverALoadThatItKnowsWithoutASag) {
   EXPECT_LT(sag, 0.001);
 }
 
+TEST_F(JointLoopBrake, RefusesATableThatCannotHoldTheLoadThatIsHeld) {
+  make(kLoad_Nm);
+  EXPECT_LT(sag_rad(), 0.001);
+  loop_->table_slot(1) = {demo_table(), 2};
+  loop_->table_slot(1).table.torque_limit_Nm = 8.0;
+  const Order swap{.kind = OrderKind::kUseTable, .table_slot = 1};
+  EXPECT_EQ(order(swap), Reason::kOutOfRange);
+  run(1000);
+  EXPECT_EQ(loop_->mode(), Mode::kHolding);
+  loop_->table_slot(1).table.torque_limit_Nm = 30.0;
+  EXPECT_EQ(order(swap), Reason::kAccepted);
+}
+
 TEST_F(JointLoopBrake, CatchesALoadThatItDoesNotKnowWithinTwoMilliradians) {
   make(0.0);
   const double sag = sag_rad();
