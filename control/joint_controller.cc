@@ -58,6 +58,18 @@ LandingConfig landing_config(const JointControllerConfig& config) noexcept {
   return landing;
 }
 
+LinkMotionConfig link_config(const JointControllerConfig& config) noexcept {
+  LinkMotionConfig link;
+  link.period_s = config.period_s;
+  link.motor_inertia_kgm2 = config.link->motor_inertia_kgm2;
+  link.link_inertia_kgm2 = config.link->link_inertia_kgm2;
+  link.spring = config.link->spring;
+  link.damping_Nms_rad = config.link->damping_Nms_rad;
+  link.torque_limit_Nm = config.torque_limit_Nm;
+  link.delay_periods = config.delay_periods;
+  return link;
+}
+
 }  // namespace
 
 JointController::JointController(const JointControllerConfig& config) noexcept
@@ -72,6 +84,8 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       motion_(config.motion) {
   assert(config.delay_periods >= 0 && config.delay_periods <= kMaxControlDelay);
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
+  assert(!config.link || (config.use_shaping && !config.rigid));
+  if (config.link) link_motion_.emplace(link_config(config));
   shaper_.set_limits(config.motion);
   ordered_.set_limits(config.motion);
 }
@@ -82,7 +96,8 @@ void JointController::load(const GainTable& table) noexcept {
   primary_ = ScheduledController(table.primary, table.friction, table.plant);
   fallback_ = ScheduledController(table.fallback, table.friction, table.plant);
   if (has_temperature_) primary_.set_temperature(temperature_C_);
-  model_.inertia_kgm2 = table.plant.inertia_kgm2;
+  model_.inertia_kgm2 = config_.link ? config_.link->motor_inertia_kgm2 + config_.link->link_inertia_kgm2
+                                     : table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
   model_.friction = primary_.friction();
   count_torque_Nm_ = config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, true);
@@ -99,7 +114,7 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   motion_ = config_.motion;
   const double fastest = motion_.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
-  shaper_.reset(position_rad, begin_rad_s);
+  shaper_.reset(link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad, begin_rad_s);
   ordered_ = shaper_;
   observer_.reset(position_rad, model_.friction_scale_Nm, velocity_rad_s, holding_torque_Nm);
   rest_detector_.reset();
@@ -108,6 +123,11 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   torques_Nm_.fill(holding_torque_Nm);
   reference_ = {position_rad, begin_rad_s, 0.0};
   ordered_reference_ = reference_;
+  planned_ = {0.0, begin_rad_s, 0.0};
+  motor_plan_ = {};
+  link_share_ = 1.0;
+  corrections_ = 0;
+  still_periods_ = 0;
   previous_position_rad_ = position_rad;
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
@@ -130,6 +150,8 @@ void JointController::limit_speed(double speed_limit_rad_s) noexcept {
 }
 
 void JointController::new_target() noexcept {
+  corrections_ = 0;
+  link_share_ = 1.0;
   attempts_.new_target();
   enter(MotionPhase::kTracking);
 }
@@ -142,6 +164,7 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   ordered_.set_target(position_rad);
   plans_ = 0;
   new_target();
+  if (link_motion_) plan_link_motion(reference_.position_rad);
 }
 
 void JointController::follow(const StreamSample& sample, double speed_limit_rad_s,
@@ -183,7 +206,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   result.ordered_reference = ordered_reference_;
   result.joint_velocity_rad_s = then_.velocity_rad_s;
   result.gains_in_use = gains_in_use_;
-  result.at_target = shaper_.at_target();
+  result.at_target = shaper_.at_target() && !(linked() && link_motion_->moves());
   result.off_stream = streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
   result.phase = phase_;
   result.estimate = now_;
@@ -219,6 +242,9 @@ void JointController::let_torque_act(int periods) noexcept {
 
 void JointController::estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept {
   const double position_rad = measurement.joint_position_rad;
+  still_periods_ = position_rad == previous_position_rad_
+                       ? std::min(still_periods_ + elapsed_periods, kMaxElapsedPeriods)
+                       : 0;
   adapted_ = model_;
   if (observing()) {
     if (measurement.has_velocity && config_.encoder_resolution_rad == 0.0)
@@ -234,7 +260,7 @@ void JointController::estimate_state(const JointMeasurement& measurement, int el
     now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
                                                    : (position_rad - previous_position_rad_) /
                                                          (elapsed_periods * config_.period_s);
-    if (fallen_back()) now_.disturbance.load_Nm = usual_load_Nm_;
+    if (fallen_back() || link_motion_) now_.disturbance.load_Nm = usual_load_Nm_;
   }
   previous_position_rad_ = position_rad;
 }
@@ -252,6 +278,7 @@ void JointController::look_ahead() noexcept {
 }
 
 void JointController::advance_reference(int elapsed_periods) noexcept {
+  if (linked()) return advance_link(elapsed_periods);
   if (!config_.use_shaping) {
     if (streamed_) {
       shaper_.set_target(stream_.step().next_position_rad);
@@ -277,13 +304,21 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
   }
 }
 
-// What the joint can do at the speed that the reference has reached.
-void JointController::limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept {
-  const double speed = std::abs(last.velocity_rad_s + config_.period_s * last.acceleration_rad_s2);
+MotionLimits JointController::present_limits(double speed_rad_s) const noexcept {
   const double reserve =
       fallen_back() ? std::max(kFallbackReserve, config_.torque_reserve) : config_.torque_reserve;
-  shaper.set_limits(reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
-                                     reserve, speed, config_.period_s));
+  MotionLimits limits = reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
+                                         reserve, speed_rad_s, config_.period_s);
+  if (!linked()) return limits;
+  limits.acceleration_rad_s2 *= link_share_;
+  limits.deceleration_rad_s2 *= link_share_;
+  return limits;
+}
+
+// What the joint can do at the speed that the reference has reached.
+void JointController::limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept {
+  shaper.set_limits(
+      present_limits(std::abs(last.velocity_rad_s + config_.period_s * last.acceleration_rad_s2)));
 }
 
 void JointController::advance_references() noexcept {

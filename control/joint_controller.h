@@ -4,6 +4,7 @@
 //   measurement -> gains in use -> estimate, carried to when the torque will act -> reference -> torque
 //
 //   tracking   scheduled feedback on the reference + what its motion needs (inertia, friction, load)
+//              where the link hangs on a spring: the motor's, so that the link arrives (control/link_motion.h)
 //   landing    the last counts, by pushes (control/landing.h)
 //   resting    the torque that holds the load, nothing else
 //
@@ -21,6 +22,7 @@
 #include "control/joint_model.h"
 #include "control/landing.h"
 #include "control/landing_attempts.h"
+#include "control/link_motion.h"
 #include "control/motor_limits.h"
 #include "control/reference_shaper.h"
 #include "control/rest_detector.h"
@@ -33,6 +35,14 @@ namespace strainwave {
 inline constexpr int kMaxControlDelay = 8;
 /// A longer stall is a fault of the loop; what the joint did over it, no model knows.
 inline constexpr int kMaxElapsedPeriods = 50;
+
+/// The gear's spring between motor and link, where it is told. The encoder is then the motor's, the target the link's.
+struct LinkConfig {
+  double motor_inertia_kgm2 = 0.0;  ///< > 0; with the link's this is the table's inertia
+  double link_inertia_kgm2 = 0.0;   ///< > 0, with the load
+  TorsionSpring spring;
+  double damping_Nms_rad = 0.0;  ///< of the wind-up's speed, >= 0
+};
 
 /// One joint's configuration. Each feature can be switched off;
 /// without any, the plain control law of the table is left.
@@ -57,6 +67,8 @@ struct JointControllerConfig {
   /// table is for. Only then a reference that the joint has left may begin anew from where the joint is.
   bool rigid = false;
   bool use_landing = false;  ///< the last counts by pushes; only with rigid, use_observer and use_rest
+  /// Motions that do not swing the link; only with use_shaping, without rigid. The observer knows one inertia and is then not used.
+  std::optional<LinkConfig> link;
 };
 
 /// One period's measurements.
@@ -139,6 +151,12 @@ class JointController {
   void advance_references() noexcept;
   void limit_speed(double speed_limit_rad_s) noexcept;
   void new_target() noexcept;
+  MotionLimits present_limits(double speed_rad_s) const noexcept;
+  void advance_link(int elapsed_periods) noexcept;
+  void plan_link_motion(double from_rad) noexcept;
+  bool correct_link(double reading_rad) noexcept;
+  void leave_link() noexcept;
+  bool torque_is_planned() const noexcept;
 
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
@@ -151,7 +169,9 @@ class JointController {
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
   bool fallen_back() const noexcept { return monitor_.state() != MonitorState::kWatching; }
-  bool observing() const noexcept { return config_.use_observer && !fallen_back(); }
+  bool observing() const noexcept { return config_.use_observer && !link_motion_ && !fallen_back(); }
+  /// The motor follows what the link's motion asks of it.
+  bool linked() const noexcept { return link_motion_ && !fallen_back(); }
   ScheduledController& active() noexcept {
     return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
   }
@@ -160,6 +180,7 @@ class JointController {
   ReferenceShaper shaper_;
   ReferenceShaper ordered_;  ///< the same orders, never restarted
   StreamTarget stream_;
+  std::optional<LinkMotion> link_motion_;
   VelocityObserver observer_;
   Landing landing_;
   LandingAttempts attempts_;
@@ -174,6 +195,11 @@ class JointController {
   JointEstimate then_;            ///< when this period's torque begins to act
   Reference reference_;
   Reference ordered_reference_;
+  Reference planned_;        ///< with a link: of a rigid joint, from which the link's motion is made
+  MotorPlan motor_plan_;     ///< with a link
+  double link_share_ = 1.0;  ///< of the acceleration that a rigid joint could have
+  int corrections_ = 0;      ///< with a link: small motions to the same target, from rest
+  int still_periods_ = 0;    ///< since the encoder's reading changed
   std::array<double, kMaxControlDelay + 1>
       torques_Nm_{};     ///< newest first, as far as the motor can deliver them
   MotionLimits motion_;  ///< the configuration's, and this order's speed

@@ -33,6 +33,7 @@ constexpr int kLeavePeriods = 3;
 }  // namespace
 
 bool JointController::reference_moves() const noexcept {
+  if (linked()) return !shaper_.at_target() || link_motion_->moves();
   return !shaper_.at_target() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
 }
 
@@ -55,6 +56,7 @@ bool JointController::landing_possible() const noexcept {
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
   if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
+  if (linked() && correct_link(measurement.joint_position_rad)) return enter(MotionPhase::kTracking);
   if (!may_land()) {
     attempts_.wait();
     const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
@@ -106,6 +108,11 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
 
 // Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
 double JointController::planned_torque_Nm() const noexcept {
+  if (linked()) {
+    const double speed = motor_plan_.acting_velocity_rad_s;
+    return motor_plan_.inertia_torque_Nm + sign(speed) * adapted_.friction_Nm(speed) +
+           now_.disturbance.load_Nm;
+  }
   const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
   const double friction_Nm =
       std::max(0.0, adapted_.friction_Nm(velocity) + now_.disturbance.friction_offset_Nm);
@@ -122,12 +129,12 @@ ControllerOutput JointController::track() noexcept {
   // Static friction pushed towards the target from either side hunts for the last counts, and a spring turns that
   // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the
   // integral.
-  const bool moves = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+  const bool moves = torque_is_planned();
   reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
   const double near_rad = kHuntingCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
   const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s &&
                       std::abs(then_.position_rad - reference_.position_rad) <= near_rad;
-  input.planned = moves || fallen_back() || hunted;
+  input.planned = moves || fallen_back() || hunted || linked();
   // At rest a landing holds the load of a rigid joint.
   const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : now_.disturbance.load_Nm;
   input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
@@ -154,7 +161,7 @@ void JointController::hand_over(ControllerOutput& output) noexcept {
 }
 
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
-  const bool moves = reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+  const bool moves = torque_is_planned();
   const double needed_Nm =
       config_.motor.limit_Nm(moves ? planned_torque_Nm() : now_.disturbance.load_Nm, then_.velocity_rad_s);
   ChatterSample sample;
@@ -166,7 +173,9 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.surprised = now_.surprised;
   sample.elapsed_periods = elapsed_periods;
   const bool watched = !fallen_back();
-  if (monitor_.step(sample) != MonitorState::kWatching && watched) fallback_torque_Nm_ = output.torque_Nm;
+  if (monitor_.step(sample) == MonitorState::kWatching || !watched) return;
+  fallback_torque_Nm_ = output.torque_Nm;
+  if (link_motion_) leave_link();
 }
 
 // A torque that no gain has part in.

@@ -12,6 +12,7 @@
 #include "daemon/config/config_can.h"
 #include "daemon/config/config_gpio.h"
 #include "daemon/config/config_homing.h"
+#include "daemon/config/config_link.h"
 #include "daemon/config/config_simulated.h"
 #include "daemon/config/config_thermometer.h"
 #include "lcmtypes/channels.h"
@@ -121,7 +122,7 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
   section.refuse_unknown_keys();
 }
 
-void read_features(TomlSection section, JointLoopConfig& loop) {
+void read_features(TomlSection section, const PlantIdentity& plant, JointLoopConfig& loop) {
   JointControllerConfig& controller = loop.controller;
   controller.use_observer = section.boolean_or("observer", controller.use_observer);
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
@@ -135,6 +136,7 @@ void read_features(TomlSection section, JointLoopConfig& loop) {
       section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
   loop.initial_load_Nm = section.number_or("initial_load_Nm", loop.initial_load_Nm, {-1e6, 1e6});
   controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
+  read_link(section, plant, controller);
   section.refuse_unknown_keys();
 }
 
@@ -155,7 +157,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.loop.fault_stops_group && joint.group.empty())
     section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
-  read_features(section.section_or_empty("control"), joint.loop);
+  read_features(section.section_or_empty("control"), joint.plant, joint.loop);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
   if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
   if (joint.thermometer && joint.driver == "simulated")

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include "sim/joint/gear_catalogue.h"
+#include "control/gear_catalogue.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/joint/torsion_spring.h"
+#include "control/torsion_spring.h"
 
 namespace strainwave {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "control/units.h"
-#include "sim/joint/gear_catalogue.h"
+#include "control/gear_catalogue.h"
 #include "sim/joint/joint_plant.h"
 
 namespace strainwave {

@@ -41,6 +41,10 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.use_shaping = features.shaping;
   config.use_rest = features.rest;
   config.rigid = features.rigid;
+  if (features.link && plant.effects.transmission) {
+    const Transmission& gear = *plant.effects.transmission;
+    config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad};
+  }
   config.use_landing = features.rigid && features.observer && features.rest;
   return config;
 }

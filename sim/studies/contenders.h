@@ -34,6 +34,7 @@ struct ExtendedFeatures {
   bool shaping = true;
   bool rest = true;
   bool rigid = true;  ///< declared so: landing, where there is an observer and rest, and new plans
+  bool link = false;  ///< told of the plant's link and spring; only without rigid
   MotionLimits motion = kNoMotionLimits;
 };
 

@@ -3,49 +3,12 @@
 #include <cmath>
 
 #include "sim/joint/delay_line.h"
-#include "sim/joint/gear_catalogue.h"
 #include "sim/joint/joint_effects.h"
 #include "sim/joint/joint_plant.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave {
 namespace {
-
-TEST(GearCatalogue, KnowsEverySizeByNameAndStiffensWithTorqueAndSize) {
-  double last_Nm_rad = 0.0;
-  for (const char* name : {"csf-14-50", "csf-17-50", "csf-20-50", "csf-25-50", "csf-32-50"}) {
-    const Gear* gear = find_gear(name);
-    ASSERT_NE(gear, nullptr) << name;
-    EXPECT_EQ(gear->ratio, 50.0);
-    EXPECT_GT(gear->spring.stiffness_1_Nm_rad, last_Nm_rad);
-    last_Nm_rad = gear->spring.stiffness_1_Nm_rad;
-  }
-  for (const Gear& gear : gear_catalogue()) {
-    EXPECT_LT(gear.spring.stiffness_1_Nm_rad, gear.spring.stiffness_2_Nm_rad) << gear.name;
-    EXPECT_LT(gear.spring.stiffness_2_Nm_rad, gear.spring.stiffness_3_Nm_rad) << gear.name;
-    EXPECT_LT(gear.spring.torque_1_Nm, gear.spring.torque_2_Nm) << gear.name;
-  }
-  EXPECT_EQ(find_gear("csf-17-49"), nullptr);
-}
-
-TEST(TorsionSpring, IsContinuousOddAndItsOwnInverse) {
-  const TorsionSpring spring = find_gear("csf-17-50")->spring;
-  for (double angle_rad = -4e-3; angle_rad <= 4e-3; angle_rad += 1e-5) {
-    EXPECT_EQ(spring.torque_Nm(angle_rad), -spring.torque_Nm(-angle_rad));
-    EXPECT_NEAR(spring.angle_rad(spring.torque_Nm(angle_rad)), angle_rad, 1e-15);
-    EXPECT_LE(std::abs(spring.torque_Nm(angle_rad + 1e-9) - spring.torque_Nm(angle_rad)), 1.4e4 * 1e-9);
-  }
-  EXPECT_NEAR(spring.angle_rad(10.0), 1.04e-3, 0.01e-3) << "the wind-up at 10 N.m";
-}
-
-TEST(TorsionSpring, StoresTheIntegralOfItsTorque) {
-  const TorsionSpring spring = find_gear("csf-17-50")->spring;
-  double energy_J = 0.0;
-  constexpr double kStep_rad = 1e-7;
-  for (int i = 0; i < 30000; ++i) energy_J += kStep_rad * spring.torque_Nm((i + 0.5) * kStep_rad);
-  EXPECT_NEAR(spring.energy_J(30000 * kStep_rad), energy_J, 1e-9 * energy_J);
-  EXPECT_EQ(spring.energy_J(-1e-3), spring.energy_J(1e-3));
-}
 
 TEST(KinematicError, HasTheSlopeOfItsValue) {
   const KinematicError error{{4e-4, 2e-4}, {0.3, -1.0}};

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/joint/torsion_spring.h"
+#include "control/torsion_spring.h"
 
 namespace strainwave {
 

@@ -1,7 +1,7 @@
-#include "sim/joint/gear_catalogue.h"
+#include "control/gear_catalogue.h"
 
 #include "base/csv.h"
-#include "sim/joint/gears_csv.h"
+#include "control/gears_csv.h"
 
 namespace strainwave {
 

@@ -1,0 +1,77 @@
+// What JointController does where the link hangs on the gear's spring: the motor's reference, and the last counts.
+#include <algorithm>
+#include <cmath>
+
+#include "control/joint_controller.h"
+
+namespace strainwave {
+
+namespace {
+
+// A motion that is over before the wind-up has been built up asks it to turn round at once: three steps of the acceleration in the
+// place of two (control/link_motion.h).
+constexpr double kShortMotionShare = 2.0 / 3.0;
+// Periods that the reading stands before the motor is taken to stick; at the speed of one count in them it would stop in
+// less than a count.
+constexpr int kStillPeriods = 3;
+// Farther from the target than this a joint at rest moves once more. One count is what its encoder cannot tell.
+constexpr double kCorrectionCounts = 1.2;
+// Each is at rest before the next begins, so that nothing can swing itself up; what so many do not bring, none will.
+constexpr int kMaxCorrections = 20;
+
+}  // namespace
+
+void JointController::advance_link(int elapsed_periods) noexcept {
+  for (int period = 0; period < elapsed_periods; ++period) {
+    limit_reference(shaper_, planned_);
+    limit_reference(ordered_, planned_);
+    advance_references();
+    planned_ = reference_;
+    motor_plan_ = link_motion_->step(planned_);
+  }
+  reference_ = {motor_plan_.position_rad, motor_plan_.velocity_rad_s, motor_plan_.acting_acceleration_rad_s2};
+  // A correction begins where the motor stands, and is no order.
+  ordered_reference_ = corrections_ == 0 ? reference_ : Reference{shaper_.target_rad(), 0.0, 0.0};
+}
+
+// A motion to the target begins.
+void JointController::plan_link_motion(double from_rad) noexcept {
+  link_share_ = 1.0;
+  const double spread_s = link_motion_->spread_s();
+  const double covered_rad = present_limits(0.0).acceleration_rad_s2 * spread_s * spread_s;
+  if (std::abs(shaper_.target_rad() - from_rad) < covered_rad) link_share_ = kShortMotionShare;
+}
+
+// The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
+bool JointController::correct_link(double reading_rad) noexcept {
+  const double distance_rad = std::abs(reading_rad - shaper_.target_rad());
+  const double near_rad = kCorrectionCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  if (still_periods_ < kStillPeriods || distance_rad <= near_rad || corrections_ >= kMaxCorrections)
+    return false;
+  ++corrections_;
+  ++replans_;
+  shaper_.restart(reading_rad, 0.0);
+  link_motion_->reset(reading_rad);
+  planned_ = {};
+  plan_link_motion(reading_rad);
+  still_periods_ = 0;
+  return true;
+}
+
+// The law alone goes on from where the motor is.
+void JointController::leave_link() noexcept {
+  const double fastest = config_.motion.velocity_rad_s;
+  const double velocity_rad_s = std::clamp(now_.velocity_rad_s, -fastest, fastest);
+  shaper_.restart(now_.position_rad, velocity_rad_s);
+  ordered_ = shaper_;
+  reference_ = {now_.position_rad, velocity_rad_s, 0.0};
+  ordered_reference_ = reference_;
+}
+
+// Whether the torque is that of a motion.
+bool JointController::torque_is_planned() const noexcept {
+  if (linked()) return link_motion_->moves();
+  return reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,41 @@
+#include "daemon/config/config_link.h"
+
+#include <cmath>
+#include <string>
+
+#include "control/gear_catalogue.h"
+
+namespace strainwave {
+
+namespace {
+
+// A link this light beside the motor follows it: a rigid joint.
+constexpr double kLeastShare = 1e-3;
+
+const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
+  const Gear* gear = find_gear(section.text("gear"));
+  if (gear == nullptr) section.fail("gear", "a gear of the catalogue is allowed: " + gear_names());
+  if (std::abs(gear->ratio - plant.gear_ratio) > 1e-6 * gear->ratio)
+    section.fail("gear", "a gear of joint.gear_ratio = " + std::to_string(plant.gear_ratio) + " is allowed");
+  return *gear;
+}
+
+}  // namespace
+
+void read_link(TomlSection& section, const PlantIdentity& plant, JointControllerConfig& controller) {
+  if (!section.has("gear")) {
+    if (section.has("load_inertia_kgm2")) section.fail("load_inertia_kgm2", "it is allowed only with a gear");
+    return;
+  }
+  if (controller.rigid) section.fail("gear", "it is allowed only without rigid = true: a gear is a spring");
+  if (!controller.use_shaping) section.fail("gear", "it is allowed only with shaping = true");
+  LinkConfig link;
+  link.spring = named_gear(section, plant).spring;
+  const double total_kgm2 = plant.inertia_kgm2;
+  link.link_inertia_kgm2 =
+      section.number("load_inertia_kgm2", {kLeastShare * total_kgm2, (1.0 - kLeastShare) * total_kgm2});
+  link.motor_inertia_kgm2 = total_kgm2 - link.link_inertia_kgm2;
+  controller.link = link;
+}
+
+}  // namespace strainwave

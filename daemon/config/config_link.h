@@ -1,0 +1,13 @@
+// joint.control.gear and what belongs to it: the spring between motor and link that the controller is told of. Not real-time.
+#pragma once
+
+#include "base/toml_section.h"
+#include "control/gain_table.h"
+#include "control/joint_controller.h"
+
+namespace strainwave {
+
+/// Reads the gear, if there is one, of a joint whose other control keys have been read. Throws InputError.
+void read_link(TomlSection& section, const PlantIdentity& plant, JointControllerConfig& controller);
+
+}  // namespace strainwave

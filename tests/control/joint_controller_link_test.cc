@@ -1,0 +1,196 @@
+// The controller that is told of the gear's spring, on the simulated joint, whose friction and spring are not its own model's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "control/gain_table_json.h"
+#include "control/joint_controller.h"
+#include "control/units.h"
+#include "sim/joint/reference_plant.h"
+#include "tests/support/allocation_trap.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kBand_rad = 40e-6;
+
+JointPlantConfig plant_with(double link_kgm2, double stiffness_scale = 1.0) {
+  JointPlantConfig plant = flexible_plant();
+  plant.effects.transmission->link_inertia_kgm2 = link_kgm2;
+  plant.effects.transmission->spring = plant.effects.transmission->spring.scaled(stiffness_scale);
+  return plant;
+}
+
+JointControllerConfig config_for(const JointPlantConfig& plant) {
+  const Transmission& gear = *plant.effects.transmission;
+  JointControllerConfig config;
+  config.encoder_resolution_rad = plant.encoder.resolution_rad();
+  config.delay_periods = static_cast<int>(std::lround(plant.delay.periods));
+  config.torque_limit_Nm = kReferencePeakTorque_Nm;
+  config.motor = plant.motor;
+  config.motion = {100.0, 1e4, 1e4};
+  config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad};
+  return config;
+}
+
+class Loop {
+ public:
+  /// On `plant`, told that it is `told`.
+  Loop(const JointPlantConfig& plant, const JointPlantConfig& told, double temperature_C)
+      : plant_(plant), controller_(config_for(told)), temperature_C_(temperature_C) {
+    controller_.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json"));
+    plant_.set_ambient_temperature(temperature_C);
+    controller_.start(plant_.measured_position_rad());
+  }
+  JointStep step() {
+    plant_.set_ambient_temperature(temperature_C_);
+    JointMeasurement measurement;
+    measurement.joint_position_rad = plant_.measured_position_rad();
+    measurement.temperature_C = temperature_C_;
+    measurement.temperature_valid = true;
+    const JointStep result = controller_.step(measurement);
+    plant_.step(result.output.torque_Nm);
+    return result;
+  }
+  JointController& controller() { return controller_; }
+  double link_rad() const { return plant_.link_state().position_rad; }
+
+ private:
+  JointPlant plant_;
+  JointController controller_;
+  double temperature_C_;
+};
+
+struct Outcome {
+  double overshoot_rad = 0.0;
+  int sign_changes_at_rest = 0;
+  double swing_at_rest_rad = 0.0;
+  double final_error_rad = 0.0;
+  int corrections = 0;
+  MonitorState monitor = MonitorState::kWatching;
+};
+
+Outcome move(Loop& loop, double target_rad) {
+  loop.controller().set_target(target_rad);
+  Outcome outcome;
+  double last_sign = 0.0;
+  double low = 1e9;
+  double high = -1e9;
+  for (int k = 0; k < 2000; ++k) {
+    const JointStep step = loop.step();
+    outcome.overshoot_rad = std::max(outcome.overshoot_rad, loop.link_rad() - target_rad);
+    outcome.corrections = step.replans;
+    outcome.monitor = step.monitor;
+    if (k < 1500) continue;
+    low = std::min(low, loop.link_rad());
+    high = std::max(high, loop.link_rad());
+    const double now = sign(step.output.torque_Nm);
+    if (now * last_sign < 0.0) ++outcome.sign_changes_at_rest;
+    if (now != 0.0) last_sign = now;
+  }
+  outcome.swing_at_rest_rad = high - low;
+  outcome.final_error_rad = loop.link_rad() - target_rad;
+  return outcome;
+}
+
+TEST(JointControllerWithLink, TheLinkArrivesAndRests) {
+  for (const double link : {0.03, 0.089, 0.267})
+    for (const double temperature : {-10.0, 0.0, 20.0, 45.0})
+      for (const double target : {0.01, 0.1, 1.0}) {
+        const JointPlantConfig plant = plant_with(link);
+        Loop loop(plant, plant, temperature);
+        const Outcome outcome = move(loop, target);
+        const auto which = ::testing::Message()
+                           << link << " kgm2 " << temperature << " degC " << target << " rad";
+        EXPECT_LE(std::abs(outcome.final_error_rad), kBand_rad) << which;
+        EXPECT_LE(outcome.swing_at_rest_rad, kBand_rad) << which;
+        EXPECT_EQ(outcome.sign_changes_at_rest, 0) << which;
+        EXPECT_EQ(outcome.monitor, MonitorState::kWatching) << which;
+        EXPECT_LE(outcome.overshoot_rad, 1e-3) << which;
+      }
+}
+
+TEST(JointControllerWithLink, NeitherSwingsNorChattersWithAnotherLoadOrSpring) {
+  for (const double temperature : {-10.0, 20.0})
+    for (const double target : {0.01, 0.1, 1.0})
+      for (const double load : {0.7, 1.3})
+        for (const double stiffness : {0.8, 1.25}) {
+          Loop loop(plant_with(0.089 * load, stiffness), plant_with(0.089), temperature);
+          const Outcome outcome = move(loop, target);
+          const auto which = ::testing::Message()
+                             << load << " " << stiffness << " " << temperature << " " << target;
+          EXPECT_EQ(outcome.monitor, MonitorState::kWatching) << which;
+          EXPECT_LE(outcome.swing_at_rest_rad, 0.5e-3) << which;
+          EXPECT_LE(outcome.sign_changes_at_rest, 2) << which;
+        }
+}
+
+TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections) {
+  JointPlantConfig plant = plant_with(0.089);
+  const JointPlantConfig told = plant;
+  for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude}) {
+    part->static_Nm *= 1.3;
+    part->coulomb_Nm *= 1.3;
+  }
+  Loop loop(plant, told, 0.0);
+  loop.controller().set_target(0.01);
+  int corrections = 0;
+  double standing_rad = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    const JointStep step = loop.step();
+    if (step.replans != corrections) {
+      EXPECT_EQ(step.joint_velocity_rad_s, 0.0) << "a correction that does not begin from rest";
+      corrections = step.replans;
+    }
+    if (corrections > 0) {
+      EXPECT_EQ(step.ordered_reference.position_rad, 0.01);
+    }
+    standing_rad = loop.link_rad();
+  }
+  EXPECT_GT(corrections, 0) << "this friction needs one, or the test shows nothing";
+  EXPECT_LE(corrections, 20);
+  EXPECT_LE(std::abs(standing_rad - 0.01), kBand_rad);
+}
+
+TEST(JointControllerWithLink, BeginsTheMotionInThePeriodOfTheOrder) {
+  const JointPlantConfig plant = plant_with(0.089);
+  Loop loop(plant, plant, 20.0);
+  for (int k = 0; k < 100; ++k) EXPECT_EQ(loop.step().output.torque_Nm, 0.0);
+  loop.controller().set_target(0.1);
+  EXPECT_GT(loop.step().output.torque_Nm, 5.0);
+}
+
+TEST(JointControllerWithLink, ComesToRestFromTheMotionThatItFinds) {
+  const JointPlantConfig plant = plant_with(0.089);
+  JointController controller(config_for(plant));
+  controller.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json"));
+  controller.start(0.3, 2.0);
+  JointMeasurement measurement;
+  measurement.temperature_C = 20.0;
+  measurement.temperature_valid = true;
+  double last_rad = 0.3 - 2.0 * 1e-3;  // the delay's period ago
+  measurement.joint_position_rad = 0.3;
+  for (int k = 0; k < 500; ++k) {
+    const JointStep step = controller.step(measurement);
+    if (k > 0) {
+      EXPECT_LE(std::abs(step.reference.position_rad - last_rad), 3.0 * 1e-3) << "no jump";
+    }
+    last_rad = step.reference.position_rad;
+    measurement.joint_position_rad = last_rad;
+  }
+  EXPECT_GT(last_rad, 0.3);
+  EXPECT_EQ(last_rad, controller.target_rad());
+}
+
+TEST(JointControllerWithLink, AllocatesNothing) {
+  if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";
+  const JointPlantConfig plant = plant_with(0.089);
+  Loop loop(plant, plant, 20.0);
+  const AllocationTrap trap;
+  loop.controller().set_target(0.1);
+  for (int k = 0; k < 500; ++k) loop.step();
+}
+
+}  // namespace
+}  // namespace strainwave

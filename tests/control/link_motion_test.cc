@@ -1,0 +1,168 @@
+// The planned torque on a joint written here: two masses, a linear spring, no friction.
+#include "control/link_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+constexpr double kLimit_Nm = 34.0;
+
+LinkMotionConfig config_for(double link_kgm2, double stiffness_Nm_rad, int delay_periods = 0) {
+  LinkMotionConfig config;
+  config.period_s = kPeriod_s;
+  config.motor_inertia_kgm2 = 0.089;
+  config.link_inertia_kgm2 = link_kgm2;
+  config.spring = TorsionSpring::linear(stiffness_Nm_rad);
+  config.torque_limit_Nm = kLimit_Nm;
+  config.delay_periods = delay_periods;
+  return config;
+}
+
+ReferenceShaper shaper_for(const LinkMotionConfig& config, double target_rad) {
+  ReferenceShaper shaper(kPeriod_s);
+  const double most = kLimit_Nm / (config.motor_inertia_kgm2 + config.link_inertia_kgm2);
+  shaper.set_limits({100.0, most, most});
+  shaper.reset(0.0, 0.0);
+  shaper.set_target(target_rad);
+  return shaper;
+}
+
+struct Outcome {
+  double residual_rad = 0.0;  ///< of the link, farthest from the target after the motion
+  double wind_up_rad = 0.0;   ///< largest on the way
+  double peak_Nm = 0.0;
+  double motor_error_rad = 0.0;  ///< farthest from the plan
+};
+
+Outcome run(const LinkMotionConfig& config, const LinkMotionConfig& joint, double target_rad) {
+  LinkMotion motion(config);
+  ReferenceShaper shaper = shaper_for(config, target_rad);
+  double motor = 0.0, motor_speed = 0.0, link = 0.0, link_speed = 0.0;
+  Outcome outcome;
+  int rest_periods = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const MotorPlan plan = motion.step(shaper.step());
+    outcome.motor_error_rad = std::max(outcome.motor_error_rad, std::abs(motor - plan.position_rad));
+    outcome.peak_Nm = std::max(outcome.peak_Nm, std::abs(plan.inertia_torque_Nm));
+    constexpr int kSubsteps = 500;
+    for (int i = 0; i < kSubsteps; ++i) {
+      const double spring_Nm = joint.spring.torque_Nm(motor - link);
+      motor_speed += kPeriod_s / kSubsteps / joint.motor_inertia_kgm2 * (plan.inertia_torque_Nm - spring_Nm);
+      link_speed += kPeriod_s / kSubsteps / joint.link_inertia_kgm2 * spring_Nm;
+      motor += kPeriod_s / kSubsteps * motor_speed;
+      link += kPeriod_s / kSubsteps * link_speed;
+    }
+    outcome.wind_up_rad = std::max(outcome.wind_up_rad, std::abs(motor - link));
+    if (!motion.moves() && ++rest_periods < 100)
+      outcome.residual_rad = std::max(outcome.residual_rad, std::abs(link - target_rad));
+  }
+  EXPECT_GE(rest_periods, 100) << "the motion never ends";
+  return outcome;
+}
+
+TEST(LinkMotion, LeavesLessThanATenthOfTheWindUpToSwing) {
+  for (const double link : {0.03, 0.089, 0.267})
+    for (const double stiffness : {8100.0, 13000.0})
+      for (const double target : {0.01, 0.1, -1.0}) {
+        const LinkMotionConfig config = config_for(link, stiffness);
+        const Outcome outcome = run(config, config, target);
+        EXPECT_LE(outcome.residual_rad, 0.1 * outcome.wind_up_rad)
+            << link << " " << stiffness << " " << target;
+        EXPECT_LE(outcome.motor_error_rad, 0.1 * outcome.wind_up_rad)
+            << link << " " << stiffness << " " << target;
+      }
+}
+
+TEST(LinkMotion, SwingsLessThanTheSameTorqueWithoutIt) {
+  // Nothing but the shaper's acceleration: what is left then is of the wind-up's own size.
+  const LinkMotionConfig config = config_for(0.089, 10000.0);
+  LinkMotionConfig stiff = config;
+  stiff.spring = TorsionSpring::linear(1e7);
+  EXPECT_GE(run(stiff, config, 0.1).residual_rad, 10.0 * run(config, config, 0.1).residual_rad);
+}
+
+TEST(LinkMotion, AsksForHardlyMoreTorqueThanTheRigidMotion) {
+  for (const double link : {0.03, 0.089, 0.267}) {
+    const LinkMotionConfig config = config_for(link, 10000.0);
+    EXPECT_LE(run(config, config, 1.0).peak_Nm, 1.25 * kLimit_Nm) << link;
+    EXPECT_GE(run(config, config, 1.0).peak_Nm, 0.9 * kLimit_Nm) << link;
+  }
+}
+
+TEST(LinkMotion, BearsAStiffnessAndALoadThatAreNotWhatItWasTold) {
+  const LinkMotionConfig config = config_for(0.089, 10000.0);
+  for (const double share : {0.75, 1.25}) {
+    const Outcome outcome = run(config, config_for(0.089, share * 10000.0), 0.1);
+    EXPECT_LE(outcome.residual_rad, 0.6 * outcome.wind_up_rad) << share;
+  }
+}
+
+TEST(LinkMotion, TellsWhereTheMotorIsReadNowAndTheTorqueThatActsLater) {
+  LinkMotion now(config_for(0.089, 10000.0, 0));
+  LinkMotion late(config_for(0.089, 10000.0, 2));
+  ReferenceShaper shaper = shaper_for(config_for(0.089, 10000.0), 0.1);
+  std::array<double, 3> positions_rad{};
+  for (int k = 0; k < 200; ++k) {
+    const Reference planned = shaper.step();
+    const MotorPlan first = now.step(planned);
+    const MotorPlan second = late.step(planned);
+    EXPECT_EQ(first.inertia_torque_Nm, second.inertia_torque_Nm);
+    std::copy_backward(positions_rad.begin(), positions_rad.end() - 1, positions_rad.end());
+    positions_rad.front() = first.position_rad;
+    EXPECT_EQ(second.position_rad, positions_rad.back());
+  }
+}
+
+TEST(LinkMotion, MovesAtOnceAndRestsExactlyOnTheTarget) {
+  const LinkMotionConfig config = config_for(0.089, 10000.0, 1);
+  LinkMotion motion(config);
+  EXPECT_FALSE(motion.moves());
+  ReferenceShaper shaper = shaper_for(config, 0.1);
+  EXPECT_NE(motion.step(shaper.step()).inertia_torque_Nm, 0.0);
+  EXPECT_TRUE(motion.moves());
+  MotorPlan plan;
+  for (int k = 0; k < 500; ++k) plan = motion.step(shaper.step());
+  EXPECT_FALSE(motion.moves());
+  EXPECT_EQ(plan.position_rad, 0.1);
+  EXPECT_EQ(plan.velocity_rad_s, 0.0);
+  EXPECT_EQ(plan.inertia_torque_Nm, 0.0);
+}
+
+TEST(LinkMotion, GoesOnFromAJointThatMoves) {
+  LinkMotion motion(config_for(0.089, 10000.0, 1));
+  double planned_rad = motion.reset(0.5, 2.0);
+  double last_rad = 0.5 - 2.0 * 2.0 * kPeriod_s;
+  for (int k = 0; k < 50; ++k) {
+    const MotorPlan plan = motion.step({planned_rad, 2.0, 0.0});
+    planned_rad += 2.0 * kPeriod_s;
+    EXPECT_NEAR(plan.position_rad, last_rad + 2.0 * kPeriod_s, 1e-12) << k;
+    EXPECT_NEAR(plan.velocity_rad_s, 2.0, 1e-9) << k;
+    EXPECT_NEAR(plan.inertia_torque_Nm, 0.0, 1e-6) << k;
+    last_rad = plan.position_rad;
+    EXPECT_TRUE(motion.moves());
+  }
+}
+
+TEST(LinkMotion, IsNotForASpringThatIsSofterThanItsMemory) {
+  EXPECT_TRUE(LinkMotion::possible(config_for(1.0, 1000.0)));
+  EXPECT_FALSE(LinkMotion::possible(config_for(1.0, 10.0)));
+}
+
+TEST(SmoothWindUp, IsTheGearsFarOutAndSofterNearZero) {
+  const TorsionSpring spring{8100.0, 3.9, 11000.0, 12.0, 13000.0};
+  const SmoothWindUp smooth(spring);
+  EXPECT_NEAR(smooth.compliance_rad_Nm(0.0), 1.0 / 8100.0, 1e-12);
+  EXPECT_NEAR(smooth.angle_rad(400.0), spring.angle_rad(400.0), 2e-6);
+  for (double torque_Nm = -34.0; torque_Nm <= 34.0; torque_Nm += 0.5)
+    EXPECT_NEAR(smooth.angle_rad(torque_Nm), spring.angle_rad(torque_Nm), 8e-5) << torque_Nm;
+  const SmoothWindUp linear(TorsionSpring::linear(1e4));
+  EXPECT_NEAR(linear.angle_rad(-7.0), -7e-4, 1e-15);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,46 @@
+#include "control/moving_mean.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+
+/// x = t^3, for which the mean over w is (t^4 - (t - w)^4) / 4w.
+MotionPoint cubic(double t) {
+  return {t * t * t, 3.0 * t * t, 6.0 * t, 6.0};
+}
+
+TEST(MovingMean, IsTheIntegralOfACubicOverItsWidth) {
+  MovingMean mean(7, kPeriod_s);
+  MotionPoint result;
+  for (int k = 0; k <= 100; ++k) result = mean.step(cubic(k * kPeriod_s));
+  const double t = 0.1;
+  const double w = 7.0 * kPeriod_s;
+  EXPECT_NEAR(result.position_rad, (std::pow(t, 4) - std::pow(t - w, 4)) / (4.0 * w), 1e-15);
+  EXPECT_NEAR(result.velocity_rad_s, (std::pow(t, 3) - std::pow(t - w, 3)) / w, 1e-13);
+  EXPECT_NEAR(result.acceleration_rad_s2, 3.0 * (t * t - (t - w) * (t - w)) / w, 1e-11);
+  EXPECT_NEAR(result.jerk_rad_s3, 6.0, 1e-9);
+}
+
+TEST(MovingMean, RestsExactlyWhereTheMotionHasEndedAndNotBefore) {
+  MovingMean mean(5, kPeriod_s);
+  mean.reset(1.0 / 3.0);
+  const MotionPoint end{0.7, 0.0, 0.0, 0.0};
+  for (int k = 1; k <= 5; ++k) {
+    const MotionPoint result = mean.step(end);
+    if (k < 5) {
+      EXPECT_NE(result.velocity_rad_s, 0.0);
+    }
+  }
+  const MotionPoint result = mean.step(end);
+  EXPECT_EQ(result.position_rad, 0.7);
+  EXPECT_EQ(result.velocity_rad_s, 0.0);
+  EXPECT_EQ(result.acceleration_rad_s2, 0.0);
+}
+
+}  // namespace
+}  // namespace strainwave

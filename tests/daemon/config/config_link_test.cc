@@ -1,0 +1,44 @@
+#include "tests/daemon/config/config_file_test.h"
+
+namespace strainwave {
+namespace {
+
+class LinkConfigTest : public ConfigFileTest {
+ protected:
+  /// The demo's joint with other control keys.
+  static std::string joint_with(const std::string& control) {
+    const std::string demo = replaced(example("demo.toml"), "inertia_kgm2 = 0.089", "inertia_kgm2 = 0.189");
+    return replaced(demo, "rigid = true ", control + " ");
+  }
+};
+
+TEST_F(LinkConfigTest, AGearAndItsLoadMakeTheControllersLink) {
+  const DaemonConfig config = read(joint_with("gear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1"));
+  const JointControllerConfig& controller = config.joints.front().loop.controller;
+  ASSERT_TRUE(controller.link.has_value());
+  EXPECT_DOUBLE_EQ(controller.link->link_inertia_kgm2, 0.1);
+  EXPECT_NEAR(controller.link->motor_inertia_kgm2, 0.089, 1e-12);
+  EXPECT_EQ(controller.link->spring.stiffness_1_Nm_rad, 8100.0);
+}
+
+TEST_F(LinkConfigTest, WithoutAGearThereIsNoLink) {
+  EXPECT_FALSE(read(joint_with("rigid = false")).joints.front().loop.controller.link.has_value());
+}
+
+TEST_F(LinkConfigTest, RefusesWhatCannotBe) {
+  expect_mentions(error_of(joint_with("gear = \"csf-18-50\"\nload_inertia_kgm2 = 0.1")),
+                  {"gear", "csf-18-50", "csf-17-50"});
+  expect_mentions(error_of(joint_with("gear = \"csf-17-100\"\nload_inertia_kgm2 = 0.1")),
+                  {"gear", "gear_ratio"});
+  expect_mentions(error_of(joint_with("gear = \"csf-17-50\"")), {"load_inertia_kgm2"});
+  expect_mentions(error_of(joint_with("gear = \"csf-17-50\"\nload_inertia_kgm2 = 0.19")),
+                  {"load_inertia_kgm2", "0.19"});
+  expect_mentions(error_of(joint_with("load_inertia_kgm2 = 0.1")), {"load_inertia_kgm2", "gear"});
+  expect_mentions(error_of(joint_with("rigid = true\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1")),
+                  {"gear", "rigid"});
+  expect_mentions(error_of(joint_with("shaping = false\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1")),
+                  {"gear", "shaping"});
+}
+
+}  // namespace
+}  // namespace strainwave
