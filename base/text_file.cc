@@ -77,10 +77,12 @@ std::string read_text_file(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw InputError(path.string() + ": is a folder, not a file");
+  // A pipe nobody writes to would wait for ever, a device never end.
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw InputError(path.string() + ": is a pipe or a device, not a file");
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path, "cannot be read", errno);
-  if (std::filesystem::is_regular_file(path, error) &&
-      std::filesystem::file_size(path, error) > kMaxFileBytes) {
+  if (std::filesystem::file_size(path, error) > kMaxFileBytes) {
     throw InputError(path.string() + ": is larger than 16 MiB: not a file of this program");
   }
   std::ostringstream text;

@@ -7,7 +7,8 @@
 
 namespace strainwave {
 
-/// The file's bytes. Throws InputError when it cannot be read or is larger than 16 MiB (no file of ours is).
+/// The file's bytes. Throws InputError when it cannot be read, is no regular file, or is larger than 16 MiB (no
+/// file of ours is).
 std::string read_text_file(const std::filesystem::path& path);
 
 /// Replaces `path` by `text` in one step: a reader sees the old file or the new one, never a part, even

@@ -1,6 +1,7 @@
 #include "base/text_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -36,6 +37,12 @@ TEST_F(TextFile, AFailedReplacementKeepsTheOldFileAndCleansUp) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "target" / "inner"));
   EXPECT_EQ(
       std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
+}
+
+TEST_F(TextFile, WaitsForNoPipeAndReadsNoDeviceWithoutAnEnd) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(read_text_file(folder_ / "pipe"), InputError);
+  EXPECT_THROW(read_text_file("/dev/zero"), InputError);
 }
 
 TEST_F(TextFile, MissingFilesAndFoldersAreNamed) {
