@@ -9,10 +9,22 @@ namespace strainwave {
 
 namespace {
 
-std::unique_ptr<Actuator> make_drive(const JointConfig& joint,
-                                     const std::vector<std::unique_ptr<Fieldbus>>& buses) {
-  auto drive = joint.bus < 0 ? joint.make_actuator()
-                             : buses[static_cast<std::size_t>(joint.bus)]->make_actuator(joint.bus_slot);
+using Buses = std::vector<std::unique_ptr<Fieldbus>>;
+
+std::unique_ptr<Actuator> make_drive(const SimulatedDrive& drive, const Buses& /*buses*/) {
+  return std::make_unique<FaultyActuator>(std::make_unique<SimulatedActuator>(drive.actuator), drive.faults);
+}
+
+std::unique_ptr<Actuator> make_drive(const GpioJointConfig& drive, const Buses& /*buses*/) {
+  return make_gpio_actuator(drive);
+}
+
+std::unique_ptr<Actuator> make_drive(const DriveOnBus& drive, const Buses& buses) {
+  return buses[drive.bus]->make_actuator(drive.slot);
+}
+
+std::unique_ptr<Actuator> make_drive(const JointConfig& joint, const Buses& buses) {
+  auto drive = std::visit([&](const auto& config) { return make_drive(config, buses); }, joint.drive);
   if (!joint.thermometer) return drive;
   return std::make_unique<ThermometerActuator>(std::move(drive), *joint.thermometer);
 }
@@ -27,9 +39,13 @@ std::unique_ptr<FlightRecorder> make_recorder(const RecorderConfig& recorder, do
 
 }  // namespace
 
+std::unique_ptr<Fieldbus> assemble_bus(const BusConfig& bus) {
+  return open_can_bus(bus.config, bus.drives);
+}
+
 LoopParts assemble_loop(const DaemonConfig& config) {
   LoopParts parts;
-  for (const BusConfig& bus : config.buses) parts.buses.push_back(bus.make_bus());
+  for (const BusConfig& bus : config.buses) parts.buses.push_back(assemble_bus(bus));
   for (const JointConfig& joint : config.joints)
     parts.joints.push_back(
         {joint.loop, make_drive(joint, parts.buses), make_recorder(config.recorder, config.loop.period_s)});

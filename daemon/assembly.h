@@ -2,6 +2,7 @@
 // real-time.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "daemon/admission/admission.h"
@@ -13,6 +14,9 @@ namespace strainwave {
 /// The buses, and of each joint the drive, its settings and its flight recorder, all in the configuration's order. Throws
 /// InputError.
 LoopParts assemble_loop(const DaemonConfig& config);
+
+/// One bus, with every drive on it set up. Throws InputError.
+std::unique_ptr<Fieldbus> assemble_bus(const BusConfig& bus);
 
 /// What admission must know of each joint.
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config);

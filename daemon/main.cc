@@ -12,19 +12,6 @@
 
 namespace {
 
-/// True when every line can be used.
-bool show_lines(const strainwave::DaemonConfig& config) {
-  bool good = true;
-  bool any = false;
-  for (const strainwave::JointConfig& joint : config.joints) {
-    if (!joint.describe_lines) continue;
-    any = true;
-    good = joint.describe_lines(std::cout) && good;
-  }
-  if (!any) std::cout << "no joint of this configuration has digital lines\n";
-  return good;
-}
-
 strainwave::ExitStatus as_status(bool good) {
   return good ? strainwave::ExitStatus::kDone : strainwave::ExitStatus::kRefused;
 }
@@ -58,7 +45,7 @@ int main(int argc, char** argv) {
                 << '\n';
       return strainwave::ExitStatus::kDone;
     }
-    if (check_lines) return as_status(show_lines(config));
+    if (check_lines) return as_status(strainwave::check_lines(config, std::cout));
     if (!data_sheet.empty()) return as_status(strainwave::check_data_sheet(config, data_sheet, std::cout));
     if (check_drives) return as_status(strainwave::check_drives(config, std::cout));
     strainwave::start_logging();

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,8 +40,5 @@ class Fieldbus {
   /// Sends what belongs to all joints. Also called once after the last stop() of every joint.
   virtual void end_cycle() noexcept = 0;
 };
-
-/// Makes a bus and everything on it; called once, before the loop runs. Throws InputError.
-using FieldbusFactory = std::function<std::unique_ptr<Fieldbus>()>;
 
 }  // namespace strainwave

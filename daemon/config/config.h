@@ -3,11 +3,9 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <optional>
-#include <ostream>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "control/gain_table.h"
@@ -16,8 +14,10 @@
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/loop_parts.h"
 #include "daemon/records/flight_record_writer.h"
-#include "drivers/actuator.h"
-#include "drivers/fieldbus.h"
+#include "drivers/can/can_drive.h"
+#include "drivers/faulty_actuator.h"
+#include "drivers/gpio/gpio_joint.h"
+#include "drivers/simulated_actuator.h"
 #include "drivers/temperature_file.h"
 
 namespace strainwave {
@@ -25,8 +25,16 @@ namespace strainwave {
 /// What ActuatorReading::drive_error says with `fault`, in words.
 using DriveErrorText = std::string (*)(Fault fault, std::uint32_t drive_error);
 
-/// Makes the joint's driver; called once, before the loop runs. Throws InputError.
-using ActuatorFactory = std::function<std::unique_ptr<Actuator>()>;
+struct SimulatedDrive {
+  SimulatedActuatorConfig actuator;
+  FaultyActuatorConfig faults;  ///< that it is given
+};
+
+/// A drive is configured with its bus.
+struct DriveOnBus {
+  std::size_t bus = 0;   ///< index in DaemonConfig::buses
+  std::size_t slot = 0;  ///< index in BusConfig::drives
+};
 
 struct JointConfig {
   std::string name;
@@ -37,21 +45,16 @@ struct JointConfig {
   bool takes_injected_faults = false;
   std::string driver_resource;  ///< what only one daemon may use ("can0 node 3"); empty: nothing shared
   std::optional<TemperatureFileConfig> thermometer;  ///< beside what the drive itself measures
-  ActuatorFactory make_actuator;  ///< of a drive of its own; unused when `bus` says which bus makes it
-  /// Tells of the drive's digital lines without touching outputs; false when one is not usable. Null: it has none.
-  std::function<bool(std::ostream&)> describe_lines;
-  /// Start-up against a drive's electronic data sheet; lines for the user. Throws InputError. Null: its drives have none.
-  std::function<std::vector<std::string>(const std::filesystem::path&)> check_data_sheet;
+  std::variant<SimulatedDrive, GpioJointConfig, DriveOnBus> drive;
   DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
-  int bus = -1;                               ///< index in DaemonConfig::buses; -1: on none
-  std::size_t bus_slot = 0;                   ///< the drive's place on that bus
   std::filesystem::path table;                ///< initial gain table; empty: none
 };
 
 /// What several joints share.
 struct BusConfig {
   std::string name;
-  FieldbusFactory make_bus;
+  CanBusConfig config;
+  std::vector<CanDrive> drives;
 };
 
 struct DaemonConfig {

@@ -7,11 +7,7 @@
 #include "base/input_error.h"
 #include "daemon/config/config_motor.h"
 #include "daemon/config/config_odrive.h"
-#include "drivers/can/can_interface.h"
-#include "drivers/can/can_socket.h"
 #include "drivers/can/cia402/cia402_node.h"
-#include "drivers/can/cia402/eds_check.h"
-#include "drivers/can/odrive/odrive_node.h"
 
 namespace strainwave {
 
@@ -23,8 +19,6 @@ constexpr std::int64_t kMaxObject = 0xFFFF;
 constexpr std::int64_t kMaxSubIndex = 0xFF;
 /// Of 1016h and 1017h, in milliseconds; 1017h has 16 bits.
 constexpr Range kHeartbeat_s{0.001, 60.0};
-/// Besides a period's orders and SYNC: a heartbeat, an SDO and its abort.
-constexpr int kSpareFrames = 3;
 
 cia402::Identity read_identity(TomlSection section) {
   constexpr std::int64_t kNotGiven = -1;
@@ -172,8 +166,7 @@ HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
     section.fail("node_id", "each drive on a bus needs a node id of its own");
   if (!is_odrive && node_id == bus.config.our_node_id)
     section.fail("node_id", "another than the bus's our_node_id is allowed");
-  joint.bus = static_cast<int>(&bus - buses_.data());
-  joint.bus_slot = bus.make_nodes.size();
+  joint.drive = DriveOnBus{static_cast<std::size_t>(&bus - buses_.data()), bus.drives.size()};
   joint.driver_resource = bus.config.interface_name + " node " + std::to_string(node_id);
   bus.node_ids.push_back(node_id);
   // The protocols' identifiers overlap, so a bus has one of them: CiA 402 needs a SYNC, CANSimple has none.
@@ -181,7 +174,7 @@ HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
     if (bus.config.sync != SyncProducer::kNone)
       section.fail("protocol", "a bus of their own is what ODrives need: set can_bus.sync to \"none\"");
     const odrive::DriveConfig drive = read_odrive(section, node_id, period_s_, joint);
-    bus.make_nodes.emplace_back([drive] { return std::make_unique<odrive::Node>(drive); });
+    bus.drives.emplace_back(drive);
     HomingInputs inputs;
     inputs.counts_from_switch_on = !drive.absolute_encoder;
     return inputs;
@@ -223,10 +216,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
     return cia402::drive_error_text(drive_error);
   };
   (void)cia402::pdo_layout(drive);  // refuses what does not fit
-  joint.check_data_sheet = [drive](const std::filesystem::path& file) {
-    return cia402::check_data_sheet(canopen::read_eds(file, drive.node_id), drive);
-  };
-  bus.make_nodes.emplace_back([drive] { return std::make_unique<cia402::Node>(drive); });
+  bus.drives.emplace_back(drive);
   return {drive.inputs.home, drive.inputs.negative_limit, drive.inputs.positive_limit, false,
           !drive.absolute_encoder};
 }
@@ -234,26 +224,12 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
 std::vector<BusConfig> CanConfig::buses() const {
   std::vector<BusConfig> result;
   for (const Bus& bus : buses_) {
-    if (bus.make_nodes.empty()) bus.section.fail("name", "a bus with at least one joint is allowed");
+    if (bus.drives.empty()) bus.section.fail("name", "a bus with at least one joint is allowed");
     if (bus.drive_makes_sync && !bus.has_sync_drive)
       bus.section.fail("sync", "\"drive\" needs a joint with produces_sync = true");
-    const auto make_nodes = [factories = bus.make_nodes] {
-      std::vector<std::unique_ptr<CanNode>> nodes;
-      for (const NodeFactory& make : factories) nodes.push_back(make());
-      return nodes;
-    };
-    const CanBusConfig& config = bus.config;
-    require_bus_load(bus.name, CanBus::traffic_of(config, make_nodes()), config.bit_rate, config.load_limit);
-    result.push_back(
-        {bus.name, [config, make_nodes]() -> std::unique_ptr<Fieldbus> {
-           std::vector<std::unique_ptr<CanNode>> nodes = make_nodes();
-           const int frames = static_cast<int>(nodes.size()) + 1 + kSpareFrames;
-           require_can_interface(config.interface_name, inspect_can_interface(config.interface_name),
-                                 config.bit_rate, frames);
-           return std::make_unique<CanBus>(config, std::move(nodes), [config](const CanPortOptions& options) {
-             return std::make_unique<CanSocket>(config.interface_name, options);
-           });
-         }});
+    require_bus_load(bus.name, CanBus::traffic_of(bus.config, make_nodes(bus.drives)), bus.config.bit_rate,
+                     bus.config.load_limit);
+    result.push_back({bus.name, bus.config, bus.drives});
   }
   return result;
 }

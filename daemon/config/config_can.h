@@ -1,15 +1,13 @@
 // [[can_bus]] and [joint.can] of the configuration: drives on CAN buses. Not real-time.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/toml_section.h"
 #include "daemon/config/config.h"
 #include "daemon/config/config_homing.h"
-#include "drivers/can/can_bus.h"
+#include "drivers/can/can_drive.h"
 
 namespace strainwave {
 
@@ -23,19 +21,18 @@ class CanConfig {
   /// by. Throws InputError.
   HomingInputs read_joint(TomlSection& section, JointConfig& joint);
 
-  /// After all joints: what makes the buses. Throws InputError for a bus without joints, or one that would be
+  /// After all joints: the buses. Throws InputError for a bus without joints, or one that would be
   /// too full.
   std::vector<BusConfig> buses() const;
 
  private:
-  using NodeFactory = std::function<std::unique_ptr<CanNode>()>;
   struct Bus {
     std::string name;
     TomlSection section;
     CanBusConfig config;
     bool drive_makes_sync = false;  ///< sync = "drive"
     std::vector<int> node_ids;      ///< of the drives so far
-    std::vector<NodeFactory> make_nodes;
+    std::vector<CanDrive> drives;
     bool has_sync_drive = false;
   };
   Bus& find_bus(TomlSection& section);

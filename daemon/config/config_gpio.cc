@@ -194,8 +194,7 @@ HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, do
                               ", is needed: torque constant * gear ratio * efficiency * current");
   }
   joint.driver_resource = "pwm " + gpio.pwm.chip_folder.string() + " " + std::to_string(gpio.pwm.channel);
-  joint.make_actuator = [gpio] { return make_gpio_actuator(gpio); };
-  joint.describe_lines = [gpio](std::ostream& out) { return report_lines(gpio, out); };
+  joint.drive = gpio;
   return {has(gpio.lines, LineRole::kHome), has(gpio.lines, LineRole::kNegativeLimit),
           has(gpio.lines, LineRole::kPositiveLimit), has(gpio.lines, LineRole::kIndex)};
 }

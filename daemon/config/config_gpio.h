@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Reads the section and sets what depends on the driver: make_actuator, describe_lines, and the encoder and
+/// Reads the section and sets what depends on the driver: the drive, and the encoder and
 /// motor data of the controller. `where` is the section's path in messages. What the joint can be homed by.
 /// Throws InputError.
 HomingInputs read_gpio_driver(TomlSection& section, const std::string& where, double period_s,

@@ -107,11 +107,8 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
                                           : config.plant.encoder.resolution_rad();
   controller.delay_periods = static_cast<int>(std::lround(config.plant.delay.periods));
   controller.motor = config.plant.motor;
-  const FaultyActuatorConfig faults{period_s, read_faults(section), &busy_wait, config.seed + 1};
+  joint.drive = SimulatedDrive{config, {period_s, read_faults(section), &busy_wait, config.seed + 1}};
   joint.takes_injected_faults = true;
-  joint.make_actuator = [config, faults] {
-    return std::make_unique<FaultyActuator>(std::make_unique<SimulatedActuator>(config), faults);
-  };
   return available;
 }
 

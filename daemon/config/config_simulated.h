@@ -7,7 +7,7 @@
 
 namespace strainwave {
 
-/// Reads the section and sets what depends on the driver: make_actuator and the encoder, delay and motor data of the
+/// Reads the section and sets what depends on the driver: the drive, and the encoder, delay and motor data of the
 /// controller. What the joint can be homed by. Throws InputError.
 HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint);
 

@@ -33,14 +33,17 @@ DaemonConfig with_joint() {
 
 TEST(DriveCheck, TellsWhatStartUpFoundOnEveryBusAndWhatItWouldRefuse) {
   DaemonConfig config = with_joint();
-  config.buses.push_back({"arm", [] { return std::make_unique<QuietBus>(); }});
+  config.buses.push_back({"arm", {}, {}});
+  const BusOpener open = [](const BusConfig& bus) -> std::unique_ptr<Fieldbus> {
+    if (bus.name == "leg") throw InputError("knee: no answer");
+    return std::make_unique<QuietBus>();
+  };
   std::ostringstream good;
-  EXPECT_TRUE(check_drives(config, good));
+  EXPECT_TRUE(check_drives(config, good, open));
   EXPECT_NE(good.str().find("elbow: found"), std::string::npos);
-  config.buses.insert(config.buses.begin(),
-                      {"leg", []() -> std::unique_ptr<Fieldbus> { throw InputError("knee: no answer"); }});
+  config.buses.insert(config.buses.begin(), {"leg", {}, {}});
   std::ostringstream bad;
-  EXPECT_FALSE(check_drives(config, bad));
+  EXPECT_FALSE(check_drives(config, bad, open));
   EXPECT_NE(bad.str().find("leg: refused: knee: no answer"), std::string::npos) << bad.str();
   EXPECT_NE(bad.str().find("elbow: found"), std::string::npos) << "the other bus is checked all the same";
 }
@@ -49,12 +52,13 @@ TEST(DriveCheck, TouchesNoDriveThatAnotherDaemonHas) {
   DaemonConfig config = with_joint();
   const InstanceLock other("drive " + resource(), "");
   bool made = false;
-  config.buses.push_back({"arm", [&]() -> std::unique_ptr<Fieldbus> {
-                            made = true;
-                            return std::make_unique<QuietBus>();
-                          }});
+  config.buses.push_back({"arm", {}, {}});
+  const BusOpener open = [&](const BusConfig& /*bus*/) {
+    made = true;
+    return std::make_unique<QuietBus>();
+  };
   std::ostringstream out;
-  EXPECT_THROW(check_drives(config, out), InputError);
+  EXPECT_THROW(check_drives(config, out, open), InputError);
   EXPECT_FALSE(made);
 }
 

@@ -1,9 +1,9 @@
 #include "daemon/config/config.h"
-#include "daemon/assembly.h"
 
 #include <fstream>
 #include <string>
 
+#include "daemon/assembly.h"
 #include "tests/daemon/config/config_file_test.h"
 #include "tests/support/example_keys.h"
 
@@ -47,7 +47,7 @@ TEST_F(ConfigTest, ReadsASoundFile) {
   EXPECT_EQ(config.prefix, "LAB");
   ASSERT_EQ(config.joints.size(), 1U);
   EXPECT_EQ(config.joints[0].plant.inertia_kgm2, 0.089);
-  EXPECT_NE(config.joints[0].make_actuator(), nullptr);
+  EXPECT_NE(assemble_loop(config).joints[0].actuator, nullptr);
   EXPECT_EQ(assemble_admission(config)[0].position_max_rad, 3.2);
 }
 

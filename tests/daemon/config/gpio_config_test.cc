@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "daemon/config/config.h"
+#include "daemon/drive_check.h"
 #include "tests/daemon/config/config_file_test.h"
 #include "tests/support/example_keys.h"
 
@@ -50,10 +51,10 @@ TEST_F(GpioConfig, OfTheExampleIsSoundAndTellsTheControllerWhatTheDatasheetSays)
 TEST_F(GpioConfig, IsReadWithoutTheHardware) {
   const DaemonConfig config = read(example_);
   std::ostringstream lines;
-  EXPECT_FALSE(config.joints[0].describe_lines(lines)) << "this machine is no such board";
+  EXPECT_FALSE(check_lines(config, lines)) << "this machine is no such board";
   EXPECT_NE(lines.str().find("estop"), std::string::npos);
   EXPECT_NE(lines.str().find("MISSING"), std::string::npos) << lines.str();
-  EXPECT_THROW((void)config.joints[0].make_actuator(), InputError) << "before anything moves";
+  EXPECT_THROW((void)assemble_loop(config), InputError) << "before anything moves";
 }
 
 TEST_F(GpioConfig, NeedsADirectionLineExactlyForSignMagnitude) {
