@@ -154,7 +154,7 @@ std::string TomlSection::text(std::string_view key) {
 }
 
 std::string TomlSection::text_or(std::string_view key, std::string fallback) {
-  return Reader::find(*this, key) == nullptr ? fallback : text(key);
+  return Reader::find(*this, key) == nullptr ? std::move(fallback) : text(key);
 }
 
 std::string TomlSection::choice(std::string_view key, const std::vector<std::string>& allowed) {
@@ -169,7 +169,7 @@ std::string TomlSection::choice(std::string_view key, const std::vector<std::str
 
 std::string TomlSection::choice_or(std::string_view key, std::string fallback,
                                    const std::vector<std::string>& allowed) {
-  return Reader::find(*this, key) == nullptr ? fallback : choice(key, allowed);
+  return Reader::find(*this, key) == nullptr ? std::move(fallback) : choice(key, allowed);
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, Range allowed) {

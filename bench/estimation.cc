@@ -123,7 +123,7 @@ Outcome run_nlopt(const Task& task, nlopt_algorithm algorithm, bool with_local, 
   return watch.outcome();
 }
 
-void print_row(const Task& task, const char* method, std::vector<Outcome> outcomes) {
+void print_row(const Task& task, const char* method, const std::vector<Outcome>& outcomes) {
   int reached = 0;
   double best = 1e300, longest_s = 0.0;
   std::vector<double> times_s, costs;
@@ -187,8 +187,8 @@ void run(unsigned seeds, double limit_s) {
 }  // namespace strainwave
 
 int main(int argc, char** argv) {
-  const int seeds = argc > 1 ? std::atoi(argv[1]) : 100;
-  const double limit_s = argc > 2 ? std::atof(argv[2]) : 1.0;
+  const int seeds = argc > 1 ? std::stoi(argv[1]) : 100;
+  const double limit_s = argc > 2 ? std::stod(argv[2]) : 1.0;
   if (seeds < 1 || !(limit_s > 0.0)) {
     std::fputs("usage: estimation_benchmark [SEEDS [SECONDS]]\n", stderr);
     return 1;

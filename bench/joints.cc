@@ -83,9 +83,10 @@ double median(std::vector<double> values) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int slices = argc > 1 ? std::atoi(argv[1]) : 100;
+  const int slices = argc > 1 ? std::stoi(argv[1]) : 100;
   const std::vector<std::size_t> counts{8, 16, 32, 64};
   std::vector<std::unique_ptr<Arm>> arms;
+  arms.reserve(counts.size());
   for (const std::size_t count : counts) arms.push_back(std::make_unique<Arm>(count));
   std::vector<std::vector<double>> costs_s(counts.size());
   for (const auto& arm : arms) arm->slice_s();  // warm

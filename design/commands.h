@@ -11,11 +11,11 @@ class App;
 namespace strainwave {
 
 /// Returns the exit status; throws InputError.
-using Action = std::function<int()>;
+using CommandBody = std::function<int()>;
 
-Action add_fit_command(CLI::App& app, CLI::App*& command);
-Action add_gains_command(CLI::App& app, CLI::App*& command);
-Action add_verify_command(CLI::App& app, CLI::App*& command);
-Action add_show_command(CLI::App& app, CLI::App*& command);
+CommandBody add_fit_command(CLI::App& app, CLI::App*& command);
+CommandBody add_gains_command(CLI::App& app, CLI::App*& command);
+CommandBody add_verify_command(CLI::App& app, CLI::App*& command);
+CommandBody add_show_command(CLI::App& app, CLI::App*& command);
 
 }  // namespace strainwave

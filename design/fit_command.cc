@@ -204,7 +204,7 @@ void add_log_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
-Action add_fit_command(CLI::App& app, CLI::App*& command) {
+CommandBody add_fit_command(CLI::App& app, CLI::App*& command) {
   command = app.add_subcommand("fit", "Fit friction over temperature to a catalogue, or to logs of a joint");
   const auto options = std::make_shared<Options>();
   command->add_option("CATALOGUE", options->catalogue,

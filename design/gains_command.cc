@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <ctime>
 #include <memory>
+#include <string_view>
+#include <system_error>
 
 #include "base/input_error.h"
 #include "control/gain_table_json.h"
@@ -38,10 +41,22 @@ struct Options {
   double max_integral_rad_s = 0.0;
 };
 
-// ISO 8601 of now, or of SOURCE_DATE_EPOCH for reproducible files.
+// Now, or SOURCE_DATE_EPOCH for reproducible files. Throws InputError.
+std::time_t creation_time() {
+  constexpr const char* kVariable = "SOURCE_DATE_EPOCH";
+  const char* const epoch = std::getenv(kVariable);  // NOLINT(concurrency-mt-unsafe): one thread
+  if (epoch == nullptr) return std::time(nullptr);
+  const std::string_view text(epoch);
+  std::time_t time = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw InputError("environment", kVariable, epoch, "must be whole seconds since 1970");
+  return time;
+}
+
+// ISO 8601.
 std::string utc_now() {
-  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");  // NOLINT(concurrency-mt-unsafe): one thread
-  const std::time_t now = epoch != nullptr ? static_cast<std::time_t>(std::atoll(epoch)) : std::time(nullptr);
+  const std::time_t now = creation_time();
   std::tm parts{};
   gmtime_r(&now, &parts);
   std::array<char, 32> text{};
@@ -167,7 +182,7 @@ void add_design_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
-Action add_gains_command(CLI::App& app, CLI::App*& command) {
+CommandBody add_gains_command(CLI::App& app, CLI::App*& command) {
   command =
       app.add_subcommand("gains", "Design certified gains; the defaults are the RHS-17-6006 of the source");
   const auto options = std::make_shared<Options>();

@@ -97,7 +97,7 @@ AffineMatrix LmiProblem::symmetric(Eigen::Index size) {
 }
 
 AffineMatrix LmiProblem::relax() {
-  const AffineMatrix t = scalar();
+  AffineMatrix t = scalar();
   for (AffineMatrix& inequality : inequalities_) {
     for (Eigen::Index i = 0; i < inequality.rows(); ++i) inequality.add_block(i, i, t);
   }

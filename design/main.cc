@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app("Fit friction over temperature, design gain tables (LMI), verify and describe them.");
   strainwave::configure_program(app, "strainwave-design");
   app.require_subcommand(1);
-  std::array<std::pair<CLI::App*, strainwave::Action>, 4> commands;
+  std::array<std::pair<CLI::App*, strainwave::CommandBody>, 4> commands;
   commands[0].second = strainwave::add_fit_command(app, commands[0].first);
   commands[1].second = strainwave::add_gains_command(app, commands[1].first);
   commands[2].second = strainwave::add_verify_command(app, commands[2].first);

@@ -12,7 +12,7 @@ namespace {
 // Simpson's rule converges fast.
 double probability_within(double angle, int n) {
   constexpr int kIntervals = 200;
-  const double c = std::exp(std::lgamma(0.5 * (n + 1)) - std::lgamma(0.5 * n)) / std::sqrt(std::numbers::pi);
+  const double c = 1.0 / std::beta(0.5, 0.5 * n);
   const double h = angle / kIntervals;
   double sum = 0.0;
   for (int i = 0; i <= kIntervals; ++i) {

@@ -25,14 +25,14 @@ int verify(const std::string& path) {
 
 }  // namespace
 
-Action add_verify_command(CLI::App& app, CLI::App*& command) {
+CommandBody add_verify_command(CLI::App& app, CLI::App*& command) {
   command = app.add_subcommand("verify", "Prove that a table's gains are stable; exit status 0 or 1");
   const auto path = std::make_shared<std::string>();
   command->add_option("TABLE", *path, "gain table (JSON)")->required();
   return [path] { return verify(*path); };
 }
 
-Action add_show_command(CLI::App& app, CLI::App*& command) {
+CommandBody add_show_command(CLI::App& app, CLI::App*& command) {
   command = app.add_subcommand("show", "Describe a table");
   const auto path = std::make_shared<std::string>();
   command->add_option("TABLE", *path, "gain table (JSON)")->required();

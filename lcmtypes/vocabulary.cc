@@ -110,6 +110,7 @@ std::string_view to_text(Notice notice) noexcept {
   return "unknown";
 }
 
+// NOLINTNEXTLINE(readability-function-size): a table
 std::string_view to_text(Reason reason) noexcept {
   switch (reason) {
     case Reason::kAccepted:

@@ -265,20 +265,21 @@ void home(Client& client, const Output& output, const std::string& joint) {
 }
 
 void move(Client& client, const Output& output, const MoveArguments& arguments) {
-  const auto& [joint, position_rad, wait, speed_limit_rad_s, tolerance_rad] = arguments;
+  const std::string& joint = arguments.joint;
+  const double position_rad = arguments.position_rad;
   setpoint_v2 message{};
   message.position_rad = position_rad;
-  message.speed_limit_rad_s = speed_limit_rad_s;
+  message.speed_limit_rad_s = arguments.speed_limit_rad_s;
   message.acknowledge = 1;
   const Answer answer = client.request(joint, channel_kind::kSetpoint, message);
-  Arrival arrival(position_rad, tolerance_rad, client.options().timeout_s);
+  Arrival arrival(position_rad, arguments.tolerance_rad, client.options().timeout_s);
   std::string hint;
   if (answer.reason == Reason::kOutOfRange && std::abs(position_rad) > 2.0 * std::numbers::pi) {
     hint = fmt::format("positions are in rad: {} degrees would be {:.6g}", position_rad,
                        position_rad * std::numbers::pi / 180.0);
   }
   require_accepted(answer, joint, fmt::format("move to {} rad", position_rad), hint);
-  if (!wait) {
+  if (!arguments.wait) {
     say(output, fmt::format("{}: moving to {} rad", joint, position_rad),
         {{"joint", joint}, {"target_rad", position_rad}, {"arrived", false}});
     return;

@@ -65,7 +65,7 @@ AuthorizedKey write_new_key(const std::filesystem::path& path, Role role, const 
     throw InputError(
         "--comment: at most 100 bytes without control characters or spaces at the ends are allowed");
   const SecretKeyText secret{SecretKey::generate(), role, comment};
-  const AuthorizedKey key{secret.key.public_key(), role, comment};
+  AuthorizedKey key{secret.key.public_key(), role, comment};
   write_new_file(public_path(path), to_line(key), 0644);
   try {
     write_new_file(path, to_line(secret), 0600);

@@ -26,9 +26,8 @@ template <typename Message>
 std::string csv_columns() {
   std::string line;
   visit_fields(Message{}, [&](const char* name, const auto& value) {
-    if constexpr (std::same_as<std::decay_t<decltype(value)>, std::string_view>) {
-      line += fmt::format(",{}", name);
-    } else if constexpr (requires { value.size(); }) {
+    constexpr bool is_text = std::same_as<std::decay_t<decltype(value)>, std::string_view>;
+    if constexpr (!is_text && requires { value.size(); }) {
       for (std::size_t i = 0; i < value.size(); ++i) line += fmt::format(",{}_{}", name, i);
     } else {
       line += fmt::format(",{}", name);

@@ -97,9 +97,7 @@ std::string message_json(const Message& message) {
   json::Object object;
   visit_fields(message, [&](const char* name, const auto& value) {
     using Value = std::decay_t<decltype(value)>;
-    if constexpr (std::same_as<Value, std::string_view>) {
-      object.add(name, value);
-    } else if constexpr (requires { value.size(); }) {
+    if constexpr (!std::same_as<Value, std::string_view> && requires { value.size(); }) {
       using Number = std::remove_cv_t<typename Value::element_type>;
       object.add(name, std::span<const Number>(value).first(json::used_entries(message, name, value.size())));
     } else if constexpr (std::integral<Value>) {

@@ -68,6 +68,7 @@ const std::array<Column, 10> kColumns{{
 
 std::vector<const Column*> fitting_columns(int columns) {
   std::vector<const Column*> chosen;
+  chosen.reserve(kColumns.size());
   for (const Column& column : kColumns) chosen.push_back(&column);
   const auto width = [&] {
     int sum = 1;
@@ -107,8 +108,8 @@ void draw_joints(const WatchModel& model, Screen& screen, int first, int count) 
   const int joints = static_cast<int>(model.joints.size());
   const int skip = std::clamp(model.selected - shown + 1, 0, std::max(0, joints - shown));
   for (int i = 0; i < shown && skip + i < joints; ++i)
-    draw_joint(model, model.joints[static_cast<std::size_t>(skip + i)], skip + i == model.selected, columns,
-               screen, first + 1 + i);
+    draw_joint(model, *std::next(model.joints.begin(), skip + i), skip + i == model.selected, columns, screen,
+               first + 1 + i);
 }
 
 void draw_daemon(const WatchedDaemon& daemon, Screen& screen, int row) {

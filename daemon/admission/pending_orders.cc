@@ -10,7 +10,7 @@ namespace {
 
 // What the loop's refusal means for whoever asked: the mode it met, and the way on.
 std::string advice(const Reply& reply) {
-  const std::string mode = "the joint is " + std::string(to_text(reply.mode));
+  std::string mode = "the joint is " + std::string(to_text(reply.mode));
   switch (reply.reason) {
     case Reason::kNoTable:
       return mode + ": load a gain table first";

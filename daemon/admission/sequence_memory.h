@@ -22,7 +22,8 @@ class SequenceMemory {
   struct Identity {
     std::int64_t who = 0;
     std::size_t joint = 0;
-    auto operator<=>(const Identity&) const = default;
+    // clang-tidy 14 takes the 0 that a comparison is compared with for a pointer.
+    auto operator<=>(const Identity&) const = default;  // NOLINT(modernize-use-nullptr)
   };
 
   /// `bound`: identities at a time; beyond it the longest silent one is forgotten.

@@ -46,9 +46,9 @@ TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, 
          << ": the table may not ask for more";
     return {Reason::kTableDefect, text.str()};
   }
-  const TableVerdict primary = judge_gains("primary", table.primary, expected, table.friction);
+  TableVerdict primary = judge_gains("primary", table.primary, expected, table.friction);
   if (primary.reason != Reason::kAccepted) return primary;
-  const TableVerdict fallback = judge_gains("fallback", table.fallback, expected, table.friction);
+  TableVerdict fallback = judge_gains("fallback", table.fallback, expected, table.friction);
   return fallback.reason != Reason::kAccepted ? fallback : primary;
 }
 

@@ -16,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::size_t kStackToTouch = 256 * 1024;
+constexpr std::size_t kStackToTouch = std::size_t{256} * 1024;
 
 std::string error_text(int error) {
   return std::generic_category().message(error);
@@ -36,8 +36,8 @@ std::string lock_memory() {
   if (::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) != 0)
     return "transparent huge pages cannot be switched off (" + error_text(errno) + ")";
   // Freed memory stays mapped and large blocks come from the heap: no page appears or disappears later.
-  ::mallopt(M_TRIM_THRESHOLD, -1);
-  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_TRIM_THRESHOLD, -1);  // NOLINT(concurrency-mt-unsafe): before the loop's thread
+  ::mallopt(M_MMAP_MAX, 0);         // NOLINT(concurrency-mt-unsafe): before the loop's thread
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return "";
   return "memory cannot be locked (" + error_text(errno) +
          "): run under the service, as root, or raise the limit with `ulimit -l unlimited`";

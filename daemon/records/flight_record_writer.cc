@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "base/durations.h"
@@ -27,7 +28,7 @@ constexpr double kBytesPerMB = 1e6;
 constexpr const char* kUnfinished = ".part";
 
 std::string error_text(const std::string& what) {
-  return what + ": " + std::strerror(errno);
+  return what + ": " + std::generic_category().message(errno);
 }
 
 bool write_all(int file, const std::string& text) {

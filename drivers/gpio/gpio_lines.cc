@@ -42,7 +42,7 @@ std::string known_chips() {
 
 std::string find_chip(const std::string& chip, const std::string& where) {
   if (chip.starts_with('/')) return chip;
-  const std::string path = "/dev/" + chip;
+  std::string path = "/dev/" + chip;
   std::vector<std::string> found;
   for (const std::string& candidate : chip_paths()) {
     if (candidate == path) return path;
@@ -139,8 +139,10 @@ GpioLines::GpioLines(const JointLines& lines, const std::string& consumer, const
       requests_.push_back({LineRequest(group.settings), group.roles, output});
     } catch (const std::system_error& error) {
       std::string names;
-      for (const LineRole role : group.roles)
-        names += (names.empty() ? "" : ", ") + std::string(to_text(role));
+      for (const LineRole role : group.roles) {
+        if (!names.empty()) names += ", ";
+        names += to_text(role);
+      }
       throw InputError(where + ": lines " + names + " of " + group.settings.chip_path +
                        " cannot be requested: " + error.what() +
                        " (strainwavectl gpio-check shows who holds them)");

@@ -18,7 +18,8 @@ namespace strainwave::canopen {
 struct Entry {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  auto operator<=>(const Entry&) const = default;
+  // clang-tidy 14 takes the 0 that a comparison is compared with for a pointer.
+  auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 /// "6076h:00"
 std::string to_text(Entry entry);
