@@ -26,6 +26,7 @@ template <typename Value>
 std::vector<double> values_of(const std::vector<FlexibleRow>& rows, std::size_t contender,
                               const Value& value) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const FlexibleRow& row : rows) values.push_back(value(row.results[contender]));
   return values;
 }

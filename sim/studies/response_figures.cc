@@ -176,6 +176,7 @@ Figure resting_torque(const Chapter6& chapter) {
 
 std::vector<Figure> response_figures(const Chapter6& chapter) {
   std::vector<Figure> figures;
+  figures.reserve(static_cast<std::size_t>(kRangeCount));
   for (int range = 0; range < kRangeCount; ++range)
     figures.push_back(step_responses(chapter, Setting::kIdeal, range));
   figures.push_back(step_responses(chapter, Setting::kRealistic, 0));

@@ -73,6 +73,7 @@ double percentile(std::vector<double> values, double fraction) {
 template <typename Value>
 std::vector<double> values_of(const std::vector<RobustnessDraw>& draws, const Value& value) {
   std::vector<double> values;
+  values.reserve(draws.size());
   for (const RobustnessDraw& draw : draws) values.push_back(value(draw));
   return values;
 }
