@@ -49,6 +49,22 @@ TEST(ChatterMonitor, TakesWhatTheLawsFrictionCompensationMakesForNoneWhileTheRef
     ASSERT_EQ(monitor.step(sample_with(noise(random))), MonitorState::kWatching);
 }
 
+TEST(ChatterMonitor, LetsALandingReverseWhereItWouldTakeTheLawForChattering) {
+  const auto after_five_reversals = [](bool landing) {
+    ChatterMonitor monitor(0.001);
+    MonitorState state = MonitorState::kWatching;
+    for (int k = 0; k < 60; ++k) {
+      ChatterSample sample = sample_with(k / 10 % 2 == 0 ? 20.0 : -20.0);
+      sample.landing = landing;
+      sample.surprised = true;
+      state = monitor.step(sample);
+    }
+    return state;
+  };
+  EXPECT_EQ(after_five_reversals(true), MonitorState::kWatching);
+  EXPECT_EQ(after_five_reversals(false), MonitorState::kFallenBack);
+}
+
 TEST(ChatterMonitor, SeesAtRestWhatIsTooWeakToBeSeenInMotionAndNeverWhatCannotMoveTheJoint) {
   for (const double amplitude_Nm : {0.9, 2.0}) {
     ChatterMonitor monitor(0.001);

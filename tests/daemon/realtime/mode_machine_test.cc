@@ -64,6 +64,15 @@ TEST(ModeMachine, TakesNoMotionBeforeTheBrakeIsOpen) {
   EXPECT_TRUE(is_controlled(Mode::kReleasing)) << "the torque holds the position";
 }
 
+TEST(ModeMachine, TakesNoTorqueFromAControlledJointBeforeItCameToRest) {
+  for (const Mode mode : kModes)
+    for (const ModeEvent event : kEvents)
+      if (is_controlled(mode) && event != ModeEvent::kStopped) {
+        EXPECT_NE(next_mode(mode, event), Mode::kOff)
+            << static_cast<int>(mode) << " by " << static_cast<int>(event);
+      }
+}
+
 TEST(ModeMachine, TakesNoSetpointWhileItLooksForHome) {
   EXPECT_FALSE(next_mode(Mode::kHoming, ModeEvent::kSetpointAccepted));
 }
