@@ -1,3 +1,4 @@
+// Above 300 lines: the texts of every number of vocabulary.h, a table each.
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {

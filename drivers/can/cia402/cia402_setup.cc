@@ -1,3 +1,4 @@
+// Above 300 lines: the steps of a drive's set-up in the order in which they are done, each a few lines that only this order explains.
 #include "drivers/can/cia402/cia402_setup.h"
 
 #include <algorithm>
