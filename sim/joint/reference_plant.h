@@ -3,8 +3,8 @@
 // docs/theory.md), Stribeck velocity 20 RPM of the motor, and data/rhs17_datasheet.csv.
 #pragma once
 
-#include "control/units.h"
 #include "control/gear_catalogue.h"
+#include "control/units.h"
 #include "sim/joint/joint_plant.h"
 
 namespace strainwave {
