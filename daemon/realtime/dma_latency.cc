@@ -9,18 +9,13 @@
 
 namespace strainwave {
 
-DmaLatency::~DmaLatency() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-std::string DmaLatency::request() {
-  constexpr const char* kPath = "/dev/cpu_dma_latency";
-  descriptor_ = ::open(kPath, O_WRONLY | O_CLOEXEC);
-  if (descriptor_ < 0 && errno == ENOENT) return "";
+std::string DmaLatency::request(const std::filesystem::path& file) {
+  descriptor_ = UniqueFd(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!descriptor_ && errno == ENOENT) return "";
   const std::int32_t latency_us = 0;
-  if (descriptor_ >= 0 && ::write(descriptor_, &latency_us, sizeof latency_us) == sizeof latency_us)
+  if (descriptor_ && ::write(descriptor_.get(), &latency_us, sizeof latency_us) == sizeof latency_us)
     return "";
-  return std::string(kPath) + " cannot be written (" + std::generic_category().message(errno) +
+  return file.string() + " cannot be written (" + std::generic_category().message(errno) +
          "): wake-ups may be late by the sleep states' exit times; allow the service to write it";
 }
 
