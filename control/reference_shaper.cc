@@ -75,19 +75,21 @@ double ReferenceShaper::possible_velocity_rad_s(double wanted_rad_s,
   const double decelerating = period_s_ * limits_.deceleration_rad_s2;
   const double accelerating = period_s_ * limits_.acceleration_rad_s2;
   const double middle_rad = position_rad_ + 0.5 * period_s_ * velocity_rad_s_;
-  const double up = std::min(limits_.velocity_rad_s, largest_stoppable_velocity(
-                                                         range.max_rad - middle_rad, limits_.deceleration_rad_s2));
-  const double down = std::min(limits_.velocity_rad_s, largest_stoppable_velocity(
-                                                           middle_rad - range.min_rad, limits_.deceleration_rad_s2));
+  const double up = std::min(limits_.velocity_rad_s, largest_stoppable_velocity(range.max_rad - middle_rad,
+                                                                                limits_.deceleration_rad_s2));
+  const double down =
+      std::min(limits_.velocity_rad_s,
+               largest_stoppable_velocity(middle_rad - range.min_rad, limits_.deceleration_rad_s2));
   const double inside = std::clamp(wanted_rad_s, -down, up);
   // A sample that turns round has one acceleration, so both limits hold in it.
   const double turning = std::min(accelerating, decelerating);
   const bool forward = velocity_rad_s_ > 0.0;
   const bool backward = velocity_rad_s_ < 0.0;
-  const double slowest = velocity_rad_s_ - (forward ? std::max(turning, std::min(decelerating, velocity_rad_s_))
-                                                    : accelerating);
-  const double fastest = velocity_rad_s_ + (backward ? std::max(turning, std::min(decelerating, -velocity_rad_s_))
-                                                     : accelerating);
+  const double slowest =
+      velocity_rad_s_ - (forward ? std::max(turning, std::min(decelerating, velocity_rad_s_)) : accelerating);
+  const double fastest =
+      velocity_rad_s_ +
+      (backward ? std::max(turning, std::min(decelerating, -velocity_rad_s_)) : accelerating);
   return std::clamp(inside, slowest, fastest);
 }
 
@@ -115,7 +117,7 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
 
 Reference ReferenceShaper::step() noexcept {
   double velocity = stopping_ ? brake_to_rest(velocity_rad_s_)
-                             : next_velocity_rad_s(target_rad_ - position_rad_, velocity_rad_s_, limits_);
+                              : next_velocity_rad_s(target_rad_ - position_rad_, velocity_rad_s_, limits_);
   double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
 
   if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {

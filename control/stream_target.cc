@@ -68,7 +68,8 @@ void StreamTarget::clock_in() noexcept {
   const double n = arrivals_;
   const double intervals = std::max(1.0, std::round(gap / interval_));
   const double late = gap - intervals * interval_;
-  arrival_ += intervals * interval_ + std::max(kLeastArrivalGain, 2.0 * (2.0 * n - 1.0) / (n * (n + 1.0))) * late;
+  arrival_ +=
+      intervals * interval_ + std::max(kLeastArrivalGain, 2.0 * (2.0 * n - 1.0) / (n * (n + 1.0))) * late;
   interval_ += std::max(kLeastIntervalGain, 6.0 / (n * (n + 1.0))) * late / intervals;
   interval_ = std::max(interval_, 1.0);
 }
@@ -132,8 +133,9 @@ StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, con
   carried.at = std::max(knot.at + ahead, now_ + 1.0);
   carried.acceleration_rad_s2 += carried_s * jerk_rad_s3;
   carried.velocity_rad_s += carried_s * (knot.acceleration_rad_s2 + 0.5 * carried_s * jerk_rad_s3);
-  carried.position_rad += carried_s * (knot.velocity_rad_s +
-                                       carried_s * (0.5 * knot.acceleration_rad_s2 + carried_s * jerk_rad_s3 / 6.0));
+  carried.position_rad +=
+      carried_s *
+      (knot.velocity_rad_s + carried_s * (0.5 * knot.acceleration_rad_s2 + carried_s * jerk_rad_s3 / 6.0));
   return carried;
 }
 

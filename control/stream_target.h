@@ -82,16 +82,16 @@ class StreamTarget {
   State beyond(double period) noexcept;
 
   double period_s_;
-  double now_ = 0.0;       ///< periods since begin()
-  State state_;            ///< now
-  Knot from_;              ///< the quintic's begin ...
-  Knot to_;                ///< ... and end
+  double now_ = 0.0;  ///< periods since begin()
+  State state_;       ///< now
+  Knot from_;         ///< the quintic's begin ...
+  Knot to_;           ///< ... and end
   double speed_limit_rad_s_ = 0.0;
   std::array<Knot, kKnots> waiting_{};  ///< knots after to_, by time
   std::size_t waiting_count_ = 0;
-  double interval_ = 0.0;  ///< between samples, in periods, smoothed; 0: only one has come
-  double arrival_ = 0.0;   ///< of the last sample, smoothed
-  int arrivals_ = 0;            ///< untimed ones, that the loop has locked to
+  double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come
+  double arrival_ = 0.0;            ///< of the last sample, smoothed
+  int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
   bool ended_ = false;

@@ -55,7 +55,8 @@ std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
   else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
     text << "velocity_rad_s = " << setpoint.velocity_rad_s << ": at most " << kMaxVelocity_rad_s;
   else if (std::abs(setpoint.acceleration_rad_s2) > kMaxAcceleration_rad_s2)
-    text << "acceleration_rad_s2 = " << setpoint.acceleration_rad_s2 << ": at most " << kMaxAcceleration_rad_s2;
+    text << "acceleration_rad_s2 = " << setpoint.acceleration_rad_s2 << ": at most "
+         << kMaxAcceleration_rad_s2;
   else
     return std::nullopt;
   return text.str();
@@ -250,9 +251,10 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
       !std::isfinite(setpoint->speed_limit_rad_s) || !std::isfinite(setpoint->velocity_rad_s) ||
       !std::isfinite(setpoint->acceleration_rad_s2))
-    return refuse(requester, Reason::kNotFinite,
-                  "position_rad, velocity_rad_s, acceleration_rad_s2, valid_for_s and speed_limit_rad_s must be "
-                  "finite numbers");
+    return refuse(
+        requester, Reason::kNotFinite,
+        "position_rad, velocity_rad_s, acceleration_rad_s2, valid_for_s and speed_limit_rad_s must be "
+        "finite numbers");
   const JointAdmission& limits = joints_[joint];
   std::ostringstream text;
   if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {

@@ -96,8 +96,9 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   if (order.stream_id == 0)
     controller_.set_target(target_rad, order.speed_limit_rad_s);
   else
-    controller_.follow({target_rad, order.velocity_rad_s, order.acceleration_rad_s2, order.derivatives, in_periods},
-                       order.speed_limit_rad_s, reachable_range());
+    controller_.follow(
+        {target_rad, order.velocity_rad_s, order.acceleration_rad_s2, order.derivatives, in_periods},
+        order.speed_limit_rad_s, reachable_range());
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   return Reason::kAccepted;
 }

@@ -233,7 +233,8 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
   ExtendedFeatures told = standard;
   told.link = true;
   std::vector<Contender> contenders = {pid_contender(), plain("C4", tables.c4, &plain_contender),
-                                       daemon("daemon", standard), daemon("daemon, told of its spring", told)};
+                                       daemon("daemon", standard),
+                                       daemon("daemon, told of its spring", told)};
   const auto without = [&](const std::string& name, bool ExtendedFeatures::*part) {
     ExtendedFeatures features = standard;
     features.*part = false;

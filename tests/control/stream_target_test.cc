@@ -21,10 +21,11 @@ constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr MotionLimits kLimits{8.0, 60.0, 80.0};
 
 StreamSample sine(double t_s, int derivatives) {
-  return {kAmplitude_rad * std::sin(kOmega_rad_s * t_s),
-          derivatives >= 1 ? kAmplitude_rad * kOmega_rad_s * std::cos(kOmega_rad_s * t_s) : 0.0,
-          derivatives >= 2 ? -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(kOmega_rad_s * t_s) : 0.0,
-          derivatives};
+  return {
+      kAmplitude_rad * std::sin(kOmega_rad_s * t_s),
+      derivatives >= 1 ? kAmplitude_rad * kOmega_rad_s * std::cos(kOmega_rad_s * t_s) : 0.0,
+      derivatives >= 2 ? -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(kOmega_rad_s * t_s) : 0.0,
+      derivatives};
 }
 
 /// What is sent: `at_s` for `of_s`.
@@ -51,9 +52,9 @@ class Following {
 };
 
 struct Tracked {
-  double rms_error_rad = 0.0;     ///< from the sine, `lag_s` ago
+  double rms_error_rad = 0.0;  ///< from the sine, `lag_s` ago
   double largest_error_rad = 0.0;
-  double rms_acceleration = 0.0;  ///< over the sine's own
+  double rms_acceleration = 0.0;     ///< over the sine's own
   double largest_step_rad_s2 = 0.0;  ///< of the acceleration, between two periods, beyond the sine's own
 };
 
@@ -84,8 +85,8 @@ Tracked track(const std::vector<Sent>& sent, int derivatives, double lag_s) {
     last_rad_s2 = reference.acceleration_rad_s2;
   }
   result.rms_error_rad = std::sqrt(squares / counted);
-  result.rms_acceleration =
-      std::sqrt(accelerations / counted) / (kAmplitude_rad * kOmega_rad_s * kOmega_rad_s / std::numbers::sqrt2);
+  result.rms_acceleration = std::sqrt(accelerations / counted) /
+                            (kAmplitude_rad * kOmega_rad_s * kOmega_rad_s / std::numbers::sqrt2);
   return result;
 }
 
@@ -221,9 +222,10 @@ TEST(ReferenceShaper, KeepsAllLimitsWhileItFollowsAnything) {
       ASSERT_TRUE(std::isfinite(reference.position_rad));
       ASSERT_LE(std::abs(reference.velocity_rad_s), kLimits.velocity_rad_s + 1e-9) << run << ", " << k;
       const double change = reference.velocity_rad_s - last.velocity_rad_s;
-      const double allowed = (std::abs(reference.velocity_rad_s) > std::abs(last.velocity_rad_s)
-                                  ? kLimits.acceleration_rad_s2
-                                  : kLimits.deceleration_rad_s2) * kPeriod_s;
+      const double allowed =
+          (std::abs(reference.velocity_rad_s) > std::abs(last.velocity_rad_s) ? kLimits.acceleration_rad_s2
+                                                                              : kLimits.deceleration_rad_s2) *
+          kPeriod_s;
       ASSERT_LE(std::abs(change), allowed + 1e-9) << run << ", " << k;
       ASSERT_GE(reference.position_rad, range.min_rad - 1e-9) << run << ", " << k;
       ASSERT_LE(reference.position_rad, range.max_rad + 1e-9) << run << ", " << k;

@@ -134,7 +134,7 @@ class TestClient {
   std::int64_t stream_id_ = 1;
   bool stream_begins_ = true;
   std::map<std::string, std::optional<state_v1>> states_;
-  std::map<std::string, std::int64_t> heard_us_;  ///< when the latest state arrived
+  std::map<std::string, std::int64_t> heard_us_;           ///< when the latest state arrived
   std::map<std::string, std::int64_t> stopped_challenge_;  ///< of the last stop
   std::map<std::string, std::vector<state_v1>> history_;
   std::map<std::int64_t, ack_v1> acks_;
