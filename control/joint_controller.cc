@@ -121,6 +121,7 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   primary_.reset();
   fallback_.reset();
   torques_Nm_.fill(holding_torque_Nm);
+  late_periods_ = 0;
   reference_ = {position_rad, begin_rad_s, 0.0};
   ordered_reference_ = reference_;
   planned_ = {0.0, begin_rad_s, 0.0};
@@ -191,7 +192,8 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   // Before the first period nothing has acted yet.
   const int acted_periods = gains_in_use_ == GainsInUse::kNone ? 0 : elapsed_periods;
   choose_gains(measurement);
-  let_torque_act(acted_periods);
+  let_torque_act(acted_periods,
+                 std::clamp(measurement.late_periods, 0, kMaxControlDelay - config_.delay_periods));
   estimate_state(measurement, elapsed_periods);
   look_ahead();
   advance_reference(elapsed_periods);
@@ -232,12 +234,20 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
   has_temperature_ = true;
 }
 
-// Over periods that were left out the last torque stayed applied: it is remembered once more for each.
-void JointController::let_torque_act(int periods) noexcept {
+// Over periods that were left out the last torque stayed applied: it is remembered once more for each. From the last position's
+// sampling to this one's, fewer periods have passed when positions become late, and more when they catch up.
+void JointController::let_torque_act(int periods, int late_periods) noexcept {
+  const auto predict = [&](int late) {
+    if (observing())
+      observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_periods + late)], model_);
+  };
+  const int later = late_periods - late_periods_;
   for (int period = 0; period < periods; ++period) {
     if (period > 0) push_back(torques_Nm_.front());
-    if (observing()) observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_periods)], model_);
+    if (period < periods - later) predict(late_periods_);
   }
+  for (int late = late_periods_ - 1; late >= late_periods; --late) predict(late);
+  late_periods_ = late_periods;
 }
 
 void JointController::estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept {
@@ -269,7 +279,7 @@ void JointController::estimate_state(const JointMeasurement& measurement, int el
 void JointController::look_ahead() noexcept {
   then_ = now_;
   if (!observing()) return;
-  for (int i = config_.delay_periods - 1; i >= 0; --i) {
+  for (int i = config_.delay_periods + late_periods_ - 1; i >= 0; --i) {
     const ModelMotion motion = adapted_.advance(torques_Nm_[static_cast<std::size_t>(i)], then_.disturbance,
                                                 then_.velocity_rad_s, config_.period_s);
     then_.position_rad += motion.displacement_rad;

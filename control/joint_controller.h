@@ -81,6 +81,9 @@ struct JointMeasurement {
   /// Periods since the last step(), >= 1; more when the loop left some out. Over those the last torque stayed
   /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
   int elapsed_periods = 1;
+  /// >= 0: the position was sampled so many periods before delay_samples has it. More than kMaxControlDelay in all count as
+  /// that many.
+  int late_periods = 0;
 };
 
 /// How the torque comes about.
@@ -136,7 +139,7 @@ class JointController {
  private:
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
-  void let_torque_act(int periods) noexcept;
+  void let_torque_act(int periods, int late_periods) noexcept;
   void estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept;
   void look_ahead() noexcept;
   void advance_reference(int elapsed_periods) noexcept;
@@ -164,7 +167,10 @@ class JointController {
   bool reference_moves() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
-  bool may_land() const noexcept { return config_.use_landing && !fallen_back() && attempts_.allowed(); }
+  /// Its pushes are planned for the usual delay.
+  bool may_land() const noexcept {
+    return config_.use_landing && !fallen_back() && attempts_.allowed() && late_periods_ == 0;
+  }
   double distance_to_target_rad() const noexcept;
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
@@ -215,6 +221,7 @@ class JointController {
   double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
   double reference_rest_s_ = 0.0;             ///< since when it rests, while tracking
   double zero_velocity_weight_ = 1.0;         ///< alpha_0 at rest
+  int late_periods_ = 0;                      ///< of the newest position
   int replans_ = 0;                           ///< since start()
   int plans_ = 0;                             ///< new ones since the target or the phase changed
   int away_periods_ = 0;                      ///< that a resting joint has been off its target

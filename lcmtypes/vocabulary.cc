@@ -107,6 +107,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "chatter, plain control law";
     case Notice::kOffStream:
       return "off the stream";
+    case Notice::kPositionLate:
+      return "position late";
   }
   return "unknown";
 }
@@ -307,6 +309,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.control.rigid";
     case Notice::kOffStream:
       return "joint.limits";
+    case Notice::kPositionLate:
+      return "joint.can.delay_periods";
   }
   return "";
 }

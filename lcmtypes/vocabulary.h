@@ -65,6 +65,7 @@ enum class Notice : std::int32_t {
   kAtLimitSwitch = 1 << 7,
   kPlainLaw = 1 << 8,
   kOffStream = 1 << 9,
+  kPositionLate = 1 << 10,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

@@ -17,13 +17,17 @@ std::string describe(const timing_v1& timing) {
       "overruns                 {}\n"
       "wake-up latency, worst   {:.1f} us\n"
       "execution time, worst    {:.1f} us\n"
+      "position delay, worst    {}\n"
       "page faults in the loop  {}\n"
       "state records dropped    {}\n",
       timing.real_time == 1 ? "yes (SCHED_FIFO, locked memory)" : "no (refused by the system)",
       timing.period_s, timing.joint_count, timing.cycles, timing.overruns,
       static_cast<double>(timing.wakeup_latency_max_ns) * 1e-3,
-      static_cast<double>(timing.execution_time_max_ns) * 1e-3, timing.page_faults,
-      timing.state_records_dropped);
+      static_cast<double>(timing.execution_time_max_ns) * 1e-3,
+      timing.position_delay_max_ns > 0
+          ? fmt::format("{:.1f} us", static_cast<double>(timing.position_delay_max_ns) * 1e-3)
+          : "not measured by any drive",
+      timing.page_faults, timing.state_records_dropped);
   for (int reason = 1; reason < kReasonCount; ++reason) {
     if (timing.rejects[reason] == 0) continue;
     text += fmt::format("refused messages         {} ({})\n", timing.rejects[reason],
@@ -42,6 +46,7 @@ std::vector<ResultField> fields_of(const timing_v1& timing) {
           {"overruns", std::int64_t{timing.overruns}},
           {"wakeup_latency_max_ns", std::int64_t{timing.wakeup_latency_max_ns}},
           {"execution_time_max_ns", std::int64_t{timing.execution_time_max_ns}},
+          {"position_delay_max_ns", std::int64_t{timing.position_delay_max_ns}},
           {"page_faults", std::int64_t{timing.page_faults}},
           {"state_records_dropped", std::int64_t{timing.state_records_dropped}},
           {"rejects", refused}};

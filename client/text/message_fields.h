@@ -56,9 +56,11 @@ void visit_fields(const timing_v1& message, Visit&& visit) {
   visit("joint_count", message.joint_count);
   visit("wakeup_latency_max_ns", message.wakeup_latency_max_ns);
   visit("execution_time_max_ns", message.execution_time_max_ns);
+  visit("position_delay_max_ns", message.position_delay_max_ns);
   visit("wakeup_latency_count", std::span(message.wakeup_latency_count));
   visit("execution_time_count", std::span(message.execution_time_count));
   visit("period_error_count", std::span(message.period_error_count));
+  visit("position_delay_count", std::span(message.position_delay_count));
   visit("rejects", std::span(message.rejects));
 }
 

@@ -24,7 +24,7 @@ constexpr double kSilence_s = 1.0;  // a daemon publishes at least this often at
 constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
                               Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
                               Notice::kNotHomed,        Notice::kAtLimitSwitch,      Notice::kPlainLaw,
-                              Notice::kOffStream};
+                              Notice::kOffStream,       Notice::kPositionLate};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));

@@ -111,12 +111,14 @@ void Answers::timing(const LoopTotals& statistics, const std::array<std::int64_t
   message.joint_count = static_cast<std::int32_t>(joints_.size());
   message.wakeup_latency_max_ns = statistics.wakeup_latency.max_ns();
   message.execution_time_max_ns = statistics.execution_time.max_ns();
+  message.position_delay_max_ns = statistics.position_delay.max_ns();
   const auto copy = [](const HistogramCounts& counts, std::int64_t* to) {
     std::copy(counts.begin(), counts.end(), to);
   };
   copy(statistics.wakeup_latency.counts(), message.wakeup_latency_count);
   copy(statistics.execution_time.counts(), message.execution_time_count);
   copy(statistics.period_error.counts(), message.period_error_count);
+  copy(statistics.position_delay.counts(), message.position_delay_count);
   std::copy(rejects.begin(), rejects.end(), message.rejects);
   out_.write(wire(timing_channel(prefix_), message));
 }

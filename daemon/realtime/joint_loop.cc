@@ -91,6 +91,7 @@ void JointLoop::read_drive(const CycleTime& time) noexcept {
 
 void JointLoop::check_reading(const CycleTime& time) noexcept {
   if (watch_.missed()) notice(Notice::kReadingMissed);
+  if (position_delay_ns() > nanoseconds(config_.controller.period_s)) notice(Notice::kPositionLate);
   if (reading().inputs.negative_limit || reading().inputs.positive_limit) notice(Notice::kAtLimitSwitch);
   // A drive that is off may be unreadable; it then cannot be enabled, which is enough.
   if (mode_.is(Mode::kOff)) return;
@@ -128,6 +129,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
       schedule_.follow_C(temperature_.used_C(), time.cycle, motion_.gains_in_use != GainsInUse::kPrimary);
   measurement.has_velocity = reading().has_velocity;
   measurement.temperature_valid = temperature_.usable();
+  measurement.late_periods = reading().position_late_periods;
   measurement.elapsed_periods =
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, kMaxElapsedPeriods));
   motion_ = controller_.step(measurement);

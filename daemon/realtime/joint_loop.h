@@ -93,6 +93,8 @@ class JointLoop {
   bool at_rest() const noexcept { return mode() == Mode::kOff || mode() == Mode::kFaulted; }
   Mode mode() const noexcept { return mode_.mode(); }
   const StateRecord& record() const noexcept { return record_; }
+  /// Of this period's position, from its sampling until it came; 0: not known, or none came.
+  std::int64_t position_delay_ns() const noexcept { return watch_.fresh() ? reading().position_delay_ns : 0; }
 
  private:
   enum class Service { kServing, kEnding };

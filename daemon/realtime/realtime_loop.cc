@@ -83,6 +83,7 @@ void RealtimeLoop::run() noexcept {
     for (const auto& bus : buses_) bus->begin_cycle(time.now_ns);
     for (const auto& joint : joints_) joint->step(time);
     stop_faulted_groups(joints_, time);
+    account_positions();
     for (const auto& bus : buses_) bus->end_cycle();
     publish(time);
 
@@ -123,6 +124,11 @@ void RealtimeLoop::bring_to_rest_when_asked(const CycleTime& time) noexcept {
   if (!stop_requested_.load(std::memory_order_acquire)) return;
   if (stop_since_cycle_ < 0) stop_since_cycle_ = time.cycle;
   for (const auto& joint : joints_) joint->end(time);
+}
+
+void RealtimeLoop::account_positions() noexcept {
+  for (const auto& joint : joints_)
+    if (joint->position_delay_ns() > 0) statistics_->position_delay.add(joint->position_delay_ns());
 }
 
 void RealtimeLoop::publish(const CycleTime& time) noexcept {

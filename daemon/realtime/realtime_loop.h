@@ -30,6 +30,7 @@ struct LoopTotals {
   Histogram wakeup_latency;
   Histogram execution_time;
   Histogram period_error;
+  Histogram position_delay;  ///< of all joints whose drives let it be measured
 };
 
 class RealtimeLoop {
@@ -70,6 +71,7 @@ class RealtimeLoop {
   void run() noexcept;
   void account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept;
   void bring_to_rest_when_asked(const CycleTime& time) noexcept;
+  void account_positions() noexcept;
   void publish(const CycleTime& time) noexcept;
   void stop_drives() noexcept;
 

@@ -1,19 +1,26 @@
 // How old a position is that a drive samples with each SYNC and sends later: from the time stamps that the kernel gives SYNC
 // and TPDO. Real-time safe.
 //
-// A TPDO does not say which SYNC it belongs to. Its delay is measured at start-up, with one SYNC at a time. From there on it is
-// followed by its place in the period: after SYNCs without a TPDO, one that comes at another place in the period than before is late by those periods,
-// one that comes where it always did is on time and the others were lost; two with one SYNC catch up by a period.
+// A TPDO does not say which SYNC it belongs to. Its delay is measured at start-up, with one SYNC at a time. From there on two
+// things are followed:
+//
+//   its place in the period   after SYNCs without a TPDO, one that comes at another place in the period than before is late by
+//                             those periods; two with one SYNC catch up by a period
+//   the place of TPDO2        which the drive sends with every nth SYNC that it counts: lateness of whole periods, which leaves
+//                             TPDO1 at its place as if some had been lost, moves it among the SYNCs
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 namespace strainwave {
 
 class SampleAge {
  public:
-  explicit SampleAge(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}
+  /// `slow_every`: the SYNCs from one TPDO2 to the next; 1: nothing can be seen from it.
+  SampleAge(std::int64_t period_ns, int slow_every) noexcept
+      : period_ns_(period_ns), slow_every_(slow_every) {}
 
   /// `delay_ns` >= 0: from SYNC to TPDO, as measured.
   void restart(std::int64_t delay_ns) noexcept {
@@ -21,11 +28,13 @@ class SampleAge {
     syncs_ = samples_at_place_ = 0;
     delay_ns_ = delay_ns;
     started_ = false;
+    slow_ = {};
   }
   /// Kernel's time; 0: unknown, then nothing is said of the age.
   void sync(std::int64_t time_ns) noexcept {
     sync_ns_ = time_ns;
     ++syncs_;
+    ++sync_count_;
   }
   void sample(std::int64_t time_ns) noexcept {
     if (sync_ns_ == 0 || time_ns == 0) return;
@@ -41,31 +50,72 @@ class SampleAge {
     if (samples_at_place_ >= kSettled) lag_ = usual_lag_;
     started_ = true;
     syncs_ = 0;
-    delay_ns_ = lag_ * period_ns_ + phase_ns;
+    delay_ns_ = lag_periods() * period_ns_ + phase_ns;
+  }
+  /// TPDO2 has come.
+  void slow_sample(std::int64_t time_ns) noexcept {
+    if (sync_ns_ == 0 || time_ns == 0 || slow_every_ < 2) return;
+    const std::int64_t since_ns = time_ns - sync_ns_;
+    const std::int64_t came_with = sync_count_ + (since_ns - within_a_period(since_ns)) / period_ns_;
+    if (!slow_.started) slow_.usual = came_with;
+    slow_.started = true;
+    slow_.see(around_zero(came_with - slow_.usual));
   }
   /// Of the newest sample, from its SYNC until it came.
   std::int64_t delay_ns() const noexcept { return delay_ns_; }
   /// How many SYNCs later than the newest one before it came it was sampled.
-  int lag_periods() const noexcept { return lag_; }
+  int lag_periods() const noexcept { return std::max(lag_, usual_lag_ + slow_.late); }
+  /// Those beyond what was measured at start-up.
+  int late_periods() const noexcept { return lag_periods() - usual_lag_; }
 
  private:
   /// Of a period: what a TPDO's place may jitter by, on adapters that tell of frames promptly.
   static constexpr std::int64_t kPlaceShare = 5;
   static constexpr int kSettled = 50;
+  /// TPDO2s in a row: a single one may wait behind other frames.
+  static constexpr int kAgreeing = 3;
+
+  /// Where TPDO2 comes among the SYNCs.
+  struct SlowPlace {
+    void see(std::int64_t off) noexcept {
+      const bool agrees = in_a_row > 0 && (off > 0) == (least > 0) && off != 0;
+      in_a_row = off == 0 ? 0 : agrees ? in_a_row + 1 : 1;
+      if (!agrees || std::abs(off) < std::abs(least)) least = off;
+      if (off == 0) late = 0;
+      if (in_a_row < kAgreeing) return;
+      // Nobody answers before he is asked: what is early tells of a SYNC of which we were not told.
+      if (least < 0) usual += least;
+      late = least > 0 ? static_cast<int>(least) : 0;
+      if (least < 0) in_a_row = 0;
+    }
+    std::int64_t usual = 0;  ///< a SYNC with which it came when it was on time
+    std::int64_t least = 0;  ///< of those in a row
+    int in_a_row = 0;        ///< so many were off to the same side
+    int late = 0;            ///< periods
+    bool started = false;
+  };
 
   std::int64_t within_a_period(std::int64_t time_ns) const noexcept {
     const std::int64_t rest_ns = time_ns % period_ns_;
     return rest_ns < 0 ? rest_ns + period_ns_ : rest_ns;
   }
+  /// The same place among the SYNCs between two TPDO2s, from -slow_every / 2 to slow_every / 2.
+  std::int64_t around_zero(std::int64_t syncs) const noexcept {
+    const std::int64_t rest = ((syncs % slow_every_) + slow_every_) % slow_every_;
+    return rest > slow_every_ / 2 ? rest - slow_every_ : rest;
+  }
 
   std::int64_t period_ns_;
+  std::int64_t slow_every_;
   std::int64_t usual_phase_ns_ = 0;
   int usual_lag_ = 0;
   int lag_ = 0;
   std::int64_t sync_ns_ = 0;
+  std::int64_t sync_count_ = 0;
   std::int64_t delay_ns_ = 0;
   int syncs_ = 0;  ///< since the last sample
   int samples_at_place_ = 0;
+  SlowPlace slow_;
   bool started_ = false;
 };
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <random>
 
 #include "control/gain_table_json.h"
@@ -41,7 +43,11 @@ class Loop {
   JointStep step() {
     plant_.set_ambient_temperature(temperature_C);
     JointMeasurement measurement;
-    measurement.joint_position_rad = plant_.measured_position_rad();
+    positions_rad_.push_front(plant_.measured_position_rad());
+    positions_rad_.resize(std::min(positions_rad_.size(), std::size_t{20}));
+    const auto late = std::min(static_cast<std::size_t>(late_periods), positions_rad_.size() - 1);
+    measurement.joint_position_rad = positions_rad_[late];
+    measurement.late_periods = tells_lateness ? static_cast<int>(late) : 0;
     measurement.temperature_C = temperature_C;
     measurement.temperature_valid = temperature_valid;
     measurement.elapsed_periods = 1 + skipped_periods_;
@@ -72,8 +78,11 @@ class Loop {
   double temperature_C = 20.0;
   double load_torque_Nm = 0.0;
   bool temperature_valid = true;
+  int late_periods = 0;  ///< positions come so many periods after their sampling
+  bool tells_lateness = true;
 
  private:
+  std::deque<double> positions_rad_;
   JointPlant plant_;
   JointController controller_;
   double torque_Nm_ = 0.0;
@@ -143,6 +152,39 @@ TEST(JointController, DoesNotOvershootALargeMoveByMoreThanAMillirad) {
       furthest_rad = std::max(furthest_rad, loop.position_rad());
     }
     EXPECT_LE(furthest_rad, 1.0 + 1e-3) << temperature_C;
+  }
+}
+
+/// Largest distance from the target in the last half second of two, and the largest overshoot of the move.
+struct LateMove {
+  double rest_rad = 0.0;
+  double overshoot_rad = 0.0;
+};
+LateMove move_late(int late_periods, bool told) {
+  Loop loop;
+  loop.tells_lateness = told;
+  loop.controller().set_target(0.1);
+  loop.run(1.0);
+  loop.late_periods = late_periods;
+  loop.run(0.1);
+  loop.controller().set_target(0.4);
+  LateMove result;
+  for (int k = 0; k < 2000; ++k) {
+    loop.step();
+    const double beyond_rad = loop.position_rad() - 0.4;
+    result.overshoot_rad = std::max(result.overshoot_rad, beyond_rad);
+    if (k >= 1500) result.rest_rad = std::max(result.rest_rad, std::abs(beyond_rad));
+  }
+  return result;
+}
+
+TEST(JointController, ALatePositionDoesLessHarmWhenItsLatenessIsKnown) {
+  for (const int periods : {1, 2, 3}) {
+    const LateMove told = move_late(periods, true);
+    const LateMove untold = move_late(periods, false);
+    std::printf("late %d: told %.6f %.6f untold %.6f %.6f\n", periods, told.rest_rad, told.overshoot_rad,
+                untold.rest_rad, untold.overshoot_rad);
+    EXPECT_LT(told.rest_rad + told.overshoot_rad, 0.5 * (untold.rest_rad + untold.overshoot_rad)) << periods;
   }
 }
 

@@ -59,7 +59,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {64, Notice::kNotHomed, "not homed"},
                                      {128, Notice::kAtLimitSwitch, "at a limit switch"},
                                      {256, Notice::kPlainLaw, "chatter, plain control law"},
-                                     {512, Notice::kOffStream, "off the stream"}};
+                                     {512, Notice::kOffStream, "off the stream"},
+                                     {1024, Notice::kPositionLate, "position late"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},

@@ -74,7 +74,10 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
     judge_age(kernel_time_ns);
     return receive_pdo(layout_.fast, frame);
   }
-  if (frame.id == layout_.slow.cob_id(config_.node_id)) return receive_pdo(layout_.slow, frame);
+  if (frame.id == layout_.slow.cob_id(config_.node_id)) {
+    age_.slow_sample(kernel_time_ns);
+    return receive_pdo(layout_.slow, frame);
+  }
   if (frame.id == cob_id(CobId::kEmergency, config_.node_id)) {
     if (const auto emergency = canopen::decode_emergency(frame)) return receive_emergency(*emergency);
   } else if (const auto state = canopen::decode_heartbeat(frame)) {
@@ -160,8 +163,8 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
                           (!setup_.ready() || needs_set_up_ || restarted_.fault != ActuatorFault::kNone);
   reading.joint_position_rad = position_rad_;
   reading.has_position = fresh_;
-  // Sampled with a SYNC at the end of a period, read at the next one's beginning.
-  reading.position_age_ns = (1 + age_.lag_periods()) * period_ns_;
+  reading.position_delay_ns = fresh_ ? age_.delay_ns() : 0;
+  reading.position_late_periods = age_.late_periods();
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_velocity = fresh_ && layout_.velocity.pdo != 0;
   reading.torque_applied_Nm = torque_applied_Nm_;
@@ -193,6 +196,8 @@ void Node::supervise() noexcept {
   if (!command_.enable) return;
   watch_.latch(present);
   watch_.latch(power_trouble());
+  // What it is late by is measured from its set-up on.
+  if (late()) needs_set_up_ = true;
 }
 
 // What tells of a lost network state or of missing positions is believed only while no position comes: one that comes with our
@@ -219,7 +224,7 @@ bool Node::following() const noexcept {
 
 // What is a fault only of a drive that is in use.
 NodeFault Node::power_trouble() const noexcept {
-  if (late_samples_ > config_.zero_torque_after)
+  if (late())
     return watch_.trouble(
         ActuatorFault::kReadFailed, CanDetail::kPositionLate,
         static_cast<std::uint32_t>(std::min<std::int64_t>(age_.delay_ns() / 1000, kMaxCanDetailValue)));

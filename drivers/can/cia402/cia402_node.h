@@ -68,6 +68,7 @@ class Node final : public CanNode {
   NodeFault power_trouble() const noexcept;
   bool out_of_reach() const noexcept;
   bool following() const noexcept;
+  bool late() const noexcept { return late_samples_ > config_.zero_torque_after; }
   void transmit_order(CanTransmitter& bus) noexcept;
   Goal goal() const noexcept;
   DriveState drive_state() const noexcept;

@@ -31,7 +31,7 @@ Node::Node(const DriveConfig& config)
       power_(times_of(config)),
       position_scale_(config.units),
       watch_(nanoseconds(config.drive_heartbeat_timeout_s)),
-      age_(period_ns_),
+      age_(period_ns_, layout_.slow.transmission_type),
       last_resort_(config.node_id) {}
 
 std::vector<std::uint32_t> Node::receive_ids() const {

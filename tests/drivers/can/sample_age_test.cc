@@ -11,28 +11,34 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
 constexpr std::int64_t kUsual_ns = 150'000;
+constexpr int kSlowEvery = 10;
 
 class SampleAgeTest : public ::testing::Test {
  protected:
   SampleAgeTest() { age_.restart(kUsual_ns); }
-  /// `periods` SYNCs, each followed by its TPDO after `delay_ns`; none with `delay_ns` < 0.
+  /// `periods` SYNCs, each followed by its TPDOs after `delay_ns`; none with `delay_ns` < 0.
   void run(int periods, std::int64_t delay_ns) {
     for (int i = 0; i < periods; ++i) {
       const std::int64_t sync_ns = next_sync_ns_;
       next_sync_ns_ += kPeriod_ns;
       deliver_until(sync_ns);
       age_.sync(sync_ns);
-      if (delay_ns >= 0) due_.push_back(sync_ns + delay_ns);
+      const bool slow_due = ++syncs_heard_ % kSlowEvery == 0;
+      if (delay_ns >= 0) due_.push_back({sync_ns + delay_ns, slow_due});
       deliver_until(next_sync_ns_);
     }
   }
   void deliver_until(std::int64_t time_ns) {
     std::sort(due_.begin(), due_.end());
-    for (; !due_.empty() && due_.front() < time_ns; due_.pop_front()) age_.sample(due_.front());
+    for (; !due_.empty() && due_.front().first < time_ns; due_.pop_front()) {
+      age_.sample(due_.front().first);
+      if (due_.front().second) age_.slow_sample(due_.front().first + 60'000);
+    }
   }
-  SampleAge age_{kPeriod_ns};
+  SampleAge age_{kPeriod_ns, kSlowEvery};
   std::int64_t next_sync_ns_ = 1'000'000'000;
-  std::deque<std::int64_t> due_;
+  int syncs_heard_ = 0;  ///< by the drive
+  std::deque<std::pair<std::int64_t, bool>> due_;
 };
 
 TEST_F(SampleAgeTest, IsTheDelayOfADriveThatAnswersEachSync) {
@@ -48,6 +54,30 @@ TEST_F(SampleAgeTest, SeesADriveThatBecomesLateByMoreThanAPeriodAndIsOnTimeAgain
     EXPECT_EQ(age_.delay_ns(), late_ns);
     run(100, kUsual_ns);
     EXPECT_EQ(age_.delay_ns(), kUsual_ns) << "after " << late_ns;
+  }
+}
+
+TEST_F(SampleAgeTest, SeesADriveThatBecomesLateByWholePeriods) {
+  run(100, kUsual_ns);
+  for (const int periods : {1, 2, 4}) {
+    run(periods + 3 * kSlowEvery, kUsual_ns + periods * kPeriod_ns);
+    EXPECT_EQ(age_.late_periods(), periods);
+    run(200, kUsual_ns + periods * kPeriod_ns);
+    EXPECT_EQ(age_.delay_ns(), kUsual_ns + periods * kPeriod_ns) << "it stays late";
+    run(2 * kSlowEvery, kUsual_ns);
+    EXPECT_EQ(age_.late_periods(), 0) << "after " << periods;
+  }
+}
+
+TEST_F(SampleAgeTest, TakesASyncOfWhichItWasNotToldForNoLateness) {
+  run(100, kUsual_ns);
+  for (int i = 0; i < 5; ++i) {
+    due_.push_back({next_sync_ns_ + kUsual_ns, ++syncs_heard_ % kSlowEvery == 0});
+    next_sync_ns_ += kPeriod_ns;
+    for (int k = 0; k < 60; ++k) {
+      run(1, kUsual_ns);
+      ASSERT_EQ(age_.late_periods(), 0) << i << ", " << k;
+    }
   }
 }
 
