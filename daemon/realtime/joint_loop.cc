@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/durations.h"
 #include "daemon/realtime/state_record.h"
 
 namespace strainwave {
