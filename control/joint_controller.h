@@ -81,7 +81,7 @@ struct JointMeasurement {
   /// Periods since the last step(), >= 1; more when the loop left some out. Over those the last torque stayed
   /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
   int elapsed_periods = 1;
-  /// >= 0: the position was sampled so many periods before delay_samples has it. More than kMaxControlDelay in all count as
+  /// >= 0: the position was sampled so many periods before delay_periods has it. More than kMaxControlDelay in all count as
   /// that many.
   int late_periods = 0;
 };

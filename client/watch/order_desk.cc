@@ -14,6 +14,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::size_t kRefusalsKept = 8;
+constexpr int kRenewals = 3;
 
 command_v1 command(Action action) {
   command_v1 message{};
@@ -27,8 +28,10 @@ std::string full_name(const OrderDesk::Name& joint) {
 
 }  // namespace
 
-OrderDesk::OrderDesk(Connection& connection, const std::filesystem::path& key_file, double timeout_s)
+OrderDesk::OrderDesk(Connection& connection, const StateView& states, const std::filesystem::path& key_file,
+                     double timeout_s)
     : connection_(connection),
+      states_(states),
       sender_(key_file),
       timeout_s_(timeout_s),
       acknowledgements_(
@@ -43,36 +46,64 @@ void OrderDesk::stop(const std::vector<Name>& joints) {
             0,
             {}});
   for (const Name& joint : joints)
-    post(joint,
-         sender_.seal_unsigned(channel(joint.first, joint.second, channel_kind::kCommand),
-                               command(Action::kDisable), {}),
-         batch);
+    post(
+        joint,
+        [this, joint] {
+          return sender_.seal_stop(channel(joint.first, joint.second, channel_kind::kCommand),
+                                   command(Action::kDisable), quote(joint));
+        },
+        batch);
   report(*batch);
+}
+
+Quote OrderDesk::quote(const Name& joint) const {
+  const JointView* view = states_.find(joint.first, joint.second);
+  return view == nullptr ? Quote{} : quote_of(view->state);
 }
 
 template <typename Message>
-void OrderDesk::post(const Name& joint, std::string_view kind, const Message& message, const Quote& quote,
-                     std::string what) {
+void OrderDesk::post(const Name& joint, std::string_view kind, const Message& message, std::string what) {
   const auto batch = std::make_shared<Batch>(Batch{std::move(what), full_name(joint), 1, 0, {}});
-  post(joint, sender_.seal(channel(joint.first, joint.second, kind), message, quote), batch);
+  post(
+      joint,
+      [this, joint, message, to = channel(joint.first, joint.second, kind)] {
+        return sender_.seal(to, message, quote(joint));
+      },
+      batch);
   report(*batch);
 }
 
-void OrderDesk::order(const Name& joint, const Quote& quote, Action action) {
-  post(joint, channel_kind::kCommand, command(action), quote, std::string(to_text(action)));
+void OrderDesk::order(const Name& joint, Action action) {
+  post(joint, channel_kind::kCommand, command(action), std::string(to_text(action)));
 }
 
-void OrderDesk::move(const Name& joint, const Quote& quote, double position_rad) {
+void OrderDesk::move(const Name& joint, double position_rad) {
   setpoint_v2 message{};
   message.position_rad = position_rad;
   message.acknowledge = 1;
-  post(joint, channel_kind::kSetpoint, message, quote, fmt::format("move to {:.6g} rad", position_rad));
+  post(joint, channel_kind::kSetpoint, message, fmt::format("move to {:.6g} rad", position_rad));
 }
 
-void OrderDesk::post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch) {
-  waiting_.push_back({PendingOrder(connection_, std::move(order),
-                                   channel(joint.first, joint.second, channel_kind::kAck), timeout_s_),
-                      full_name(joint), std::move(batch)});
+void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, std::shared_ptr<Batch> batch) {
+  const auto send = [this, seal = std::move(seal), to = channel(joint.first, joint.second, channel_kind::kAck)] {
+    return PendingOrder(connection_, seal(), to, timeout_s_);
+  };
+  waiting_.push_back(
+      {send(), send, joint, full_name(joint), std::move(batch), quote(joint).challenge, 0});
+}
+
+// It was not obeyed, so it may be given anew.
+bool OrderDesk::renew(Waiting& waiting, const ack_v1& refusal) {
+  const auto reason = static_cast<Reason>(refusal.reason);
+  if (reason == Reason::kOldSequence) sender_.rise_above(refusal.last_sequence);
+  const std::int64_t challenge = quote(waiting.joint).challenge;
+  const bool may =
+      reason == Reason::kOldSequence || (reason == Reason::kTooOld && challenge != waiting.challenge);
+  if (!may || waiting.renewals >= kRenewals) return false;
+  ++waiting.renewals;
+  waiting.challenge = challenge;
+  waiting.order = waiting.anew();
+  return true;
 }
 
 void OrderDesk::tick() {
@@ -107,6 +138,7 @@ void OrderDesk::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& chan
     return waiting.order.is_answer(*ack, channel);
   });
   if (found == waiting_.end()) return;
+  if (ack->accepted != 1 && renew(*found, *ack)) return;
   const Waiting waiting = std::move(*found);
   waiting_.erase(found);
   const Answer answer = to_answer(*ack);

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,15 +20,18 @@ class OrderDesk {
  public:
   using Name = std::pair<std::string, std::string>;  ///< prefix, joint
 
-  /// `timeout_s`: how long an order is repeated before its silence is reported.
-  OrderDesk(Connection& connection, const std::filesystem::path& key_file, double timeout_s);
+  /// `states`: where the newest of each joint is, which its orders quote. `timeout_s`: how long an order is repeated before its
+  /// silence is reported.
+  OrderDesk(Connection& connection, const StateView& states, const std::filesystem::path& key_file,
+            double timeout_s);
 
-  /// A disable of each: unsigned and for any session, so that nothing can be wrong with it. Of several, the message counts the
-  /// answers and names who did not give one.
+  /// A disable of each, signed if that is possible and unsigned if not: nothing that is wrong with key or session keeps it back,
+  /// and nobody who forges stops its answer. Of several, the message counts the answers and names who did not give one.
   void stop(const std::vector<Name>& joints);
-  /// Signed if there is a key. Throws InputError when the key cannot be used.
-  void order(const Name& joint, const Quote& quote, Action action);
-  void move(const Name& joint, const Quote& quote, double position_rad);
+  /// Signed if there is a key. Throws InputError when the key cannot be used. What is refused unread, since it was on its way for
+  /// too long or another program of this key was ahead, is given anew, a few times.
+  void order(const Name& joint, Action action);
+  void move(const Name& joint, double position_rad);
 
   /// Repeats what was not answered. Call often.
   void tick();
@@ -54,18 +58,24 @@ class OrderDesk {
   };
   struct Waiting {
     PendingOrder order;
+    std::function<PendingOrder()> anew;  ///< the same, quoting the newest state
+    Name joint;
     std::string name;
     std::shared_ptr<Batch> batch;
+    std::int64_t challenge = 0;  ///< that the order quotes
+    int renewals = 0;
   };
   template <typename Message>
-  void post(const Name& joint, std::string_view kind, const Message& message, const Quote& quote,
-            std::string what);
-  void post(const Name& joint, SealedMessage order, std::shared_ptr<Batch> batch);
+  void post(const Name& joint, std::string_view kind, const Message& message, std::string what);
+  void post(const Name& joint, std::function<SealedMessage()> seal, std::shared_ptr<Batch> batch);
+  Quote quote(const Name& joint) const;
+  bool renew(Waiting& waiting, const ack_v1& refusal);
   void fail(const Waiting& waiting, const std::string& why);
   void report(const Batch& batch);
   void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
 
   Connection& connection_;
+  const StateView& states_;
   Sender sender_;
   double timeout_s_;
   std::vector<Waiting> waiting_;

@@ -29,7 +29,7 @@ class WatchScreen {
         timings_(client.connection()),
         temperatures_(client.connection()),
         limits_(client.connection()),
-        desk_(client.connection(), client.options().key_file, client.options().timeout_s) {
+        desk_(client.connection(), client.states(), client.options().key_file, client.options().timeout_s) {
     model_.has_key = !client.options().key_file.empty();
     model_.unicode = terminal_.unicode();
     model_.interval_s = arguments.interval_s;
@@ -162,14 +162,13 @@ class WatchScreen {
   }
 
   void order(Action action) {
-    if (const WatchedJoint* joint = selected())
-      desk_.order({joint->prefix, joint->joint}, quote_of(joint->view.state), action);
+    if (const WatchedJoint* joint = selected()) desk_.order({joint->prefix, joint->joint}, action);
   }
 
   /// From where the joint was sent last, so that several presses add up.
   void jog(double direction) {
     if (const WatchedJoint* joint = selected())
-      desk_.move({joint->prefix, joint->joint}, quote_of(joint->view.state),
+      desk_.move({joint->prefix, joint->joint},
                  joint->view.state.target_position_rad + direction * kJogSteps_rad.at(jog_));
   }
 

@@ -22,12 +22,14 @@ class OrderDeskTest : public ::testing::Test {
     }
   }
   Connection connection_{"memq://"};
+  StateView states_{connection_};
   FakeDaemon daemon_{connection_, "ARM2", "elbow"};
   TemporaryFolder folder_;
 };
 
-TEST_F(OrderDeskTest, AStopIsUnsignedAndNeedsNoSession) {
-  OrderDesk desk(connection_, "/nonexistent/key", 0.4);  // a key in trouble must not keep a stop back
+TEST_F(OrderDeskTest, AStopGoesOutUnsignedWhenTheKeyCannotBeUsedAndNeedsNoSession) {
+  OrderDesk desk(connection_, states_, "/nonexistent/key",
+                 0.4);  // a key in trouble must not keep a stop back
   desk.stop({{"ARM2", "elbow"}});
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
@@ -41,7 +43,7 @@ TEST_F(OrderDeskTest, AStopIsUnsignedAndNeedsNoSession) {
 
 TEST_F(OrderDeskTest, RepeatsTheSameOrderUntilItIsAnswered) {
   daemon_.drop = 2;
-  OrderDesk desk(connection_, "", 0.4);
+  OrderDesk desk(connection_, states_, "", 0.4);
   desk.stop({{"ARM2", "elbow"}});
   handle(0.5, desk);
   ASSERT_EQ(daemon_.heard().size(), 3U);
@@ -51,7 +53,7 @@ TEST_F(OrderDeskTest, RepeatsTheSameOrderUntilItIsAnswered) {
 
 TEST_F(OrderDeskTest, SaysSoWhenNobodyAnswers) {
   daemon_.drop = 100;
-  OrderDesk desk(connection_, "", 0.2);
+  OrderDesk desk(connection_, states_, "", 0.2);
   desk.stop({{"ARM2", "elbow"}});
   handle(0.5, desk);
   EXPECT_EQ(desk.message(), "ARM2.elbow: disable: no answer");
@@ -60,7 +62,7 @@ TEST_F(OrderDeskTest, SaysSoWhenNobodyAnswers) {
 }
 
 TEST_F(OrderDeskTest, AStopOfSeveralCountsItsAnswersAndNamesWhoIsSilent) {
-  OrderDesk desk(connection_, "", 0.2);
+  OrderDesk desk(connection_, states_, "", 0.2);
   desk.stop({{"ARM2", "elbow"}, {"ARM2", "ghost"}});
   EXPECT_EQ(desk.message(), "2 joints: disable sent");
   handle(0.5, desk);
@@ -68,9 +70,57 @@ TEST_F(OrderDeskTest, AStopOfSeveralCountsItsAnswersAndNamesWhoIsSilent) {
   EXPECT_TRUE(desk.alarm());
 }
 
+TEST_F(OrderDeskTest, AStopIsSignedWhenItCanBe) {
+  const auto key = folder_.path() / "key";
+  const AuthorizedKey made = write_new_key(key, Role::kOperator, "test");
+  daemon_.state.session_id = 4711;
+  daemon_.state.challenge = 815;
+  OrderDesk desk(connection_, states_, key, 0.4);
+  daemon_.publish_state();
+  handle(0.05, desk);
+  desk.stop({{"ARM2", "elbow"}});
+  handle(0.1, desk);
+  ASSERT_EQ(daemon_.heard().size(), 1U);
+  EXPECT_TRUE(verify("ARM2.elbow.COMMAND", made.key, daemon_.heard()[0].bytes));
+  EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[0].bytes)->challenge, 815);
+}
+
+TEST_F(OrderDeskTest, AnOrderThatWasTooOldIsGivenAnewWithTheNewestState) {
+  OrderDesk desk(connection_, states_, "", 0.4);
+  daemon_.state.challenge = 1;
+  daemon_.publish_state();
+  handle(0.05, desk);
+  daemon_.reason = Reason::kTooOld;
+  daemon_.after_answer = [&] { daemon_.reason = Reason::kAccepted; };
+  desk.order({"ARM2", "elbow"}, Action::kEnable);
+  daemon_.state.challenge = 2;
+  daemon_.publish_state();
+  handle(0.1, desk);
+  ASSERT_EQ(daemon_.heard().size(), 2U);
+  EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[0].bytes)->challenge, 1);
+  EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[1].bytes)->challenge, 2);
+  EXPECT_EQ(desk.message(), "ARM2.elbow: enable accepted");
+}
+
+TEST_F(OrderDeskTest, DoesNotGiveAnewForEverWhatIsAlwaysTooOld) {
+  OrderDesk desk(connection_, states_, "", 0.4);
+  daemon_.reason = Reason::kTooOld;
+  daemon_.after_answer = [&] {
+    ++daemon_.state.challenge;
+    daemon_.publish_state();
+  };
+  desk.order({"ARM2", "elbow"}, Action::kEnable);
+  handle(0.3, desk);
+  EXPECT_LE(daemon_.heard().size(), 4U);
+  EXPECT_TRUE(desk.alarm());
+}
+
 TEST_F(OrderDeskTest, AJogIsAnAcknowledgedMove) {
-  OrderDesk desk(connection_, "", 0.4);
-  desk.move({"ARM2", "elbow"}, {4711, 815}, 0.25);
+  daemon_.state.session_id = 4711;
+  daemon_.publish_state();
+  OrderDesk desk(connection_, states_, "", 0.4);
+  handle(0.05, desk);
+  desk.move({"ARM2", "elbow"}, 0.25);
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
   const auto setpoint = decode_exactly<setpoint_v2>(daemon_.heard()[0].bytes);
@@ -84,10 +134,13 @@ TEST_F(OrderDeskTest, AJogIsAnAcknowledgedMove) {
 TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
   const auto key = folder_.path() / "key";
   const AuthorizedKey made = write_new_key(key, Role::kOperator, "test");
-  OrderDesk desk(connection_, key, 0.4);
+  OrderDesk desk(connection_, states_, key, 0.4);
   daemon_.reason = Reason::kFaulted;
   daemon_.text = "see its fault\x1b[2J";
-  desk.order({"ARM2", "elbow"}, {4711, 815}, Action::kEnable);
+  daemon_.state.session_id = 4711;
+  daemon_.publish_state();
+  handle(0.05, desk);
+  desk.order({"ARM2", "elbow"}, Action::kEnable);
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
   EXPECT_EQ(decode_exactly<command_v1>(daemon_.heard()[0].bytes)->session_id, 4711);
@@ -96,8 +149,8 @@ TEST_F(OrderDeskTest, SignsOtherOrdersForTheSessionOfTheJoint) {
   EXPECT_TRUE(desk.alarm());
   ASSERT_EQ(desk.refusals().size(), 1U);
   EXPECT_EQ(desk.refusals().front().text, desk.message());
-  OrderDesk without(connection_, "/nonexistent/key", 0.4);
-  EXPECT_THROW(without.order({"ARM2", "elbow"}, {4711, 815}, Action::kEnable), InputError);
+  OrderDesk without(connection_, states_, "/nonexistent/key", 0.4);
+  EXPECT_THROW(without.order({"ARM2", "elbow"}, Action::kEnable), InputError);
 }
 
 }  // namespace
