@@ -75,7 +75,7 @@ class CommandReader {
       return;
     }
     const std::string wrong = node_.command(line, clock_us(CLOCK_MONOTONIC));
-    if (!wrong.empty()) record_.note("error " + wrong);
+    record_.note(wrong.empty() ? "told " + line : "error " + wrong);
   }
 
   Node& node_;
