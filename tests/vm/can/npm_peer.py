@@ -1,28 +1,58 @@
 """Our CANopen client against a node made of packages written by others (npm: canopen, socketcan): can-scan reads it, start-up
-configures its PDOs, and it is enabled over them."""
+configures its PDOs, it is enabled over them, tells of an emergency, restarts, and answers late and wrongly."""
 import pathlib
 import subprocess
 import sys
+import time
 import unittest
 
-from bench import (BUS, JOINT, MODES, Daemon, ctl, daemon_toml, joint_state, joint_toml, make_bus, make_key, must,
+from bench import (BUS, FAULTS, JOINT, MODES, Daemon, ctl, daemon_toml, joint_state, joint_toml, make_bus, make_key, must,
                    remove_bus, show_and_exit, wait_until)
+
+
+# An interpreter does not answer every millisecond.
+PATIENT = joint_toml(can='zero_torque_after = 100\nquick_stop_after = 1000') + \
+    '\n[joint.supervision]\nmissed_readings_limit = 1000\n'
 
 
 class Peer(unittest.TestCase):
     def setUp(self):
-        subprocess.run(['tar', 'xf', 'peer.tar'], check=True)
+        subprocess.run(['tar', 'xmf', 'peer.tar'], check=True)
         make_bus()
+        self.addCleanup(remove_bus)
         self.log = pathlib.Path('peer.log')
+        self.process = None
+        self.start_peer()
+        self.addCleanup(self.stop_peer)
+
+    def start_peer(self):
         with open(self.log, 'w') as log:
             self.process = subprocess.Popen(['node', 'peer.js', BUS, '3'], stdin=subprocess.PIPE, stdout=log,
                                             stderr=subprocess.STDOUT, text=True)
         wait_until(lambda: 'ready' in self.log.read_text(), 10, 'the peer runs')
 
-    def tearDown(self):
+    def stop_peer(self):
         self.process.kill()
         self.process.wait()
-        remove_bus()
+
+    def tell(self, line):
+        self.process.stdin.write(line + '\n')
+        self.process.stdin.flush()
+        wait_until(lambda: f'told {line}' in self.log.read_text(), 5, 'the peer has heard it')
+
+    def start_daemon(self):
+        """It ends before the bus goes: one that outlives its bus faults, and says so in a log that then misleads."""
+        daemon = Daemon(daemon_toml([PATIENT]))
+        self.addCleanup(daemon.kill)
+        return daemon
+
+    def wait_for_fault(self):
+        wait_until(lambda: joint_state()['mode'] == MODES['faulted'], 3, 'the joint faults')
+        return joint_state()['fault']
+
+    def enable(self):
+        must('enable', JOINT)
+        self.assertEqual(joint_state()['mode'], MODES['holding'])
 
     def test_is_found_and_read(self):
         status, text = ctl('can-scan', BUS, timeout_s=10)
@@ -31,24 +61,62 @@ class Peer(unittest.TestCase):
         self.assertIn('000000FB', text)
         self.assertIn('CST', text)
 
-    def test_is_configured_as_start_up_does_it(self):
+    def check(self):
         make_key()
         pathlib.Path('peer.toml').write_text(daemon_toml([joint_toml()]))
-        status, text = ctl('can-check', 'peer.toml', timeout_s=10)
+        return ctl('can-check', 'peer.toml', timeout_s=30)
+
+    def test_is_configured_as_start_up_does_it(self):
+        status, text = self.check()
         self.assertEqual(status, 0, text)
         self.assertIn('start-up would accept every drive', text)
         # It went through the peer's own states, and came back.
         self.assertEqual([line for line in self.log.read_text().splitlines() if line.startswith('nmt')][-2:],
                          ['nmt 5', 'nmt 127'])
 
-    def test_is_enabled_over_its_pdos(self):
-        # An interpreter does not answer every millisecond.
-        patient = joint_toml(can='zero_torque_after = 100\nquick_stop_after = 1000')
-        daemon = Daemon(daemon_toml([patient + '\n[joint.supervision]\nmissed_readings_limit = 1000\n']))
-        must('enable', JOINT)
-        self.assertEqual(joint_state()['mode'], MODES['holding'])
+    def test_is_configured_though_its_answers_are_late(self):
+        self.tell('late 100')
+        status, text = self.check()
+        self.assertEqual(status, 0, text)
+
+    def test_is_refused_when_it_answers_about_another_object(self):
+        self.tell('wrong')
+        status, text = self.check()
+        self.assertNotEqual(status, 0, text)
+        self.assertIn('1000h', text)
+        self.assertNotIn('nmt 0', self.log.read_text(), 'nothing was changed in it')
+
+    def test_is_enabled_over_its_pdos_and_held(self):
+        daemon = self.start_daemon()
+        self.enable()
         self.assertIn('status 1237', self.log.read_text(), 'Operation enabled, and it follows (bit 12)')
-        daemon.kill()
+        time.sleep(2)
+        self.assertEqual(joint_state()['mode'], MODES['holding'], daemon.text())
+        self.assertNotIn('were not sent', daemon.text())
+
+    def test_an_emergency_of_its_own_stack_is_a_fault_with_its_code(self):
+        daemon = self.start_daemon()
+        self.enable()
+        self.tell('emcy 0x2310')
+        self.assertEqual(self.wait_for_fault(), FAULTS['drive fault'])
+        self.assertEqual(joint_state()['drive_error'] & 0xFFFF, 0x2310, daemon.text())
+        wait_until(lambda: 'status 250' in self.log.read_text().splitlines()[-1], 2, 'it was switched off')
+        self.tell('emcy 0')
+        must('clear-fault', JOINT)
+        self.enable()
+
+    def test_a_restart_is_a_fault_and_clearing_sets_it_up_anew(self):
+        self.start_daemon()
+        self.enable()
+        self.stop_peer()
+        self.wait_for_fault()
+        self.start_peer()
+        time.sleep(0.5)
+        self.assertNotIn('controlword f', self.log.read_text(), 'nobody enables it by himself')
+        must('clear-fault', JOINT)
+        wait_until(lambda: 'nmt 5' in self.log.read_text(), 10, 'it is set up anew')
+        time.sleep(0.5)
+        self.enable()
 
 
 if pathlib.Path('peer.tar').stat().st_size == 0:

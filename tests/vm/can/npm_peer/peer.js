@@ -2,7 +2,10 @@
 // EMCY, against which our client proves itself. Ours is only what makes a servo drive of it: the objects of CiA 402, and the
 // statusword that answers the controlword. There is no joint behind it: its position stays where it is.
 //
-//   node peer.js INTERFACE NODE-ID       lines on standard input: "emcy CODE"; records NMT states and controlwords
+//   node peer.js INTERFACE NODE-ID
+//
+// Records NMT states and controlwords. Lines on standard input: "emcy CODE"; "late MS": its SDO answers wait so long;
+// "wrong": they are about another object than was asked for; "right": neither.
 'use strict';
 const readline = require('readline');
 const can = require('socketcan');
@@ -91,7 +94,18 @@ function main() {
   const objects = makeObjects();
   const device = new Device({ id, eds: objects.eds });
   const channel = can.createRawChannel(interfaceName);
-  device.addListener('message', (message) => channel.send(message));
+  let late_ms = 0;
+  let wrong = false;
+  device.addListener('message', (message) => {
+    if (message.id !== 0x580 + id) return channel.send(message);
+    const data = Buffer.from(message.data);
+    if (wrong) data[1] ^= 0x01;  // the index, in its low byte
+    const answer = {...message, data};
+    if (late_ms > 0)
+      setTimeout(() => channel.send(answer), late_ms);
+    else
+      channel.send(answer);
+  });
   channel.addListener('onMessage', (message) => device.receive(message));
   let lastOrder = -1;
   // An RPDO changes the entries silently and tells of itself instead.
@@ -115,6 +129,10 @@ function main() {
   readline.createInterface({ input: process.stdin }).on('line', (line) => {
     const [verb, code] = line.split(' ');
     if (verb === 'emcy') device.emcy.write({ code: Number(code) });
+    if (verb === 'late') late_ms = Number(code);
+    if (verb === 'wrong') wrong = true;
+    if (verb === 'right') [late_ms, wrong] = [0, false];
+    console.log(`told ${line}`);
   });
   channel.start();
   device.start();
