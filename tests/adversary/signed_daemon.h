@@ -17,6 +17,9 @@ class SignedDaemonTest : public DaemonTest {
  protected:
   void start(const std::string& daemon_extra) {
     std::ofstream(folder_ / "keys") << to_line(AuthorizedKey{key_.public_key(), Role::kEngineer, "test"})
+                                    << '\n'
+                                    << to_line(AuthorizedKey{operator_key_.public_key(), Role::kOperator,
+                                                             "another"})
                                     << '\n';
     std::string text = configuration("", daemon_extra);
     const std::string open = "unsigned_orders = \"allow\"";
@@ -26,14 +29,23 @@ class SignedDaemonTest : public DaemonTest {
   /// Publishes `message`, signed; its answer is waited for elsewhere.
   template <typename Message>
   void publish(TestClient& client, const char* kind, const Message& message) {
+    publish(client, kind, message, key_);
+  }
+  template <typename Message>
+  void publish(TestClient& client, const char* kind, const Message& message, const SecretKey& key) {
     const std::string channel = std::string("SW.elbow.") + kind;
     std::vector<std::uint8_t> bytes = encode(message);
-    sign(channel, key_, bytes);
+    sign(channel, key, bytes);
     client.lcm().publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
   }
   template <typename Message>
   Answer send(TestClient& client, const char* kind, const Message& message) {
     publish(client, kind, message);
+    return client.wait_for_answer(message.sequence);
+  }
+  template <typename Message>
+  Answer send(TestClient& client, const char* kind, const Message& message, const SecretKey& key) {
+    publish(client, kind, message, key);
     return client.wait_for_answer(message.sequence);
   }
   /// The joint holds, with the table that is shipped for it.
@@ -53,7 +65,8 @@ class SignedDaemonTest : public DaemonTest {
     ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kOff)) << daemon_->log();
   }
 
-  SecretKey key_ = SecretKey::generate();
+  SecretKey key_ = SecretKey::generate();           ///< an engineer's
+  SecretKey operator_key_ = SecretKey::generate();  ///< of somebody else, an operator
   std::optional<DaemonProcess> daemon_;
 };
 
