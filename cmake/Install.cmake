@@ -17,7 +17,9 @@ endfunction()
 strainwave_unit(strainwaved strainwaved strainwave "" "The daemon of this machine, with /etc/strainwave/strainwaved.toml.")
 strainwave_unit(strainwaved@ %i strainwave/%i " (%i)"
   "A further daemon: strainwaved@left uses /etc/strainwave/left.toml, with a daemon.prefix and drives of its own.")
-install(FILES systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
+configure_file("systemd/strainwave-gateway@.service.in" "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" @ONLY)
+install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" systemd/strainwave-gateway.socket
+        systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
 install(FILES systemd/strainwave.sysusers DESTINATION lib/sysusers.d RENAME strainwave.conf COMPONENT daemon)
 install(FILES systemd/strainwave.tmpfiles DESTINATION lib/tmpfiles.d RENAME strainwave.conf COMPONENT daemon)
 install(FILES systemd/60-strainwave.rules DESTINATION lib/udev/rules.d COMPONENT daemon)

@@ -34,12 +34,17 @@ int main(int argc, char** argv) {
   app.add_option(
       "--check-data-sheet", data_sheet,
       "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and end");
+  std::string gateway_socket;
+  app.add_option(
+      "--gateway-socket", gateway_socket,
+      "let the service manager start the gateway, as a user of its own, by a connection to this socket");
   strainwave::configure_program(app, "strainwaved");
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
   return strainwave::run_program(app, argc, argv, [&] {
-    const strainwave::DaemonConfig config = strainwave::read_config(config_path);
+    strainwave::DaemonConfig config = strainwave::read_config(config_path);
+    config.gateway_socket = gateway_socket;
     if (check_only) {
       std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix
                 << '\n';

@@ -121,7 +121,8 @@ Supervisor::Supervisor(const DaemonConfig& config)
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
       orders_(loop_, admission_, answers_),
       gateway_(find_gateway_program(),
-               {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_.gateway_end()}),
+               {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_.gateway_end()},
+               config.gateway_socket),
       latest_(config.joints.size()),
       refusal_log_(20, 10'000 * kMillisecond_ns),
       dropped_log_(1, 10'000 * kMillisecond_ns),
@@ -138,7 +139,6 @@ void Supervisor::fill_shared_memory() {
   outbound_.prefix = FixedString<32>(config_.prefix);
   outbound_.lcm_url = FixedString<256>(config_.lcm_url);
   outbound_.session_id = session_id_;
-  outbound_.core_pid = ::getpid();
   outbound_.gateway_uid = config_.gateway_user.uid;
   outbound_.gateway_gid = config_.gateway_user.gid;
   outbound_.joint_count = config_.joints.size();
@@ -182,8 +182,9 @@ void Supervisor::run() {
   start_gateway();
   flight_records_.start();
   log_buses();
-  spdlog::info("gateway: {}", config_.gateway_user.name.empty() ? "as the daemon's own user"
-                                                                : "as user " + config_.gateway_user.name);
+  spdlog::info("gateway: {}", !config_.gateway_socket.empty()     ? "as a service with a user of its own"
+                              : config_.gateway_user.name.empty() ? "as the daemon's own user"
+                                                                  : "as user " + config_.gateway_user.name);
   publish_challenge();  // the first state has one
   loop_.start();
   if (loop_.real_time_refusal().empty())

@@ -63,6 +63,7 @@ struct DaemonConfig {
   std::string prefix;
   std::string lcm_url;
   GatewayUser gateway_user;
+  std::string gateway_socket;  ///< where the service manager starts gateways; empty: the daemon does
   SecurityPolicy security;
   std::vector<BusConfig> buses;
   std::vector<JointConfig> joints;

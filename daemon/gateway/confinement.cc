@@ -87,8 +87,7 @@ void allow_receiving_and_sending(const Filter& filter) {
   for (const int call :
        {SCMP_SYS(recvmmsg), SCMP_SYS(recvmmsg_time64), SCMP_SYS(sendmsg), SCMP_SYS(poll), SCMP_SYS(ppoll),
         SCMP_SYS(ppoll_time64), SCMP_SYS(clock_gettime), SCMP_SYS(clock_gettime64), SCMP_SYS(gettimeofday),
-        SCMP_SYS(getppid), SCMP_SYS(restart_syscall), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigreturn),
-        SCMP_SYS(exit_group)})
+        SCMP_SYS(restart_syscall), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigreturn), SCMP_SYS(exit_group)})
     allow(filter, call);
   // LCM's library locks, though one thread alone never waits.
   allow(filter, SCMP_SYS(futex));

@@ -1,8 +1,11 @@
 #include "daemon/gateway/gateway_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +14,9 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
+#include <utility>
+
+#include "daemon/gateway/descriptor_message.h"
 
 extern char** environ;
 
@@ -24,15 +30,23 @@ constexpr std::int64_t kLongestBackoff_ns = 800'000'000;
 /// One that lived this long is not a crash loop.
 constexpr std::int64_t kStable_ns = 5'000'000'000;
 
+[[noreturn]] void fail(int error, const std::string& what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
 }  // namespace
 
-GatewayProcess::GatewayProcess(std::string program, Descriptors descriptors)
-    : program_(std::move(program)), descriptors_(descriptors), backoff_ns_(kFirstBackoff_ns) {
+GatewayProcess::GatewayProcess(std::string program, Descriptors descriptors, std::string service_socket)
+    : program_(std::move(program)),
+      service_socket_(std::move(service_socket)),
+      descriptors_(descriptors),
+      backoff_ns_(kFirstBackoff_ns) {
   open_program();
 }
 
 GatewayProcess::~GatewayProcess() {
   if (program_fd_ >= 0) ::close(program_fd_);
+  disconnect();
   if (pid_ <= 0) return;
   ::kill(pid_, SIGKILL);
   ::waitpid(pid_, nullptr, 0);
@@ -43,24 +57,39 @@ void GatewayProcess::open_program() {
 }
 
 void GatewayProcess::start(std::int64_t now_ns) {
-  open_program();
-  if (program_fd_ < 0) {
-    const int error = errno;
+  try {
+    open_program();
+    if (program_fd_ < 0) fail(errno, "starting " + program_);
+    if (service_socket_.empty())
+      connection_ = spawn();
+    else
+      connect_service();
+  } catch (const std::system_error&) {
+    disconnect();
     back_off(now_ns);
-    throw std::system_error(error, std::generic_category(), "starting " + program_);
+    throw;
   }
+  started_ns_ = now_ns;
+}
+
+/// The core's end of the connection.
+int GatewayProcess::spawn() {
+  std::array<int, 2> connection{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, connection.data()) != 0)
+    fail(errno, "starting " + program_);
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawnattr_init(&attributes);
   // Two rounds: the fixed numbers may be in use by the very descriptors that are to be moved there.
   constexpr int kAway = 64;
-  constexpr int kProgram = kAway + 3;
-  const std::array<int, 4> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_};
-  for (int i = 0; i < 4; ++i)
+  constexpr int kProgram = kAway + 4;
+  const std::array<int, 5> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake, connection[1],
+                                program_fd_};
+  for (int i = 0; i < 5; ++i)
     ::posix_spawn_file_actions_adddup2(&actions, from[static_cast<std::size_t>(i)], kAway + i);
-  for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_adddup2(&actions, kAway + i, kGatewayOutboundFd + i);
-  for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_addclose(&actions, kAway + i);
+  for (int i = 0; i < 4; ++i) ::posix_spawn_file_actions_adddup2(&actions, kAway + i, kGatewayOutboundFd + i);
+  for (int i = 0; i < 4; ++i) ::posix_spawn_file_actions_addclose(&actions, kAway + i);
   sigset_t none;
   ::sigemptyset(&none);
   ::posix_spawnattr_setsigmask(&attributes, &none);
@@ -72,27 +101,64 @@ void GatewayProcess::start(std::int64_t now_ns) {
   const int error = ::posix_spawn(&pid, held.c_str(), &actions, &attributes, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
+  ::close(connection[1]);
   if (error != 0) {
-    back_off(now_ns);
-    throw std::system_error(error, std::generic_category(), "starting " + program_);
+    ::close(connection[0]);
+    fail(error, "starting " + program_);
   }
   pid_ = pid;
-  started_ns_ = now_ns;
+  return connection[0];
+}
+
+void GatewayProcess::connect_service() {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (service_socket_.size() >= sizeof address.sun_path) fail(ENAMETOOLONG, service_socket_);
+  std::copy(service_socket_.begin(), service_socket_.end(), &address.sun_path[0]);
+  connection_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (connection_ < 0 ||
+      ::connect(connection_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+    fail(errno, "starting the gateway by " + service_socket_);
+  send_descriptors(connection_,
+                   {descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_});
+}
+
+void GatewayProcess::disconnect() noexcept {
+  if (connection_ >= 0) ::close(connection_);
+  connection_ = -1;
 }
 
 std::optional<std::string> GatewayProcess::take_end(std::int64_t now_ns) {
-  int status = 0;
-  if (pid_ <= 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
-  pid_ = -1;
+  if (!running()) return std::nullopt;
+  auto end = pid_ > 0 ? end_of_child() : end_of_service();
+  if (!end) return std::nullopt;
+  disconnect();
   if (now_ns - started_ns_ > kStable_ns) backoff_ns_ = kFirstBackoff_ns;
   back_off(now_ns);
+  return end;
+}
+
+std::optional<std::string> GatewayProcess::end_of_child() {
+  int status = 0;
+  if (::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
+  pid_ = -1;
   last_exit_status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return WIFEXITED(status) ? "exit status " + std::to_string(WEXITSTATUS(status))
                            : "signal " + std::to_string(WTERMSIG(status));
 }
 
+// What it says is read nowhere: it is another user's.
+std::optional<std::string> GatewayProcess::end_of_service() {
+  pollfd peer{connection_, POLLRDHUP, 0};
+  if (::poll(&peer, 1, 0) != 1 || (peer.revents & (POLLHUP | POLLERR | POLLRDHUP)) == 0) return std::nullopt;
+  return "its service, see journalctl -u 'strainwave-gateway@*'";
+}
+
 void GatewayProcess::kill() noexcept {
   if (pid_ > 0) ::kill(pid_, SIGKILL);
+  // Its own end stays to tell when it has gone.
+  else if (running())
+    ::shutdown(connection_, SHUT_WR);
 }
 
 void GatewayProcess::back_off(std::int64_t now_ns) noexcept {

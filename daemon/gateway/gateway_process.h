@@ -1,5 +1,7 @@
-// The gateway as the core sees it: a child process that may die at any time and is started again, more slowly
-// while it keeps dying, but always within a second: stops come through it. Not real-time.
+// The gateway as the core sees it: a process that may die at any time and is started again, more slowly while it
+// keeps dying, but always within a second: stops come through it. Either a child of the core's, or, through a socket of
+// the service manager's, a service with a user of its own (daemon/gateway/gateway_activation.h). A connection between the
+// two ends with either of them. Not real-time.
 #pragma once
 
 #include <sys/types.h>
@@ -14,7 +16,8 @@ namespace strainwave {
 inline constexpr int kGatewayOutboundFd = 3;
 inline constexpr int kGatewayInboundFd = 4;
 inline constexpr int kGatewayWakeFd = 5;
-inline constexpr unsigned int kGatewayFirstFreeFd = 6;
+inline constexpr int kGatewayCoreFd = 6;  ///< hangs up when the core ends, or wants the gateway to
+inline constexpr unsigned int kGatewayFirstFreeFd = 7;
 inline constexpr int kGatewayExitNoLcm = 69;
 
 class GatewayProcess {
@@ -25,7 +28,8 @@ class GatewayProcess {
     int wake;  ///< WakePipe::gateway_end()
   };
   /// Opens `program` and keeps it: after an upgrade of the package, the running core goes on with the gateway it knows.
-  GatewayProcess(std::string program, Descriptors descriptors);
+  /// `service_socket`: where the service manager starts gateways; empty: they are children.
+  GatewayProcess(std::string program, Descriptors descriptors, std::string service_socket = {});
   /// Ends the child.
   ~GatewayProcess();
   GatewayProcess(const GatewayProcess&) = delete;
@@ -34,25 +38,34 @@ class GatewayProcess {
   /// Starts it. Throws std::system_error when the program cannot be run at all; start_due() then waits as
   /// after an end.
   void start(std::int64_t now_ns);
-  /// Ends it at once: it hangs. take_end() will tell.
+  /// Ends it at once: it hangs. take_end() will tell. A service of another user is asked to end, and the service manager
+  /// ends it when it does not (WatchdogSec).
   void kill() noexcept;
-  /// How it ended ("exit status 69", "signal 9"), once, when it has; start_due() then says when to start it
-  /// again.
+  /// How it ended ("exit status 69", "signal 9"; of a service the service manager's log knows), once, when it has;
+  /// start_due() then says when to start it again.
   std::optional<std::string> take_end(std::int64_t now_ns);
-  bool running() const noexcept { return pid_ > 0; }
+  bool running() const noexcept { return connection_ >= 0; }
   std::int64_t started_ns() const noexcept { return started_ns_; }
-  bool start_due(std::int64_t now_ns) const noexcept { return pid_ <= 0 && now_ns >= not_before_ns_; }
+  bool start_due(std::int64_t now_ns) const noexcept { return !running() && now_ns >= not_before_ns_; }
   int last_exit_status() const noexcept { return last_exit_status_; }
+  /// Of a child.
   pid_t pid() const noexcept { return pid_; }
 
  private:
   void open_program();
+  int spawn();
+  void connect_service();
+  std::optional<std::string> end_of_child();
+  std::optional<std::string> end_of_service();
+  void disconnect() noexcept;
   void back_off(std::int64_t now_ns) noexcept;
 
   std::string program_;
+  std::string service_socket_;
   int program_fd_ = -1;
   Descriptors descriptors_;
-  pid_t pid_ = -1;
+  int connection_ = -1;
+  pid_t pid_ = -1;  ///< of a child
   int last_exit_status_ = 0;
   std::int64_t started_ns_ = 0;
   std::int64_t not_before_ns_ = 0;

@@ -1,22 +1,37 @@
-// strainwave-gateway: started by strainwaved with three descriptors, never by hand.
+// strainwave-gateway: started by strainwaved, or for it by the service manager; never by hand.
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 
 #include "daemon/gateway/confinement.h"
 #include "daemon/gateway/gateway.h"
+#include "daemon/gateway/gateway_activation.h"
 #include "daemon/gateway/gateway_process.h"
+#include "daemon/gateway/service_watchdog.h"
 
 namespace {
 
 // How long to wait for orders before looking for states to publish: half a period of the fastest usual state rate.
 constexpr int kTurn_ms = 2;
 
+std::int64_t steady_now_ns() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The core lives, and wants this gateway.
+bool core_is_there() {
+  pollfd core{strainwave::kGatewayCoreFd, POLLRDHUP, 0};
+  return ::poll(&core, 1, 0) == 0;
+}
+
 int run() {
   using namespace strainwave;
+  if (is_activated()) become_gateway_of_core();
   // It was started by descriptor, which says nothing to people.
   ::prctl(PR_SET_NAME, "strainwave-gateway");
   const MemoryFile outbound_file = MemoryFile::open(kGatewayOutboundFd, sizeof(OutboundMemory), false);
@@ -28,9 +43,9 @@ int run() {
     return 1;
   }
   give_up_privileges(outbound.gateway_uid, outbound.gateway_gid, kGatewayFirstFreeFd);
-  // Without its core it has no purpose. (After the change of user, which clears this.)
+  // Without its core it has no purpose, though it hang. (After the change of user, which clears this.)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const auto core_lives = [&] { return ::getppid() == outbound.core_pid; };
+  ServiceWatchdog watchdog;
   Gateway gateway(outbound, inbound, kGatewayWakeFd);
   if (!gateway.good()) {
     std::fprintf(stderr, "strainwave-gateway: %s\n", gateway.problem().c_str());
@@ -39,8 +54,10 @@ int run() {
   // Everything is open and bound, and nothing that came in has been read: that begins with the first turn.
   confine();
   inbound.ready.store(1, std::memory_order_release);
-  while (core_lives()) {
+  watchdog.ready();
+  while (core_is_there()) {
     gateway.turn(kTurn_ms);
+    watchdog.alive(steady_now_ns());
     inbound.turns.fetch_add(1, std::memory_order_relaxed);
   }
   // No more is allowed; ending without a core needs no more either.

@@ -16,7 +16,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303034;  // "SWMEM004"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303035;  // "SWMEM005"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {
@@ -49,7 +49,6 @@ struct OutboundMemory {
   FixedString<32> prefix;
   FixedString<256> lcm_url;
   std::int64_t session_id = 0;
-  std::int64_t core_pid = 0;
   std::int64_t gateway_uid = -1;  ///< whom the gateway becomes; -1: it stays who it is
   std::int64_t gateway_gid = -1;
   std::uint64_t joint_count = 0;

@@ -2,10 +2,13 @@
 #include "daemon/gateway/gateway_process.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
-
 #include <stdlib.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -14,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/gateway/descriptor_message.h"
+#include "daemon/gateway/wake_pipe.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -109,6 +114,83 @@ TEST(GatewayProcess, TakesItsChildAlong) {
     EXPECT_EQ(::kill(pid, 0), 0);
   }
   EXPECT_EQ(::kill(pid, 0), -1);
+}
+
+/// What a service manager does: takes connections to a socket.
+class ServiceSocket {
+ public:
+  ServiceSocket() : listener_(::socket(AF_UNIX, SOCK_STREAM, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path().copy(&address.sun_path[0], sizeof address.sun_path - 1);
+    EXPECT_EQ(::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::listen(listener_, 4), 0);
+  }
+  ~ServiceSocket() { ::close(listener_); }
+  ServiceSocket(const ServiceSocket&) = delete;
+  ServiceSocket& operator=(const ServiceSocket&) = delete;
+  std::string path() const { return folder_.path() / "core"; }
+  int accept() const { return ::accept(listener_, nullptr, nullptr); }
+
+ private:
+  TemporaryFolder folder_;
+  int listener_;
+};
+
+ino_t file_of(int descriptor) {
+  struct stat status {};
+  EXPECT_EQ(::fstat(descriptor, &status), 0);
+  return status.st_ino;
+}
+
+TEST(GatewayProcess, HandsItsDescriptorsAndItsProgramToAServiceOfAnotherUser) {
+  const ServiceSocket service;
+  const WakePipe first;
+  const WakePipe second;
+  const WakePipe third;
+  GatewayProcess gateway("/bin/true", {first.core_end(), second.core_end(), third.gateway_end()},
+                         service.path());
+  gateway.start(0);
+  EXPECT_TRUE(gateway.running());
+  const int connection = service.accept();
+  const auto passed = receive_descriptors(connection);
+  EXPECT_EQ(file_of(passed[0]), file_of(first.core_end()));
+  EXPECT_EQ(file_of(passed[1]), file_of(second.core_end()));
+  EXPECT_EQ(file_of(passed[2]), file_of(third.gateway_end()));
+  struct stat program {};
+  ASSERT_EQ(::stat("/bin/true", &program), 0);
+  EXPECT_EQ(file_of(passed[3]), program.st_ino);
+  for (const int descriptor : passed) ::close(descriptor);
+  EXPECT_FALSE(gateway.take_end(0).has_value());
+  ::close(connection);
+  EXPECT_TRUE(gateway.take_end(0).has_value()) << "the service has ended";
+  EXPECT_FALSE(gateway.running());
+  EXPECT_EQ(wait_until_due_ms(gateway, 0), 100);
+}
+
+TEST(GatewayProcess, TellsAServiceToEndAndSeesWhenItHas) {
+  const ServiceSocket service;
+  const WakePipe pipe;
+  GatewayProcess gateway("/bin/true", {pipe.core_end(), pipe.core_end(), pipe.core_end()}, service.path());
+  gateway.start(0);
+  const int connection = service.accept();
+  for (const int descriptor : receive_descriptors(connection)) ::close(descriptor);
+  pollfd core{connection, POLLRDHUP, 0};
+  EXPECT_EQ(::poll(&core, 1, 0), 0);
+  gateway.kill();
+  EXPECT_EQ(::poll(&core, 1, 0), 1) << "it is asked to";
+  EXPECT_FALSE(gateway.take_end(0).has_value()) << "it has not yet, and no other is started beside it";
+  EXPECT_FALSE(gateway.start_due(1'000'000'000));
+  ::close(connection);
+  EXPECT_TRUE(gateway.take_end(0).has_value());
+}
+
+TEST(GatewayProcess, WaitsWhenNoServiceManagerListens) {
+  const TemporaryFolder folder;
+  GatewayProcess gateway("/bin/true", {0, 1, 2}, folder.path() / "nobody");
+  EXPECT_THROW(gateway.start(0), std::system_error);
+  EXPECT_FALSE(gateway.running());
+  EXPECT_EQ(wait_until_due_ms(gateway, 0), 100);
 }
 
 }  // namespace

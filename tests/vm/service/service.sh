@@ -28,7 +28,7 @@ finish() {
 install_package() { dpkg -i ./strainwave_*.deb >/tmp/output 2>&1 || { cat /tmp/output; exit 1; }; }
 property() { systemctl show strainwaved -p "$1" --value; }
 core() { property MainPID; }
-gateway() { pgrep -P "$(core)"; }
+gateway() { pgrep -u strainwave-gateway; }
 # A field of the joint's state, such as "mode" (a number) or "session_id".
 state() { strainwavectl status elbow | awk -v field="$1" '$1 == field { print $2 }'; }
 is_state() { [ "$(state "$1")" = "$2" ]; }

@@ -13,14 +13,26 @@ must "it is active" is_active
 must "its log says why" bash -c 'journalctl -u strainwaved -o cat | grep -q "ready: the loop meets its timing"'
 must "the route of LCM's group has a loopback source" bash -c 'ip route get 239.255.76.67 | grep -q "dev lo src 127.0.0.1"'
 must "its status names the joint's mode" bash -c 'systemctl show strainwaved -p StatusText | grep -q "elbow off"'
-must "core and gateway are not root" test "$(ps -o user= -p "$(core),$(gateway)" | sort -u)" = strainw+ -o \
-  "$(ps -o user:20= -p "$(core),$(gateway)" | sort -u)" = strainwave
+must "the core is not root" test "$(stat -c %U "/proc/$(core)")" = root -a "$(ps -o user:20= -p "$(core)")" = strainwave
+must "its gateway is another user, and nobody's group but its own" test \
+  "$(awk '/^(Uid|Gid|Groups):/' "/proc/$(gateway)/status" | tr -s '\t ' ' ')" = "$(id strainwave-gateway | awk -F'[=(]' \
+    '{ print "Uid: "$2" "$2" "$2" "$2; print "Gid: "$4" "$4" "$4" "$4; print "Groups: "$4" " }')"
+must_not "the two share no user" test "$(ps -o uid= -p "$(core)")" = "$(ps -o uid= -p "$(gateway)")"
 must "one thread has SCHED_FIFO 80" test "$(ps -L -o cls=,rtprio= -p "$(core)" | grep -c 'FF *80')" = 1
 must "its memory is locked" bash -c "awk '/^VmLck/ { exit !(\$2 > 1000) }' /proc/$(core)/status"
 must_not "nothing of what it asks the kernel for is refused" bash -c 'journalctl -u strainwaved -o cat | grep -qi "permission denied"'
 must "neither has a capability" bash -c "! grep -hE '^Cap(Prm|Eff|Bnd|Amb)' /proc/{$(core),$(gateway)}/status | grep -qv '0000000000000000'"
 must "the gateway has a filter of its own upon the service's" \
   test "$(awk '/^Seccomp_filters/ { print $2 }' "/proc/$(gateway)/status")" -gt "$(awk '/^Seccomp_filters/ { print $2 }' "/proc/$(core)/status")"
+as_gateway() { runuser -u strainwave-gateway -- "$@"; }
+must_not "the gateway's user cannot read the daemon's copy of the keys" as_gateway sh -c 'cat /run/credentials/strainwaved.service/*'
+must_not "nor the flight records" as_gateway ls /var/lib/strainwave
+must_not "nor the locks" as_gateway ls /run/strainwave
+must_not "nor signal the core" as_gateway kill -0 "$(core)"
+must_not "nor have a gateway started" as_gateway python3 -c \
+  'import socket; socket.socket(socket.AF_UNIX).connect("/run/strainwave-gateway/core")'
+must_not "in its own view of the files there is no configuration" nsenter -t "$(gateway)" -m ls /etc/strainwave/strainwaved.toml
+must_not "and there are no keys" nsenter -t "$(gateway)" -m ls /etc/strainwave/authorized_keys
 must "a process of the same user cannot read the core's memory" test "$(stat -c %U "/proc/$(core)/mem")" = root
 
 echo "== tracking through the service"
@@ -31,13 +43,14 @@ echo "== the gateway is killed, then stopped"
 pid=$(core) session=$(state session_id) first=$(gateway)
 strainwavectl move elbow -1.0
 kill -9 "$first"
-must "another gateway is there within a second" wait_for 1 bash -c "pgrep -P $pid | grep -qvx $first"
+must "another gateway is there within a second" wait_for 1 bash -c "pgrep -u strainwave-gateway | grep -qvx $first"
 must "the core goes on" test "$(core)" = "$pid"
 must "in the same session" is_state session_id "$session"
 must "and the move is finished" wait_for 5 is_near -1.0
 second=$(gateway)
 kill -STOP "$second"
-must "a gateway that hangs is replaced" wait_for 5 bash -c "pgrep -P $pid | grep -qvx $second"
+must "a gateway that hangs is replaced" wait_for 6 bash -c "pgrep -u strainwave-gateway | grep -qvx $second"
+must "and is gone" wait_for 1 bash -c "! kill -0 $second"
 must "the joint held all the while" wait_for 3 bash -c "strainwavectl status elbow | grep -q 'mode *2'"
 must "still in the same session" is_state session_id "$session"
 must "it is obeyed again" strainwavectl move elbow 0.2
