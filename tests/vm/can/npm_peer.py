@@ -83,7 +83,7 @@ class Peer(unittest.TestCase):
         self.tell('wrong')
         status, text = self.check()
         self.assertNotEqual(status, 0, text)
-        self.assertIn('1000h', text)
+        self.assertIn('node 3: no answer', text)
         self.assertNotIn('nmt 0', self.log.read_text(), 'nothing was changed in it')
 
     def test_is_enabled_over_its_pdos_and_held(self):

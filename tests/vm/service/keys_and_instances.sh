@@ -65,8 +65,11 @@ first=$(core)
 dpkg -i ./strainwave_*.deb >install.log 2>&1
 must "an upgrade leaves the daemon running" test "$(core)" = "$first"
 must "and says so" grep -q 'systemctl restart strainwaved.service' install.log
-kill -9 "$(gateway)"
-must "its next gateway is the one it knows" wait_for 3 gateway
+mapfile -t before < <(gateway)
+kill -9 "${before[@]}"
+replaced() { [ "$(gateway | grep -cvxF "$(printf '%s\n' "${before[@]}")")" = ${#before[@]} ]; }
+must "each daemon has another gateway" wait_for 3 replaced
+must "which is the one it knows" test "$(gateway | while read -r pid; do readlink "/proc/$pid/exe"; done | grep -c deleted)" = ${#before[@]}
 dpkg -r strainwave >/dev/null 2>&1
 must_not "a removal ends both daemons" pgrep strainwave
 finish
