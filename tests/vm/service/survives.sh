@@ -8,9 +8,12 @@ must_not "nothing is enabled by the installation" systemctl -q is-enabled strain
 must_not "nothing is started by the installation" pgrep strainwave
 
 echo "== start"
+sysctl -q vm.compact_unevictable_allowed=1
 must "it starts, and systemd waits until the loop meets its timing" systemctl enable --now strainwaved
 must "it is active" is_active
 must "its log says why" bash -c 'journalctl -u strainwaved -o cat | grep -q "ready: the loop meets its timing"'
+must "it warns of a kernel that moves locked memory" bash -c \
+  'journalctl -u strainwaved -o cat | grep -q "compact_unevictable_allowed=0"'
 must "the route of LCM's group has a loopback source" bash -c 'ip route get 239.255.76.67 | grep -q "dev lo src 127.0.0.1"'
 must "its status names the joint's mode" bash -c 'systemctl show strainwaved -p StatusText | grep -q "elbow off"'
 must "the core is not root" test "$(ps -o user:20= -p "$(core)")" = strainwave

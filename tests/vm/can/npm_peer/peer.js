@@ -128,7 +128,8 @@ function main() {
   device.nmt.addListener('timeout', (node) => console.log(`heartbeat-lost ${node}`));
   readline.createInterface({ input: process.stdin }).on('line', (line) => {
     const [verb, code] = line.split(' ');
-    if (verb === 'emcy') device.emcy.write({ code: Number(code) });
+    // By position: the library loses the code of an object.
+    if (verb === 'emcy') device.emcy.write(Number(code));
     if (verb === 'late') late_ms = Number(code);
     if (verb === 'wrong') wrong = true;
     if (verb === 'right') [late_ms, wrong] = [0, false];
