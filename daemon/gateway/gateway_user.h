@@ -20,8 +20,8 @@ GatewayUser gateway_user_named(const std::string& name);
 /// them, the daemon's own.
 GatewayUser default_gateway_user();
 
-/// Under a service manager the daemon is not root, and its gateway has no other user to become. Then this keeps the gateway
-/// (and whatever else that user runs) from reading and writing the daemon's memory through /proc and from tracing it.
+/// A daemon that is not root has a gateway of its own user when it starts it itself. This keeps the gateway, and whatever else that
+/// user runs, from reading and writing the daemon's memory through /proc and from tracing it.
 void hide_memory_from_own_user();
 
 }  // namespace strainwave
