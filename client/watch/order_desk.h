@@ -13,6 +13,7 @@
 #include "client/link/connection.h"
 #include "client/link/pending_order.h"
 #include "client/link/sender.h"
+#include "client/link/state_view.h"
 
 namespace strainwave {
 
