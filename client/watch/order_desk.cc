@@ -85,11 +85,11 @@ void OrderDesk::move(const Name& joint, double position_rad) {
 }
 
 void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, std::shared_ptr<Batch> batch) {
-  const auto send = [this, seal = std::move(seal), to = channel(joint.first, joint.second, channel_kind::kAck)] {
+  const auto send = [this, seal = std::move(seal),
+                     to = channel(joint.first, joint.second, channel_kind::kAck)] {
     return PendingOrder(connection_, seal(), to, timeout_s_);
   };
-  waiting_.push_back(
-      {send(), send, joint, full_name(joint), std::move(batch), quote(joint).challenge, 0});
+  waiting_.push_back({send(), send, joint, full_name(joint), std::move(batch), quote(joint).challenge, 0});
 }
 
 // It was not obeyed, so it may be given anew.

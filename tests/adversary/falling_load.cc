@@ -164,7 +164,7 @@ class FallingLoad : public ::testing::Test {
   Mode mode() const { return static_cast<Mode>(joint_->record().state.mode); }
 
   TemporaryFolder folder_;
-  int delay_periods_ = 0;  ///< of the plant
+  int delay_periods_ = 0;     ///< of the plant
   int reckoned_periods_ = 0;  ///< that the control law reckons with
   double ordered_before_Nm_ = 0.0;
   Plant plant_;
