@@ -11,7 +11,9 @@ namespace strainwave {
 namespace {
 
 constexpr int kMaxEventsPerSubstep = 32;
-constexpr int kMaxBristleSteps = 64;
+// Bristles and lost motion relax over a distance; at speed that may be far shorter than a sub-step moves. So many steps
+// follow it, and what is faster still relaxes as fast as these steps can: it stands at its end either way.
+constexpr int kMaxRelaxationSteps = 64;
 
 // What an axis does during a step: slides one way or the other, or sticks.
 struct Modes {
@@ -48,8 +50,10 @@ struct Torques {
 /// The equations for one constant input. Time runs from the start of it.
 class Equations {
  public:
-  Equations(const FlexibleJoint& joint, const JointInput& input, double start_current_Nm) noexcept
-      : joint_(joint), input_(input), start_current_Nm_(start_current_Nm) {}
+  /// Nothing relaxes faster than `fastest_per_s`.
+  Equations(const FlexibleJoint& joint, const JointInput& input, double start_current_Nm,
+            double fastest_per_s) noexcept
+      : joint_(joint), input_(input), start_current_Nm_(start_current_Nm), fastest_per_s_(fastest_per_s) {}
 
   bool presliding() const noexcept { return joint_.effects.friction.presliding_rad > 0.0; }
   bool has_link() const noexcept { return joint_.effects.transmission.has_value(); }
@@ -95,10 +99,16 @@ class Equations {
     return friction;
   }
 
-  /// How fast the bristles follow at this state, 1/s.
-  double bristle_rate(const Vector& x) const noexcept {
-    const FrictionParameters f = friction(0.0);
-    return std::abs(x.motor_velocity) * bristle_stiffness_Nm_rad(f) / sliding_Nm(f, x.motor_velocity);
+  /// How fast bristles and lost motion follow at this state, the faster of them, 1/s.
+  double relaxation_per_s(const Vector& x) const noexcept {
+    double rate = 0.0;
+    if (presliding()) {
+      const FrictionParameters f = friction(0.0);
+      rate = std::abs(x.motor_velocity) * bristle_stiffness_Nm_rad(f) / sliding_Nm(f, x.motor_velocity);
+    }
+    if (has_link() && gear().lost_motion.width_rad > 0.0)
+      rate = std::max(rate, 2.0 * std::abs(wind_up_speed_rad_s(x)) / gear().lost_motion.width_rad);
+    return rate;
   }
 
   Vector derivative(double time_s, const Vector& x, const Modes& modes) const noexcept {
@@ -108,8 +118,7 @@ class Equations {
     if (presliding()) {
       const FrictionParameters f = friction(t.transmitted_Nm);
       const double stiffness = bristle_stiffness_Nm_rad(f);
-      d.bristle = x.motor_velocity -
-                  std::abs(x.motor_velocity) * x.bristle * stiffness / sliding_Nm(f, x.motor_velocity);
+      d.bristle = relaxation(x.motor_velocity, sliding_Nm(f, x.motor_velocity) / stiffness, x.bristle);
       const double damping = std::sqrt(stiffness * joint_.motor.inertia_kgm2);
       d.motor_velocity = (t.on_motor_Nm - stiffness * x.bristle - damping * d.bristle -
                           f.viscous_Nms_rad * x.motor_velocity) /
@@ -128,10 +137,8 @@ class Equations {
     d.link_position = x.link_velocity;
     if (modes.link != 0.0)
       d.link_velocity = (t.on_link_Nm - modes.link * gear.link_coulomb_Nm) / gear.link_inertia_kgm2;
-    if (gear.lost_motion.width_rad > 0.0) {
-      const double speed = wind_up_speed_rad_s(x);
-      d.lost_motion = speed - std::abs(speed) * x.lost_motion / (0.5 * gear.lost_motion.width_rad);
-    }
+    if (gear.lost_motion.width_rad > 0.0)
+      d.lost_motion = relaxation(wind_up_speed_rad_s(x), 0.5 * gear.lost_motion.width_rad, x.lost_motion);
     return d;
   }
 
@@ -150,6 +157,11 @@ class Equations {
   }
 
  private:
+  /// dz/dt of z that follows a motion and ends at `end_rad` in its direction: speed - |speed| z / end, bounded.
+  double relaxation(double speed_rad_s, double end_rad, double deflection_rad) const noexcept {
+    const double rate = std::min(std::abs(speed_rad_s) / end_rad, fastest_per_s_);
+    return rate * (std::copysign(end_rad, speed_rad_s) - deflection_rad);
+  }
   const Transmission& gear() const noexcept { return *joint_.effects.transmission; }
   double turn_rad(const Vector& x) const noexcept { return joint_.effects.gear_ratio * x.motor_position; }
 
@@ -191,6 +203,7 @@ class Equations {
   const FlexibleJoint& joint_;
   const JointInput& input_;
   double start_current_Nm_;
+  double fastest_per_s_;
 };
 
 /// One constant input, sub-step by sub-step.
@@ -312,12 +325,12 @@ class Stepper {
 
 void advance(FlexibleState& state, const FlexibleJoint& joint, const JointInput& input, double duration_s,
              int substeps) noexcept {
-  const Equations equations(joint, input, state.current_Nm);
-  Stepper stepper(equations, vector_of(state));
   const double substep_s = duration_s / substeps;
+  const Equations equations(joint, input, state.current_Nm, kMaxRelaxationSteps / substep_s);
+  Stepper stepper(equations, vector_of(state));
   for (int i = 0; i < substeps; ++i) {
-    const double turns = equations.presliding() ? equations.bristle_rate(stepper.state()) * substep_s : 0.0;
-    const int parts = 1 + static_cast<int>(std::min(turns, static_cast<double>(kMaxBristleSteps - 1)));
+    const double turns = equations.relaxation_per_s(stepper.state()) * substep_s;
+    const int parts = 1 + static_cast<int>(std::min(turns, static_cast<double>(kMaxRelaxationSteps - 1)));
     for (int part = 0; part < parts; ++part) stepper.advance(substep_s / parts);
   }
   const Vector& x = stepper.state();
@@ -336,12 +349,12 @@ void advance(FlexibleState& state, const FlexibleJoint& joint, const JointInput&
 
 double transmitted_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state) noexcept {
   const JointInput nothing;
-  return Equations(joint, nothing, 0.0).torques(0.0, vector_of(state)).transmitted_Nm;
+  return Equations(joint, nothing, 0.0, 0.0).torques(0.0, vector_of(state)).transmitted_Nm;
 }
 
 double motor_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state,
                        const JointInput& input) noexcept {
-  return Equations(joint, input, state.current_Nm).motor_Nm(state.current_Nm, vector_of(state));
+  return Equations(joint, input, state.current_Nm, 0.0).motor_Nm(state.current_Nm, vector_of(state));
 }
 
 double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& state) noexcept {
@@ -355,7 +368,7 @@ double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& stat
   if (!joint.effects.transmission) return energy_J;
   const Transmission& gear = *joint.effects.transmission;
   const JointInput nothing;
-  const double wind_up_rad = Equations(joint, nothing, 0.0).wind_up_rad(vector_of(state));
+  const double wind_up_rad = Equations(joint, nothing, 0.0, 0.0).wind_up_rad(vector_of(state));
   return energy_J + 0.5 * gear.link_inertia_kgm2 * square(state.link.velocity_rad_s) +
          gear.spring.energy_J(wind_up_rad) +
          0.5 * gear.spring.stiffness_1_Nm_rad * square(state.lost_motion_rad);

@@ -44,6 +44,19 @@ void run(FlexibleState& state, const FlexibleJoint& joint, const JointInput& inp
   for (int k = 0; k < periods; ++k) advance(state, joint, input, 1e-3, substeps_per_ms);
 }
 
+TEST(FlexiblePhysics, StaysBoundedAtSpeedHoweverShortPreslidingAndLostMotionAre) {
+  for (const double short_rad : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
+    FlexibleJoint joint = linear_joint();
+    joint.effects.transmission->lost_motion.width_rad = short_rad;
+    joint.effects.friction.presliding_rad = short_rad;
+    FlexibleState state;
+    run(state, joint, cold(34.0), 0.1);
+    run(state, joint, cold(-34.0), 0.1);
+    EXPECT_LT(std::abs(state.motor.velocity_rad_s), 34.0 * 0.2 / (kMotor_kgm2 + kLink_kgm2)) << short_rad;
+    EXPECT_LE(std::abs(state.lost_motion_rad), 0.5001 * short_rad) << short_rad;
+  }
+}
+
 TEST(FlexiblePhysics, ConservesEnergyWithoutLosses) {
   FlexibleJoint joint = linear_joint();
   joint.effects.transmission->kinematic_error = {{4e-4, 2e-4}, {0.3, 1.1}};
