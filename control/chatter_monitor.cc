@@ -27,10 +27,10 @@ constexpr double kLandingWeight = 0.35;
 constexpr double kSettled_s = 0.1;
 constexpr double kRestLeak_s = 1.0;
 constexpr double kRestLimit = 60.0;
-// After the fallback: what still counts as chatter, and how long it may last. With the time to notice it this
-// ends every chatter within half a second.
+// After the fallback: what still counts as chatter, and how long it may last. With the time to notice it, which on a
+// long move comes only where the reference brakes, this ends every chatter within half a second of the first motion.
 constexpr double kGoesOn = 0.6;  // share of the limits
-constexpr double kPatience_s = 0.35;
+constexpr double kPatience_s = 0.3;
 
 }  // namespace
 

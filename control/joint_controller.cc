@@ -270,7 +270,7 @@ void JointController::estimate_state(const JointMeasurement& measurement, int el
     now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
                                                    : (position_rad - previous_position_rad_) /
                                                          (elapsed_periods * config_.period_s);
-    if (fallen_back() || link_motion_) now_.disturbance.load_Nm = usual_load_Nm_;
+    now_.disturbance.load_Nm = usual_load_Nm_;
   }
   previous_position_rad_ = position_rad;
 }

@@ -58,15 +58,17 @@ struct JointControllerConfig {
   /// Share of the torque that the reference leaves to the feedback, in [0, 1).
   double torque_reserve = 0.02;
 
-  /// Position, velocity, friction, load and inertia estimated from encoder and torque, over the delay as
-  /// well; else the velocity is the measured one or the difference of two readings.
-  bool use_observer = true;
   bool use_shaping = true;  ///< else targets are steps
   bool use_rest = true;     ///< at the target the torque and the integral stand still
   /// The joint has no spring between motor and load that matters: its encoder shows the one inertia that the
   /// table is for. Only then a reference that the joint has left may begin anew from where the joint is.
   bool rigid = false;
+  /// Position, velocity, friction, load and inertia estimated from encoder and torque, over the delay as well, by
+  /// the model of one inertia: for joints that are rigid. Else the velocity is the measured one or the difference
+  /// of two readings, and load and friction are the integral's.
+  bool use_observer = false;
   bool use_landing = false;  ///< the last counts by pushes; only with rigid, use_observer and use_rest
+  bool use_monitor = true;   ///< without it only to study what it prevents
   /// Motions that do not swing the link; only with use_shaping, without rigid. The observer knows one inertia and is then not used.
   std::optional<LinkConfig> link;
 };
@@ -214,9 +216,9 @@ class JointController {
   double temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;
   double hold_torque_Nm_ = 0.0;
-  double usual_load_Nm_ = 0.0;                ///< the estimate's slow part: what the fallback holds
-  double count_torque_Nm_ = 0.0;              ///< that a count makes by its position
-  double difference_torque_Nm_ = 0.0;         ///< and as a velocity from one reading to the next as well
+  double usual_load_Nm_ = 0.0;         ///< at the start, then the estimate's slow part: held without one
+  double count_torque_Nm_ = 0.0;       ///< that a count makes by its position
+  double difference_torque_Nm_ = 0.0;  ///< and as a velocity from one reading to the next as well
   std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
   double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
   double reference_rest_s_ = 0.0;             ///< since when it rests, while tracking

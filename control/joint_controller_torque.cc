@@ -161,6 +161,7 @@ void JointController::hand_over(ControllerOutput& output) noexcept {
 }
 
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
+  if (!config_.use_monitor) return;
   const bool moves = torque_is_planned();
   const double needed_Nm =
       config_.motor.limit_Nm(moves ? planned_torque_Nm() : now_.disturbance.load_Nm, then_.velocity_rad_s);

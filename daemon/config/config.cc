@@ -124,10 +124,12 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
 
 void read_features(TomlSection section, const PlantIdentity& plant, JointLoopConfig& loop) {
   JointControllerConfig& controller = loop.controller;
-  controller.use_observer = section.boolean_or("observer", controller.use_observer);
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);
   controller.rigid = section.boolean_or("rigid", controller.rigid);
+  controller.use_observer = section.boolean_or("observer", controller.rigid);
+  if (controller.use_observer && !controller.rigid)
+    section.fail("observer", "true is allowed only with rigid = true: its model is one inertia");
   const bool can_land = controller.rigid && controller.use_observer && controller.use_rest;
   controller.use_landing = section.boolean_or("landing", can_land);
   if (controller.use_landing && !can_land)

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -30,23 +31,34 @@ std::vector<FlexibleRow> run_part(const std::string& name, const std::vector<Fle
   return rows;
 }
 
+std::size_t number_of_the_daemon(const std::vector<Contender>& contenders) {
+  const auto found = std::find_if(contenders.begin(), contenders.end(),
+                                  [](const Contender& contender) { return contender.name == "daemon"; });
+  return static_cast<std::size_t>(found - contenders.begin());
+}
+
 void run(const Options& options) {
   const std::filesystem::path directory =
       options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
-  const std::vector<Contender> contenders =
-      flexible_contenders(read_flexible_tables(directory), options.full);
+  const FlexibleTables gains = read_flexible_tables(directory);
+  const std::vector<Contender> contenders = flexible_contenders(gains, options.full);
+  std::vector<Contender> first_contenders = contenders;
+  first_contenders.push_back(unwatched_contender(gains));
+  const std::size_t daemon = number_of_the_daemon(contenders);
   const std::filesystem::path out = options.out;
   std::filesystem::create_directories(out);
   const auto begin = std::chrono::steady_clock::now();
 
   const auto grid = run_part("grid", flexible_grid(), contenders);
-  const auto first = run_part("first grid", first_grid(), contenders);
+  const auto first = run_part("first grid", first_grid(), first_contenders);
   std::vector<TextTable> tables = {
       flexible_summary("The grid", grid, contenders),
       oscillation_table("The grid: oscillating cells", grid, contenders),
-      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, contenders)};
+      price_table(grid, contenders, daemon),
+      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, first_contenders)};
   write_text_file(out / "grid.csv", flexible_cells(grid, contenders).csv());
-  write_text_file(out / "first-grid.csv", flexible_cells(first, contenders).csv());
+  write_text_file(out / "first-grid.csv", flexible_cells(first, first_contenders).csv());
+  write_text_file(out / "price.csv", price_cells(grid, contenders, daemon).csv());
   if (options.full) {
     const auto effects = run_part("effects", effect_grid(), contenders);
     const auto random = run_part("random joints", random_joints(options.joints, options.seed), contenders);

@@ -145,6 +145,7 @@ ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController&
   result.trace.reserve(sample_count(config));
   result.diverged =
       !simulate(config, controller, [&](const TracePoint& point) { result.trace.push_back(point); });
+  result.monitor = controller.monitor();
   result.statistics = evaluate(result.trace, config.plant.period_s);
   if (result.diverged)
     result.statistics.pi1_rad2 = result.statistics.pi2 = std::numeric_limits<double>::infinity();

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "control/chatter_monitor.h"
 #include "sim/joint/joint_plant.h"
 #include "sim/joint/temperature_profile.h"
 
@@ -37,6 +38,8 @@ class LoopController {
   virtual double torque_Nm(const LoopSample& sample) noexcept = 0;
   /// Forgets everything; called before each run.
   virtual void reset() noexcept = 0;
+  /// Whether it found itself chattering since reset(), and what became of it; what has no monitor watches for ever.
+  virtual MonitorState monitor() const noexcept { return MonitorState::kWatching; }
 };
 
 struct ClosedLoopConfig {
@@ -70,7 +73,8 @@ struct LoopStatistics {
 
 struct ClosedLoopResult {
   LoopStatistics statistics;
-  std::vector<TracePoint> trace;  ///< every sample
+  std::vector<TracePoint> trace;                   ///< every sample
+  MonitorState monitor = MonitorState::kWatching;  ///< of the controller, at the end
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 

@@ -45,6 +45,7 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
     const Transmission& gear = *plant.effects.transmission;
     config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad};
   }
+  config.use_monitor = features.monitor;
   config.use_landing = features.rigid && features.observer && features.rest;
   return config;
 }
@@ -94,15 +95,15 @@ double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
   measurement.temperature_C = sample.temperature_C;
   measurement.temperature_valid = std::isfinite(sample.temperature_C);
   const JointStep step = controller_.step(measurement);
-  faulted_ = faulted_ || step.monitor == MonitorState::kFaultDue;
-  return faulted_ ? 0.0 : step.output.torque_Nm;
+  monitor_ = step.monitor;
+  return monitor_ == MonitorState::kFaultDue ? 0.0 : step.output.torque_Nm;
 }
 
 void ExtendedLoopController::reset() noexcept {
   controller_ = JointController(config_);
   controller_.load(table_);
+  monitor_ = MonitorState::kWatching;
   started_ = false;
-  faulted_ = false;
 }
 
 Chapter6Tables read_chapter6_tables(const std::filesystem::path& directory) {

@@ -35,13 +35,15 @@ struct ExtendedFeatures {
   bool rest = true;
   bool rigid = true;  ///< declared so: landing, where there is an observer and rest, and new plans
   bool link = false;  ///< told of the plant's link and spring; only without rigid
+  bool monitor = true;
   MotionLimits motion = kNoMotionLimits;
 };
 
-/// Of a joint that is not declared rigid: without landing and new plans.
+/// Of a joint that is not declared rigid: without observer, landing and new plans.
 constexpr ExtendedFeatures daemon_defaults() {
   ExtendedFeatures features;
   features.rigid = false;
+  features.observer = false;
   return features;
 }
 
@@ -58,13 +60,14 @@ class ExtendedLoopController final : public LoopController {
   ExtendedLoopController(const JointControllerConfig& config, const GainTable& table) noexcept;
   double torque_Nm(const LoopSample& sample) noexcept override;
   void reset() noexcept override;
+  MonitorState monitor() const noexcept override { return monitor_; }
 
  private:
   JointControllerConfig config_;
   GainTable table_;
   JointController controller_;
+  MonitorState monitor_ = MonitorState::kWatching;  ///< of the last step
   bool started_ = false;
-  bool faulted_ = false;
 };
 
 struct Chapter6Tables {

@@ -56,7 +56,9 @@ std::string style(const Series& series) {
 
 void write_panel(std::string& script, const Panel& panel, std::size_t figure, std::size_t index) {
   for (std::size_t i = 0; i < panel.series.size(); ++i)
-    write_data(script, block_name(figure, index, i), thinned(panel.series[i].points));
+    write_data(
+        script, block_name(figure, index, i),
+        panel.series[i].mark == Mark::kPoints ? panel.series[i].points : thinned(panel.series[i].points));
   script += "set title " + gnuplot_quoted(panel.title) + "\nset xlabel " + gnuplot_quoted(panel.x_label) +
             " offset 0,0.5\nset ylabel " + gnuplot_quoted(panel.y_label) + "\n";
   script += panel.log_y ? "set logscale y\nset format y '%.0e'\n" : "unset logscale\nset format y '%g'\n";

@@ -10,6 +10,9 @@ namespace strainwave {
 
 namespace {
 
+// PID, C4, the daemon's controller, told of its spring, and with every part on: more lines are not told apart.
+constexpr std::size_t kDrawnContenders = 5;
+
 double percentile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
@@ -71,7 +74,78 @@ const FlexibleRow* example(const std::vector<FlexibleRow>& rows, double step_rad
   return found;
 }
 
+const char* monitor_word(MonitorState state) {
+  switch (state) {
+    case MonitorState::kWatching:
+      return "watches";
+    case MonitorState::kFallenBack:
+      return "fallen back";
+    case MonitorState::kFaultDue:
+      return "switched off";
+  }
+  return "";
+}
+
+/// Where a cell stands on the map: each step has a band, in it the temperatures rise, and in those the damping.
+double map_height(const FlexibleCell& cell) {
+  const double temperature = (cell.temperature_C + 10.0) / 55.0;
+  const double damping = std::log10(cell.damping_ratio / 0.01);
+  return cell.step_rad * std::pow(10.0, 0.6 * (temperature - 0.5) + 0.1 * (damping - 0.5));
+}
+
 }  // namespace
+
+TextTable price_table(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
+                      std::size_t judged) {
+  TextTable table;
+  table.title = "The price: " + contenders[judged].name +
+                ", cell by cell, over each other controller (link above 40 urad)";
+  table.header = {"against", "step (rad)", "mean", "5 %", "median", "95 %", "worst", "better in", "worse in"};
+  std::set<double> steps;
+  for (const FlexibleRow& row : rows) steps.insert(row.cell.step_rad);
+  for (std::size_t c = 0; c < contenders.size(); ++c) {
+    if (c == judged) continue;
+    for (const double step_rad : steps) {
+      std::vector<double> prices;
+      for (const FlexibleRow& row : rows)
+        if (row.cell.step_rad == step_rad)
+          prices.push_back(row.results[judged].link_counted_ratio / row.results[c].link_counted_ratio);
+      const auto better = std::count_if(prices.begin(), prices.end(), [](double p) { return p < 1.0; });
+      const auto worse = std::count_if(prices.begin(), prices.end(), [](double p) { return p > 1.0; });
+      std::vector<std::string> fields = {contenders[c].name, number(step_rad),
+                                         number(geometric_mean(prices), 3)};
+      for (const double share : {0.05, 0.5, 0.95, 1.0})
+        fields.push_back(number(percentile(prices, share), 3));
+      fields.push_back(std::to_string(better));
+      fields.push_back(std::to_string(worse));
+      table.rows.push_back(fields);
+    }
+  }
+  return table;
+}
+
+TextTable price_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
+                      std::size_t judged) {
+  TextTable table;
+  table.header = {"link_inertia_kgm2", "stiffness_scale", "damping_ratio", "temperature_C", "step_rad"};
+  for (const Contender& contender : contenders) {
+    table.header.push_back(contender.name);
+    if (&contender != &contenders[judged]) table.header.push_back("over " + contender.name);
+  }
+  for (const FlexibleRow& row : rows) {
+    std::vector<std::string> fields;
+    for (const double value : {row.cell.link_inertia_kgm2, row.cell.stiffness_scale, row.cell.damping_ratio,
+                               row.cell.temperature_C, row.cell.step_rad})
+      fields.push_back(number(value, 9));
+    for (std::size_t c = 0; c < contenders.size(); ++c) {
+      const double ratio = row.results[c].link_counted_ratio;
+      fields.push_back(number(ratio, 6));
+      if (c != judged) fields.push_back(number(row.results[judged].link_counted_ratio / ratio, 6));
+    }
+    table.rows.push_back(fields);
+  }
+  return table;
+}
 
 TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders) {
   TextTable table;
@@ -94,13 +168,12 @@ TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector
                   "rest_sign_changes_per_s",
                   "rest_swing_rad",
                   "oscillates",
+                  "monitor",
                   "diverged"};
   for (const FlexibleRow& row : rows)
     for (std::size_t c = 0; c < contenders.size(); ++c) {
       const FlexibleResult& r = row.results[c];
-      std::string name = contenders[c].name;
-      std::replace(name.begin(), name.end(), ',', ' ');
-      std::vector<std::string> fields = {name};
+      std::vector<std::string> fields = {contenders[c].name};
       for (const double value : {row.cell.link_inertia_kgm2, row.cell.stiffness_scale, row.cell.damping_ratio,
                                  row.cell.temperature_C, row.cell.step_rad})
         fields.push_back(number(value, 9));
@@ -110,6 +183,7 @@ TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector
                                  r.rest_rms_Nm, r.rest_sign_changes_per_s, r.rest_swing_rad})
         fields.push_back(number(value, 6));
       fields.emplace_back(r.oscillates ? "yes" : "no");
+      fields.emplace_back(monitor_word(r.monitor));
       fields.emplace_back(r.diverged ? "yes" : "no");
       table.rows.push_back(fields);
     }
@@ -130,6 +204,8 @@ TextTable flexible_summary(const std::string& title, const std::vector<FlexibleR
                   "worst overshoot (mrad)",
                   "peak torque at rest (N.m), 95 %",
                   "oscillating",
+                  "fallen back",
+                  "switched off",
                   "diverged"};
   for (std::size_t c = 0; c < contenders.size(); ++c) {
     const auto all = values_of(rows, c, [](const FlexibleResult& r) { return r.link_ratio; });
@@ -140,13 +216,16 @@ TextTable flexible_summary(const std::string& title, const std::vector<FlexibleR
       return std::to_string(std::count_if(rows.begin(), rows.end(),
                                           [&](const FlexibleRow& row) { return of(row.results[c]); }));
     };
-    table.rows.push_back({contenders[c].name, number(geometric_mean(all), 3),
-                          number(percentile(all, 0.95), 3), number(percentile(all, 1.0), 3),
-                          number(geometric_mean(counted), 3), number(percentile(counted, 0.95), 3),
-                          count([](const FlexibleResult& r) { return r.settling_time_s >= 0.0; }),
-                          number(percentile(overshoot, 1.0), 3), number(percentile(rest, 0.95), 3),
-                          count([](const FlexibleResult& r) { return r.oscillates; }),
-                          count([](const FlexibleResult& r) { return r.diverged; })});
+    table.rows.push_back(
+        {contenders[c].name, number(geometric_mean(all), 3), number(percentile(all, 0.95), 3),
+         number(percentile(all, 1.0), 3), number(geometric_mean(counted), 3),
+         number(percentile(counted, 0.95), 3),
+         count([](const FlexibleResult& r) { return r.settling_time_s >= 0.0; }),
+         number(percentile(overshoot, 1.0), 3), number(percentile(rest, 0.95), 3),
+         count([](const FlexibleResult& r) { return r.oscillates; }),
+         count([](const FlexibleResult& r) { return r.monitor == MonitorState::kFallenBack; }),
+         count([](const FlexibleResult& r) { return r.monitor == MonitorState::kFaultDue; }),
+         count([](const FlexibleResult& r) { return r.diverged; })});
   }
   return table;
 }
@@ -216,6 +295,7 @@ TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector
 
 std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
                                      const std::vector<Contender>& contenders) {
+  const std::size_t drawn = std::min(contenders.size(), kDrawnContenders);
   Figure responses{"flexible_responses",
                    "The link's error over time, -10 degC, the heaviest link below 0.5 kg.m2.",
                    2,
@@ -224,9 +304,8 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
   for (const double step_rad : {0.001, 0.01, 0.1, 1.0}) {
     const FlexibleRow* row = example(rows, step_rad);
     if (row == nullptr) continue;
-    Panel response =
-        panel(number(step_rad) + " rad", "time (s)", "error of the link (share of the step)", false);
-    for (std::size_t c = 0; c < contenders.size(); ++c) {
+    Panel response = panel(number(step_rad) + " rad", "time (s)", "link's error / step", false);
+    for (std::size_t c = 0; c < drawn; ++c) {
       const ClosedLoopResult run = run_cell(row->cell, contenders[c]);
       const int colour = static_cast<int>(c) + 1;
       Points points;
@@ -243,15 +322,34 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     }
     responses.panels.push_back(response);
   }
-  Figure map{"flexible_map", "Where the joint oscillates at rest, over its free-free frequency.", 2, {}};
-  for (std::size_t c = 0; c < contenders.size(); ++c) {
+  Figure map{"flexible_map",
+             "Where the joint oscillates at rest, or the monitor took over, over its free-free frequency. "
+             "Each step has a band; "
+             "in it temperature rises from -10 to 45 degC, and for each temperature damping from 1 to 10 %.",
+             2,
+             {}};
+  for (std::size_t c = 0; c < drawn; ++c) {
     Panel where = panel(contenders[c].name, "free-free frequency (Hz)", "step (rad)", true);
+    where.y_range = {3e-4, 3.0};
     Points quiet;
+    Points fallen;
+    Points off;
     Points loud;
-    for (const FlexibleRow& row : rows)
-      (row.results[c].oscillates ? loud : quiet).emplace_back(free_free_Hz(row.cell), row.cell.step_rad);
-    if (!quiet.empty()) where.series.push_back({"quiet", quiet, Mark::kPoints, 1, false});
-    if (!loud.empty()) where.series.push_back({"oscillating", loud, Mark::kPoints, 2, false});
+    for (const FlexibleRow& row : rows) {
+      const FlexibleResult& result = row.results[c];
+      Points& kind = result.oscillates                             ? loud
+                     : result.monitor == MonitorState::kFaultDue   ? off
+                     : result.monitor == MonitorState::kFallenBack ? fallen
+                                                                   : quiet;
+      kind.emplace_back(free_free_Hz(row.cell), map_height(row.cell));
+    }
+    const auto add = [&](const char* name, const Points& points, int colour) {
+      if (!points.empty()) where.series.push_back({name, points, Mark::kPoints, colour, false});
+    };
+    add("quiet", quiet, 7);
+    add("fallen back", fallen, 2);
+    add("switched off", off, 6);
+    add("oscillating", loud, 5);
     map.panels.push_back(where);
   }
   return {

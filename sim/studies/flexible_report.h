@@ -17,6 +17,13 @@ TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector
 TextTable flexible_summary(const std::string& title, const std::vector<FlexibleRow>& rows,
                            const std::vector<Contender>& contenders);
 
+/// What `judged`, a contender's number, costs against every other: its ratio over theirs, per step.
+TextTable price_table(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
+                      std::size_t judged);
+/// The same, every cell.
+TextTable price_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
+                      std::size_t judged);
+
 /// How many cells of each link inertia oscillate or diverge, per contender.
 TextTable oscillation_table(const std::string& title, const std::vector<FlexibleRow>& rows,
                             const std::vector<Contender>& contenders);

@@ -100,6 +100,7 @@ void add_rest(const std::vector<TracePoint>& trace, double period_s, FlexibleRes
 FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, const Limit& limit) {
   FlexibleResult result;
   result.diverged = run.diverged;
+  result.monitor = run.monitor;
   SideSums link;
   SideSums motor;
   const double direction = sign(cell.step_rad);
@@ -193,6 +194,21 @@ void add_misconfigurations(const FlexibleCell& cell, std::vector<FlexibleCell>& 
   cells.push_back(link);
 }
 
+/// Every part on, as the first version was judged: its acceleration limited.
+ExtendedFeatures every_part() {
+  ExtendedFeatures features;
+  features.motion = {6.0, 60.0, 60.0};
+  return features;
+}
+
+Contender daemon_contender(const std::string& name, const FlexibleTables& tables,
+                           const ExtendedFeatures& features) {
+  return {name, [name, family = tables.c4, features](const JointPlantConfig& plant) {
+            const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
+            return extended_contender(name, table, features).make(plant);
+          }};
+}
+
 const std::vector<double> kLinkInertias_kgm2 = {0.03, 0.089, 0.267, 1.0};
 const std::vector<double> kTemperatures_C = {-10.0, 0.0, 20.0, 45.0};
 const std::vector<double> kSteps_rad = {0.001, 0.01, 0.1, 1.0};
@@ -224,30 +240,23 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
                      }};
   };
   const auto daemon = [&](const std::string& name, const ExtendedFeatures& features) {
-    return Contender{name, [name, family = tables.c4, features](const JointPlantConfig& plant) {
-                       const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
-                       return extended_contender(name, table, features).make(plant);
-                     }};
+    return daemon_contender(name, tables, features);
   };
   const ExtendedFeatures standard = daemon_defaults();
   ExtendedFeatures told = standard;
   told.link = true;
   std::vector<Contender> contenders = {pid_contender(), plain("C4", tables.c4, &plain_contender),
-                                       daemon("daemon", standard),
-                                       daemon("daemon, told of its spring", told)};
-  const auto without = [&](const std::string& name, bool ExtendedFeatures::*part) {
+                                       daemon("daemon", standard), daemon("daemon told of its spring", told)};
+  const auto switched = [&](const std::string& name, bool ExtendedFeatures::*part, bool on) {
     ExtendedFeatures features = standard;
-    features.*part = false;
+    features.*part = on;
     contenders.push_back(daemon(name, features));
   };
-  // Where the first version was judged: every part on, its acceleration limited.
-  ExtendedFeatures rigid;
-  rigid.motion = {6.0, 60.0, 60.0};
-  contenders.push_back(daemon("declared rigid, all parts on", rigid));
+  contenders.push_back(daemon("declared rigid", every_part()));
   if (!all) return contenders;
-  without("observer off", &ExtendedFeatures::observer);
-  without("shaping off", &ExtendedFeatures::shaping);
-  without("rest off", &ExtendedFeatures::rest);
+  switched("observer on", &ExtendedFeatures::observer, true);
+  switched("shaping off", &ExtendedFeatures::shaping, false);
+  switched("rest off", &ExtendedFeatures::rest, false);
   contenders.push_back(plain("C1", tables.c1, &plain_contender));
   contenders.push_back(plain("C2", tables.c2, &plain_contender));
   contenders.push_back(plain("C3", tables.c4, [](const std::string& name, const GainTable& table) {
@@ -256,6 +265,12 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
     return plain_contender(name, fallback);
   }));
   return contenders;
+}
+
+Contender unwatched_contender(const FlexibleTables& tables) {
+  ExtendedFeatures features = every_part();
+  features.monitor = false;
+  return daemon_contender("declared rigid without monitor", tables, features);
 }
 
 std::vector<FlexibleCell> flexible_grid() {
@@ -335,6 +350,10 @@ std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed) {
 ClosedLoopResult run_cell(const FlexibleCell& cell, const Contender& contender) {
   const auto controller = contender.make(cell.nominal);
   return run_closed_loop(loop_of(cell), *controller);
+}
+
+bool oscillates(const FlexibleCell& cell, const Contender& contender) {
+  return judge(cell, run_cell(cell, contender), {}).oscillates;
 }
 
 std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,

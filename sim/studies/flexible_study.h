@@ -37,6 +37,8 @@ struct FlexibleResult {
   double rest_swing_rad = 0.0;  ///< of the link, from peak to peak over the last quarter
   bool oscillates =
       false;  ///< swings at rest by more than kOscillation_rad under a torque that keeps changing sign
+  MonitorState monitor =
+      MonitorState::kWatching;  ///< fallen back, or switched off, which ends every oscillation
   bool diverged = false;
 };
 
@@ -57,6 +59,9 @@ FlexibleTables read_flexible_tables(const std::filesystem::path& directory);
 /// part switched.
 std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all);
 
+/// The daemon's with every part on, as on a joint that is declared rigid, and no monitor: what that prevents.
+Contender unwatched_contender(const FlexibleTables& tables);
+
 /// The grid of docs/flexible-joint.md.
 std::vector<FlexibleCell> flexible_grid();
 /// The grid at 3 % damping and the gear's own stiffness, with each effect alone and all together.
@@ -76,6 +81,9 @@ struct FlexibleRow {
 std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,
                                       const std::vector<Contender>& contenders,
                                       const std::function<void(std::size_t)>& progress);
+
+/// Whether the joint of a cell oscillates at the end, or diverged; needs no limit of the link, and so little time.
+bool oscillates(const FlexibleCell& cell, const Contender& contender);
 
 /// One run of a cell, with its trace.
 ClosedLoopResult run_cell(const FlexibleCell& cell, const Contender& contender);

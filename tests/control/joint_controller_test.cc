@@ -27,6 +27,7 @@ JointControllerConfig realistic_config() {
   config.motor = plant.motor;
   config.motion = {100.0, 1e4, 1e4};
   config.rigid = true;
+  config.use_observer = true;
   config.use_landing = true;
   return config;
 }

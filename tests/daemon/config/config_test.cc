@@ -109,6 +109,16 @@ TEST_F(ConfigTest, AllowsNoStallLimitWithinWhichNoPeriodCanBeMissed) {
       << "by default at least two periods";
 }
 
+TEST_F(ConfigTest, GivesAnObserverOnlyToAJointThatIsDeclaredRigid) {
+  EXPECT_TRUE(read(example("demo.toml")).joints[0].loop.controller.use_observer);
+  const std::string flexible = replaced(example("demo.toml"), "rigid = true", "rigid = false");
+  EXPECT_FALSE(read(flexible).joints[0].loop.controller.use_observer);
+  EXPECT_FALSE(read(flexible).joints[0].loop.controller.use_landing);
+  const std::string error = error_of(replaced(flexible, "rigid = false", "observer = true"));
+  for (const char* part : {"control.observer", "rigid = true"})
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+}
+
 TEST_F(ConfigTest, RefusesTwoJointsOfTheSameName) {
   std::string text = kSound;
   text += std::string(kSound).substr(std::string(kSound).find("[[joint]]"));

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <stdexcept>
 
 namespace strainwave {
 namespace {
@@ -36,6 +39,69 @@ TEST(FlexibleStudy, DrawsTheSameJointFromTheSameSeedWhateverTheNumberOfJoints) {
 TEST(FlexibleStudy, GivesEachJointTheTableOfItsTotalInertia) {
   for (const GainTable& table : tables().c4)
     EXPECT_EQ(&FlexibleTables::nearest(tables().c4, 1.02 * table.plant.inertia_kgm2), &table);
+}
+
+const Contender& contender(const std::string& name) {
+  static const auto all = flexible_contenders(tables(), true);
+  for (const Contender& candidate : all)
+    if (candidate.name == name) return candidate;
+  throw std::invalid_argument(name);
+}
+
+int oscillating(const std::vector<FlexibleCell>& cells, const Contender& contender) {
+  return static_cast<int>(std::count_if(
+      cells.begin(), cells.end(), [&](const FlexibleCell& cell) { return oscillates(cell, contender); }));
+}
+
+std::vector<FlexibleCell> hardly_damped_cells() {
+  std::vector<FlexibleCell> cells;
+  for (const FlexibleCell& cell : flexible_grid())
+    if (cell.damping_ratio == 0.01 && cell.stiffness_scale == 1.0) cells.push_back(cell);
+  return cells;
+}
+
+TEST(FlexibleStudy, FindsNoJointOfTheGridThatOscillatesUnderTheDefaultController) {
+  EXPECT_EQ(oscillating(hardly_damped_cells(), contender("daemon")), 0);
+}
+
+TEST(FlexibleStudy, FindsNoRandomJointThatOscillatesOrDivergesUnderTheDefaultController) {
+  EXPECT_EQ(oscillating(random_joints(100, 1), contender("daemon")), 0);
+}
+
+// That the study sees an oscillation where there is one: it is what the first version of this project did.
+TEST(FlexibleStudy, FindsTheOscillationsOfEveryPartOnWithoutTheMonitorOnHeavyLinks) {
+  std::vector<FlexibleCell> light;
+  std::vector<FlexibleCell> heavy;
+  for (const FlexibleCell& cell : first_grid()) {
+    if (cell.link_inertia_kgm2 < 0.05) light.push_back(cell);
+    if (cell.link_inertia_kgm2 > 0.2) heavy.push_back(cell);
+  }
+  EXPECT_LE(oscillating(light, unwatched_contender(tables())), 3);
+  EXPECT_GE(oscillating(heavy, unwatched_contender(tables())), 24);
+  EXPECT_EQ(oscillating(heavy, contender("declared rigid")), 0);
+}
+
+// README's geometric means over the limit, above 40 urad, are of the whole grid; here from its middle.
+TEST(FlexibleStudy, FindsTheDefaultInTheMiddleOfTheGridNoWorseThanTheReadmeSaysOfAllOfIt) {
+  std::vector<FlexibleCell> middle;
+  for (const FlexibleCell& cell : flexible_grid())
+    if (cell.damping_ratio == 0.03 && cell.stiffness_scale == 1.0 &&
+        (cell.temperature_C == -10.0 || cell.temperature_C == 20.0))
+      middle.push_back(cell);
+  const auto rows = run_flexible(middle, {contender("daemon"), contender("PID")}, [](std::size_t) {});
+  std::map<double, std::pair<double, double>> logarithms;
+  std::map<double, int> cells;
+  for (const FlexibleRow& row : rows) {
+    logarithms[row.cell.step_rad].first += std::log(row.results[0].link_counted_ratio);
+    logarithms[row.cell.step_rad].second += std::log(row.results[1].link_counted_ratio);
+    ++cells[row.cell.step_rad];
+  }
+  const std::map<double, double> readme = {{0.001, 12.6}, {0.01, 1.77}, {0.1, 1.07}, {1.0, 1.05}};
+  for (const auto& [step_rad, of_readme] : readme) {
+    const double daemon = std::exp(logarithms[step_rad].first / cells[step_rad]);
+    EXPECT_LT(daemon, 1.25 * of_readme) << step_rad;
+    EXPECT_LT(daemon, std::exp(logarithms[step_rad].second / cells[step_rad])) << step_rad << ", PID";
+  }
 }
 
 TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
