@@ -71,6 +71,14 @@ Contender extended_contender(const std::string& name, const GainTable& table,
           }};
 }
 
+Contender extended_contender(const std::string& name, const GainTable& table) {
+  return {
+      name, [name, table](const JointPlantConfig& plant) {
+        const bool spring = plant.effects.transmission.has_value();
+        return extended_contender(name, table, spring ? daemon_defaults() : ExtendedFeatures{}).make(plant);
+      }};
+}
+
 Contender pid_contender() {
   return {"PID", [](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
             return std::make_unique<PidLoopController>(PidGains{}, plant.period_s);

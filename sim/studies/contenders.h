@@ -49,7 +49,9 @@ constexpr ExtendedFeatures daemon_defaults() {
 
 /// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,
-                             const ExtendedFeatures& features = {});
+                             const ExtendedFeatures& features);
+/// The same as it would be configured for the plant: every part on a rigid one, the daemon's defaults on a spring.
+Contender extended_contender(const std::string& name, const GainTable& table);
 
 Contender pid_contender();
 
