@@ -96,8 +96,8 @@ Reason JointBench::order(std::size_t joint, Order order) {
   throw std::runtime_error("the loop did not answer an order");
 }
 
-void JointBench::bring_to_hold(std::size_t index) {
-  joint(index).table_slot(0) = {demo_table(), 1};
+void JointBench::bring_to_hold(std::size_t index, const GainTable& table) {
+  joint(index).table_slot(0) = {table, 1};
   if (order(index, OrderKind::kUseTable) != Reason::kAccepted) throw std::runtime_error("table refused");
   if (order(index, OrderKind::kEnable) != Reason::kAccepted) throw std::runtime_error("enable refused");
   if (step_until([&] { return mode(index) == Mode::kHolding; }, 1000) < 0)

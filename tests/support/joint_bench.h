@@ -88,8 +88,8 @@ class JointBench {
   Reason inject(std::size_t joint, const Injection& injection) {
     return order(joint, Order{.kind = OrderKind::kInject, .injection = injection});
   }
-  /// Loads the table, enables, and runs until the joint holds.
-  void bring_to_hold(std::size_t joint);
+  /// Loads `table`, enables, and runs until the joint holds.
+  void bring_to_hold(std::size_t joint, const GainTable& table = demo_table());
 
   JointLoop& joint(std::size_t index) { return *joints_[index]; }
   const state_v1& state(std::size_t joint) const { return joints_[joint]->record().state; }
