@@ -27,6 +27,9 @@ constexpr double kHandover_s = 0.01;
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
 constexpr double kHuntingCounts = 20.0;
+// Share of the torque limit that the feedback may answer with while a motion lasts, where spring, damping and load are not quite as
+// told. A joint that chatters uses more of it.
+constexpr double kSpringDoubt = 0.2;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
 
@@ -167,6 +170,10 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
       config_.motor.limit_Nm(moves ? planned_torque_Nm() : now_.disturbance.load_Nm, then_.velocity_rad_s);
   ChatterSample sample;
   sample.excess_torque_Nm = output.torque_Nm - std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  if (linked() && moves) {
+    const double beyond_Nm = std::abs(sample.excess_torque_Nm) - kSpringDoubt * torque_limit_Nm_;
+    sample.excess_torque_Nm = std::copysign(std::max(0.0, beyond_Nm), sample.excess_torque_Nm);
+  }
   sample.static_friction_Nm = model_.friction.static_Nm;
   sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
   sample.reference_rests = !moves;

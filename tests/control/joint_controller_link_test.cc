@@ -126,6 +126,16 @@ TEST(JointControllerWithLink, NeitherSwingsNorChattersWithAnotherLoadOrSpring) {
         }
 }
 
+TEST(JointControllerWithLink, TakesNoDampingThatItWasNotToldOfForChatter) {
+  for (const double temperature : {0.0, 20.0, 45.0})
+    for (const double target : {0.01, 0.1, 1.0}) {
+      JointPlantConfig plant = plant_with(0.267);
+      plant.effects.transmission->damping_Nms_rad = structural_damping_Nms_rad(0.089, 0.267, 8100.0, 0.1);
+      Loop loop(plant, plant_with(0.267), temperature);
+      EXPECT_EQ(move(loop, target).monitor, MonitorState::kWatching) << temperature << " " << target;
+    }
+}
+
 TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections) {
   JointPlantConfig plant = plant_with(0.089);
   const JointPlantConfig told = plant;
