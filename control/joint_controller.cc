@@ -177,6 +177,7 @@ void JointController::follow(const StreamSample& sample, double speed_limit_rad_
     plans_ = 0;
   }
   streamed_ = true;
+  sample_position_rad_ = sample.position_rad;
   stream_.take(sample, motion_.velocity_rad_s);
 }
 

@@ -129,8 +129,8 @@ class JointController {
   void follow(const StreamSample& sample, double speed_limit_rad_s, const PositionRange& range) noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept;
-  /// Where the motion ends.
-  double target_rad() const noexcept { return shaper_.target_rad(); }
+  /// Where the motion ends, as far as the orders say: of a stream its last sample.
+  double target_rad() const noexcept { return streamed_ ? sample_position_rad_ : shaper_.target_rad(); }
 
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
@@ -212,6 +212,7 @@ class JointController {
       torques_Nm_{};     ///< newest first, as far as the motor can deliver them
   MotionLimits motion_;  ///< the configuration's, and this order's speed
   PositionRange stream_range_;
+  double sample_position_rad_ = 0.0;  ///< of the stream's last
   double torque_limit_Nm_ = 0.0;
   double temperature_C_ = 0.0;
   double previous_position_rad_ = 0.0;

@@ -49,13 +49,13 @@ struct ActuatorReading {
   std::int64_t temperature_produced_ns = 0;  ///< when the sensor produced it, CLOCK_MONOTONIC
   DriveState drive_state = DriveState::kDisabled;
   ActuatorFault fault = ActuatorFault::kNone;
-  JointInputs inputs;                ///< of this period, even without a fresh position
-  std::uint32_t drive_error = 0;     ///< why, in the driver's own numbers; 0: nothing to say
+  JointInputs inputs;                  ///< of this period, even without a fresh position
+  std::uint32_t drive_error = 0;       ///< why, in the driver's own numbers; 0: nothing to say
   std::int64_t position_delay_ns = 0;  ///< from its sampling until it came, measured; 0: not known
   int position_late_periods = 0;       ///< sampled so many periods before the drive's usual delay has it
-  bool has_position = false;         ///< false: no fresh sample this period, the value is the last one
-  bool position_lost = false;        ///< the count may be wrong: to be homed before it is believed
-  bool brake_shut = false;           ///< torque holds the joint while its brake opens: no motion yet
+  bool has_position = false;           ///< false: no fresh sample this period, the value is the last one
+  bool position_lost = false;          ///< the count may be wrong: to be homed before it is believed
+  bool brake_shut = false;             ///< torque holds the joint while its brake opens: no motion yet
   bool has_velocity = false;
   bool has_temperature = false;
 };

@@ -119,6 +119,24 @@ TEST(JointLoopStreaming, BridgeATenthOfTheirSamplesLost) {
   }
 }
 
+TEST(JointLoopStreaming, ShowTheirLastSampleAsTheTarget) {
+  JointBench bench({demo_joint()});
+  bench.bring_to_hold(0);
+  for (const double target_rad : {0.001, 0.01, 0.1, 1.0}) {
+    Order order;
+    order.kind = OrderKind::kSetpoint;
+    order.stream_id = 1;
+    order.begins_stream = target_rad == 0.001;
+    order.valid_for_s = 1.0;
+    order.position_rad = target_rad;
+    ASSERT_EQ(bench.order(0, order), Reason::kAccepted);
+    for (int k = 0; k < 300; ++k) {
+      ASSERT_EQ(bench.state(0).target_position_rad, target_rad) << k;
+      bench.step();
+    }
+  }
+}
+
 TEST(JointLoopStreaming, RefuseASampleForACycleThatIsOverOrFarAway) {
   JointBench bench({demo_joint()});
   bench.bring_to_hold(0);
