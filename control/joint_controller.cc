@@ -168,17 +168,18 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   if (link_motion_) plan_link_motion(reference_.position_rad);
 }
 
-void JointController::follow(const StreamSample& sample, double speed_limit_rad_s,
+void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
                              const PositionRange& range) noexcept {
   limit_speed(speed_limit_rad_s);
   stream_range_ = range;
-  if (!streamed_) {
+  if (!streamed_ || begins) {
     stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s());
     plans_ = 0;
   }
   streamed_ = true;
   sample_position_rad_ = sample.position_rad;
-  stream_.take(sample, motion_.velocity_rad_s);
+  stream_.take(sample,
+               {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
 }
 
 void JointController::stop() noexcept {
@@ -239,8 +240,8 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
 // sampling to this one's, fewer periods have passed when positions become late, and more when they catch up.
 void JointController::let_torque_act(int periods, int late_periods) noexcept {
   const auto predict = [&](int late) {
-    if (observing())
-      observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_periods + late)], model_);
+    const int age = config_.delay_periods + late;
+    if (observing()) observer_.predict(torques_Nm_[static_cast<std::size_t>(age)], model_);
   };
   const int later = late_periods - late_periods_;
   for (int period = 0; period < periods; ++period) {

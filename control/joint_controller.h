@@ -124,9 +124,10 @@ class JointController {
   void start(double position_rad, double velocity_rad_s = 0.0, double holding_torque_Nm = 0.0) noexcept;
   /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
-  /// One setpoint of a stream; the first one begins it. Speed as above, and inside `range`. Until set_target(), stop(),
+  /// One setpoint of a stream, which it `begins` or goes on with. Speed as above, and inside `range`. Until set_target(), stop(),
   /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
-  void follow(const StreamSample& sample, double speed_limit_rad_s, const PositionRange& range) noexcept;
+  void follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
+              const PositionRange& range) noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept;
   /// Where the motion ends, as far as the orders say: of a stream its last sample.

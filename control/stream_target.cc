@@ -20,7 +20,7 @@ constexpr double kApart_s = 0.01;
 // What is bridged when samples are missing.
 constexpr double kBridgedIntervals = 3.0;
 constexpr double kLongestBridge_s = 0.2;
-// Mean speed to a knot, as a multiple of the limit, from which on it is a new place.
+// Multiple of a limit that a motion may need: one that needs more is a new place.
 constexpr double kReach = 2.0;
 }  // namespace
 
@@ -36,7 +36,8 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s) noexcept {
   ended_ = false;
 }
 
-void StreamTarget::take(const StreamSample& sample, double speed_limit_rad_s) noexcept {
+void StreamTarget::take(const StreamSample& sample, const Reach& reach) noexcept {
+  reach_ = reach;
   Knot knot{now_, sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2};
   const double last_arrival = arrival_;
   if (sample.in_periods > 0) {
@@ -50,10 +51,9 @@ void StreamTarget::take(const StreamSample& sample, double speed_limit_rad_s) no
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
   estimate_derivatives(sample, knot);
   remember(knot);
-  speed_limit_rad_s_ = speed_limit_rad_s;
   if (sample.in_periods > 0) return queue(knot);
   waiting_count_ = 0;
-  lead_to(carried_forward(sample, knot, arrivals_ > 1 ? arrival_ - last_arrival : 0.0), speed_limit_rad_s);
+  lead_to(carried_forward(sample, knot, arrivals_ > 1 ? arrival_ - last_arrival : 0.0));
 }
 
 // Samples that were lost on the way leave whole intervals out.
@@ -91,32 +91,48 @@ const StreamTarget::Knot* StreamTarget::before(double period) const noexcept {
   return found;
 }
 
-void StreamTarget::estimate_derivatives(const StreamSample& sample, Knot& knot) const noexcept {
+void StreamTarget::estimate_derivatives(const StreamSample& sample, Knot& knot) noexcept {
   const Knot* last = before(knot.at);
   const Knot* first = last != nullptr ? before(last->at) : nullptr;
   if (sample.derivatives < 2) knot.acceleration_rad_s2 = 0.0;
   if (sample.derivatives < 1) knot.velocity_rad_s = 0.0;
   if (last == nullptr) return;
+  if (sample.derivatives == 0) return derive_from_positions(*last, first, knot);
   const double newer_s = seconds(knot.at - last->at);
-  const double both_s = first != nullptr ? seconds(knot.at - first->at) : newer_s;
-  // What has come to a stand stands.
-  const bool stands = past_count_ >= 2 && knot.position_rad == past_[0].position_rad &&
-                      knot.position_rad == past_[1].position_rad && knot.position_rad == last->position_rad;
-  // Slope at the knot, and its change: of a parabola through three points, or a line through two.
-  const auto slope = [&](double Knot::*value, double& rate, double& change) {
-    const double newer = (knot.*value - last->*value) / newer_s;
-    rate = newer;
-    if (first == nullptr || stands) return;
-    const double older = (last->*value - first->*value) / (both_s - newer_s);
-    change = 2.0 * (newer - older) / both_s;
-    rate += 0.5 * newer_s * change;
-  };
-  if (sample.derivatives == 0)
-    slope(&Knot::position_rad, knot.velocity_rad_s, knot.acceleration_rad_s2);
-  else if (sample.derivatives == 1)
-    slope(&Knot::velocity_rad_s, knot.acceleration_rad_s2, knot.jerk_rad_s3);
-  else
+  if (sample.derivatives == 2) {
     knot.jerk_rad_s3 = (knot.acceleration_rad_s2 - last->acceleration_rad_s2) / newer_s;
+    return;
+  }
+  // Slope of a parabola through three velocities, or of a line through two.
+  knot.acceleration_rad_s2 = (knot.velocity_rad_s - last->velocity_rad_s) / newer_s;
+  if (first == nullptr) return;
+  const double older_s = seconds(last->at - first->at);
+  const double older_rad_s2 = (last->velocity_rad_s - first->velocity_rad_s) / older_s;
+  knot.jerk_rad_s3 = 2.0 * (knot.acceleration_rad_s2 - older_rad_s2) / (newer_s + older_s);
+  knot.acceleration_rad_s2 += 0.5 * newer_s * knot.jerk_rad_s3;
+}
+
+// Likewise. What needs more acceleration than can be is a place: nothing before it says anything about a motion.
+void StreamTarget::derive_from_positions(const Knot& last, const Knot* first, Knot& knot) noexcept {
+  const bool stands = past_count_ >= 2 && knot.position_rad == past_[0].position_rad &&
+                      knot.position_rad == past_[1].position_rad && knot.position_rad == last.position_rad;
+  if (stands) return;
+  const double newer_s = seconds(knot.at - last.at);
+  const double newer_rad_s = (knot.position_rad - last.position_rad) / newer_s;
+  if (first == nullptr) {
+    const double possible = kReach * reach_.acceleration_rad_s2 * newer_s;
+    if (std::abs(newer_rad_s - state_.velocity_rad_s) <= possible) knot.velocity_rad_s = newer_rad_s;
+    return;
+  }
+  const double older_s = seconds(last.at - first->at);
+  const double older_rad_s = (last.position_rad - first->position_rad) / older_s;
+  const double change_rad_s2 = 2.0 * (newer_rad_s - older_rad_s) / (newer_s + older_s);
+  if (std::abs(change_rad_s2) > kReach * reach_.acceleration_rad_s2) {
+    past_count_ = 0;
+    return;
+  }
+  knot.acceleration_rad_s2 = change_rad_s2;
+  knot.velocity_rad_s = newer_rad_s + 0.5 * newer_s * change_rad_s2;
 }
 
 // Farther after a gap, so that what was missed is caught up with in the time that it took.
@@ -142,17 +158,17 @@ StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, con
 void StreamTarget::queue(const Knot& knot) noexcept {
   interval_ = past_count_ >= 2 ? past_[0].at - past_[1].at : knot.at - now_;
   arrivals_ = 0;
-  if (now_ >= to_.at && waiting_count_ == 0) return lead_to(knot, speed_limit_rad_s_);
+  if (now_ >= to_.at && waiting_count_ == 0) return lead_to(knot);
   if (waiting_count_ == kKnots) return;  // the sender is too far ahead; the knots it sends later will do
   waiting_[waiting_count_] = knot;
   ++waiting_count_;
 }
 
-void StreamTarget::lead_to(const Knot& knot, double speed_limit_rad_s) noexcept {
+void StreamTarget::lead_to(const Knot& knot) noexcept {
   from_ = {now_, state_.position_rad, state_.velocity_rad_s, state_.acceleration_rad_s2, 0.0};
   to_ = knot;
   const double duration_s = seconds(to_.at - from_.at);
-  if (std::abs(to_.position_rad - from_.position_rad) <= kReach * speed_limit_rad_s * duration_s) return;
+  if (std::abs(to_.position_rad - from_.position_rad) <= kReach * reach_.velocity_rad_s * duration_s) return;
   // A new place: the target passes through the knot at its speed as if it always had.
   to_.acceleration_rad_s2 = 0.0;
   from_ = to_;

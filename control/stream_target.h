@@ -12,8 +12,9 @@
 //                       and the motion lags one interval. Accelerations that are not given by velocities, likewise
 //   no new sample       the motion goes on as it was for three intervals, 0.2 s at most, and then has ended: the
 //                       joint is to come to rest. A target that stands still stays where it is
-//   out of reach        a knot that needs more than twice the speed limit is a new place, not a motion to it: the
-//                       target is there at once, and whoever follows goes there as fast as the joint may
+//   out of reach        a knot that needs more than twice the limit of speed, or positions that need more than twice
+//                       that of acceleration, are a new place, not a motion: the target is there, at rest, and
+//                       whoever follows goes there as fast as the joint may
 #pragma once
 
 #include <array>
@@ -45,10 +46,15 @@ class StreamTarget {
   /// `period_s` > 0.
   explicit StreamTarget(double period_s) noexcept : period_s_(period_s) {}
 
+  /// What who follows can do; a motion that needs much more is none. All > 0.
+  struct Reach {
+    double velocity_rad_s = 1.0;
+    double acceleration_rad_s2 = 1.0;
+  };
+
   /// A stream begins where the joint is to be now.
   void begin(double position_rad, double velocity_rad_s) noexcept;
-  /// `speed_limit_rad_s` > 0: of who follows.
-  void take(const StreamSample& sample, double speed_limit_rad_s) noexcept;
+  void take(const StreamSample& sample, const Reach& reach) noexcept;
   /// The target of the period that begins now; time goes on by one period.
   MovingTarget step() noexcept;
   /// The samples have stopped coming while the target moved. Until the next begin().
@@ -73,10 +79,11 @@ class StreamTarget {
   void clock_in() noexcept;
   void remember(const Knot& knot) noexcept;
   const Knot* before(double period) const noexcept;
-  void estimate_derivatives(const StreamSample& sample, Knot& knot) const noexcept;
+  void estimate_derivatives(const StreamSample& sample, Knot& knot) noexcept;
   Knot carried_forward(const StreamSample& sample, const Knot& knot, double since_last) const noexcept;
   void queue(const Knot& knot) noexcept;
-  void lead_to(const Knot& knot, double speed_limit_rad_s) noexcept;
+  void derive_from_positions(const Knot& last, const Knot* first, Knot& knot) noexcept;
+  void lead_to(const Knot& knot) noexcept;
   State at(double period) noexcept;
   State between(double period) const noexcept;
   State beyond(double period) noexcept;
@@ -86,7 +93,7 @@ class StreamTarget {
   State state_;       ///< now
   Knot from_;         ///< the quintic's begin ...
   Knot to_;           ///< ... and end
-  double speed_limit_rad_s_ = 0.0;
+  Reach reach_;
   std::array<Knot, kKnots> waiting_{};  ///< knots after to_, by time
   std::size_t waiting_count_ = 0;
   double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come

@@ -63,6 +63,7 @@ std::vector<StateLimit> state_limits(Controller controller, const DesignRequest&
 std::vector<BoundedDynamics> plant_rules(Controller controller, const DesignRequest& request) {
   const auto sample = request.sampling == Sampling::kForwardEuler ? euler_dynamics : bounded_dynamics;
   std::vector<BoundedDynamics> rules;
+  rules.reserve(static_cast<std::size_t>(plant_rule_count(request.friction)));
   for (int j = 0; j < plant_rule_count(request.friction); ++j) {
     rules.push_back(
         sample(request.plant, plant_rule_viscous_Nms_rad(request.friction, j), has_integrator(controller)));

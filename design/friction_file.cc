@@ -124,6 +124,7 @@ FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide si
   const std::vector<std::string> columns{"center_C", "width_C", "static_Ncm", "coulomb_Ncm",
                                          "viscous_Ncm_per_rpm"};
   std::vector<std::size_t> index;
+  index.reserve(columns.size());
   for (const std::string& column : columns) index.push_back(csv.column(column));
   if (csv.columns.size() != columns.size())
     throw InputError(csv.source + ": has columns besides those of fuzzy rules");

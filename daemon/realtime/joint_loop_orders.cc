@@ -98,7 +98,7 @@ Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   else
     controller_.follow(
         {target_rad, order.velocity_rad_s, order.acceleration_rad_s2, order.derivatives, in_periods},
-        order.speed_limit_rad_s, reachable_range());
+        order.begins_stream, order.speed_limit_rad_s, reachable_range());
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   return Reason::kAccepted;
 }

@@ -24,6 +24,7 @@ std::unique_ptr<CanNode> make_node(const odrive::DriveConfig& drive) {
 
 std::vector<std::unique_ptr<CanNode>> make_nodes(const std::vector<CanDrive>& drives) {
   std::vector<std::unique_ptr<CanNode>> nodes;
+  nodes.reserve(drives.size());
   for (const CanDrive& drive : drives)
     nodes.push_back(std::visit([](const auto& config) { return make_node(config); }, drive));
   return nodes;

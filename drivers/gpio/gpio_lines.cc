@@ -143,9 +143,10 @@ GpioLines::GpioLines(const JointLines& lines, const std::string& consumer, const
         if (!names.empty()) names += ", ";
         names += to_text(role);
       }
-      throw InputError(where + ": lines " + names + " of " + group.settings.chip_path +
-                       " cannot be requested: " + error.what() +
-                       " (strainwavectl gpio-check shows who holds them)");
+      std::string complaint = where;
+      complaint.append(": lines ").append(names).append(" of ").append(group.settings.chip_path);
+      complaint.append(" cannot be requested: ").append(error.what());
+      throw InputError(complaint + " (strainwavectl gpio-check shows who holds them)");
     }
   }
 }

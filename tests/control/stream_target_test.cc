@@ -19,6 +19,7 @@ constexpr double kPeriod_s = 0.001;
 constexpr double kAmplitude_rad = 0.5;
 constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr MotionLimits kLimits{8.0, 60.0, 80.0};
+constexpr StreamTarget::Reach kReach{8.0, 60.0};
 
 StreamSample sine(double t_s, int derivatives) {
   return {
@@ -42,7 +43,7 @@ class Following {
     shaper_.reset(position_rad, 0.0);
     target_.begin(position_rad, 0.0);
   }
-  void take(const StreamSample& sample) { target_.take(sample, kLimits.velocity_rad_s); }
+  void take(const StreamSample& sample) { target_.take(sample, kReach); }
   Reference step(const PositionRange& range = {}) { return shaper_.follow(target_.step(), range); }
   const StreamTarget& target() const { return target_; }
 
@@ -148,7 +149,7 @@ TEST(StreamTarget, MeetsKnotsAtTheirOwnTime) {
   for (int i = 1; i <= 5; ++i) {
     StreamSample sample = sine(0.02 * i, 1);
     sample.in_periods = 20 * i;
-    target.take(sample, kLimits.velocity_rad_s);
+    target.take(sample, kReach);
   }
   for (int k = 0; k <= 100; ++k) {
     const MovingTarget now = target.step();
@@ -198,6 +199,25 @@ TEST(StreamTarget, APlaceFarAwayIsReachedAsFastAsTheLimitsAllowAndExactly) {
     ++moved;
   }
   EXPECT_NEAR(arrived, moved, 2) << "as a move there";
+}
+
+// Steps of positions are places: a velocity that they would need is none, and nobody is thrown past them.
+TEST(StreamTarget, IsNeverBeyondTheStepsOfAPositionStream) {
+  for (const double step_rad : {0.05, 0.2, 1.0}) {
+    Following following;
+    following.begin(0.0);
+    double highest_rad = 0.0;
+    double lowest_rad = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      if (k % 10 == 0) following.take({k % 2000 < 1000 ? step_rad : 0.0});
+      const Reference reference = following.step();
+      highest_rad = std::max(highest_rad, reference.position_rad);
+      lowest_rad = std::min(lowest_rad, reference.position_rad);
+    }
+    EXPECT_LE(highest_rad, step_rad + 1e-5) << "half a count";
+    EXPECT_GE(lowest_rad, -1e-5) << step_rad;
+    EXPECT_FALSE(following.target().ended());
+  }
 }
 
 // Whatever is sent, at whatever times.

@@ -14,13 +14,16 @@ namespace {
 
 constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr double kAmplitude_rad = 0.5;
+// Where the joint turns round, friction changes its sign: the sine itself takes 7 N.m in a period there, and what the
+// observer makes of it differs from ride to ride by more than streams do.
+constexpr double kTurning_rad_s = 0.3;
 constexpr int kBegin = 2000;  // periods until the motion is judged
 constexpr int kEnd = 6000;
 
 struct Ride {
   double rms_torque_Nm = 0.0;
-  double largest_step_Nm = 0.0;
-  double rms_error_rad = 0.0;  ///< from the sine, the allowed lag ago
+  double largest_step_Nm = 0.0;  ///< in a period, while the joint does not turn round
+  double rms_error_rad = 0.0;    ///< from the sine, the allowed lag ago
   double largest_error_rad = 0.0;
   bool off_stream = false;
 };
@@ -72,7 +75,8 @@ Ride ride(const Stream& stream) {
       result.rms_torque_Nm += torque_Nm * torque_Nm;
       result.rms_error_rad += error_rad * error_rad;
       result.largest_error_rad = std::max(result.largest_error_rad, std::abs(error_rad));
-      result.largest_step_Nm = std::max(result.largest_step_Nm, std::abs(torque_Nm - last_Nm));
+      if (std::abs(bench.state(0).setpoint_velocity_rad_s) > kTurning_rad_s)
+        result.largest_step_Nm = std::max(result.largest_step_Nm, std::abs(torque_Nm - last_Nm));
       result.off_stream = result.off_stream || bench.has_notice(0, Notice::kOffStream);
     }
     last_Nm = torque_Nm;
@@ -80,6 +84,7 @@ Ride ride(const Stream& stream) {
   result.rms_torque_Nm = std::sqrt(result.rms_torque_Nm / (kEnd - kBegin));
   result.rms_error_rad = std::sqrt(result.rms_error_rad / (kEnd - kBegin));
   EXPECT_EQ(bench.fault(0), Fault::kNone);
+  EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
   return result;
 }
 
