@@ -27,6 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPollStep = std::chrono::milliseconds(10);
 constexpr std::chrono::microseconds kRecent{200'000};
+constexpr std::chrono::microseconds kNextChallenge{30'000};
 constexpr std::chrono::microseconds kFirstState{10'000'000};
 
 // One network for all tests of a program, entered before any thread exists.
@@ -178,10 +179,11 @@ template <typename Message>
 void TestClient::fill_envelope(const std::string& joint, Message& message) {
   // What is quoted must be recent: what waits is taken first, and a state that came before a pause of the test is none.
   for (pollfd waiting{lcm_.getFileno(), POLLIN, 0}; ::poll(&waiting, 1, 0) > 0;) lcm_.handle();
-  // Nor is one from before a stop of ours.
+  // Nor is one from before a stop of ours, which the daemon may have drawn before and published after it.
   const auto recent = [&] {
     return states_[joint] && utime_now() - heard_us_[joint] < kRecent.count() &&
-           states_[joint]->challenge != stopped_challenge_[joint];
+           states_[joint]->challenge != stopped_challenge_[joint] &&
+           utime_now() - stopped_us_[joint] >= kNextChallenge.count();
   };
   const auto deadline = Clock::now() + (states_[joint] ? kRecent : kFirstState);
   while (!recent() && Clock::now() < deadline) pump(std::chrono::milliseconds(5));
@@ -195,7 +197,7 @@ command_v1 TestClient::make_command(const std::string& joint, Action action) {
   command_v1 message{};
   fill_envelope(joint, message);
   message.action = static_cast<std::int32_t>(action);
-  if (action == Action::kDisable || action == Action::kHold) stopped_challenge_[joint] = message.challenge;
+  if (action == Action::kDisable || action == Action::kHold) note_stop(joint);
   return message;
 }
 
@@ -229,7 +231,14 @@ inject_v1 TestClient::make_injection(const std::string& joint, std::int32_t kind
 }
 
 Answer TestClient::command(const std::string& joint, Action action) {
-  return send_and_wait(joint, "COMMAND", make_command(joint, action));
+  const Answer answer = send_and_wait(joint, "COMMAND", make_command(joint, action));
+  if (action == Action::kDisable || action == Action::kHold) note_stop(joint);
+  return answer;
+}
+
+void TestClient::note_stop(const std::string& joint) {
+  stopped_challenge_[joint] = states_[joint] ? states_[joint]->challenge : 0;
+  stopped_us_[joint] = utime_now();
 }
 
 Answer TestClient::move(const std::string& joint, double position_rad, double valid_for_s) {

@@ -124,6 +124,7 @@ class TestClient {
   void on_state(const lcm::ReceiveBuffer*, const std::string& channel, const state_v1* message);
   void on_ack(const lcm::ReceiveBuffer*, const std::string& channel, const ack_v1* message);
   void on_timing(const lcm::ReceiveBuffer*, const std::string& channel, const timing_v1* message);
+  void note_stop(const std::string& joint);
   template <typename Message>
   void fill_envelope(const std::string& joint, Message& message);
 
@@ -136,6 +137,7 @@ class TestClient {
   std::map<std::string, std::optional<state_v1>> states_;
   std::map<std::string, std::int64_t> heard_us_;           ///< when the latest state arrived
   std::map<std::string, std::int64_t> stopped_challenge_;  ///< of the last stop
+  std::map<std::string, std::int64_t> stopped_us_;         ///< likewise
   std::map<std::string, std::vector<state_v1>> history_;
   std::map<std::int64_t, ack_v1> acks_;
   std::optional<timing_v1> timing_;

@@ -64,6 +64,7 @@ check "the amplifier's fault stops the joint" level_is enable 0
 check "and is told" status_has "drive fault"
 pull amplifier_fault pull-up
 ctl clear-fault elbow
+sleep 0.3 # without torque the joint coasts, and is enabled at rest only
 check "enable after it" ctl enable elbow
 sleep 0.2 # the brake opens under torque
 
@@ -88,6 +89,7 @@ check "nor switches anything on" level_is enable 0
 ctl clear-fault elbow
 # Again, at other moments of the period.
 for pause in 0.0103 0.0205 0.0307 0.0409; do
+  sleep 0.3
   ctl enable elbow
   sleep $pause
   reaction_ns=$(./gpio_board react "$LINES_FOLDER" "$TREE" estop)
@@ -96,6 +98,7 @@ for pause in 0.0103 0.0205 0.0307 0.0409; do
   sleep 0.2
   ctl clear-fault elbow
 done
+sleep 0.3
 check "enable after it" ctl enable elbow
 sleep 0.2 # the brake opens under torque
 check "disable" ctl disable elbow
