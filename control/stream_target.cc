@@ -20,6 +20,18 @@ constexpr double kApart_s = 0.01;
 // What is bridged when samples are missing.
 constexpr double kBridgedIntervals = 3.0;
 constexpr double kLongestBridge_s = 0.2;
+/// At the newest of three values that lie on a parabola.
+struct Slope {
+  double rate = 0.0;
+  double change = 0.0;
+};
+
+/// By the mean rates of the newer and the older interval.
+Slope slope_at_newest(double newer, double newer_s, double older, double older_s) noexcept {
+  const double change = 2.0 * (newer - older) / (newer_s + older_s);
+  return {newer + 0.5 * newer_s * change, change};
+}
+
 // Multiple of a limit that a motion may need: one that needs more is a new place.
 constexpr double kReach = 2.0;
 }  // namespace
@@ -108,8 +120,9 @@ void StreamTarget::estimate_derivatives(const StreamSample& sample, Knot& knot) 
   if (first == nullptr) return;
   const double older_s = seconds(last->at - first->at);
   const double older_rad_s2 = (last->velocity_rad_s - first->velocity_rad_s) / older_s;
-  knot.jerk_rad_s3 = 2.0 * (knot.acceleration_rad_s2 - older_rad_s2) / (newer_s + older_s);
-  knot.acceleration_rad_s2 += 0.5 * newer_s * knot.jerk_rad_s3;
+  const Slope slope = slope_at_newest(knot.acceleration_rad_s2, newer_s, older_rad_s2, older_s);
+  knot.acceleration_rad_s2 = slope.rate;
+  knot.jerk_rad_s3 = slope.change;
 }
 
 // Likewise. What needs more acceleration than can be is a place: nothing before it says anything about a motion.
@@ -126,13 +139,13 @@ void StreamTarget::derive_from_positions(const Knot& last, const Knot* first, Kn
   }
   const double older_s = seconds(last.at - first->at);
   const double older_rad_s = (last.position_rad - first->position_rad) / older_s;
-  const double change_rad_s2 = 2.0 * (newer_rad_s - older_rad_s) / (newer_s + older_s);
-  if (std::abs(change_rad_s2) > kReach * reach_.acceleration_rad_s2) {
+  const Slope slope = slope_at_newest(newer_rad_s, newer_s, older_rad_s, older_s);
+  if (std::abs(slope.change) > kReach * reach_.acceleration_rad_s2) {
     past_count_ = 0;
     return;
   }
-  knot.acceleration_rad_s2 = change_rad_s2;
-  knot.velocity_rad_s = newer_rad_s + 0.5 * newer_s * change_rad_s2;
+  knot.velocity_rad_s = slope.rate;
+  knot.acceleration_rad_s2 = slope.change;
 }
 
 // Farther after a gap, so that what was missed is caught up with in the time that it took.

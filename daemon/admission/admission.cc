@@ -294,14 +294,13 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
   if (!command) return discard(Reason::kMalformed);
   Requester requester{joint, command->sender_id, command->sequence};
   const auto action = static_cast<Action>(command->action);
-  if (action == Action::kDisable || action == Action::kHold)
-    return stop(message, *order_of(action), command->session_id, command->challenge, requester);
-  const bool engineers = action == Action::kRevertTable || action == Action::kTakeOver;
   const auto kind = order_of(action);
-  const bool needs_joint = kind.has_value();
+  if (action == Action::kDisable || action == Action::kHold)
+    return stop(message, *kind, command->session_id, command->challenge, requester);
+  const bool engineers = action == Action::kRevertTable || action == Action::kTakeOver;
   if (auto verdict = check_envelope(message,
                                     {command->session_id, command->challenge,
-                                     engineers ? Role::kEngineer : Role::kOperator, needs_joint},
+                                     engineers ? Role::kEngineer : Role::kOperator, kind.has_value()},
                                     requester))
     return std::move(*verdict);
   if (action == Action::kTakeOver || action == Action::kRelease) return change_owner(action, requester);
