@@ -13,8 +13,6 @@ namespace {
 // The Stribeck velocity as a share of the width of the table's "zero velocity" membership, and its exponent.
 constexpr double kStribeckShare = 0.5;
 constexpr double kStribeckExponent = 2.0;
-// What the fallback takes for the load is the estimate's mean over about this time: longer than a spring swings.
-constexpr double kUsualLoad_s = 0.1;
 // Farther than this from the stream, a joint is off it: a tenth of a count of a fine encoder.
 constexpr double kOnStream_rad = 2e-6;
 // A joint without friction has none to estimate; what is estimated needs a scale all the same.
@@ -42,12 +40,13 @@ double largest_gain_Nm_rad(const GainTable& table, double period_s, bool smooth_
   return largest;
 }
 
-VelocityObserverConfig observer_config(const JointControllerConfig& config) noexcept {
-  VelocityObserverConfig observer;
-  observer.period_s = config.period_s;
-  observer.encoder_resolution_rad = config.encoder_resolution_rad;
-  observer.edge_deviation_counts = config.encoder_deviation_counts;
-  return observer;
+StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexcept {
+  StateEstimatorConfig estimator;
+  estimator.observer.period_s = config.period_s;
+  estimator.observer.encoder_resolution_rad = config.encoder_resolution_rad;
+  estimator.observer.edge_deviation_counts = config.encoder_deviation_counts;
+  estimator.delay_periods = config.delay_periods;
+  return estimator;
 }
 
 LandingConfig landing_config(const JointControllerConfig& config) noexcept {
@@ -77,12 +76,11 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       shaper_(config.period_s),
       ordered_(config.period_s),
       stream_(config.period_s),
-      observer_(observer_config(config)),
+      state_(estimator_config(config)),
       landing_(landing_config(config)),
       monitor_(config.period_s),
       rest_detector_(config.encoder_resolution_rad),
       motion_(config.motion) {
-  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxControlDelay);
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
   if (config.link) link_motion_.emplace(link_config(config));
@@ -91,11 +89,10 @@ JointController::JointController(const JointControllerConfig& config) noexcept
 }
 
 void JointController::load(const GainTable& table) noexcept {
-  if (gains_in_use_ != GainsInUse::kNone && !carry_over_) outgoing_ = active();
-  carry_over_ = gains_in_use_ != GainsInUse::kNone;
+  keep_outgoing();
   primary_ = ScheduledController(table.primary, table.friction, table.plant);
   fallback_ = ScheduledController(table.fallback, table.friction, table.plant);
-  if (has_temperature_) primary_.set_temperature(temperature_C_);
+  if (temperature_C_) primary_.set_temperature(*temperature_C_);
   model_.inertia_kgm2 = config_.link ? config_.link->motor_inertia_kgm2 + config_.link->link_inertia_kgm2
                                      : table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
@@ -116,31 +113,26 @@ void JointController::start(double position_rad, double velocity_rad_s, double h
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
   shaper_.reset(link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad, begin_rad_s);
   ordered_ = shaper_;
-  observer_.reset(position_rad, model_.friction_scale_Nm, velocity_rad_s, holding_torque_Nm);
+  state_.reset(position_rad, velocity_rad_s, holding_torque_Nm, model_.friction_scale_Nm);
   rest_detector_.reset();
   primary_.reset();
   fallback_.reset();
-  torques_Nm_.fill(holding_torque_Nm);
-  late_periods_ = 0;
   reference_ = {position_rad, begin_rad_s, 0.0};
   ordered_reference_ = reference_;
   planned_ = {0.0, begin_rad_s, 0.0};
   motor_plan_ = {};
   link_share_ = 1.0;
   corrections_ = 0;
-  still_periods_ = 0;
-  previous_position_rad_ = position_rad;
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
   plans_ = 0;
   replans_ = 0;
   attempts_.reset();
   monitor_.reset();
-  usual_load_Nm_ = holding_torque_Nm;
   fallback_torque_Nm_.reset();
   handover_Nm_ = 0.0;
   reference_rest_s_ = 0.0;
-  carry_over_ = false;
+  outgoing_.reset();
   replan_ = false;
   streamed_ = false;
 }
@@ -191,29 +183,24 @@ void JointController::stop() noexcept {
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!has_table_) return {};
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
-  // Before the first period nothing has acted yet.
-  const int acted_periods = gains_in_use_ == GainsInUse::kNone ? 0 : elapsed_periods;
   choose_gains(measurement);
-  let_torque_act(acted_periods,
-                 std::clamp(measurement.late_periods, 0, kMaxControlDelay - config_.delay_periods));
-  estimate_state(measurement, elapsed_periods);
-  look_ahead();
+  state_.step(measurement, model_, observing() ? EstimateSource::kObserver : EstimateSource::kReadings);
   advance_reference(elapsed_periods);
   choose_phase(measurement);
   ControllerOutput output = compute_torque(measurement);
   hand_over(output);
-  remember(output.torque_Nm);
+  state_.remember(config_.motor.limit_Nm(output.torque_Nm, state_.then().velocity_rad_s));
   watch(output, elapsed_periods);
   JointStep result;
   result.output = output;
   result.reference = reference_;
   result.ordered_reference = ordered_reference_;
-  result.joint_velocity_rad_s = then_.velocity_rad_s;
+  result.joint_velocity_rad_s = state_.then().velocity_rad_s;
   result.gains_in_use = gains_in_use_;
   result.at_target = shaper_.at_target() && !(linked() && link_motion_->moves());
   result.off_stream = streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
   result.phase = phase_;
-  result.estimate = now_;
+  result.estimate = state_.now();
   result.replans = replans_;
   result.monitor = monitor_.state();
   return result;
@@ -224,69 +211,19 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
 void JointController::choose_gains(const JointMeasurement& measurement) noexcept {
   const GainsInUse wanted = measurement.temperature_valid ? GainsInUse::kPrimary : GainsInUse::kFallback;
   if (wanted != gains_in_use_) {
-    if (gains_in_use_ != GainsInUse::kNone && !carry_over_) outgoing_ = active();
-    carry_over_ = gains_in_use_ != GainsInUse::kNone;
+    keep_outgoing();
     gains_in_use_ = wanted;
   }
   if (!measurement.temperature_valid) return;
-  if (has_temperature_ && measurement.temperature_C == temperature_C_) return;
+  if (temperature_C_ == measurement.temperature_C) return;
   primary_.set_temperature(measurement.temperature_C);
   model_.friction = primary_.friction();
   temperature_C_ = measurement.temperature_C;
-  has_temperature_ = true;
 }
 
-// Over periods that were left out the last torque stayed applied: it is remembered once more for each. From the last position's
-// sampling to this one's, fewer periods have passed when positions become late, and more when they catch up.
-void JointController::let_torque_act(int periods, int late_periods) noexcept {
-  const auto predict = [&](int late) {
-    const int age = config_.delay_periods + late;
-    if (observing()) observer_.predict(torques_Nm_[static_cast<std::size_t>(age)], model_);
-  };
-  const int later = late_periods - late_periods_;
-  for (int period = 0; period < periods; ++period) {
-    if (period > 0) push_back(torques_Nm_.front());
-    if (period < periods - later) predict(late_periods_);
-  }
-  for (int late = late_periods_ - 1; late >= late_periods; --late) predict(late);
-  late_periods_ = late_periods;
-}
-
-void JointController::estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept {
-  const double position_rad = measurement.joint_position_rad;
-  still_periods_ = position_rad == previous_position_rad_
-                       ? std::min(still_periods_ + elapsed_periods, kMaxElapsedPeriods)
-                       : 0;
-  adapted_ = model_;
-  if (observing()) {
-    if (measurement.has_velocity && config_.encoder_resolution_rad == 0.0)
-      observer_.correct(position_rad, measurement.joint_velocity_rad_s);
-    else
-      observer_.correct(position_rad);
-    now_ = observer_.estimate();
-    adapted_.inertia_kgm2 *= now_.inertia_ratio;
-    usual_load_Nm_ += (now_.disturbance.load_Nm - usual_load_Nm_) * config_.period_s / kUsualLoad_s;
-  } else {
-    now_ = {};
-    now_.position_rad = position_rad;
-    now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
-                                                   : (position_rad - previous_position_rad_) /
-                                                         (elapsed_periods * config_.period_s);
-    now_.disturbance.load_Nm = usual_load_Nm_;
-  }
-  previous_position_rad_ = position_rad;
-}
-
-// The torques that are under way already decide the motion until this period's torque acts.
-void JointController::look_ahead() noexcept {
-  then_ = now_;
-  if (!observing()) return;
-  for (int i = config_.delay_periods + late_periods_ - 1; i >= 0; --i) {
-    const ModelMotion motion = adapted_.advance(torques_Nm_[static_cast<std::size_t>(i)], then_.disturbance,
-                                                then_.velocity_rad_s, config_.period_s);
-    then_.position_rad += motion.displacement_rad;
-    then_.velocity_rad_s = motion.velocity_rad_s;
-  }
+// What the next torque is to continue.
+void JointController::keep_outgoing() noexcept {
+  if (gains_in_use_ != GainsInUse::kNone && !outgoing_) outgoing_ = active();
 }
 
 void JointController::advance_reference(int elapsed_periods) noexcept {
@@ -306,7 +243,8 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
     // The last of them begins anew, if one has to: it is where the joint is now.
     if (replan_ && period == elapsed_periods - 1) {
       const double fastest = config_.motion.velocity_rad_s;
-      shaper_.restart(then_.position_rad, std::clamp(then_.velocity_rad_s, -fastest, fastest));
+      shaper_.restart(state_.then().position_rad,
+                      std::clamp(state_.then().velocity_rad_s, -fastest, fastest));
       ++replans_;
       replan_ = false;
     }
@@ -319,8 +257,8 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
 MotionLimits JointController::present_limits(double speed_rad_s) const noexcept {
   const double reserve =
       fallen_back() ? std::max(kFallbackReserve, config_.torque_reserve) : config_.torque_reserve;
-  MotionLimits limits = reachable_limits(motion_, config_.motor, adapted_, now_.disturbance, torque_limit_Nm_,
-                                         reserve, speed_rad_s, config_.period_s);
+  MotionLimits limits = reachable_limits(motion_, config_.motor, state_.model(), state_.now().disturbance,
+                                         torque_limit_Nm_, reserve, speed_rad_s, config_.period_s);
   if (!linked()) return limits;
   limits.acceleration_rad_s2 *= link_share_;
   limits.deceleration_rad_s2 *= link_share_;

@@ -13,7 +13,6 @@
 // a slower reference, no push that looks for a count, until the next start().
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "control/chatter_monitor.h"
@@ -27,14 +26,10 @@
 #include "control/reference_shaper.h"
 #include "control/rest_detector.h"
 #include "control/scheduled_controller.h"
+#include "control/state_estimator.h"
 #include "control/stream_target.h"
-#include "control/velocity_observer.h"
 
 namespace strainwave {
-
-inline constexpr int kMaxControlDelay = 8;
-/// A longer stall is a fault of the loop; what the joint did over it, no model knows.
-inline constexpr int kMaxElapsedPeriods = 50;
 
 /// The gear's spring between motor and link, where it is told. The encoder is then the motor's, the target the link's.
 struct LinkConfig {
@@ -71,21 +66,6 @@ struct JointControllerConfig {
   bool use_monitor = true;   ///< without it only to study what it prevents
   /// Motions that do not swing the link; only with use_shaping, without rigid. The observer knows one inertia and is then not used.
   std::optional<LinkConfig> link;
-};
-
-/// One period's measurements.
-struct JointMeasurement {
-  double joint_position_rad = 0.0;
-  double joint_velocity_rad_s = 0.0;  ///< used only when has_velocity
-  double temperature_C = 0.0;         ///< used only when temperature_valid
-  bool has_velocity = false;
-  bool temperature_valid = false;
-  /// Periods since the last step(), >= 1; more when the loop left some out. Over those the last torque stayed
-  /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
-  int elapsed_periods = 1;
-  /// >= 0: the position was sampled so many periods before delay_periods has it. More than kMaxControlDelay in all count as
-  /// that many.
-  int late_periods = 0;
 };
 
 /// How the torque comes about.
@@ -142,17 +122,13 @@ class JointController {
  private:
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
-  void let_torque_act(int periods, int late_periods) noexcept;
-  void estimate_state(const JointMeasurement& measurement, int elapsed_periods) noexcept;
-  void look_ahead() noexcept;
+  void keep_outgoing() noexcept;
   void advance_reference(int elapsed_periods) noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;
   ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
   void hand_over(ControllerOutput& output) noexcept;
   void watch(const ControllerOutput& output, int elapsed_periods) noexcept;
-  void remember(double torque_Nm) noexcept;
 
-  void push_back(double torque_Nm) noexcept;
   void limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept;
   void advance_references() noexcept;
   void limit_speed(double speed_limit_rad_s) noexcept;
@@ -172,7 +148,7 @@ class JointController {
   bool landing_possible() const noexcept;
   /// Its pushes are planned for the usual delay.
   bool may_land() const noexcept {
-    return config_.use_landing && !fallen_back() && attempts_.allowed() && late_periods_ == 0;
+    return config_.use_landing && !fallen_back() && attempts_.allowed() && state_.late_periods() == 0;
   }
   double distance_to_target_rad() const noexcept;
   void enter(MotionPhase phase) noexcept;
@@ -190,52 +166,42 @@ class JointController {
   ReferenceShaper ordered_;  ///< the same orders, never restarted
   StreamTarget stream_;
   std::optional<LinkMotion> link_motion_;
-  VelocityObserver observer_;
+  StateEstimator state_;
   Landing landing_;
   LandingAttempts attempts_;
   ChatterMonitor monitor_;
   RestDetector rest_detector_;
   ScheduledController primary_;
   ScheduledController fallback_;
-  ScheduledController outgoing_;  ///< what was active before the gains changed; valid with carry_over_
-  JointModel model_;              ///< the table's, at this temperature
-  JointModel adapted_;            ///< with the inertia that shows
-  JointEstimate now_;             ///< at this sample
-  JointEstimate then_;            ///< when this period's torque begins to act
+  std::optional<ScheduledController>
+      outgoing_;      ///< what was active before the gains changed, until the next torque
+  JointModel model_;  ///< the table's, at this temperature
   Reference reference_;
   Reference ordered_reference_;
   Reference planned_;        ///< with a link: of a rigid joint, from which the link's motion is made
   MotorPlan motor_plan_;     ///< with a link
   double link_share_ = 1.0;  ///< of the acceleration that a rigid joint could have
   int corrections_ = 0;      ///< with a link: small motions to the same target, from rest
-  int still_periods_ = 0;    ///< since the encoder's reading changed
-  std::array<double, kMaxControlDelay + 1>
-      torques_Nm_{};     ///< newest first, as far as the motor can deliver them
-  MotionLimits motion_;  ///< the configuration's, and this order's speed
+  MotionLimits motion_;      ///< the configuration's, and this order's speed
   PositionRange stream_range_;
   double sample_position_rad_ = 0.0;  ///< of the stream's last
   double torque_limit_Nm_ = 0.0;
-  double temperature_C_ = 0.0;
-  double previous_position_rad_ = 0.0;
+  std::optional<double> temperature_C_;  ///< the last that was known
   double hold_torque_Nm_ = 0.0;
-  double usual_load_Nm_ = 0.0;         ///< at the start, then the estimate's slow part: held without one
-  double count_torque_Nm_ = 0.0;       ///< that a count makes by its position
-  double difference_torque_Nm_ = 0.0;  ///< and as a velocity from one reading to the next as well
+  double count_torque_Nm_ = 0.0;              ///< that a count makes by its position
+  double difference_torque_Nm_ = 0.0;         ///< and as a velocity from one reading to the next as well
   std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
   double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
   double reference_rest_s_ = 0.0;             ///< since when it rests, while tracking
   double zero_velocity_weight_ = 1.0;         ///< alpha_0 at rest
-  int late_periods_ = 0;                      ///< of the newest position
   int replans_ = 0;                           ///< since start()
   int plans_ = 0;                             ///< new ones since the target or the phase changed
   int away_periods_ = 0;                      ///< that a resting joint has been off its target
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;
-  bool has_temperature_ = false;
-  bool carry_over_ = false;  ///< the gains have changed since the last torque
-  bool replan_ = false;      ///< the reference begins anew from where the joint is
-  bool streamed_ = false;    ///< the reference follows stream_
+  bool replan_ = false;    ///< the reference begins anew from where the joint is
+  bool streamed_ = false;  ///< the reference follows stream_
 };
 
 }  // namespace strainwave

@@ -46,7 +46,7 @@ void JointController::plan_link_motion(double from_rad) noexcept {
 bool JointController::correct_link(double reading_rad) noexcept {
   const double distance_rad = std::abs(reading_rad - shaper_.target_rad());
   const double near_rad = kCorrectionCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  if (still_periods_ < kStillPeriods || distance_rad <= near_rad || corrections_ >= kMaxCorrections)
+  if (state_.still_periods() < kStillPeriods || distance_rad <= near_rad || corrections_ >= kMaxCorrections)
     return false;
   ++corrections_;
   ++replans_;
@@ -54,17 +54,17 @@ bool JointController::correct_link(double reading_rad) noexcept {
   link_motion_->reset(reading_rad);
   planned_ = {};
   plan_link_motion(reading_rad);
-  still_periods_ = 0;
+  state_.count_still_anew();
   return true;
 }
 
 // The law alone goes on from where the motor is.
 void JointController::leave_link() noexcept {
   const double fastest = config_.motion.velocity_rad_s;
-  const double velocity_rad_s = std::clamp(now_.velocity_rad_s, -fastest, fastest);
-  shaper_.restart(now_.position_rad, velocity_rad_s);
+  const double velocity_rad_s = std::clamp(state_.now().velocity_rad_s, -fastest, fastest);
+  shaper_.restart(state_.now().position_rad, velocity_rad_s);
   ordered_ = shaper_;
-  reference_ = {now_.position_rad, velocity_rad_s, 0.0};
+  reference_ = {state_.now().position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
 }
 

@@ -41,20 +41,20 @@ bool JointController::reference_moves() const noexcept {
 }
 
 double JointController::distance_to_target_rad() const noexcept {
-  return std::abs(then_.position_rad - shaper_.target_rad());
+  return std::abs(state_.then().position_rad - shaper_.target_rad());
 }
 
 // How far one period's push, and one period's braking, can take the joint.
 double JointController::landing_reach_rad() const noexcept {
   const double torque_Nm = kLandingShare * std::max(0.0, torque_limit_Nm_ - model_.friction.static_Nm);
-  return torque_Nm * config_.period_s * config_.period_s / adapted_.inertia_kgm2;
+  return torque_Nm * config_.period_s * config_.period_s / state_.model().inertia_kgm2;
 }
 
 bool JointController::landing_possible() const noexcept {
   const double reach_rad = landing_reach_rad();
   if (phase_ != MotionPhase::kTracking) return distance_to_target_rad() <= kLandingLost * reach_rad;
   return distance_to_target_rad() <= reach_rad &&
-         std::abs(then_.velocity_rad_s) * config_.period_s <= reach_rad;
+         std::abs(state_.then().velocity_rad_s) * config_.period_s <= reach_rad;
 }
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
@@ -63,7 +63,7 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   if (!may_land()) {
     attempts_.wait();
     const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
-    const bool resting = rest_detector_.update(distance_rad, now_.velocity_rad_s);
+    const bool resting = rest_detector_.update(distance_rad, state_.now().velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
   if (!landing_possible()) {
@@ -86,7 +86,7 @@ void JointController::enter(MotionPhase phase) noexcept {
     attempts_.begin();
   }
   plans_ = 0;
-  hold_torque_Nm_ = now_.disturbance.load_Nm + active().integral_torque_Nm();
+  hold_torque_Nm_ = state_.now().disturbance.load_Nm + active().integral_torque_Nm();
   phase_ = phase;
 }
 
@@ -98,9 +98,10 @@ void JointController::ask_for_new_plan() noexcept {
 
 ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
   if (phase_ == MotionPhase::kTracking) return track();
-  carry_over_ = false;
+  outgoing_.reset();
   if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
-  const double torque_Nm = landing_.step(now_, then_, measurement.joint_position_rad, adapted_);
+  const double torque_Nm =
+      landing_.step(state_.now(), state_.then(), measurement.joint_position_rad, state_.model());
   attempts_.spend_period();
   if (landing_.resting()) {
     attempts_.landed();
@@ -113,20 +114,20 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
 double JointController::planned_torque_Nm() const noexcept {
   if (linked()) {
     const double speed = motor_plan_.acting_velocity_rad_s;
-    return motor_plan_.inertia_torque_Nm + sign(speed) * adapted_.friction_Nm(speed) +
-           now_.disturbance.load_Nm;
+    return motor_plan_.inertia_torque_Nm + sign(speed) * state_.model().friction_Nm(speed) +
+           state_.now().disturbance.load_Nm;
   }
   const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
   const double friction_Nm =
-      std::max(0.0, adapted_.friction_Nm(velocity) + now_.disturbance.friction_offset_Nm);
-  return adapted_.inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
-         now_.disturbance.load_Nm;
+      std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
+  return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
+         state_.now().disturbance.load_Nm;
 }
 
 ControllerOutput JointController::track() noexcept {
   ControllerInput input;
-  input.joint_position_rad = then_.position_rad;
-  input.joint_velocity_rad_s = then_.velocity_rad_s;
+  input.joint_position_rad = state_.then().position_rad;
+  input.joint_velocity_rad_s = state_.then().velocity_rad_s;
   input.setpoint_position_rad = reference_.position_rad;
   input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
   // Static friction pushed towards the target from either side hunts for the last counts, and a spring turns that
@@ -136,20 +137,20 @@ ControllerOutput JointController::track() noexcept {
   reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
   const double near_rad = kHuntingCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
   const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s &&
-                      std::abs(then_.position_rad - reference_.position_rad) <= near_rad;
+                      std::abs(state_.then().position_rad - reference_.position_rad) <= near_rad;
   input.planned = moves || fallen_back() || hunted || linked();
   // At rest a landing holds the load of a rigid joint.
-  const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : now_.disturbance.load_Nm;
+  const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : state_.now().disturbance.load_Nm;
   input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
   if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
   input.torque_limit_Nm = torque_limit_Nm_;
-  input.torque_max_Nm = config_.motor.available_Nm(then_.velocity_rad_s);
-  input.torque_min_Nm = -config_.motor.available_Nm(-then_.velocity_rad_s);
-  if (carry_over_) active().carry_over(input, outgoing_.step(input).torque_Nm);
-  carry_over_ = false;
+  input.torque_max_Nm = config_.motor.available_Nm(state_.then().velocity_rad_s);
+  input.torque_min_Nm = -config_.motor.available_Nm(-state_.then().velocity_rad_s);
+  if (outgoing_) active().carry_over(input, outgoing_->step(input).torque_Nm);
+  outgoing_.reset();
   const ControllerOutput output = active().step(input);
 
-  const double behind_rad = std::abs(then_.position_rad - reference_.position_rad);
+  const double behind_rad = std::abs(state_.then().position_rad - reference_.position_rad);
   if (observing() && output.saturated && behind_rad > kReplanPushes * landing_reach_rad()) ask_for_new_plan();
   return output;
 }
@@ -166,8 +167,8 @@ void JointController::hand_over(ControllerOutput& output) noexcept {
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
   if (!config_.use_monitor) return;
   const bool moves = torque_is_planned();
-  const double needed_Nm =
-      config_.motor.limit_Nm(moves ? planned_torque_Nm() : now_.disturbance.load_Nm, then_.velocity_rad_s);
+  const double needed_Nm = config_.motor.limit_Nm(
+      moves ? planned_torque_Nm() : state_.now().disturbance.load_Nm, state_.then().velocity_rad_s);
   ChatterSample sample;
   sample.excess_torque_Nm = output.torque_Nm - std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   if (linked() && moves) {
@@ -178,7 +179,7 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
   sample.reference_rests = !moves;
   sample.landing = phase_ == MotionPhase::kLanding;
-  sample.surprised = now_.surprised;
+  sample.surprised = state_.now().surprised;
   sample.elapsed_periods = elapsed_periods;
   const bool watched = !fallen_back();
   if (monitor_.step(sample) == MonitorState::kWatching || !watched) return;
@@ -190,15 +191,6 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
 ControllerOutput JointController::apply(double torque_Nm) const noexcept {
   const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   return {limited_Nm, 0.0, torque_Nm, zero_velocity_weight_, limited_Nm != torque_Nm};
-}
-
-void JointController::remember(double torque_Nm) noexcept {
-  push_back(config_.motor.limit_Nm(torque_Nm, then_.velocity_rad_s));
-}
-
-void JointController::push_back(double torque_Nm) noexcept {
-  std::copy_backward(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
-  torques_Nm_.front() = torque_Nm;
 }
 
 }  // namespace strainwave

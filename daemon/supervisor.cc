@@ -1,18 +1,13 @@
 #include "daemon/supervisor.h"
 
 #include <poll.h>
-#include <signal.h>
 #include <sodium.h>
 #include <spdlog/spdlog.h>
-#include <sys/signalfd.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <chrono>
 #include <new>
-#include <system_error>
-#include <thread>
+#include <optional>
+#include <stdexcept>
 
 #include "base/input_error.h"
 #include "control/gain_table_json.h"
@@ -30,35 +25,11 @@ constexpr std::int64_t kTurn_ms = 5;
 constexpr std::int64_t kTemperatureEvery_ns = 100 * kMillisecond_ns;
 constexpr std::int64_t kTimingEvery_ns = 1000 * kMillisecond_ns;
 constexpr std::int64_t kStatusEvery_ns = 1000 * kMillisecond_ns;
-/// A gateway that does nothing for this long hangs.
-constexpr std::int64_t kGatewaySilence_ns = 2000 * kMillisecond_ns;
-constexpr std::int64_t kGatewayStart_ns = 5000 * kMillisecond_ns;
-
 std::int64_t make_session_id() {
   if (::sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
   std::int64_t id = 0;
   ::randombytes_buf(&id, sizeof id);
   return id & INT64_MAX;
-}
-
-// Every signal that somebody or something may send and that would kill the core, in motion: they all end it in order. What is
-// left (SIGSEGV and its kin) tells that it is broken; SIGKILL and SIGSTOP nobody can refuse.
-constexpr std::array kEndSignals{SIGTERM, SIGINT,    SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR2,   SIGALRM,
-                                 SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGXCPU, SIGSTKFLT, SIGTRAP};
-
-int make_signal_fd() {
-  sigset_t signals;
-  ::sigemptyset(&signals);
-  ::sigaddset(&signals, SIGCHLD);
-  for (const int signal : kEndSignals) ::sigaddset(&signals, signal);
-  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) ::sigaddset(&signals, signal);
-  // A terminal must not be able to make the loop stand still.
-  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
-  // Blocked before any thread starts, so that all signals arrive here.
-  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  const int descriptor = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
-  if (descriptor < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
-  return descriptor;
 }
 
 std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
@@ -113,26 +84,19 @@ Supervisor::Supervisor(const DaemonConfig& config)
       inbound_file_(MemoryFile::create("strainwave-inbound", sizeof(InboundMemory), false)),
       outbound_(*new (outbound_file_.address()) OutboundMemory),
       inbound_(*new (inbound_file_.address()) InboundMemory),
-      signal_fd_(make_signal_fd()),
       loop_(config.loop, assemble_loop(config), outbound_.states),
       flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_),
                       log_flight_records()),
       admission_(config.prefix, session_id_, assemble_admission(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
       orders_(loop_, admission_, answers_),
-      gateway_(find_gateway_program(),
-               {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_.gateway_end()},
-               config.gateway_socket),
+      gateway_(config, {outbound_file_.descriptor(), inbound_file_.descriptor(), wake_.gateway_end()},
+               inbound_),
       latest_(config.joints.size()),
       refusal_log_(20, 10'000 * kMillisecond_ns),
-      dropped_log_(1, 10'000 * kMillisecond_ns),
       incoming_(std::make_unique<WireMessage>()) {
   fill_shared_memory();
   load_initial_tables();
-}
-
-Supervisor::~Supervisor() {
-  ::close(signal_fd_);
 }
 
 void Supervisor::fill_shared_memory() {
@@ -162,29 +126,12 @@ void Supervisor::load_initial_tables() {
   }
 }
 
-void Supervisor::start_gateway() {
-  gateway_.start(monotonic_now_ns());
-  const std::int64_t deadline_ns = monotonic_now_ns() + kGatewayStart_ns;
-  while (inbound_.ready.load(std::memory_order_acquire) == 0) {
-    const std::int64_t now_ns = monotonic_now_ns();
-    if (const auto end = gateway_.take_end(now_ns))
-      throw InputError(
-          "the gateway ended with " + *end +
-          (gateway_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
-    if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-}
-
 void Supervisor::run() {
   if (config_.gateway_user.uid < 0) hide_memory_from_own_user();
   // The gateway first: a process started by a real-time one would inherit too much.
-  start_gateway();
+  gateway_.start();
   flight_records_.start();
   log_buses();
-  spdlog::info("gateway: {}", !config_.gateway_socket.empty()     ? "as a service with a user of its own"
-                              : config_.gateway_user.name.empty() ? "as the daemon's own user"
-                                                                  : "as user " + config_.gateway_user.name);
   publish_challenge();  // the first state has one
   loop_.start();
   if (loop_.real_time_refusal().empty())
@@ -212,7 +159,7 @@ void Supervisor::turn(std::int64_t now_ns) {
   log_buses();
   publish_owners(now_ns);
   take_states(now_ns);
-  watch_gateway(now_ns);
+  gateway_.watch(!stopping_, now_ns);
   publish_timing(now_ns);
   tell_systemd(now_ns);
 }
@@ -220,18 +167,16 @@ void Supervisor::turn(std::int64_t now_ns) {
 void Supervisor::wait(std::int64_t wait_ms) {
   // While the loop owes a reply, look often: it has no way to wake anybody.
   const int timeout_ms = orders_.waiting() ? 1 : static_cast<int>(wait_ms);
-  std::array<pollfd, 2> descriptors{{{wake_.core_end(), POLLIN, 0}, {signal_fd_, POLLIN, 0}}};
+  std::array<pollfd, 2> descriptors{{{wake_.core_end(), POLLIN, 0}, {signals_.descriptor(), POLLIN, 0}}};
   if (::poll(descriptors.data(), descriptors.size(), timeout_ms) <= 0) return;
   wake_.take();
-  signalfd_siginfo signal{};
-  while (::read(signal_fd_, &signal, sizeof signal) == sizeof signal) {
-    if (signal.ssi_signo == SIGCHLD || stopping_) continue;
-    stopping_ = true;
-    spdlog::info("signal {}: bringing every joint to rest", signal.ssi_signo);
-    service_.stopping();
-    admission_.end_orders();
-    loop_.request_stop();
-  }
+  const std::optional<int> signal = signals_.take();
+  if (!signal || stopping_) return;
+  stopping_ = true;
+  spdlog::info("signal {}: bringing every joint to rest", *signal);
+  service_.stopping();
+  admission_.end_orders();
+  loop_.request_stop();
 }
 
 // What orders must quote, and who has which joint.
@@ -305,56 +250,6 @@ void Supervisor::take_states(std::int64_t now_ns) {
   if (state_cursor_ == 0 || now_ns < temperature_due_ns_) return;
   temperature_due_ns_ = now_ns + kTemperatureEvery_ns;
   for (const StateRecord& latest : latest_) answers_.temperature(latest);
-}
-
-void Supervisor::watch_gateway(std::int64_t now_ns) {
-  if (const auto end = gateway_.take_end(now_ns))
-    spdlog::error("the gateway ended with {}: starting it again", *end);
-  if (!stopping_ && gateway_.start_due(now_ns)) {
-    try {
-      gateway_.start(now_ns);
-    } catch (const std::system_error& error) {
-      spdlog::error("{}", error.what());
-    }
-  }
-  end_hung_gateway(now_ns);
-  log_dropped_datagrams(now_ns);
-  const std::uint64_t foreign = inbound_.foreign_states.load(std::memory_order_relaxed);
-  if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
-    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix",
-                  config_.prefix);
-  foreign_states_seen_ = foreign;
-}
-
-void Supervisor::end_hung_gateway(std::int64_t now_ns) {
-  const std::uint64_t turns = inbound_.turns.load(std::memory_order_relaxed);
-  if (turns != gateway_turns_ || !gateway_.running()) {
-    gateway_turns_ = turns;
-    gateway_moved_ns_ = now_ns;
-  }
-  const bool starting = now_ns - gateway_.started_ns() < kGatewayStart_ns;
-  if (starting || now_ns - gateway_moved_ns_ < kGatewaySilence_ns) return;
-  gateway_moved_ns_ = now_ns;
-  spdlog::error("the gateway has done nothing for 2 s: ending it");
-  gateway_.kill();
-}
-
-void Supervisor::log_dropped_datagrams(std::int64_t now_ns) {
-  const auto count = [](const std::atomic<std::uint64_t>& value) {
-    return value.load(std::memory_order_relaxed);
-  };
-  const std::uint64_t malformed = count(inbound_.malformed);
-  const std::uint64_t too_long = count(inbound_.too_long);
-  const std::uint64_t interrupted = count(inbound_.interrupted);
-  const std::uint64_t crowded_out = count(inbound_.crowded_out);
-  const std::uint64_t dropped = malformed + too_long + interrupted + crowded_out;
-  std::int64_t suppressed = 0;
-  if (dropped == dropped_seen_ || !dropped_log_.allow(now_ns, suppressed)) return;
-  dropped_seen_ = dropped;
-  spdlog::warn(
-      "dropped by the gateway since its start: {} malformed datagrams, {} too long, {} messages with missing "
-      "fragments, {} messages too many at once",
-      malformed, too_long, interrupted, crowded_out);
 }
 
 void Supervisor::publish_timing(std::int64_t now_ns) {

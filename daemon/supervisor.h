@@ -11,9 +11,10 @@
 #include "daemon/admission/answers.h"
 #include "daemon/admission/pending_orders.h"
 #include "daemon/config/config.h"
-#include "daemon/gateway/gateway_process.h"
+#include "daemon/end_signals.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/gateway/wake_pipe.h"
+#include "daemon/gateway_guard.h"
 #include "daemon/instance_lock.h"
 #include "daemon/log.h"
 #include "daemon/realtime/realtime_loop.h"
@@ -25,7 +26,6 @@ class Supervisor {
  public:
   /// Takes the locks, makes drivers and shared memory. Throws InputError or std::system_error.
   explicit Supervisor(const DaemonConfig& config);
-  ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
@@ -35,7 +35,6 @@ class Supervisor {
  private:
   void fill_shared_memory();
   void load_initial_tables();
-  void start_gateway();
   void turn(std::int64_t now_ns);
   void wait(std::int64_t wait_ms);
   void take_messages(std::int64_t now_ns);
@@ -46,9 +45,6 @@ class Supervisor {
   void take_events();
   void log_buses();
   void take_states(std::int64_t now_ns);
-  void watch_gateway(std::int64_t now_ns);
-  void end_hung_gateway(std::int64_t now_ns);
-  void log_dropped_datagrams(std::int64_t now_ns);
   void publish_timing(std::int64_t now_ns);
   void tell_systemd(std::int64_t now_ns);
   void log_refusal(const Verdict& verdict, std::int64_t now_ns);
@@ -61,25 +57,20 @@ class Supervisor {
   OutboundMemory& outbound_;
   InboundMemory& inbound_;
   WakePipe wake_;
-  int signal_fd_;
+  EndSignals signals_;
   RealtimeLoop loop_;
   FlightRecordWriter flight_records_;
   Admission admission_;
   Answers answers_;
   PendingOrders orders_;
-  GatewayProcess gateway_;
+  GatewayGuard gateway_;
   std::vector<StateRecord> latest_;  ///< of each joint
   LogLimiter refusal_log_;
-  LogLimiter dropped_log_;
   ServiceNotifier service_;
   std::unique_ptr<WireMessage> incoming_;
   std::uint64_t stops_taken_ = 0;
   std::uint64_t orders_taken_ = 0;
-  std::uint64_t dropped_seen_ = 0;
   std::uint64_t state_cursor_ = 0;
-  std::uint64_t foreign_states_seen_ = 0;
-  std::uint64_t gateway_turns_ = 0;
-  std::int64_t gateway_moved_ns_ = 0;  ///< when it was last seen to do something
   std::int64_t temperature_due_ns_ = 0;
   std::int64_t timing_due_ns_ = 0;
   std::int64_t status_due_ns_ = 0;

@@ -1,0 +1,104 @@
+#include "control/state_estimator.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace strainwave {
+
+namespace {
+
+// What is known of the load without an observer is its estimate's mean over about this time: longer than a spring swings.
+constexpr double kUsualLoad_s = 0.1;
+
+}  // namespace
+
+StateEstimator::StateEstimator(const StateEstimatorConfig& config) noexcept
+    : config_(config), observer_(config.observer) {
+  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxControlDelay);
+}
+
+void StateEstimator::reset(double position_rad, double velocity_rad_s, double load_Nm,
+                           double friction_scale_Nm) noexcept {
+  observer_.reset(position_rad, friction_scale_Nm, velocity_rad_s, load_Nm);
+  torques_Nm_.fill(load_Nm);
+  previous_position_rad_ = position_rad;
+  usual_load_Nm_ = load_Nm;
+  late_periods_ = 0;
+  still_periods_ = 0;
+  first_ = true;
+}
+
+void StateEstimator::step(const JointMeasurement& measurement, const JointModel& model,
+                          EstimateSource source) noexcept {
+  const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
+  // Before the first period nothing has acted yet.
+  let_torque_act(first_ ? 0 : elapsed_periods,
+                 std::clamp(measurement.late_periods, 0, kMaxControlDelay - config_.delay_periods), model,
+                 source);
+  first_ = false;
+  const double position_rad = measurement.joint_position_rad;
+  still_periods_ = position_rad == previous_position_rad_
+                       ? std::min(still_periods_ + elapsed_periods, kMaxElapsedPeriods)
+                       : 0;
+  adapted_ = model;
+  if (source == EstimateSource::kObserver)
+    observe(measurement);
+  else
+    read(measurement, elapsed_periods);
+  previous_position_rad_ = position_rad;
+  then_ = now_;
+  if (source == EstimateSource::kObserver) look_ahead();
+}
+
+void StateEstimator::remember(double torque_Nm) noexcept {
+  std::copy_backward(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
+  torques_Nm_.front() = torque_Nm;
+}
+
+// From the last position's sampling to this one's, fewer periods have passed when positions become late, and more when they
+// catch up.
+void StateEstimator::let_torque_act(int periods, int late_periods, const JointModel& model,
+                                    EstimateSource source) noexcept {
+  const auto predict = [&](int late) {
+    if (source != EstimateSource::kObserver) return;
+    observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_periods + late)], model);
+  };
+  const int later = late_periods - late_periods_;
+  for (int period = 0; period < periods; ++period) {
+    if (period > 0) remember(torques_Nm_.front());
+    if (period < periods - later) predict(late_periods_);
+  }
+  for (int late = late_periods_ - 1; late >= late_periods; --late) predict(late);
+  late_periods_ = late_periods;
+}
+
+void StateEstimator::observe(const JointMeasurement& measurement) noexcept {
+  if (measurement.has_velocity && config_.observer.encoder_resolution_rad == 0.0)
+    observer_.correct(measurement.joint_position_rad, measurement.joint_velocity_rad_s);
+  else
+    observer_.correct(measurement.joint_position_rad);
+  now_ = observer_.estimate();
+  adapted_.inertia_kgm2 *= now_.inertia_ratio;
+  usual_load_Nm_ += (now_.disturbance.load_Nm - usual_load_Nm_) * config_.observer.period_s / kUsualLoad_s;
+}
+
+void StateEstimator::read(const JointMeasurement& measurement, int elapsed_periods) noexcept {
+  now_ = {};
+  now_.position_rad = measurement.joint_position_rad;
+  now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
+                                                 : (measurement.joint_position_rad - previous_position_rad_) /
+                                                       (elapsed_periods * config_.observer.period_s);
+  now_.disturbance.load_Nm = usual_load_Nm_;
+}
+
+// The torques that are under way already decide the motion until this period's torque acts.
+void StateEstimator::look_ahead() noexcept {
+  for (int i = config_.delay_periods + late_periods_ - 1; i >= 0; --i) {
+    const ModelMotion motion = adapted_.advance(torques_Nm_[static_cast<std::size_t>(i)], then_.disturbance,
+                                                then_.velocity_rad_s, config_.observer.period_s);
+    then_.position_rad += motion.displacement_rad;
+    then_.velocity_rad_s = motion.velocity_rad_s;
+  }
+}
+
+}  // namespace strainwave

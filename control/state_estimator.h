@@ -1,0 +1,88 @@
+// Where the joint is at this sample, and where it will be when this period's torque begins to act.
+// Real-time safe. Joint side, SI.
+//
+//   now    the encoder's reading and what the observer, or the difference of two readings, makes of it
+//   then   now, carried over the torques that are under way
+//
+// Over periods that the loop left out the last torque stayed applied.
+#pragma once
+
+#include <array>
+
+#include "control/joint_model.h"
+#include "control/velocity_observer.h"
+
+namespace strainwave {
+
+inline constexpr int kMaxControlDelay = 8;
+/// A longer stall is a fault of the loop; what the joint did over it, no model knows.
+inline constexpr int kMaxElapsedPeriods = 50;
+
+/// One period's measurements.
+struct JointMeasurement {
+  double joint_position_rad = 0.0;
+  double joint_velocity_rad_s = 0.0;  ///< used only when has_velocity
+  double temperature_C = 0.0;         ///< used only when temperature_valid
+  bool has_velocity = false;
+  bool temperature_valid = false;
+  /// Periods since the last step(), >= 1; more when the loop left some out. Over those the last torque stayed
+  /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
+  int elapsed_periods = 1;
+  /// >= 0: the position was sampled so many periods before delay_periods has it. More than kMaxControlDelay in all count as
+  /// that many.
+  int late_periods = 0;
+};
+
+/// What position, velocity and load are taken from.
+enum class EstimateSource {
+  kReadings,  ///< velocity measured, or the difference of two readings; the load is the last that was known
+  kObserver,  ///< all of it from encoder and torque, by the model of one inertia
+};
+
+struct StateEstimatorConfig {
+  VelocityObserverConfig observer;
+  int delay_periods = 0;  ///< between a torque's computation and its effect, 0..kMaxControlDelay
+};
+
+class StateEstimator {
+ public:
+  explicit StateEstimator(const StateEstimatorConfig& config) noexcept;
+
+  /// Nothing remembered: where the encoder reads `position_rad`, at `velocity_rad_s`, while `load_Nm` was held by a torque as
+  /// large. Friction is unknown in units of `friction_scale_Nm`. The next step() is the first.
+  void reset(double position_rad, double velocity_rad_s, double load_Nm, double friction_scale_Nm) noexcept;
+  /// One period of a joint like `model`.
+  void step(const JointMeasurement& measurement, const JointModel& model, EstimateSource source) noexcept;
+  /// The torque of this period, as far as the motor can deliver it.
+  void remember(double torque_Nm) noexcept;
+
+  const JointEstimate& now() const noexcept { return now_; }
+  const JointEstimate& then() const noexcept { return then_; }
+  /// The model with the inertia that shows.
+  const JointModel& model() const noexcept { return adapted_; }
+  /// By how many periods the newest position is late, as far as they count.
+  int late_periods() const noexcept { return late_periods_; }
+  /// Since the encoder's reading changed, or count_still_anew().
+  int still_periods() const noexcept { return still_periods_; }
+  void count_still_anew() noexcept { still_periods_ = 0; }
+
+ private:
+  void let_torque_act(int periods, int late_periods, const JointModel& model, EstimateSource source) noexcept;
+  void observe(const JointMeasurement& measurement) noexcept;
+  void read(const JointMeasurement& measurement, int elapsed_periods) noexcept;
+  void look_ahead() noexcept;
+
+  StateEstimatorConfig config_;
+  VelocityObserver observer_;
+  JointModel adapted_;
+  JointEstimate now_;
+  JointEstimate then_;
+  std::array<double, kMaxControlDelay + 1> torques_Nm_{};  ///< newest first
+  double previous_position_rad_ = 0.0;
+  double usual_load_Nm_ = 0.0;  ///< at the start, then the observer's slow part: known without one
+  int late_periods_ = 0;
+  int still_periods_ = 0;
+  bool first_ = true;
+};
+
+}  // namespace strainwave

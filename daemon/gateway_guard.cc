@@ -1,0 +1,110 @@
+#include "daemon/gateway_guard.h"
+
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+#include "base/input_error.h"
+#include "daemon/realtime/periodic_clock.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+/// A gateway that does nothing for this long hangs.
+constexpr std::int64_t kSilence_ns = 2000 * kMillisecond_ns;
+constexpr std::int64_t kStart_ns = 5000 * kMillisecond_ns;
+
+std::string user_of(const DaemonConfig& config) {
+  if (!config.gateway_socket.empty()) return "as a service with a user of its own";
+  if (config.gateway_user.name.empty()) return "as the daemon's own user";
+  return "as user " + config.gateway_user.name;
+}
+
+std::uint64_t count(const std::atomic<std::uint64_t>& value) {
+  return value.load(std::memory_order_relaxed);
+}
+
+}  // namespace
+
+GatewayGuard::GatewayGuard(const DaemonConfig& config, GatewayProcess::Descriptors descriptors,
+                           const InboundMemory& inbound)
+    : prefix_(config.prefix),
+      user_(user_of(config)),
+      process_(find_gateway_program(), descriptors, config.gateway_socket),
+      inbound_(inbound),
+      dropped_log_(1, 10'000 * kMillisecond_ns) {}
+
+void GatewayGuard::start() {
+  process_.start(monotonic_now_ns());
+  const std::int64_t deadline_ns = monotonic_now_ns() + kStart_ns;
+  while (inbound_.ready.load(std::memory_order_acquire) == 0) {
+    const std::int64_t now_ns = monotonic_now_ns();
+    if (const auto end = process_.take_end(now_ns))
+      throw InputError(
+          "the gateway ended with " + *end +
+          (process_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
+    if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  spdlog::info("gateway: {}", user_);
+}
+
+void GatewayGuard::watch(bool wanted, std::int64_t now_ns) {
+  if (const auto end = process_.take_end(now_ns))
+    spdlog::error("the gateway ended with {}: starting it again", *end);
+  if (wanted && process_.start_due(now_ns)) restart(now_ns);
+  end_hung(now_ns);
+  log_dropped_datagrams(now_ns);
+  log_foreign_states();
+}
+
+void GatewayGuard::restart(std::int64_t now_ns) {
+  try {
+    process_.start(now_ns);
+  } catch (const std::system_error& error) {
+    spdlog::error("{}", error.what());
+  }
+}
+
+void GatewayGuard::end_hung(std::int64_t now_ns) {
+  const std::uint64_t turns = count(inbound_.turns);
+  if (turns != turns_seen_ || !process_.running()) {
+    turns_seen_ = turns;
+    moved_ns_ = now_ns;
+  }
+  const bool starting = now_ns - process_.started_ns() < kStart_ns;
+  if (starting || now_ns - moved_ns_ < kSilence_ns) return;
+  moved_ns_ = now_ns;
+  spdlog::error("the gateway has done nothing for 2 s: ending it");
+  process_.kill();
+}
+
+void GatewayGuard::log_dropped_datagrams(std::int64_t now_ns) {
+  const std::uint64_t malformed = count(inbound_.malformed);
+  const std::uint64_t too_long = count(inbound_.too_long);
+  const std::uint64_t interrupted = count(inbound_.interrupted);
+  const std::uint64_t crowded_out = count(inbound_.crowded_out);
+  const std::uint64_t dropped = malformed + too_long + interrupted + crowded_out;
+  std::int64_t suppressed = 0;
+  if (dropped == dropped_seen_ || !dropped_log_.allow(now_ns, suppressed)) return;
+  dropped_seen_ = dropped;
+  spdlog::warn(
+      "dropped by the gateway since its start: {} malformed datagrams, {} too long, {} messages with missing "
+      "fragments, {} messages too many at once",
+      malformed, too_long, interrupted, crowded_out);
+}
+
+void GatewayGuard::log_foreign_states() {
+  const std::uint64_t foreign = count(inbound_.foreign_states);
+  if (foreign != foreign_states_seen_ && foreign_states_seen_ == 0)
+    spdlog::error("another daemon on this LCM bus publishes on prefix {}: give each its own daemon.prefix",
+                  prefix_);
+  foreign_states_seen_ = foreign;
+}
+
+}  // namespace strainwave

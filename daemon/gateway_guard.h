@@ -1,0 +1,43 @@
+// Keeps a gateway at work: starts it and waits for it, starts it again when it has ended, ends it when it hangs, and says in
+// the log what it drops. Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "daemon/config/config.h"
+#include "daemon/gateway/gateway_process.h"
+#include "daemon/gateway/shared_memory.h"
+#include "daemon/log.h"
+
+namespace strainwave {
+
+class GatewayGuard {
+ public:
+  /// `inbound` is what the gateway writes into; it must live longer.
+  GatewayGuard(const DaemonConfig& config, GatewayProcess::Descriptors descriptors,
+               const InboundMemory& inbound);
+
+  /// Starts the gateway and waits until it is ready. Throws InputError when it ends or is not ready in time.
+  void start();
+  /// One look, every turn. A gateway that has ended is started again if `wanted`.
+  void watch(bool wanted, std::int64_t now_ns);
+
+ private:
+  void restart(std::int64_t now_ns);
+  void end_hung(std::int64_t now_ns);
+  void log_dropped_datagrams(std::int64_t now_ns);
+  void log_foreign_states();
+
+  std::string prefix_;
+  std::string user_;  ///< under which it runs, as the log says it
+  GatewayProcess process_;
+  const InboundMemory& inbound_;
+  LogLimiter dropped_log_;
+  std::uint64_t dropped_seen_ = 0;
+  std::uint64_t foreign_states_seen_ = 0;
+  std::uint64_t turns_seen_ = 0;
+  std::int64_t moved_ns_ = 0;  ///< when it was last seen to do something
+};
+
+}  // namespace strainwave
