@@ -1,6 +1,4 @@
-// The daemon's controller on the simulated joint, whose friction law is not the controller's own.
-#include "control/joint_controller.h"
-
+// The controller on the joint that its table is for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,93 +6,19 @@
 #include <cmath>
 #include <random>
 
-#include "control/gain_table_json.h"
 #include "control/units.h"
-#include "sim/joint/reference_plant.h"
+#include "tests/control/controlled_joint.h"
 #include "tests/support/allocation_trap.h"
 
-namespace strainwave {
+namespace strainwave::testing {
 namespace {
-
-constexpr double kCount_rad = 2.0 * std::numbers::pi / kReferenceCountsPerRevolution;
-
-JointControllerConfig realistic_config() {
-  const JointPlantConfig plant = realistic_plant();
-  JointControllerConfig config;
-  config.encoder_resolution_rad = plant.encoder.resolution_rad();
-  config.delay_periods = static_cast<int>(std::lround(plant.delay.periods));
-  config.torque_limit_Nm = kReferencePeakTorque_Nm;
-  config.motor = plant.motor;
-  config.motion = {100.0, 1e4, 1e4};
-  config.rigid = true;
-  config.use_observer = true;
-  config.use_landing = true;
-  return config;
-}
-
-/// One joint under control, a period at a time.
-class Loop {
- public:
-  explicit Loop(const JointPlantConfig& plant = realistic_plant())
-      : plant_(plant), controller_(realistic_config()) {
-    controller_.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
-    plant_.set_ambient_temperature(temperature_C);
-    controller_.start(plant_.measured_position_rad());
-  }
-  JointStep step() {
-    plant_.set_ambient_temperature(temperature_C);
-    JointMeasurement measurement;
-    std::shift_right(positions_rad_.begin(), positions_rad_.end(), 1);
-    positions_rad_.front() = plant_.measured_position_rad();
-    measurement.joint_position_rad = positions_rad_.at(static_cast<std::size_t>(late_periods));
-    measurement.late_periods = tells_lateness ? late_periods : 0;
-    measurement.temperature_C = temperature_C;
-    measurement.temperature_valid = temperature_valid;
-    measurement.elapsed_periods = 1 + skipped_periods_;
-    skipped_periods_ = 0;
-    const JointStep result = controller_.step(measurement);
-    torque_Nm_ = result.output.torque_Nm;
-    plant_.step(torque_Nm_, load_torque_Nm);
-    return result;
-  }
-  /// Periods in which the joint goes on and the controller is not called.
-  void skip(int periods) {
-    for (int k = 0; k < periods; ++k) plant_.step(torque_Nm_, load_torque_Nm);
-    skipped_periods_ += periods;
-  }
-  void run(double duration_s) {
-    for (int k = 0; k < static_cast<int>(duration_s * 1000.0); ++k) step();
-  }
-  /// A joint of another kind goes on where the old one stands.
-  void free() {
-    JointPlantConfig plant = realistic_plant();
-    plant.initial_position_rad = plant_.state().position_rad;
-    plant_ = JointPlant(plant);
-  }
-  JointController& controller() { return controller_; }
-  double position_rad() const { return plant_.state().position_rad; }
-  double velocity_rad_s() const { return plant_.state().velocity_rad_s; }
-
-  double temperature_C = 20.0;
-  double load_torque_Nm = 0.0;
-  bool temperature_valid = true;
-  int late_periods = 0;  ///< positions come so many periods after their sampling
-  bool tells_lateness = true;
-
- private:
-  std::array<double, kMaxControlDelay> positions_rad_{};  ///< the newest first
-  JointPlant plant_;
-  JointController controller_;
-  double torque_Nm_ = 0.0;
-  int skipped_periods_ = 0;
-};
 
 TEST(JointController, EndsWithinACountAndRestsQuietlyWhereverAndHoweverColdItIs) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> target(-1.5, 1.5);
   std::uniform_real_distribution<double> temperature(-10.0, 40.0);
   for (int trial = 0; trial < 60; ++trial) {
-    Loop loop;
+    ControlledJoint loop;
     loop.temperature_C = temperature(random);
     const double target_rad = target(random);
     loop.controller().set_target(target_rad);
@@ -119,7 +43,7 @@ TEST(JointController, RunsATableOfAJointWithoutFriction) {
     friction.static_Nm = 0.0;
     friction.coulomb_Nm = 0.0;
   }
-  Loop loop;
+  ControlledJoint loop;
   loop.controller().load(table);
   loop.controller().start(loop.position_rad());
   loop.controller().set_target(0.1);
@@ -132,7 +56,7 @@ TEST(JointController, RunsATableOfAJointWithoutFriction) {
 
 TEST(JointController, BringsALoadStepBackToWithinACount) {
   for (const double load_Nm : {-8.0, 3.0, 8.0}) {
-    Loop loop;
+    ControlledJoint loop;
     loop.controller().set_target(0.3);
     loop.run(2.0);
     loop.load_torque_Nm = load_Nm;
@@ -143,7 +67,7 @@ TEST(JointController, BringsALoadStepBackToWithinACount) {
 
 TEST(JointController, DoesNotOvershootALargeMoveByMoreThanAMillirad) {
   for (const double temperature_C : {-10.0, 5.0, 20.0, 40.0}) {
-    Loop loop;
+    ControlledJoint loop;
     loop.temperature_C = temperature_C;
     loop.controller().set_target(1.0);
     double furthest_rad = 0.0;
@@ -156,40 +80,8 @@ TEST(JointController, DoesNotOvershootALargeMoveByMoreThanAMillirad) {
 }
 
 /// Largest distance from the target in the last half second of two, and the largest overshoot of the move.
-struct LateMove {
-  double rest_rad = 0.0;
-  double overshoot_rad = 0.0;
-};
-LateMove move_late(int late_periods, bool told) {
-  Loop loop;
-  loop.tells_lateness = told;
-  loop.controller().set_target(0.1);
-  loop.run(1.0);
-  loop.late_periods = late_periods;
-  loop.run(0.1);
-  loop.controller().set_target(0.4);
-  LateMove result;
-  for (int k = 0; k < 2000; ++k) {
-    loop.step();
-    const double beyond_rad = loop.position_rad() - 0.4;
-    result.overshoot_rad = std::max(result.overshoot_rad, beyond_rad);
-    if (k >= 1500) result.rest_rad = std::max(result.rest_rad, std::abs(beyond_rad));
-  }
-  return result;
-}
-
-TEST(JointController, ALatePositionDoesLessHarmWhenItsLatenessIsKnown) {
-  for (const int periods : {1, 2, 3}) {
-    const LateMove told = move_late(periods, true);
-    const LateMove untold = move_late(periods, false);
-    EXPECT_LT(told.rest_rad, 1e-4) << periods;
-    EXPECT_LT(told.overshoot_rad, 5e-4) << periods;
-    EXPECT_GT(untold.overshoot_rad, 5e-3) << periods << ": it is the knowledge that helps";
-  }
-}
-
 TEST(JointController, KeepsItsTorqueWhenTheTemperatureIsLostAndWhenItReturns) {
-  Loop loop;
+  ControlledJoint loop;
   loop.load_torque_Nm = 4.0;
   loop.controller().set_target(0.2);
   loop.run(3.0);
@@ -206,7 +98,7 @@ TEST(JointController, KeepsItsTorqueWhenTheTemperatureIsLostAndWhenItReturns) {
 }
 
 TEST(JointController, KeepsItsTorqueWhenATableIsSwapped) {
-  Loop loop;
+  ControlledJoint loop;
   loop.load_torque_Nm = 4.0;
   loop.controller().set_target(0.2);
   loop.run(3.0);
@@ -218,7 +110,7 @@ TEST(JointController, KeepsItsTorqueWhenATableIsSwapped) {
 }
 
 TEST(JointController, EstimatesTheVelocityFarBetterThanTheEncodersDifference) {
-  Loop loop;
+  ControlledJoint loop;
   loop.controller().set_target(1.0);
   double observer_sum = 0.0;
   double difference_sum = 0.0;
@@ -235,7 +127,7 @@ TEST(JointController, EstimatesTheVelocityFarBetterThanTheEncodersDifference) {
 }
 
 TEST(JointController, ShowsExactlyNoVelocityAtRest) {
-  Loop loop;
+  ControlledJoint loop;
   loop.controller().set_target(0.05);
   loop.run(2.0);
   for (int k = 0; k < 500; ++k) EXPECT_EQ(loop.step().estimate.velocity_rad_s, 0.0);
@@ -245,7 +137,7 @@ TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
   JointPlantConfig blocked = realistic_plant();
   blocked.joint.friction.asymptote.static_Nm = 100.0;
   blocked.joint.friction.asymptote.coulomb_Nm = 100.0;
-  Loop loop(blocked);
+  ControlledJoint loop(blocked);
   loop.controller().set_target(0.5);
   for (int k = 0; k < 2000; ++k) {
     const JointStep step = loop.step();
@@ -256,42 +148,6 @@ TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
   loop.free();
   loop.run(3.0);
   EXPECT_LE(std::abs(loop.position_rad() - 0.5), kCount_rad);
-}
-
-TEST(JointController, TakesSkippedPeriodsForWhatTheyAre) {
-  for (const int skipped : {1, 2, 5, 20}) {
-    Loop loop;
-    loop.controller().set_target(10.0, 2.0);
-    loop.run(1.0);
-    const JointStep before = loop.step();
-    ASSERT_NEAR(before.estimate.velocity_rad_s, 2.0, 0.01);
-    loop.skip(skipped);
-    for (int k = 0; k < 50; ++k) {
-      const double true_rad_s = loop.velocity_rad_s();
-      const JointStep after = loop.step();
-      EXPECT_NEAR(after.estimate.velocity_rad_s, true_rad_s, skipped > 5 ? 0.1 : 0.02) << skipped;
-      EXPECT_NEAR(after.output.torque_Nm, before.output.torque_Nm, skipped > 5 ? 5.0 : 1.0) << skipped;
-      EXPECT_NEAR(after.reference.position_rad - before.reference.position_rad,
-                  2.0 * 0.001 * (skipped + 1 + k), 1e-9);
-      EXPECT_EQ(after.replans, 0);
-    }
-  }
-}
-
-TEST(JointController, ArrivesToTheCountAlthoughPeriodsWereSkippedOnTheWay) {
-  for (const int begin : {5, 40, 60, 80}) {
-    Loop loop;
-    loop.controller().set_target(1.0);
-    for (int k = 0; k < begin; ++k) loop.step();
-    loop.skip(2);
-    double furthest_rad = 0.0;
-    for (int k = 0; k < 1500; ++k) {
-      loop.step();
-      furthest_rad = std::max(furthest_rad, loop.position_rad());
-    }
-    EXPECT_LE(std::abs(loop.position_rad() - 1.0), kCount_rad) << begin;
-    EXPECT_LE(furthest_rad, 1.01) << begin;
-  }
 }
 
 TEST(JointController, BeginsWithTheMotionAndTheLoadThatItFinds) {
@@ -332,7 +188,7 @@ TEST(JointController, KeepsTheOrderedReferenceWhenABlockedJointIsPlannedAnew) {
   JointPlantConfig blocked = realistic_plant();
   blocked.joint.friction.asymptote.static_Nm = 100.0;
   blocked.joint.friction.asymptote.coulomb_Nm = 100.0;
-  Loop loop(blocked);
+  ControlledJoint loop(blocked);
   JointStep step;
   for (int k = 0; k < 4000; ++k) {
     if (k % 10 == 0) loop.controller().set_target(1.0 + 1e-6 * k);  // a stream, every packet a little off
@@ -345,7 +201,7 @@ TEST(JointController, KeepsTheOrderedReferenceWhenABlockedJointIsPlannedAnew) {
 
 TEST(JointController, NeitherStepNorLoadTouchesTheHeap) {
   if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";
-  Loop loop;
+  ControlledJoint loop;
   const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
   const AllocationTrap trap;
   for (const double target_rad : {0.001, 0.5, -0.2}) {
@@ -358,4 +214,4 @@ TEST(JointController, NeitherStepNorLoadTouchesTheHeap) {
 }
 
 }  // namespace
-}  // namespace strainwave
+}  // namespace strainwave::testing

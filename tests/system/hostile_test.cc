@@ -1,8 +1,4 @@
 // The daemon under attack: the loop must not notice, whatever becomes of the gateway.
-//
-// What the loop does is read from the daemon's own shared memory, every cycle, since LCM is what is attacked.
-// On a machine that others use it can only be judged against a run without the attack; in the virtual machine
-// (tests/vm), whose time is virtual, not one cycle may be missed.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -17,16 +13,13 @@
 #include <functional>
 #include <thread>
 
-#include "daemon/gateway/shared_memory.h"
-#include "lcmtypes/key_text.h"
-#include "lcmtypes/wire.h"
-#include "tests/support/daemon_fixture.h"
+#include "tests/system/attacked_daemon.h"
 #include "tests/system/hostile_datagrams.h"
 
 namespace strainwave::testing {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using HostileSystem = AttackedDaemon;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -38,230 +31,6 @@ std::int64_t datagrams() {
 }
 
 constexpr double kDatagramsPer_s = 50'000.0;
-constexpr double kPeriod_s = 0.001;
-// One encoder count at the joint.
-constexpr double kCount_rad = 2.0 * 3.14159265358979323846 / 320000.0;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// The daemon's memory file of this name, mapped for reading.
-MemoryFile open_memory(pid_t daemon, const std::string& name, std::size_t size) {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(daemon) + "/fd")) {
-    std::error_code error;
-    if (std::filesystem::read_symlink(entry.path(), error).string().find(name) == std::string::npos) continue;
-    return MemoryFile::open(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC), size, false);
-  }
-  throw std::runtime_error("the daemon has no memory file " + name);
-}
-
-/// Reads every cycle's record from the daemon's shared memory, as its gateway does.
-class LoopObserver {
- public:
-  explicit LoopObserver(pid_t daemon)
-      : file_(open_memory(daemon, "strainwave-outbound", sizeof(OutboundMemory))) {
-    cursor_ = memory().states.written();
-  }
-
-  /// What the loop did since the last call.
-  struct Summary {
-    std::int64_t cycles = 0;           ///< seen
-    std::int64_t cycles_missed = 0;    ///< numbers left out: overruns
-    std::int64_t records_dropped = 0;  ///< this observer was too slow
-    std::int64_t faults = 0;
-    double worst_error_rad = 0.0;
-    double error_squares = 0.0;
-    double worst_torque_step_Nm = 0.0;
-    bool left_tracking = false;
-
-    double rms_error_rad() const {
-      return std::sqrt(error_squares / static_cast<double>(std::max<std::int64_t>(1, cycles)));
-    }
-  };
-  void observe(Summary& summary) {
-    StateRecord record{};
-    std::uint64_t dropped = 0;
-    while (memory().states.read(cursor_, record, dropped)) {
-      const state_v1& state = record.state;
-      const double error_rad = std::abs(state.setpoint_position_rad - state.joint_position_rad);
-      ++summary.cycles;
-      summary.faults = std::max(summary.faults, state.faults_total);
-      summary.worst_error_rad = std::max(summary.worst_error_rad, error_rad);
-      summary.error_squares += error_rad * error_rad;
-      summary.left_tracking =
-          summary.left_tracking || state.mode != static_cast<std::int32_t>(Mode::kTracking);
-      if (last_cycle_ >= 0) {
-        summary.cycles_missed += state.cycle - last_cycle_ - 1;
-        summary.worst_torque_step_Nm =
-            std::max(summary.worst_torque_step_Nm, std::abs(state.torque_commanded_Nm - last_torque_Nm_));
-      }
-      last_cycle_ = state.cycle;
-      last_torque_Nm_ = state.torque_commanded_Nm;
-    }
-    summary.records_dropped += static_cast<std::int64_t>(dropped);
-  }
-  std::int64_t last_cycle() const { return last_cycle_; }
-
- private:
-  const OutboundMemory& memory() const { return *static_cast<const OutboundMemory*>(file_.address()); }
-
-  MemoryFile file_;
-  std::uint64_t cursor_ = 0;
-  std::int64_t last_cycle_ = -1;
-  double last_torque_Nm_ = 0.0;
-};
-
-/// How often the gateway was away and for how long at most: until the next one does its work, not until it
-/// exists. To be asked often.
-class GatewayWatch {
- public:
-  explicit GatewayWatch(const DaemonProcess& daemon)
-      : daemon_(daemon),
-        file_(open_memory(daemon.pid(), "strainwave-inbound", sizeof(InboundMemory))),
-        pid_(daemon.gateway_pid()) {}
-
-  void look() {
-    const pid_t now = daemon_.gateway_pid();
-    if (now != pid_ && !away_) {
-      away_ = true;
-      gone_since_ = Clock::now();
-      turns_ = turns();
-    }
-    pid_ = now;
-    if (!away_ || turns() == turns_) return;
-    away_ = false;
-    ++restarts_;
-    last_s_ = seconds_since(gone_since_);
-    longest_s_ = std::max(longest_s_, last_s_);
-  }
-  int restarts() const { return restarts_; }
-  double last_absence_s() const { return last_s_; }
-  double longest_absence_s() const { return longest_s_; }
-
- private:
-  std::uint64_t turns() const { return static_cast<const InboundMemory*>(file_.address())->turns.load(); }
-
-  const DaemonProcess& daemon_;
-  MemoryFile file_;
-  pid_t pid_;
-  bool away_ = false;
-  std::uint64_t turns_ = 0;
-  Clock::time_point gone_since_;
-  int restarts_ = 0;
-  double last_s_ = 0.0;
-  double longest_s_ = 0.0;
-};
-
-class HostileSystem : public DaemonTest {
- protected:
-  void SetUp() override {
-    DaemonTest::SetUp();
-    std::ofstream(folder_ / "keys") << to_line(AuthorizedKey{key_.public_key(), Role::kEngineer, "test"})
-                                    << '\n';
-  }
-
-  /// A slow joint, so that one move lasts as long as an attack; every cycle is published; signed orders only.
-  void start_tracking(const DaemonStart& start = {}) {
-    std::string text = configuration("", "state_rate_Hz = 1000\n");
-    const auto replace = [&text](const std::string& from, const std::string& to) {
-      ASSERT_NE(text.find(from), std::string::npos) << from;
-      text.replace(text.find(from), from.size(), to);
-    };
-    replace("unsigned_orders = \"allow\"", "authorized_keys = \"keys\"");
-    replace("speed_limit_rad_s = 6", "speed_limit_rad_s = 0.05");
-    replace("position_max_rad = 3.2", "position_max_rad = 12");
-    daemon_.emplace(folder_, text, start);
-    TestClient client;
-    ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
-    ASSERT_TRUE(send(client, "TABLE", client.make_table("elbow", shipped_table())).accepted);
-    ASSERT_TRUE(send(client, "COMMAND", client.make_command("elbow", Action::kEnable)).accepted);
-    ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
-    ASSERT_TRUE(send(client, "SETPOINT", client.make_setpoint("elbow", 11.0)).accepted);
-    ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kTracking));
-    client.pump(milliseconds(500));
-    observer_.emplace(daemon_->pid());
-  }
-
-  template <typename Message>
-  Answer send(TestClient& client, const char* kind, const Message& message,
-              milliseconds timeout = seconds(5)) {
-    const std::string channel = std::string("SW.elbow.") + kind;
-    std::vector<std::uint8_t> bytes = encode(message);
-    sign(channel, key_, bytes);
-    client.lcm().publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
-    return client.wait_for_answer(message.sequence, timeout);
-  }
-
-  /// Observes the loop until `done`, every 5 ms.
-  LoopObserver::Summary observe_until(const std::function<bool()>& done) {
-    LoopObserver::Summary summary;
-    while (!done()) {
-      observer_->observe(summary);
-      std::this_thread::sleep_for(milliseconds(5));
-    }
-    observer_->observe(summary);
-    return summary;
-  }
-  LoopObserver::Summary observe_for(double duration_s) {
-    const auto start = Clock::now();
-    return observe_until([&] { return seconds_since(start) >= duration_s; });
-  }
-
-  /// The same while orders come that are refused, each a line for the log.
-  LoopObserver::Summary refuse_orders_for(double duration_s) {
-    TestClient client;
-    LoopObserver::Summary summary;
-    const auto start = Clock::now();
-    while (seconds_since(start) < duration_s) {
-      const setpoint_v2 unsigned_order = client.make_setpoint("elbow", 0.0);
-      client.lcm().publish("SW.elbow.SETPOINT", &unsigned_order);
-      client.pump(milliseconds(5));
-      observer_->observe(summary);
-    }
-    return summary;
-  }
-
-  /// The loop went round all the time, tracking as ever.
-  static void expect_undisturbed(const LoopObserver::Summary& attacked, const LoopObserver::Summary& calm,
-                                 double duration_s) {
-    EXPECT_EQ(attacked.faults, 0);
-    EXPECT_FALSE(attacked.left_tracking);
-    EXPECT_EQ(attacked.records_dropped, 0);
-    // Elsewhere generous: the machine has other things to do, without real-time priority the loop shares it, and a simulated joint
-    // that lives by the time shows every cycle that came late.
-    if (in_virtual_time()) {
-      EXPECT_LE(attacked.worst_error_rad, calm.worst_error_rad + 2.0 * kCount_rad);
-      EXPECT_LE(attacked.rms_error_rad(), 1.05 * calm.rms_error_rad() + 0.1 * kCount_rad);
-      EXPECT_LE(attacked.worst_torque_step_Nm, 1.2 * calm.worst_torque_step_Nm);
-    }
-    const double share = in_virtual_time() ? 0.99 : 0.8;
-    EXPECT_GT(static_cast<double>(attacked.cycles), share * duration_s / kPeriod_s);
-    if (in_virtual_time()) {
-      EXPECT_EQ(attacked.cycles_missed, 0);
-      EXPECT_EQ(calm.cycles_missed, 0);
-    }
-  }
-  static void report(const char* what, const LoopObserver::Summary& summary, double duration_s) {
-    std::printf(
-        "%s: %.1f s, %lld cycles, %lld missed, error rms %.3e worst %.3e rad, torque step worst %.3f Nm\n",
-        what, duration_s, static_cast<long long>(summary.cycles),
-        static_cast<long long>(summary.cycles_missed), summary.rms_error_rad(), summary.worst_error_rad,
-        summary.worst_torque_step_Nm);
-  }
-
-  /// A fresh client gives an order and is obeyed.
-  void expect_orders_obeyed() {
-    TestClient client;
-    ASSERT_TRUE(client.wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
-    const Answer answer = send(client, "COMMAND", client.make_command("elbow", Action::kHold));
-    EXPECT_TRUE(answer.accepted) << answer.text;
-    EXPECT_TRUE(client.wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
-  }
-  SecretKey key_ = SecretKey::generate();
-  std::optional<DaemonProcess> daemon_;
-  std::optional<LoopObserver> observer_;
-};
 
 /// A child that sends the datagrams while the parent observes.
 class Attacker {

@@ -1,89 +1,14 @@
-// Limits and faults that no simulated drive shows by itself, on a drive that says whatever the test wants.
-// Virtual time.
+// What ends a motion: the drive's faults and the joint's limits.
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "tests/support/joint_bench.h"
+#include "tests/daemon/realtime/scripted_joint.h"
 
 namespace strainwave::testing {
 namespace {
 
-class ScriptedActuator final : public Actuator {
- public:
-  ActuatorReading read(std::int64_t) noexcept override { return reading; }
-  void write(const ActuatorCommand& command) noexcept override { last = command; }
-  void stop() noexcept override {
-    last = {};
-    ++stops;
-  }
-  void clear_fault() noexcept override { reading.fault = ActuatorFault::kNone; }
-
-  ActuatorReading reading;
-  ActuatorCommand last;
-  int stops = 0;
-};
-
-class JointLoopLimits : public ::testing::Test {
- protected:
-  JointLoopLimits() {
-    config_ = demo_joint().loop;
-    config_.start_timeout_s = 0.1;
-    config_.stop_timeout_s = 0.2;
-    config_.missed_readings_limit = 5;
-    make();
-  }
-  void make() {
-    cycle_ = 0;
-    auto drive = std::make_unique<ScriptedActuator>();
-    drive_ = drive.get();
-    drive_->reading.has_position = true;
-    drive_->reading.has_temperature = true;
-    drive_->reading.temperature_C = 25.0;
-    loop_ = std::make_unique<JointLoop>(0, config_, std::move(drive), replies_, events_);
-    loop_->table_slot(0) = {demo_table(), 1};
-    order(OrderKind::kUseTable);
-  }
-  void step() {
-    drive_->reading.joint_position_rad += drifting_rad_s_ * 0.001;
-    const std::int64_t now_ns = 1'000'000'000 + ++cycle_ * 1'000'000;
-    drive_->reading.temperature_produced_ns = now_ns;
-    loop_->step({now_ns, cycle_});
-  }
-  /// Long enough to be seen not to move.
-  void stand() {
-    for (int i = 0; i < 200; ++i) step();
-  }
-  Reason order(OrderKind kind) {
-    loop_->orders().push({1, kind, 0, 0.0, 0.0, {}});
-    step();
-    return replies_.pop(last_reply_) ? last_reply_.reason : Reason::kTimedOut;
-  }
-  void hold() {
-    ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
-    drive_->reading.drive_state = DriveState::kEnabled;
-    step();
-    ASSERT_EQ(loop_->mode(), Mode::kHolding);
-  }
-  Fault fault() const { return static_cast<Fault>(loop_->record().state.fault); }
-  /// Cycles until the fault, counting the first one as 1; 0 when none comes within `limit`.
-  int cycles_until_fault(int limit) {
-    for (int cycles = 1; cycles <= limit; ++cycles) {
-      step();
-      if (fault() != Fault::kNone) return cycles;
-    }
-    return 0;
-  }
-
-  ReplyQueue replies_;
-  EventQueue events_;
-  JointLoopConfig config_;
-  ScriptedActuator* drive_ = nullptr;
-  std::unique_ptr<JointLoop> loop_;
-  Reply last_reply_;
-  std::int64_t cycle_ = 0;
-  double drifting_rad_s_ = 0.0;
-};
+using JointLoopLimits = ScriptedJoint;
 
 TEST_F(JointLoopLimits, TurnEveryFaultOfTheDriveIntoTheJointsWithinOneCycle) {
   const std::pair<ActuatorFault, Fault> pairs[]{
@@ -215,111 +140,6 @@ TEST_F(JointLoopLimits, LatchThePositionLimit) {
   drive_->reading.joint_position_rad += 0.002;
   EXPECT_EQ(cycles_until_fault(1), 1);
   EXPECT_EQ(fault(), Fault::kPositionLimit);
-}
-
-TEST_F(JointLoopLimits, LatchTheTemperatureLimitInOneCycleWhateverThePlausibility) {
-  // Within the sensor's range but too sudden, just above the range, far above it.
-  for (const double temperature_C : {85.0, 90.5, 200.0}) {
-    drive_->reading.drive_state = DriveState::kDisabled;
-    drive_->reading.temperature_C = 25.0;
-    hold();
-    drive_->reading.temperature_C = temperature_C;
-    EXPECT_EQ(cycles_until_fault(1), 1) << temperature_C;
-    EXPECT_EQ(fault(), Fault::kTemperatureLimit) << temperature_C;
-    drive_->reading.drive_state = DriveState::kDisabled;
-    ASSERT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
-  }
-}
-
-TEST_F(JointLoopLimits, NeverLetATooHotJointBeControlled) {
-  drive_->reading.temperature_C = 95.0;
-  step();
-  order(OrderKind::kEnable);
-  EXPECT_EQ(loop_->mode(), Mode::kFaulted);
-  EXPECT_EQ(fault(), Fault::kTemperatureLimit);
-  EXPECT_FALSE(drive_->last.enable);
-}
-
-TEST_F(JointLoopLimits, MakeALossOfTemperatureAFaultWhereThatIsConfigured) {
-  for (const bool loss_is_fault : {false, true}) {
-    config_.temperature.loss_is_fault = loss_is_fault;
-    config_.temperature.max_age_s = 0.1;
-    make();
-    hold();
-    drive_->reading.has_temperature = false;
-    const int cycles = cycles_until_fault(1000);
-    if (loss_is_fault) {
-      EXPECT_NEAR(cycles, 100, 2);
-      EXPECT_EQ(fault(), Fault::kTemperatureLost);
-    } else {
-      EXPECT_EQ(cycles, 0);
-      EXPECT_EQ(loop_->record().state.gains_in_use, static_cast<int>(GainsInUse::kFallback));
-    }
-  }
-}
-
-TEST_F(JointLoopLimits, RefuseToEnableAJointThatMovesAndSayHowFast) {
-  drifting_rad_s_ = 3.6;
-  for (int i = 0; i < 200; ++i) step();
-  EXPECT_EQ(order(OrderKind::kEnable), Reason::kMoving);
-  EXPECT_NEAR(last_reply_.joint_velocity_rad_s, 3.6, 1e-6);
-  EXPECT_EQ(loop_->mode(), Mode::kOff);
-  EXPECT_FALSE(drive_->last.enable);
-  drifting_rad_s_ = 0.0;
-  stand();
-  EXPECT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
-}
-
-TEST_F(JointLoopLimits, BeginWithTheMotionThatTheJointHasWhenItsDriveBecomesReady) {
-  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
-  drifting_rad_s_ = 0.5;  // somebody pushes it while the drive starts
-  for (int i = 0; i < 90; ++i) step();
-  drive_->reading.drive_state = DriveState::kEnabled;
-  step();
-  ASSERT_EQ(loop_->mode(), Mode::kHolding);
-  const state_v1& first = loop_->record().state;
-  EXPECT_NEAR(first.setpoint_velocity_rad_s, 0.5, 0.2) << "it comes to rest from there";
-  EXPECT_NEAR(first.setpoint_position_rad, first.joint_position_rad, 1e-3);
-}
-
-TEST_F(JointLoopLimits, ShowTheControllersOwnSetpointFromTheFirstRecordOn) {
-  drive_->reading.joint_position_rad = 1.25;
-  stand();
-  ASSERT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
-  drive_->reading.drive_state = DriveState::kEnabled;
-  for (int i = 0; i < 5; ++i) {
-    step();
-    ASSERT_EQ(loop_->mode(), Mode::kHolding);
-    EXPECT_DOUBLE_EQ(loop_->record().state.setpoint_position_rad, 1.25) << i;
-    EXPECT_DOUBLE_EQ(loop_->record().state.target_position_rad, 1.25) << i;
-  }
-}
-
-TEST_F(JointLoopLimits, RefuseEveryOrderThatCouldMoveAJointWhileTheDaemonEnds) {
-  hold();
-  loop_->end({1'000'000'000 + (cycle_ + 1) * 1'000'000, cycle_ + 1});
-  EXPECT_EQ(loop_->mode(), Mode::kStopping);
-  EXPECT_EQ(order(OrderKind::kSetpoint), Reason::kEnding);
-  EXPECT_EQ(order(OrderKind::kHome), Reason::kEnding);
-  for (int i = 0; i < 100 && loop_->mode() != Mode::kOff; ++i) step();
-  ASSERT_EQ(loop_->mode(), Mode::kOff);
-  EXPECT_EQ(order(OrderKind::kEnable), Reason::kEnding);
-  EXPECT_EQ(loop_->mode(), Mode::kOff);
-}
-
-TEST_F(JointLoopLimits, RefuseNumbersThatAreNone) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (double ActuatorReading::*field :
-       {&ActuatorReading::joint_position_rad, &ActuatorReading::torque_applied_Nm}) {
-    drive_->reading.drive_state = DriveState::kDisabled;
-    hold();
-    drive_->reading.*field = nan;
-    EXPECT_EQ(cycles_until_fault(1), 1);
-    EXPECT_EQ(fault(), Fault::kImplausibleReading);
-    drive_->reading.*field = 0.0;
-    drive_->reading.drive_state = DriveState::kDisabled;
-    ASSERT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
-  }
 }
 
 TEST_F(JointLoopLimits, LeaveAJointThatIsOffAloneWhateverItsDriveSays) {
