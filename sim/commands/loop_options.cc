@@ -13,16 +13,19 @@ void add_loop_options(CLI::App& command, LoopOptions& options) {
       .add_option(
           "--reference_rad", options.reference_rad,
           "setpoint over time: constant:R, steps:START,RISE,INTERVAL_S,COUNT, "
+          "ramp:FIRST,SECOND,BEGIN_S,END_S, "
           "square:FIRST,SECOND,INTERVAL_S, csv:FILE or hold:FILE (columns time_s,setpoint_position_rad)")
       ->capture_default_str();
   command
       .add_option("--ambient_temperature_C", options.ambient_temperature_C,
                   "surroundings over time: constant:C, steps:START,RISE,INTERVAL_S,COUNT, "
-                  "sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or hold:FILE (columns time_s,ambient_temperature_C)")
+                  "ramp:FIRST,SECOND,BEGIN_S,END_S, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or hold:FILE "
+                  "(columns time_s,ambient_temperature_C)")
       ->capture_default_str();
   command
       .add_option("--load_torque_Nm", options.load_torque_Nm,
-                  "load torque over time, likewise (column load_torque_Nm)")
+                  "load torque over time, on the link, likewise (column load_torque_Nm); "
+                  "steps:0,20,0.5,1 is one step of 20 N.m")
       ->capture_default_str();
   command.add_option("--duration_s", options.duration_s, "length of the run")->capture_default_str();
 }

@@ -51,6 +51,18 @@ TimeProfile TimeProfile::steps(double start, double rise, double interval_s, dou
   return profile;
 }
 
+TimeProfile TimeProfile::ramp(double first, double second, double begin_s, double end_s,
+                              const ProfileQuantity& quantity) {
+  require(std::isfinite(begin_s), quantity, "begin_s", begin_s, "must be finite");
+  require(std::isfinite(end_s) && end_s > begin_s, quantity, "end_s", end_s,
+          "must be finite and greater than begin_s");
+  TimeProfile profile;
+  profile.kind_ = Kind::kLines;
+  profile.points_ = {{begin_s, checked(first, quantity, place(quantity))},
+                     {end_s, checked(second, quantity, place(quantity))}};
+  return profile;
+}
+
 TimeProfile TimeProfile::square(double first, double second, double interval_s,
                                 const ProfileQuantity& quantity) {
   require(std::isfinite(interval_s) && interval_s > 0.0, quantity, "interval_s", interval_s,
@@ -105,12 +117,14 @@ TimeProfile TimeProfile::parse(std::string_view text, const ProfileQuantity& qua
   if (kind == "constant" && fields.size() == 1) return constant(number(0), quantity);
   if (kind == "steps" && fields.size() == 4)
     return steps(number(0), number(1), number(2), number(3), quantity);
+  if (kind == "ramp" && fields.size() == 4) return ramp(number(0), number(1), number(2), number(3), quantity);
   if (kind == "square" && fields.size() == 3) return square(number(0), number(1), number(2), quantity);
   if (kind == "sine" && fields.size() == 3) return sine(number(0), number(1), number(2), quantity);
-  throw InputError(place(quantity), "text", "'" + std::string(text) + "'",
-                   "must be constant:VALUE, steps:START,RISE,INTERVAL_S,COUNT, "
-                   "square:FIRST,SECOND,INTERVAL_S, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or "
-                   "hold:FILE");
+  throw InputError(
+      place(quantity), "text", "'" + std::string(text) + "'",
+      "must be constant:VALUE, steps:START,RISE,INTERVAL_S,COUNT, ramp:FIRST,SECOND,BEGIN_S,END_S, "
+      "square:FIRST,SECOND,INTERVAL_S, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or "
+      "hold:FILE");
 }
 
 double TimeProfile::at(double time_s) const noexcept {

@@ -1,4 +1,4 @@
-// A quantity over time: constant, steps, sine, or a recorded CSV. What setpoints, loads and temperatures are
+// A quantity over time: constant, steps, a ramp, sine, or a recorded CSV. What setpoints, loads and temperatures are
 // made of. at() is real-time safe; everything else is not.
 #pragma once
 
@@ -27,6 +27,9 @@ class TimeProfile {
   /// `start`, then `rise` more at every whole multiple of `interval_s` > 0, `count` >= 1 times.
   static TimeProfile steps(double start, double rise, double interval_s, double count,
                            const ProfileQuantity& quantity);
+  /// `first` until `begin_s`, a straight line to `second` at `end_s` > `begin_s`, then that.
+  static TimeProfile ramp(double first, double second, double begin_s, double end_s,
+                          const ProfileQuantity& quantity);
   /// `first` and `second` in turn, `interval_s` > 0 each.
   static TimeProfile square(double first, double second, double interval_s, const ProfileQuantity& quantity);
   /// mean + amplitude sin(angular_frequency t).
@@ -35,8 +38,8 @@ class TimeProfile {
   /// Columns time_s and quantity.key, times strictly rising; held before the first row and after the last.
   /// Between two rows a straight line, or, with `hold`, the earlier row's value.
   static TimeProfile from_csv(const std::filesystem::path& path, bool hold, const ProfileQuantity& quantity);
-  /// "constant:25", "steps:-10,5,1,11", "square:0,1,0.5", "sine:15,25,1", "csv:FILE" (straight lines) or
-  /// "hold:FILE", arguments as above. All factories throw InputError.
+  /// "constant:25", "steps:-10,5,1,11", "ramp:0,20,1,3", "square:0,1,0.5", "sine:15,25,1", "csv:FILE" (straight
+  /// lines) or "hold:FILE", arguments as above. One step of 20 at 1 s is "steps:0,20,1,1". All factories throw InputError.
   static TimeProfile parse(std::string_view text, const ProfileQuantity& quantity);
 
   /// The value at `time_s`.

@@ -35,6 +35,15 @@ TEST(TemperatureProfile, RisesAtEveryWholeIntervalAndThenHolds) {
   }
 }
 
+TEST(TemperatureProfile, GoesUpARampAndStaysAtItsEnds) {
+  const auto profile = TemperatureProfile::parse("ramp:25,-10,2,9");
+  EXPECT_EQ(profile.at(0.0), 25.0);
+  EXPECT_EQ(profile.at(2.0), 25.0);
+  EXPECT_DOUBLE_EQ(profile.at(4.0), 15.0);
+  EXPECT_EQ(profile.at(9.0), -10.0);
+  EXPECT_EQ(profile.at(1e6), -10.0);
+}
+
 TEST(TemperatureProfile, FollowsTheSine) {
   const auto profile = TemperatureProfile::parse("sine:15,25,1");
   EXPECT_DOUBLE_EQ(profile.at(0.0), 15.0);
@@ -83,7 +92,8 @@ TEST(TemperatureProfile, NamesTheFileAndLineOfABadRecord) {
 TEST(TemperatureProfile, RefusesTextThatIsNoProfile) {
   for (const char* text :
        {"", "warm", "constant", "constant:", "constant:20,30", "constant:-400", "steps:1,2,3",
-        "steps:0,5,0,3", "steps:0,5,1,0", "steps:0,5,1,1.5", "sine:15,25", "sine:15,inf,1", "csv:"})
+        "steps:0,5,0,3", "steps:0,5,1,0", "steps:0,5,1,1.5", "ramp:0,5,1", "ramp:0,5,2,2", "ramp:0,5,2,1",
+        "ramp:0,-300,1,2", "sine:15,25", "sine:15,inf,1", "csv:"})
     EXPECT_NE(refusal(text), "accepted") << text;
   EXPECT_EQ(refusal("constant:-10"), "accepted");
 }
