@@ -63,11 +63,13 @@ install(FILES ${STRAINWAVE_LCM_SOURCES} DESTINATION ${CMAKE_INSTALL_DATADIR}/lcm
 install(TARGETS strainwave-lcmtypes DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lcmtypes)
 install(DIRECTORY "${STRAINWAVE_LCM_GENERATED_DIR}/strainwave" "${STRAINWAVE_LCM_GENERATED_DIR}/c/strainwave"
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT lcmtypes FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
-install(DIRECTORY "${STRAINWAVE_LCM_GENERATED_DIR}/python/strainwave" DESTINATION lib/python3/dist-packages COMPONENT lcmtypes
-        FILES_MATCHING PATTERN "*.py")
 configure_file(packaging/strainwave-lcmtypes.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
         COMPONENT lcmtypes)
+
+# Package python3-strainwave: our modules and lcm-gen's types.
+install(DIRECTORY "${STRAINWAVE_PYTHON_PACKAGE}" DESTINATION lib/python3/dist-packages COMPONENT python
+        FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 
 # Debian wants a copyright, our changelog and that of the packaging in every package's folder.
 find_program(GZIP gzip REQUIRED)
@@ -80,7 +82,8 @@ strainwave_compressed(CHANGELOG.md changelog.gz)
 strainwave_compressed(packaging/changelog changelog.Debian.gz)
 set(changelogs "${CMAKE_BINARY_DIR}/packaging/changelog.gz" "${CMAKE_BINARY_DIR}/packaging/changelog.Debian.gz")
 add_custom_target(strainwave_changelogs ALL DEPENDS ${changelogs})
-foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmtypes:libstrainwave-lcmtypes-dev)
+foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmtypes:libstrainwave-lcmtypes-dev
+        python:python3-strainwave)
   string(REPLACE ":" ";" pair "${pair}")
   list(GET pair 0 component)
   list(GET pair 1 package)
@@ -93,8 +96,8 @@ foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmty
 endforeach()
 
 # What the packages hold; scripts/package builds it without the tests.
-add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-sim strainwave-lcmtypes manual
-                  strainwave_changelogs)
+add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-sim strainwave-lcmtypes strainwave_python
+                  manual strainwave_changelogs)
 if(STRAINWAVE_BUILD_DESIGN)
   add_dependencies(products strainwave-design)
 endif()

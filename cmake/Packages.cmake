@@ -10,7 +10,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL daemon lcmtypes)
+set(CPACK_COMPONENTS_ALL daemon lcmtypes python)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 # Of the packaging, while the version stays.
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -60,8 +60,17 @@ set(CPACK_DEBIAN_LCMTYPES_PACKAGE_NAME libstrainwave-lcmtypes-dev)
 set(CPACK_DEBIAN_LCMTYPES_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_LCMTYPES_DESCRIPTION "Strainwave's LCM messages for other programs
  The message types of strainwaved: their definitions, headers for C and C++,
- a static library for C, and a Python package.")
+ and a static library for C. Those for Python are in python3-strainwave.")
 set(CPACK_DEBIAN_LCMTYPES_PACKAGE_DEPENDS "liblcm-dev (>= 1.3.1)")
-set(CPACK_DEBIAN_LCMTYPES_PACKAGE_RECOMMENDS python3)
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-strainwave)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Strain-wave joints from Python
+ Moves and watches joints of strainwaved: orders are signed, acknowledged and
+ repeated, setpoints come as a stream, states have names and units. Pure
+ Python over LCM's wire format; no LCM library is needed.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), libsodium23")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS strainwave)
 
 include(CPack)

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <functional>
 #include <string>
 
 #include "client/link/key_file.h"
@@ -15,6 +14,13 @@ namespace strainwave {
 
 namespace {
 
+// FNV-1a: the Python package (client/python) comes to the same number.
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char character : text) hash = (hash ^ static_cast<std::uint8_t>(character)) * 0x100000001b3;
+  return hash;
+}
+
 // 62 bits of this machine's and this user's names, never 0.
 std::int64_t own_identity() {
   std::array<char, HOST_NAME_MAX + 1> host{};
@@ -22,7 +28,7 @@ std::int64_t own_identity() {
   std::string machine;
   std::ifstream("/etc/machine-id") >> machine;
   const std::string name = machine + "/" + host.data() + "/" + std::to_string(::getuid());
-  return static_cast<std::int64_t>(std::hash<std::string>{}(name) >> 2) + 1;
+  return static_cast<std::int64_t>(hash_of(name) >> 2) + 1;
 }
 
 }  // namespace

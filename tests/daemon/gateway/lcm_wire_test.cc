@@ -1,4 +1,4 @@
-#include "transport/lcm_wire.h"
+#include "daemon/gateway/lcm_wire.h"
 
 #include <gtest/gtest.h>
 

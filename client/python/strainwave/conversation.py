@@ -1,0 +1,180 @@
+"""A conversation with one joint of a daemon: hears its state, sends an order, repeats it until it is acknowledged.
+Source: client/link/client.h, pending_order.h; docs/messages.md.
+"""
+import collections
+
+from .ack_v1 import ack_v1
+from .errors import NoAnswer, Refused
+from .limits_v1 import limits_v1
+from .messages import decode_exactly, text_of
+from .network import now_s
+from .state_v1 import state_v1
+from .vocabulary import Reason
+
+ATTEMPTS = 3  # how often an order is made anew that was refused for its age or its sequence alone
+TRANSMISSIONS = 4  # of the identical message, until it is answered
+_INBOX = 4096
+_CLOCK_STATES = 64
+
+
+class CycleClock:
+    """Which cycle the daemon is in, from the states that came: the one that travelled least long tells most."""
+
+    def __init__(self):
+        self._heard = collections.deque(maxlen=_CLOCK_STATES)
+
+    def restart(self):
+        self._heard.clear()
+
+    def take(self, cycle, received_s):
+        self._heard.append((cycle, received_s))
+
+    def cycle_at(self, time_s, period_s):
+        """As a real number; at least one state must have come."""
+        return max(cycle + (time_s - received_s) / period_s for cycle, received_s in self._heard)
+
+
+class Conversation:
+    """What is heard of one joint, and orders to it. Every wait ends after `timeout_s`."""
+
+    def __init__(self, network, prefix, joint, sender, timeout_s):
+        self.network, self.prefix, self.joint, self.sender, self.timeout_s = network, prefix, joint, sender, timeout_s
+        self.state = None  # the latest state_v1
+        self.received_s = 0.0
+        self.messages = 0
+        self.limits = None  # the latest limits_v1
+        self.clock = CycleClock()
+        self._inboxes = []
+        self._awaited = {}  # acknowledgements by sequence; None: not yet
+        self._sent = collections.deque(maxlen=256)  # sequences of what send() sent
+        self._refusals = collections.deque(maxlen=16)
+        for kind, method in (("STATE", self._on_state), ("LIMITS", self._on_limits), ("ACK", self._on_ack)):
+            network.listen(self.channel(kind), method)
+
+    def channel(self, kind):
+        return f"{self.prefix}.{self.joint}.{kind}"
+
+    def wait_for_state(self):
+        """The latest state; waits for the first. Raises NoAnswer that says what is heard instead."""
+        if not self.network.wait_until(lambda: self.state is not None, self.timeout_s):
+            raise NoAnswer(self._silence())
+        return self.state
+
+    def open_inbox(self):
+        """A queue that gets every state from now on, with when it came; the oldest are lost when nobody takes them."""
+        inbox = collections.deque(maxlen=_INBOX)
+        with self.network.changed:
+            self._inboxes.append(inbox)
+        return inbox
+
+    def close_inbox(self, inbox):
+        with self.network.changed:
+            self._inboxes = [other for other in self._inboxes if other is not inbox]
+
+    def request(self, kind, message, order, prepare=None, hint=""):
+        """Sends an order that has to be accepted. `order`: in words; `prepare`: called with the message before every attempt.
+        Raises Refused, NoAnswer.
+        """
+        for attempt in range(ATTEMPTS):
+            state = self.wait_for_state()
+            if prepare:
+                prepare(message)
+            answer = self._exchange(kind, message, state)
+            if answer is None:
+                raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after {TRANSMISSIONS} "
+                               "transmissions. Whether the order was carried out is not known: look at the state")
+            if answer.accepted == 1:
+                return
+            if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):
+                break
+        raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text), hint)
+
+    def request_stop(self, kind, message, order):
+        """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""
+        answer = self._exchange(kind, message, self.state)
+        if answer is None:
+            raise NoAnswer(f"{self.joint}: the stop was sent {TRANSMISSIONS} times, and nothing answered: "
+                           + ("the daemon publishes its state but does not answer" if self.state else self._silence()))
+        if answer.accepted != 1:
+            raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))
+
+    def send(self, kind, message):
+        """Once and without waiting: one of a stream. A refusal of it is for take_refusal()."""
+        state = self.wait_for_state()
+        channel = self.channel(kind)
+        encoded = self.sender.seal(channel, message, state)
+        with self.network.changed:
+            self._sent.append(message.sequence)
+        self.network.publish(channel, encoded)
+
+    @property
+    def has_refusals(self):
+        return bool(self._refusals)
+
+    def take_refusal(self):
+        """(Reason, text) of the oldest refusal of a message of send() that was not yet taken, or None."""
+        with self.network.changed:
+            if not self._refusals:
+                return None
+            ack = self._refusals.popleft()
+        return Reason(ack.reason), text_of(ack.text)
+
+    def _exchange(self, kind, message, state):
+        channel = self.channel(kind)
+        encoded = self.sender.seal(channel, message, state)
+        sequence = message.sequence
+        with self.network.changed:
+            self._awaited[sequence] = None
+        try:
+            for _ in range(TRANSMISSIONS):
+                self.network.publish(channel, encoded)
+                if self.network.wait_until(lambda: self._awaited[sequence] is not None, self.timeout_s / TRANSMISSIONS):
+                    break
+            return self._awaited[sequence]
+        finally:
+            with self.network.changed:
+                del self._awaited[sequence]
+
+    # Refused unread: the order took too long, or another program of this key was ahead. It was not obeyed.
+    def _may_try_again(self, answer, quoted):
+        if answer.reason == Reason.OLD_SEQUENCE:
+            self.sender.rise_above(answer.last_sequence)
+            return True
+        return answer.reason == Reason.TOO_OLD and self.network.wait_until(
+            lambda: self.state.challenge != quoted.challenge, self.timeout_s)
+
+    def _on_state(self, content):
+        message = decode_exactly(state_v1, content)
+        if message is None:
+            return
+        if self.state is not None and self.state.session_id != message.session_id:
+            self.clock.restart()
+            self.limits = None
+        self.state, self.received_s = message, now_s()
+        self.messages += 1
+        self.clock.take(message.cycle, self.received_s)
+        for inbox in self._inboxes:
+            inbox.append((message, self.received_s))
+
+    def _on_limits(self, content):
+        self.limits = decode_exactly(limits_v1, content) or self.limits
+
+    def _on_ack(self, content):
+        ack = decode_exactly(ack_v1, content)
+        if ack is None or ack.sender_id != self.sender.sender_id:
+            return
+        if ack.sequence in self._awaited:
+            self._awaited[ack.sequence] = self._awaited[ack.sequence] or ack
+        elif ack.accepted != 1 and ack.sequence in self._sent:
+            self._refusals.append(ack)
+
+    def _silence(self):
+        heard = sorted(self.network.joints)
+        joints = [joint for prefix, joint in heard if prefix == self.prefix]
+        if joints:
+            return f"no joint '{self.joint}' on prefix {self.prefix}; its joints are: {', '.join(joints)}"
+        words = f"no daemon on prefix {self.prefix} in {self.timeout_s:g} s ({self.network.url})."
+        prefixes = sorted({prefix for prefix, _ in heard})
+        if prefixes:
+            return f"{words} Daemons are heard on: {', '.join(prefixes)} (choose one with prefix=)"
+        return f"{words} Is strainwaved running, and are its lcm_url and prefix the same as here?"

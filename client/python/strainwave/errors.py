@@ -1,0 +1,37 @@
+"""What can go wrong, as exceptions. Each says what was given, what is allowed or what the daemon answered, and what to do."""
+
+
+class StrainwaveError(Exception):
+    """Any of the following."""
+
+
+class InvalidInput(StrainwaveError, ValueError):
+    """Refused here, before anything was sent: a name, a number, a URL or a key file."""
+
+
+class NoAnswer(StrainwaveError, TimeoutError):
+    """No daemon, no such joint, silence, or a network without multicast. Whether an order was carried out is not known."""
+
+
+class Refused(StrainwaveError):
+    """The daemon answered and refused.
+
+    joint, order: what was asked of whom, in words; reason: Reason; text: the daemon's own words, with the numbers that led to it.
+    """
+
+    def __init__(self, joint, order, reason, text="", hint=""):
+        words = f"{joint}: {order} refused ({int(reason)}, {reason.text})"
+        super().__init__("; ".join(part for part in (f"{words}: {text}" if text else words, hint) if part))
+        self.joint, self.order, self.reason, self.text = joint, order, reason, text
+
+
+class Faulted(StrainwaveError):
+    """The joint has a latched fault. fault: Fault."""
+
+    def __init__(self, joint, fault):
+        super().__init__(f"{joint}: faulted ({int(fault)}: {fault.text}); once the cause is gone: clear_fault()")
+        self.joint, self.fault = joint, fault
+
+
+class NotDone(StrainwaveError):
+    """An order that was accepted did not come to its end: another replaced it, the joint was disabled, it holds elsewhere."""

@@ -1,0 +1,178 @@
+"""A joint of a Strainwave daemon."""
+import math
+import os
+
+from .command_v1 import command_v1
+from .conversation import Conversation
+from .errors import Faulted, NoAnswer, NotDone
+from .messages import blank
+from .motion import Arrival, ArrivalWatch, wait_for_motion
+from .network import Network, check_name, now_s
+from .sender import Sender
+from .setpoint_v2 import setpoint_v2
+from .state import Limits, State
+from .stream import Stream, check_number
+from .vocabulary import Action, Mode, Notice
+
+_ENABLED = (Mode.HOLDING, Mode.TRACKING, Mode.HOMING)
+_OLD_STATES_S = 0.1  # a state that left the daemon before it took the order may arrive after the acknowledgement
+
+
+class Joint:
+    """Orders to one joint, and what it does. Positions, velocities and torques are the joint side's, in SI units.
+
+    name: the joint's in the daemon's configuration; prefix: the daemon's
+    key: file of the secret key (strainwavectl keygen); None: what STRAINWAVE_KEY names; "" or neither: orders go out unsigned
+    lcm_url: None: what LCM_DEFAULT_URL says, or LCM's usual one on this machine
+    timeout_s: of every single wait: for a state, for an acknowledgement, for a change of mode
+    """
+
+    def __init__(self, name, key=None, *, prefix="SW", lcm_url=None, timeout_s=2.0):
+        self.name = check_name("name", name)
+        self._timeout_s = check_number("timeout_s", timeout_s, "above 0 to 3600", lambda s: 0 < s <= 3600)
+        sender = Sender(os.environ.get("STRAINWAVE_KEY") if key is None else key)
+        self._conversation = Conversation(Network.shared(lcm_url), check_name("prefix", prefix), name, sender, self._timeout_s)
+        self._wait_until = self._conversation.network.wait_until
+
+    @property
+    def state(self):
+        """The latest State; waits for the first. Raises NoAnswer, too when the joint has fallen silent."""
+        message = self._conversation.wait_for_state()
+        silent_s = now_s() - self._conversation.received_s
+        if silent_s > self._timeout_s:
+            raise NoAnswer(f"{self.name}: has been silent for {silent_s:.1f} s; its state is not known")
+        return State(message, self._conversation.received_s)
+
+    @property
+    def limits(self):
+        """Limits of the joint, constant while the daemon runs; waits for the first."""
+        self._conversation.wait_for_state()
+        if not self._wait_until(lambda: self._conversation.limits is not None, max(self._timeout_s, 2.0)):
+            raise NoAnswer(f"{self.name}: publishes its state but not its limits")
+        return Limits(self._conversation.limits, self._conversation.received_s)
+
+    def states(self, duration_s=math.inf):
+        """Every State that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`. Raises NoAnswer."""
+        inbox = self._conversation.open_inbox()
+        end_s = None
+        try:
+            while True:
+                if not self._wait_until(lambda: inbox, self._timeout_s):
+                    self._conversation.wait_for_state()  # says more when there never was one
+                    raise NoAnswer(f"{self.name}: fell silent")
+                message, received_s = inbox.popleft()
+                end_s = received_s + duration_s if end_s is None else end_s
+                if received_s > end_s:
+                    return
+                yield State(message, received_s)
+        finally:
+            self._conversation.close_inbox(inbox)
+
+    def enable(self):
+        """Switches the drive on; returns once the joint holds. What is so already is no error, and nothing is sent for it."""
+        if self.state.mode not in _ENABLED:
+            self._order(Action.ENABLE)
+        ordered_s = now_s()
+
+        def decided():
+            mode = self._mode()
+            if mode == Mode.FAULTED:
+                raise Faulted(self.name, State(self._conversation.state, 0.0).fault)
+            if mode == Mode.OFF and now_s() > ordered_s + _OLD_STATES_S:
+                raise NotDone(f"{self.name}: went back to off while it was starting; see the daemon's log")
+            return mode in _ENABLED
+
+        self._wait_for(decided)
+
+    def disable(self):
+        """Stops and switches the drive off; returns once it is. Needs no key, and is repeated until it is acknowledged."""
+        self._stop(Action.DISABLE)
+
+        def decided():
+            if self._mode() == Mode.FAULTED:
+                raise Faulted(self.name, State(self._conversation.state, 0.0).fault)
+            return self._mode() == Mode.OFF
+
+        self._conversation.wait_for_state()
+        self._wait_for(decided)
+
+    def hold(self):
+        """Stops where the joint comes to rest; returns once it holds. Needs no key, and is repeated until it is acknowledged."""
+        self._stop(Action.HOLD)
+        self._conversation.wait_for_state()
+        wait_for_motion(self._conversation, Mode.TRACKING, "hold", lambda state: state.mode == Mode.HOLDING)
+
+    def clear_fault(self):
+        """Leaves a latched fault, to off. A joint without one is left alone."""
+        if self.state.mode == Mode.FAULTED:
+            self._order(Action.CLEAR_FAULT)
+            self._wait_for(lambda: self._mode() != Mode.FAULTED)
+
+    def home(self):
+        """Finds the home position; returns once the joint holds there."""
+        self._order(Action.HOME)
+        wait_for_motion(self._conversation, Mode.HOMING, "find home", lambda state: state.mode == Mode.HOLDING)
+        if self.state.notices & Notice.NOT_HOMED:
+            raise NotDone(f"{self.name}: homing was stopped before it found home")
+
+    def take_over(self):
+        """The joint is this user's, whoever has it; an engineer's right."""
+        self._order(Action.TAKE_OVER)
+
+    def release(self):
+        """The joint is nobody's, before its lease ends."""
+        self._order(Action.RELEASE)
+
+    def move(self, position_rad, *, speed_limit_rad_s=0.0, tolerance_rad=1e-3, wait=True) -> Arrival | None:
+        """Moves to `position_rad`, no faster than `speed_limit_rad_s` (0: as fast as the joint may).
+
+        With `wait`, returns an Arrival once the joint is within `tolerance_rad` and stays there. Without, returns at once: the joint
+        is on its way. An exception of the wait, a keyboard interrupt too, does not end the motion: hold() does. Raises Refused, Faulted,
+        NotDone, NoAnswer, InvalidInput.
+        """
+        position_rad = check_number("position_rad", position_rad, "a finite number of rad", lambda _: True)
+        tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
+        message = blank(setpoint_v2)
+        message.position_rad = position_rad
+        message.speed_limit_rad_s = self._speed_limit(speed_limit_rad_s)
+        message.acknowledge = 1
+        hint = ""
+        if abs(position_rad) > 2 * math.pi:
+            hint = f"positions are in rad: {position_rad:g} degrees would be {math.radians(position_rad):.6g}"
+        self._conversation.request("SETPOINT", message, f"move to {position_rad:g} rad", hint=hint)
+        if not wait:
+            return None
+        watch = ArrivalWatch(self.name, position_rad, tolerance_rad, self._timeout_s)
+        wait_for_motion(self._conversation, Mode.TRACKING, f"arrive at {position_rad:g} rad", watch.reached,
+                        lambda state: state.target_position_rad != position_rad)
+        return watch.arrival
+
+    def stream(self, *, ahead_s=0.1, valid_for_s=2.0, speed_limit_rad_s=0.0, beside=None):
+        """A Stream of setpoints, for a with-statement. Nothing moves before its first put().
+
+        ahead_s: how long before its time a sample is sent; what the network and this program may be late by
+        valid_for_s: the stream ends when no sample comes for so long; the joint comes to rest before that
+        beside: the Stream of another joint of this daemon: the same t is the same cycle then
+        """
+        return Stream(self, self._conversation, self.limits.period_s, ahead_s, valid_for_s, self._speed_limit(speed_limit_rad_s), beside)
+
+    @staticmethod
+    def _speed_limit(speed_limit_rad_s):
+        return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0)
+
+    def _mode(self):
+        return Mode(self._conversation.state.mode)
+
+    def _order(self, action):
+        message = blank(command_v1)
+        message.action = int(action)
+        self._conversation.request("COMMAND", message, action.text)
+
+    def _stop(self, action):
+        message = blank(command_v1)
+        message.action = int(action)
+        self._conversation.request_stop("COMMAND", message, action.text)
+
+    def _wait_for(self, decided):
+        if not self._wait_until(decided, self._timeout_s):
+            raise NoAnswer(f"{self.name}: accepted, but still {self._mode().text} after {self._timeout_s:g} s")

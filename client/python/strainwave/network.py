@@ -1,0 +1,152 @@
+"""The LCM network: a socket that hears the group, one that sends, and a thread that hands messages to whoever listens.
+
+The thread ends with the program. Handlers run in it, one message at a time, while `changed` is held; waiting is done with wait_until().
+"""
+import os
+import re
+import select
+import socket
+import struct
+import threading
+import time
+import urllib.parse
+import weakref
+
+from .errors import InvalidInput, NoAnswer
+from .lcm_wire import Reassembly, encode_short
+
+DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
+MAX_NAMES = 1024  # more joints than any network of ours has
+_QUEUE_BYTES = 1 << 20
+_LARGEST_DATAGRAM = 65536
+_NAME = re.compile(r"[A-Za-z0-9_-]{1,24}")
+_STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_-]{1,24})\.([A-Za-z0-9_-]{1,24})\.STATE")
+
+
+def check_name(what, name):
+    """`name` if it can be a joint's or a prefix."""
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        raise InvalidInput(f"{what} = {name!r}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed")
+    return name
+
+
+def parse_url(url):
+    """Group, port and ttl of udpm://GROUP:PORT?ttl=N; LCM's own defaults for what is left out."""
+    wrong = InvalidInput(f"lcm_url = {url!r}: udpm://GROUP:PORT?ttl=N is allowed, with a group of 224.0.0.0 to 239.255.255.255, a port "
+                         f"of 1 to 65535 and a ttl of 0 to 255; the usual one is {DEFAULT_URL}")
+    try:
+        parts = urllib.parse.urlsplit(url)
+        group = parts.hostname or "239.255.76.67"
+        port = 7667 if parts.port is None else parts.port
+        ttl = int(urllib.parse.parse_qs(parts.query).get("ttl", ["0"])[-1])
+        first = socket.inet_aton(group)[0]
+    except (ValueError, TypeError, AttributeError, OSError):
+        raise wrong from None
+    if parts.scheme != "udpm" or group.count(".") != 3 or not 224 <= first <= 239 or not 1 <= port or not 0 <= ttl <= 255:
+        raise wrong
+    return group, port, ttl
+
+
+class Network:
+    """One LCM URL. shared() gives the program's one of a URL; everything on it shares its thread."""
+
+    _shared = {}
+    _shared_lock = threading.Lock()
+
+    @classmethod
+    def shared(cls, url=None):
+        url = url or os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
+        with cls._shared_lock:
+            if url not in cls._shared:
+                cls._shared[url] = cls(url)
+            return cls._shared[url]
+
+    def __init__(self, url):
+        self.url = url
+        self.changed = threading.Condition(threading.RLock())
+        self.joints = set()  # (prefix, joint) of whoever publishes a state
+        self._handlers = {}
+        self._reassembly = Reassembly()
+        self._group, self._port, self._ttl = parse_url(url)
+        self._sequence = 0
+        try:
+            self._sender, self._own_address = self._open_sender()
+            self._receiver = self._open_receiver()
+        except OSError as error:
+            raise NoAnswer(f"LCM is not available on '{url}': {error}. To keep LCM on this PC, run as root:\n"
+                           f"  ip link set lo up multicast on\n  ip route add {self._group}/32 dev lo src 127.0.0.1") from None
+        threading.Thread(target=self._run, name="strainwave", daemon=True).start()
+
+    def _open_sender(self):
+        sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, self._ttl)
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_LOOP, 1)
+        sender.connect((self._group, self._port))
+        return sender, sender.getsockname()[0]
+
+    def _open_receiver(self):
+        receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _QUEUE_BYTES)
+        # To the group, not to any address: the kernel then keeps unicast away.
+        receiver.bind((self._group, self._port))
+        membership = struct.pack("=4s4s", socket.inet_aton(self._group), socket.inet_aton("0.0.0.0"))
+        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        receiver.setblocking(False)
+        return receiver
+
+    def listen(self, channel, method):
+        """Calls method(message as bytes) for each message on `channel` as long as its object lives. It must be quick and not raise."""
+        with self.changed:
+            name = channel.encode("ascii")
+            living = [handler for handler in self._handlers.get(name, ()) if handler() is not None]
+            self._handlers[name] = [*living, weakref.WeakMethod(method)]
+
+    def publish(self, channel, message):
+        with self.changed:
+            self._sequence += 1
+            datagram = encode_short(self._sequence, channel, message)
+        try:
+            self._sender.send(datagram)
+        except OSError as error:
+            raise NoAnswer(f"{channel}: the network of {self.url} did not take a message: {error}") from None
+
+    def wait_until(self, condition, timeout_s):
+        """The last value of condition(), which is asked again with every message; it is true, or `timeout_s` have passed."""
+        with self.changed:
+            return self.changed.wait_for(condition, timeout_s)
+
+    def _run(self):
+        while True:
+            select.select([self._receiver], [], [])
+            try:
+                datagram, source = self._receiver.recvfrom(_LARGEST_DATAGRAM)
+            except OSError:
+                continue
+            self.accept(source, datagram)
+
+    def accept(self, source, datagram):
+        """Takes one datagram, of any content. With ttl=0 only what this machine sends is heard."""
+        if self._ttl == 0 and source[0] != self._own_address and not source[0].startswith("127."):
+            return
+        message = self._reassembly.take(source, datagram)
+        if message is None:
+            return
+        channel, content = message
+        with self.changed:
+            self._note_joint(channel)
+            for handler in self._handlers.get(channel, ()):
+                method = handler()
+                if method is not None:
+                    method(content)
+            self.changed.notify_all()
+
+    def _note_joint(self, channel):
+        name = _STATE_CHANNEL.fullmatch(channel)
+        if name and len(self.joints) < MAX_NAMES:
+            self.joints.add((name[1].decode(), name[2].decode()))
+
+
+def now_s():
+    """The monotonic clock: the only one that ages and time-outs are judged by."""
+    return time.monotonic()

@@ -1,0 +1,56 @@
+"""Who sends: the one place that fills in identity, session, sequence and signature of an order. Source: client/link/sender.h."""
+import os
+import socket
+import threading
+import time
+
+from .key import read_secret_key
+
+
+def identity(name):
+    """62 bits of `name`, never 0: FNV-1a, as strainwavectl has it."""
+    value = 0xCBF29CE484222325
+    for byte in name.encode():
+        value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    return (value >> 2) + 1
+
+
+def own_identity():
+    """This machine's and this user's: programs of theirs that follow each other, strainwavectl too, own the same joints."""
+    try:
+        with open("/etc/machine-id", encoding="ascii", errors="replace") as file:
+            machine = "".join(file.read().split()[:1])
+    except OSError:
+        machine = ""
+    return identity(f"{machine}/{socket.gethostname()}/{os.getuid()}")
+
+
+class Sender:
+    """Seals orders. `key`: the file of the secret key, read now; None or "": orders go out unsigned."""
+
+    def __init__(self, key=None):
+        self.sender_id = own_identity()
+        self._key = read_secret_key(key) if key else None
+        self._sequence = 0
+        self._lock = threading.Lock()
+
+    def next_sequence(self, utime=None):
+        """Rises over everything that is sent, and with the clock over all programs of one key."""
+        with self._lock:
+            self._sequence = max(self._sequence + 1, time.time_ns() // 1000 if utime is None else utime)
+            return self._sequence
+
+    def rise_above(self, sequence):
+        """Another program of this key was ahead."""
+        with self._lock:
+            self._sequence = max(self._sequence, sequence)
+
+    def seal(self, channel, message, state):
+        """Completes `message` for the daemon of `state` (None: for whichever, a stop) and returns its bytes."""
+        message.utime = time.time_ns() // 1000
+        message.session_id = state.session_id if state else 0
+        message.challenge = state.challenge if state else 0
+        message.sender_id = self.sender_id
+        message.sequence = self.next_sequence(message.utime)
+        encoded = message.encode()
+        return self._key.sign(channel, encoded) if self._key else encoded

@@ -1,0 +1,150 @@
+"""A stream of setpoints: where the joint shall be at which time. docs/messages.md, "Streams"."""
+import math
+
+from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError
+from .messages import blank
+from .network import now_s
+from .setpoint_v2 import setpoint_v2
+from .vocabulary import Reason
+
+FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
+
+
+def check_number(name, value, allowed, is_allowed):
+    """`value` as a float, if it is a finite number that is allowed."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number) or not is_allowed(number):
+        raise InvalidInput(f"{name} = {value!r}: {allowed} is allowed")
+    return number
+
+
+class TimeBase:
+    """Which cycle of the daemon the time t of a stream is; joints that move together share one."""
+
+    def __init__(self):
+        self.origin_t = None
+        self.origin_cycle = 0
+
+    def cycle_of(self, t, period_s):
+        return self.origin_cycle + round((t - self.origin_t) / period_s)
+
+
+class Stream:
+    """Made by Joint.stream(); use it in a with-statement: at its end the joint comes to rest and holds."""
+
+    def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, beside):
+        self.late = 0  # samples that came after their time and were left out
+        self._joint, self._conversation, self._period_s = joint, conversation, period_s
+        self._ahead_s = check_number("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
+        self._valid_for_s = check_number("valid_for_s", valid_for_s, "above 0 to 3600", lambda s: 0 < s <= 3600)
+        self._speed_limit_rad_s = speed_limit_rad_s
+        self._base = beside._base if beside else TimeBase()
+        self._stream_id = conversation.sender.next_sequence()
+        self._last_t = None
+        self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun
+
+    def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None):
+        """The joint shall be at `position_rad` at time `t` (s; rising; the first is in `ahead_s` from now), with the velocity and
+        acceleration then if they are known. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
+        runs at the joint's pace. False: it came after its time and was left out. Raises Refused, NotDone, NoAnswer, InvalidInput.
+        """
+        t = check_number("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
+        message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
+        self._last_t = t
+        if self._last_cycle is None:
+            return self._begin(t, message)
+        message.at_cycle = self._base.cycle_of(t, self._period_s)
+        if message.at_cycle <= self._last_cycle:
+            raise InvalidInput(f"t = {t!r}: at least a period of the daemon, {self._period_s} s, after the last one is allowed")
+        self._wait_until_due(message.at_cycle)
+        self._check_refusals()
+        if message.at_cycle <= self._now_cycle():
+            return self._leave_out(message.at_cycle)
+        self._conversation.send("SETPOINT", message)
+        self._last_cycle = message.at_cycle
+        return True
+
+    def close(self):
+        """Waits for the last sample's time, ends the stream and waits until the joint holds."""
+        if self._last_cycle is None:
+            return
+        network, conversation = self._conversation.network, self._conversation
+        self._check_refusals()
+        if not network.wait_until(lambda: conversation.state.cycle >= self._last_cycle, self._ahead_s + conversation.timeout_s):
+            raise NoAnswer(f"{self._joint.name}: fell silent before the stream's end")
+        self._last_cycle = None
+        self._joint.hold()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, traceback):
+        if error is None:
+            self.close()
+            return
+        try:
+            if self._last_cycle is not None:
+                self._joint.hold()
+        except StrainwaveError as second:
+            error.add_note(f"and the joint could not be told to hold: {second}")
+
+    def _message(self, position_rad, velocity_rad_s, acceleration_rad_s2):
+        limits = self._joint.limits
+        message = blank(setpoint_v2)
+        message.position_rad = check_number(
+            "position_rad", position_rad, f"{limits.position_min_rad} to {limits.position_max_rad}",
+            lambda rad: limits.position_min_rad <= rad <= limits.position_max_rad)
+        if velocity_rad_s is not None:
+            message.velocity_rad_s = check_number("velocity_rad_s", velocity_rad_s, "a finite number", lambda _: True)
+            message.derivatives = 1
+        if acceleration_rad_s2 is not None:
+            if velocity_rad_s is None:
+                raise InvalidInput(f"acceleration_rad_s2 = {acceleration_rad_s2!r}: only with velocity_rad_s")
+            message.acceleration_rad_s2 = check_number("acceleration_rad_s2", acceleration_rad_s2, "a finite number", lambda _: True)
+            message.derivatives = 2
+        message.stream_id = self._stream_id
+        message.valid_for_s = self._valid_for_s
+        message.speed_limit_rad_s = self._speed_limit_rad_s
+        return message
+
+    def _begin(self, t, message):
+        message.begins_stream = 1
+        message.acknowledge = 1
+        sets_the_base = self._base.origin_t is None
+
+        def prepare(again):
+            if sets_the_base:
+                self._base.origin_t = t
+                self._base.origin_cycle = math.ceil(self._now_cycle() + self._ahead_s / self._period_s)
+            again.at_cycle = self._base.cycle_of(t, self._period_s)
+
+        self._conversation.request("SETPOINT", message, f"to begin a stream at {message.position_rad} rad", prepare)
+        self._last_cycle = message.at_cycle
+        return True
+
+    def _now_cycle(self):
+        with self._conversation.network.changed:
+            return self._conversation.clock.cycle_at(now_s(), self._period_s)
+
+    def _wait_until_due(self, cycle):
+        wait_s = (cycle - self._now_cycle()) * self._period_s - self._ahead_s
+        # A refusal needs no waiting for the time that it is too late for.
+        self._conversation.network.wait_until(lambda: self._conversation.has_refusals, max(0.0, wait_s))
+
+    def _check_refusals(self):
+        while (refusal := self._conversation.take_refusal()) is not None:
+            reason, text = refusal
+            if reason != Reason.TOO_OLD:
+                self._last_cycle = None  # it is over
+                raise Refused(self._joint.name, "a setpoint of the stream", reason, text)
+            self.late += 1
+
+    def _leave_out(self, cycle):
+        self.late += 1
+        if (cycle - self._last_cycle) * self._period_s > self._valid_for_s:
+            raise NotDone(f"{self._joint.name}: no sample came in time for valid_for_s = {self._valid_for_s} s: the stream is over; "
+                          "compute faster, or farther ahead with ahead_s")
+        return False

@@ -1,0 +1,82 @@
+// What the C++ side says, for the tests of the Python package: bytes of every message type, a signature, an identity. One line each:
+// a name, a space, and hex digits or a number.
+#include <cstdint>
+#include <iomanip>
+#include <iostream>
+#include <span>
+#include <strainwave/ack_v1.hpp>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/inject_v1.hpp>
+#include <strainwave/limits_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/state_v1.hpp>
+#include <strainwave/temperature_v1.hpp>
+#include <strainwave/timing_v1.hpp>
+#include <string>
+
+#include "client/link/sender.h"
+#include "lcmtypes/signing.h"
+#include "lcmtypes/wire.h"
+
+namespace {
+
+using namespace strainwave;
+
+void print(const std::string& name, std::span<const std::uint8_t> bytes) {
+  std::cout << name << ' ' << std::hex << std::setfill('0');
+  for (const std::uint8_t byte : bytes) std::cout << std::setw(2) << static_cast<int>(byte);
+  std::cout << std::dec << '\n';
+}
+
+/// The message whose bytes after the fingerprint are 1, 2, 3, ...: every field has a value of its own.
+template <typename Message>
+void print_counting(const std::string& name) {
+  std::vector<std::uint8_t> bytes = encode(Message{});
+  for (std::size_t i = 8; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i % 120 + 1);
+  print(name, encode(*decode_exactly<Message>(bytes)));
+}
+
+setpoint_v2 setpoint() {
+  setpoint_v2 message{};
+  message.utime = 1;
+  message.session_id = -2;
+  message.challenge = 3;
+  message.sender_id = 4;
+  message.sequence = 5;
+  message.stream_id = 6;
+  message.position_rad = 0.25;
+  message.velocity_rad_s = -1.5;
+  message.acceleration_rad_s2 = 1e-300;
+  message.at_cycle = 7;
+  message.derivatives = 2;
+  message.valid_for_s = 0.5;
+  message.speed_limit_rad_s = 2.0;
+  message.begins_stream = 1;
+  message.acknowledge = 0;
+  return message;
+}
+
+}  // namespace
+
+int main() {
+  print_counting<ack_v1>("ack_v1");
+  print_counting<command_v1>("command_v1");
+  print_counting<gain_table_v1>("gain_table_v1");
+  print_counting<inject_v1>("inject_v1");
+  print_counting<limits_v1>("limits_v1");
+  print_counting<setpoint_v2>("setpoint_v2");
+  print_counting<state_v1>("state_v1");
+  print_counting<temperature_v1>("temperature_v1");
+  print_counting<timing_v1>("timing_v1");
+  SecretKey::Seed seed{};
+  for (std::size_t i = 0; i < seed.size(); ++i) seed[i] = static_cast<std::uint8_t>(i);
+  const SecretKey key(seed);
+  std::vector<std::uint8_t> bytes = encode(setpoint());
+  print("unsigned_setpoint", bytes);
+  sign("SW.elbow.SETPOINT", key, bytes);
+  print("signed_setpoint", bytes);
+  print("public_key", key.public_key().bytes);
+  std::cout << "identity " << Sender().sender_id() << '\n';
+  return 0;
+}

@@ -1,0 +1,137 @@
+"""Messages against the bytes of C++, signatures against libsodium's use there, numbers against their header and page."""
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+import strainwave
+from strainwave import messages, sender, vocabulary
+from strainwave.errors import InvalidInput
+from strainwave.key import SecretKey, read_secret_key
+
+SOURCE = pathlib.Path(os.environ["STRAINWAVE_SOURCE_DIR"])
+TYPES = ("ack_v1", "command_v1", "gain_table_v1", "inject_v1", "limits_v1", "setpoint_v2", "state_v1", "temperature_v1", "timing_v1")
+SAMPLES = dict(line.split() for line in subprocess.run([os.environ["STRAINWAVE_PYTHON_SAMPLES"]], check=True, capture_output=True,
+                                                       text=True).stdout.splitlines())
+
+
+def sample(name):
+    return bytes.fromhex(SAMPLES[name])
+
+
+def a_setpoint():
+    message = messages.blank(strainwave.setpoint_v2)
+    values = dict(utime=1, session_id=-2, challenge=3, sender_id=4, sequence=5, stream_id=6, position_rad=0.25, velocity_rad_s=-1.5,
+                  acceleration_rad_s2=1e-300, at_cycle=7, derivatives=2, valid_for_s=0.5, speed_limit_rad_s=2.0, begins_stream=1)
+    for name, value in values.items():
+        setattr(message, name, value)
+    return message
+
+
+class Messages(unittest.TestCase):
+    def test_of_every_type_survive_the_way_through_python(self):
+        for name in TYPES:
+            with self.subTest(name):
+                message = messages.decode_exactly(getattr(strainwave, name), sample(name))
+                self.assertIsNotNone(message)
+                self.assertEqual(message.encode(), sample(name))
+
+    def test_have_the_bytes_that_cpp_gives_them(self):
+        self.assertEqual(a_setpoint().encode(), sample("unsigned_setpoint"))
+
+    def test_of_every_declared_type_are_exported(self):
+        declared = {name for file in (SOURCE / "lcmtypes").glob("*.lcm") for name in re.findall(r"^struct (\w+)", file.read_text(), re.M)}
+        self.assertEqual(declared, {name for name in vars(strainwave) if re.fullmatch(r"[a-z_]+_v\d+", name)})
+        for name in declared:
+            self.assertIsInstance(getattr(strainwave, name), type)
+
+    def test_of_another_length_or_type_are_none(self):
+        whole = sample("state_v1")
+        for wrong in (b"", whole[:7], whole[:-1], whole + b"\0", b"\0" * len(whole), sample("ack_v1")):
+            self.assertIsNone(messages.decode_exactly(strainwave.state_v1, wrong))
+
+    def test_cannot_write_control_characters_to_a_terminal(self):
+        self.assertEqual(messages.text_of(b"a\x1b[2J\nb\xff\0hidden"), "a?[2J?b\ufffd")
+
+
+class Signatures(unittest.TestCase):
+    def test_are_those_of_cpp(self):
+        key = SecretKey(bytes(range(32)))
+        self.assertEqual(key.public_bytes, sample("public_key"))
+        self.assertEqual(key.sign("SW.elbow.SETPOINT", a_setpoint().encode()), sample("signed_setpoint"))
+
+    def test_belong_to_one_channel(self):
+        key = SecretKey(bytes(range(32)))
+        self.assertNotEqual(key.sign("SW.wrist.SETPOINT", a_setpoint().encode()), sample("signed_setpoint"))
+
+    def test_are_given_under_the_identity_that_strainwavectl_has(self):
+        self.assertEqual(sender.own_identity(), int(SAMPLES["identity"]))
+
+
+class KeyFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "key"
+
+    def write(self, text, mode=0o600):
+        self.path.write_text(text)
+        self.path.chmod(mode)
+
+    def refusal(self):
+        with self.assertRaises(InvalidInput) as caught:
+            read_secret_key(self.path)
+        self.assertIn(str(self.path), str(caught.exception))
+        return str(caught.exception)
+
+    def test_of_keygen_are_read(self):
+        self.write("ed25519-secret AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8= operator Otto, cell 3\n")
+        self.assertEqual(read_secret_key(self.path).public_bytes, sample("public_key"))
+
+    def test_that_cannot_be_used_say_why_and_never_what_is_in_them(self):
+        self.assertIn("cannot be read", self.refusal())
+        secret = "AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8="
+        for text, mode, reason in ((f"ed25519-secret {secret} operator\n", 0o640, "chmod 600"),
+                                   (f"ed25519 {secret} operator\n", 0o600, "public key"),
+                                   (f"{secret}\n", 0o600, "not a key of strainwavectl keygen"),
+                                   (f"ed25519-secret {secret[:40]} operator\n", 0o600, "44 characters"), ("", 0o600, "not a key")):
+            self.write(text, mode)
+            refusal = self.refusal()
+            self.assertIn(reason, refusal)
+            self.assertNotIn(secret[:40], refusal)
+
+    def test_that_are_no_files_are_refused_without_waiting(self):
+        os.mkfifo(self.path, 0o600)
+        self.assertIn("is not a file", self.refusal())
+
+
+class Vocabulary(unittest.TestCase):
+    PAGE = {"Mode": "Modes", "Fault": "Faults", "Reason": "Reasons", "Action": "Actions", "TemperatureStatus": "Temperature status",
+            "GainsInUse": "Gains in use"}
+
+    def test_has_the_numbers_and_texts_of_the_page(self):
+        page = (SOURCE / "docs/messages.md").read_text()
+        for name, title in self.PAGE.items():
+            table = page.split(f"\n## {title}\n")[1].split("\n## ")[0]
+            expected = {int(number): text for number, text in re.findall(r"^\| (\d+) \| ([^|]+?) \|", table, re.M)}
+            self.assertEqual({int(word): word.text for word in getattr(vocabulary, name)}, expected, name)
+        table = page.split("\n## Notices\n")[1].split("\n## ")[0]
+        for number, text in re.findall(r"^\| (\d+) \| ([^|]+?) \|", table, re.M):
+            self.assertEqual(str(vocabulary.Notice(int(number))), text)
+
+    def test_has_the_names_of_the_header(self):
+        header = (SOURCE / "lcmtypes/vocabulary.h").read_text() + (SOURCE / "control/gains_in_use.h").read_text()
+        for name in (*self.PAGE, "Notice"):
+            body = re.search(rf"enum class {name}\b[^{{]*{{(.*?)}};", header, re.S)[1]
+            names = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", word).upper() for word in re.findall(r"\bk(\w+) =", body)]
+            self.assertEqual([word.name for word in getattr(vocabulary, name)], names)
+
+    def test_takes_numbers_of_a_newer_daemon(self):
+        self.assertEqual((int(vocabulary.Reason(77)), f"{vocabulary.Reason(77)}"), (77, "unknown"))
+        self.assertEqual(vocabulary.Notice(1 | 1 << 30).texts, ["torque limited", "unknown"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,119 @@
+"""Over real multicast: what anybody may send to the group, and a daemon that wants signatures. In scripts/private-network."""
+import os
+import pathlib
+import random
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+
+from strainwave import Joint, Mode, NoAnswer, Reason, Refused, messages, state_v1
+from strainwave.lcm_wire import encode_short
+from strainwave.network import Network
+
+GROUP = "239.255.76.67"
+SOURCE = pathlib.Path(os.environ["STRAINWAVE_SOURCE_DIR"])
+PROGRAMS = pathlib.Path(os.environ["STRAINWAVE_PROGRAMS"])
+
+
+class HostileDatagrams(unittest.TestCase):
+    PORT = 20000 + os.getpid() % 20000
+
+    def setUp(self):
+        self.elbow = Joint("elbow", key="", lcm_url=f"udpm://{GROUP}:{self.PORT}?ttl=0", timeout_s=20)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.addCleanup(self.socket.close)
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
+
+    def send(self, datagram):
+        self.socket.sendto(datagram, (GROUP, self.PORT))
+
+    def test_do_not_keep_a_state_from_being_heard(self):
+        state = messages.blank(state_v1)
+        state.joint_position_rad = 0.25
+        chance = random.Random(5)
+        good = encode_short(1, "SW.elbow.STATE", state.encode())
+        self.send(b"")
+        for _ in range(300):
+            broken = bytearray(good)
+            for _ in range(3):
+                broken[chance.randrange(40)] = chance.randrange(256)
+            self.send(bytes(broken[:chance.randrange(len(broken))]))
+            self.send(chance.randbytes(chance.randrange(1400)))
+        for kind in ("STATE", "ACK", "LIMITS"):
+            self.send(encode_short(2, f"SW.elbow.{kind}", b"\xff" * 320))
+        state.session_id = 9  # in case noise made a state
+        for _ in range(3):
+            self.send(encode_short(3, "SW.elbow.STATE", state.encode()))
+        self.elbow._wait_until(lambda: self.elbow._conversation.state and self.elbow._conversation.state.session_id == 9, 20)
+        self.assertEqual((self.elbow.state.joint_position_rad, self.elbow.state.session_id), (0.25, 9))
+
+    def test_from_another_machine_are_not_heard_where_the_network_ends_at_this_one(self):
+        network = Network.shared(self.elbow._conversation.network.url)
+        datagram = encode_short(1, "SW.stranger.STATE", messages.blank(state_v1).encode())
+        network.accept(("192.0.2.1", 7), datagram)
+        self.assertNotIn(("SW", "stranger"), network.joints)
+        network.accept(("127.0.0.1", 7), datagram)
+        self.assertIn(("SW", "stranger"), network.joints)
+
+
+class ADaemonThatWantsSignatures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.key = self.folder / "key"
+        self.control("keygen", "--out", self.key, "--role", "operator")
+        (self.folder / "authorized_keys").write_text((self.folder / "key.pub").read_text())
+        (self.folder / "authorized_keys").chmod(0o600)
+        text = (SOURCE / "config/demo.toml").read_text()
+        text = text.replace('unsigned_orders = "allow"', 'authorized_keys = "authorized_keys"')
+        text = text.replace('driver = "simulated"', f'driver = "simulated"\ntable = "{SOURCE}/data/tables/rhs17-6006.json"')
+        (self.folder / "daemon.toml").write_text(text)
+        with open(self.folder / "log", "w") as log:
+            self.daemon = subprocess.Popen([PROGRAMS / "strainwaved", "--config", self.folder / "daemon.toml"], cwd=self.folder,
+                                           stdout=log, stderr=log)
+        self.addCleanup(self.end)
+        deadline = time.monotonic() + 60
+        while "ready" not in (self.folder / "log").read_text():
+            self.assertIsNone(self.daemon.poll(), (self.folder / "log").read_text())
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.05)
+
+    def end(self):
+        self.daemon.terminate()
+        self.daemon.wait(60)
+
+    def control(self, *words):
+        return subprocess.run([PROGRAMS / "strainwavectl", *words], check=True, capture_output=True, text=True)
+
+    def test_obeys_a_key_and_stops_without(self):
+        signing, unsigned = Joint("elbow", key=self.key, timeout_s=20), Joint("elbow", key="", timeout_s=20)
+        with self.assertRaises(Refused) as caught:
+            unsigned.enable()
+        self.assertIs(caught.exception.reason, Reason.UNSIGNED)
+        # One owner: what strainwavectl has enabled, this program may move.
+        self.control("--key", self.key, "--timeout_s", "20", "enable", "elbow")
+        arrival = signing.move(0.3)
+        self.assertLessEqual(abs(arrival.error_rad), 1e-3)
+        with signing.stream() as stream:
+            for i in range(30):
+                stream.put(i / 50, 0.3)
+        self.assertEqual(signing.state.mode, Mode.HOLDING)
+        unsigned.disable()
+        self.assertEqual(signing.state.mode, Mode.OFF)
+        unsigned.clear_fault()
+
+    def test_that_is_gone_is_told_from_one_that_refuses(self):
+        elbow = Joint("elbow", key=self.key, timeout_s=20)
+        elbow.enable()
+        elbow._conversation.timeout_s = 0.5
+        self.daemon.kill()
+        self.daemon.wait(60)
+        with self.assertRaisesRegex(NoAnswer, "the stop was sent 4 times, and nothing answered"):
+            elbow.disable()
+
+
+if __name__ == "__main__":
+    unittest.main()
