@@ -6,6 +6,7 @@
 
 #include "base/text_file.h"
 #include "sim/commands/commands.h"
+#include "sim/studies/flexible_figures.h"
 #include "sim/studies/flexible_report.h"
 #include "sim/studies/html_page.h"
 

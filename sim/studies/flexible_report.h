@@ -1,10 +1,9 @@
-// What the study of the flexible joint shows: tables and figures. Offline.
+// What the study of the flexible joint shows: in tables. Offline.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "sim/studies/figure.h"
 #include "sim/studies/flexible_study.h"
 #include "sim/studies/text_table.h"
 
@@ -30,9 +29,5 @@ TextTable oscillation_table(const std::string& title, const std::vector<Flexible
 
 /// Effects by what they cost the contender, most expensive first: geometric mean over the same cells without.
 TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
-
-/// Responses of the link, the torque's spectrum at rest, and where it oscillates.
-std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
-                                     const std::vector<Contender>& contenders);
 
 }  // namespace strainwave

@@ -1,28 +1,15 @@
-// What controllers do on a joint with a spring: a grid of joints, temperatures and steps, each effect alone, and joints drawn at
-// random. Every cell is judged at the link and at the motor against the limit of sim/studies/link_limit.h. Offline; uses all cores;
-// the result does not depend on how many. Source of the grid: docs/flexible-joint.md.
+// What controllers do on joints with a spring (sim/studies/flexible_cells.h). Every cell is judged at the link and at the motor against
+// the limit of sim/studies/link_limit.h. Offline; uses all cores; the result does not depend on how many.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "sim/studies/contenders.h"
+#include "sim/studies/flexible_cells.h"
 
 namespace strainwave {
-
-/// One joint with one step to make.
-struct FlexibleCell {
-  double link_inertia_kgm2 = 0.0;
-  double stiffness_scale = 1.0;  ///< of the gear's spring
-  double damping_ratio = 0.0;    ///< of the free-free swing
-  double temperature_C = 0.0;
-  double step_rad = 0.0;
-  std::string effect = "none";  ///< what the joint has besides
-  JointPlantConfig nominal;     ///< what the controllers are told
-  JointPlantConfig plant;       ///< what they run on
-};
 
 struct FlexibleResult {
   double link_ratio = 0.0;          ///< sum |e / r| of the link over the limit
@@ -61,15 +48,6 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
 
 /// The daemon's with every part on, as on a joint that is declared rigid, and no monitor: what that prevents.
 Contender unwatched_contender(const FlexibleTables& tables);
-
-/// The grid of docs/flexible-joint.md.
-std::vector<FlexibleCell> flexible_grid();
-/// The grid at 3 % damping and the gear's own stiffness, with each effect alone and all together.
-std::vector<FlexibleCell> effect_grid();
-/// JL / Jm 0.3, 1, 3 on two stiffnesses with 2 % damping: where the first controller of this project was found to oscillate.
-std::vector<FlexibleCell> first_grid();
-/// Joints drawn at random around the grid, effects included; the cell depends on the seed and its number alone.
-std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed);
 
 struct FlexibleRow {
   FlexibleCell cell;
