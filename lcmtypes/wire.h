@@ -9,6 +9,9 @@
 
 namespace strainwave {
 
+/// No message of ours is longer.
+inline constexpr std::size_t kLargestMessageBytes = 8120;
+
 /// The message in `bytes`, or nothing when the length or the type's fingerprint is not exactly T's.
 template <typename T>
 std::optional<T> decode_exactly(std::span<const std::uint8_t> bytes) {

@@ -138,6 +138,7 @@ TEST(Layering, KeepsLibrariesWhereTheyBelong) {
   EXPECT_FALSE(allowed("daemon/a.cc", "#include <sdpa_call.h>"));
   EXPECT_TRUE(allowed("daemon/gateway/gateway.h", "#include <lcm/lcm-cpp.hpp>"));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include <lcm/lcm-cpp.hpp>"));
+  EXPECT_FALSE(allowed("client/watch/order_desk.h", "#include <lcm/lcm-cpp.hpp>"));
   EXPECT_FALSE(allowed("control/a.h", "#include <strainwave/state_v1.hpp>"));
   EXPECT_FALSE(allowed("client/a.h", "#include <nlohmann/json.hpp>"));
   EXPECT_FALSE(allowed("client/a.h", "#include <CLI/CLI.hpp>"));

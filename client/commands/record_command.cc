@@ -19,35 +19,23 @@ class McapRecording {
             recorded_channels(client.options().prefix, arguments.joints), &McapRecording::on_message, this)) {
   }
 
-  bool good() const noexcept { return good_; }
+  bool good() const noexcept { return log_.good(); }
   const std::map<std::string, long>& counts() const noexcept { return counts_; }
-  void finish() {
-    if (!error_.empty()) throw ClientError(ExitStatus::kUsage, error_);
-    log_.finish();
-  }
+  void finish() { log_.finish(); }
 
  private:
   static const std::filesystem::path& checked(const RecordArguments& arguments) {
     refuse_to_replace(arguments.file, arguments.overwrite);
     return arguments.file;
   }
-  // Called through C, so nothing may be thrown past it.
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    const auto name = parse_channel(channel);
-    if (!good_ || !name) return;
-    try {
-      if (log_.take(*name, channel, buffer->recv_utime, payload(*buffer))) ++counts_[channel];
-      good_ = log_.good();
-    } catch (const std::exception& error) {
-      good_ = false;
-      error_ = error.what();
-    }
+  void on_message(const ReceivedMessage& message) {
+    const auto name = parse_channel(message.channel);
+    if (good() && name && log_.take(*name, message.channel, message.received_us, message.bytes))
+      ++counts_[message.channel];
   }
 
   McapLog log_;
   std::map<std::string, long> counts_;
-  bool good_ = true;
-  std::string error_;
   Subscription subscription_;
 };
 

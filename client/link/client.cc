@@ -87,10 +87,10 @@ void Client::handle(int timeout_ms) {
   if (interrupted()) throw ClientError(ExitStatus::kInterrupted, "interrupted");
 }
 
-void Client::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  const auto ack = decode_exactly<ack_v1>(payload(*buffer));
+void Client::on_ack(const ReceivedMessage& message) {
+  const auto ack = decode_exactly<ack_v1>(message.bytes);
   if (!ack || ack->sender_id != sender_.sender_id()) return;
-  if (awaited_ && awaited_->is_answer(*ack, channel)) {
+  if (awaited_ && awaited_->is_answer(*ack, message.channel)) {
     if (!ack_) ack_ = ack;
   } else if (ack->accepted != 1 && std::find(sent_.begin(), sent_.end(), ack->sequence) != sent_.end()) {
     refusal_ = to_answer(*ack);

@@ -110,7 +110,7 @@ class Client {
   bool may_try_again(const std::string& joint, const Answer& answer, const Quote& quote);
   Answer exchange(const std::string& joint, SealedMessage order);
   void handle(int timeout_ms);
-  void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void on_ack(const ReceivedMessage& message);
   [[noreturn]] void explain_silence(const std::string& joint) const;
 
   Connection& connection_;

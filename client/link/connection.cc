@@ -1,49 +1,111 @@
 #include "client/link/connection.h"
 
-#include <cerrno>
+#include <poll.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "base/utime.h"
 #include "client/link/exit_status.h"
 #include "lcmtypes/multicast_check.h"
+#include "lcmtypes/wire.h"
 
 namespace strainwave {
 
 namespace {
 
-/// The URL, once it is known that LCM can be opened on it: LCM's own messages would not say what to do.
-const std::string& checked(const std::string& lcm_url) {
-  if (const auto problem = find_multicast_problem(lcm_url)) {
-    throw ClientError(ExitStatus::kNoAnswer, "LCM is not available on '" + lcm_url + "': " + *problem);
-  }
-  return lcm_url;
+constexpr std::string_view kWithoutNetwork = "memq://";
+
+ClientError unavailable(const std::string& lcm_url, const std::string& why) {
+  return {ExitStatus::kNoAnswer, "LCM is not available on '" + lcm_url + "': " + why};
+}
+
+/// Where the URL leads, once it is known that datagrams come back from there: LCM's own messages would not say what to do.
+MulticastAddress checked(const std::string& lcm_url) {
+  const auto address = parse_udpm_url(lcm_url);
+  if (!address)
+    throw unavailable(
+        lcm_url,
+        "it is not of the kind udpm://GROUP:PORT?ttl=N; check the URL (--lcm-url, or "
+        "LCM_DEFAULT_URL in the environment); the usual one is udpm://239.255.76.67:7667?ttl=0");
+  if (const auto problem = find_multicast_problem(lcm_url)) throw unavailable(lcm_url, *problem);
+  return *address;
+}
+
+bool matches(const std::string& channel, const std::regex& pattern) {
+  return std::regex_match(channel, pattern);
 }
 
 }  // namespace
 
-Connection::Connection(const std::string& lcm_url) : url_(checked(lcm_url)), lcm_(lcm_url) {
-  // The descriptor exists only once the receiving half is set up; without it subscribe() would fail unseen.
-  if (!lcm_.good() || lcm_.getFileno() < 0) {
-    throw ClientError(
-        ExitStatus::kNoAnswer,
-        "LCM is not available on '" + lcm_url +
-            "': check the URL (--lcm-url, or LCM_DEFAULT_URL in the environment); the usual one is "
-            "udpm://239.255.76.67:7667?ttl=0");
+Subscription::~Subscription() {
+  entries_->erase(own_);
+}
+
+Connection::Network::Network(const std::string& lcm_url, const MulticastAddress& address)
+    : sender(lcm_url),
+      socket(address, largest_datagram(kLargestMessageBytes)),
+      reassembly(kLargestMessageBytes) {
+  if (!sender.good()) throw std::system_error(ENETUNREACH, std::generic_category(), "opening LCM's sender");
+}
+
+Connection::Connection(const std::string& lcm_url) : url_(lcm_url) {
+  if (url_ == kWithoutNetwork) return;
+  const MulticastAddress address = checked(url_);
+  try {
+    network_ = std::make_unique<Network>(url_, address);
+  } catch (const std::system_error& error) {
+    throw unavailable(url_, error.what());
   }
 }
 
 void Connection::publish(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  if (lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0) {
+  if (!network_) return keep(channel, bytes);
+  if (network_->sender.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0) {
     throw ClientError(ExitStatus::kNoAnswer,
                       "LCM did not take a message for " + channel + ": is the network of " + url_ + " up?");
   }
 }
 
 bool Connection::handle(int timeout_ms) {
-  errno = 0;
-  const int result = lcm_.handleTimeout(timeout_ms);
-  if (result < 0 && errno != EINTR) {
-    throw ClientError(ExitStatus::kNoAnswer, "LCM stopped working on " + url_);
+  take_what_came();
+  if (waiting_.empty()) {
+    wait(timeout_ms);
+    take_what_came();
   }
-  return result > 0;
+  if (waiting_.empty()) return false;
+  const Waiting next = std::move(waiting_.front());
+  waiting_.pop_front();
+  for (const Subscription::Entry& entry : subscriptions_)
+    if (matches(next.channel, entry.pattern)) entry.handler({next.channel, next.bytes, next.received_us});
+  return true;
+}
+
+void Connection::wait(int timeout_ms) const {
+  pollfd descriptor{network_ ? network_->socket.descriptor() : -1, POLLIN, 0};
+  if (::poll(&descriptor, 1, timeout_ms) < 0 && errno != EINTR)
+    throw ClientError(ExitStatus::kNoAnswer, "LCM stopped working on " + url_);
+}
+
+void Connection::take_what_came() {
+  if (!network_) return;
+  const auto take = [this](const LcmSource& from, std::span<const std::uint8_t> datagram) {
+    const auto message = network_->reassembly.take(from, datagram);
+    if (message) keep(message->channel, message->bytes);
+  };
+  while (waiting_.size() < kQueueCapacity && network_->socket.receive(take) == LcmSocket::kBatch) {
+  }
+}
+
+// Only what somebody wants.
+void Connection::keep(std::string_view channel, std::span<const std::uint8_t> bytes) {
+  Waiting message{std::string(channel), {bytes.begin(), bytes.end()}, utime_now()};
+  const bool wanted = std::ranges::any_of(subscriptions_, [&](const Subscription::Entry& entry) {
+    return matches(message.channel, entry.pattern);
+  });
+  if (wanted) waiting_.push_back(std::move(message));
 }
 
 }  // namespace strainwave

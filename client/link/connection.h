@@ -1,64 +1,105 @@
-// The client's LCM handle: subscriptions, publishing, waiting. Knows bytes and channels, not messages. One
-// thread. Not real-time.
+// The client's way to LCM's network: subscriptions, publishing, waiting. Knows bytes and channels, not messages. What comes in is
+// read by our own receiver (transport/): a crafted datagram ends any program that receives with LCM's library, which only
+// sends here. One thread. Not real-time.
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <lcm/lcm-cpp.hpp>
+#include <list>
+#include <memory>
+#include <regex>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "transport/lcm_reassembly.h"
+#include "transport/lcm_socket.h"
 
 namespace strainwave {
+
+/// A message as it came, valid while its handler runs.
+struct ReceivedMessage {
+  const std::string& channel;
+  std::span<const std::uint8_t> bytes;
+  std::int64_t received_us = 0;  ///< since the epoch, by our own clock
+};
+
+class Connection;
 
 /// Ends a subscription with its owner. Must not outlive the connection.
 class Subscription {
  public:
-  Subscription(lcm::LCM& lcm, lcm::Subscription* handle) : lcm_(&lcm), handle_(handle) {}
-  ~Subscription() { lcm_->unsubscribe(handle_); }
+  ~Subscription();
   Subscription(const Subscription&) = delete;
   Subscription& operator=(const Subscription&) = delete;
 
  private:
-  lcm::LCM* lcm_;
-  lcm::Subscription* handle_;
+  friend class Connection;
+  struct Entry {
+    std::regex pattern;
+    std::function<void(const ReceivedMessage&)> handler;
+  };
+  using Entries = std::list<Entry>;
+  Subscription(Entries& entries, Entry entry)
+      : entries_(&entries), own_(entries.insert(entries.end(), std::move(entry))) {}
+
+  Entries* entries_;
+  Entries::iterator own_;
 };
 
 class Connection {
  public:
-  /// Messages that may wait for one subscription until handle() is called.
-  static constexpr int kQueueCapacity = 4096;
+  /// Messages that may wait until handle() is called; what comes then waits in the system's buffer, and is lost when that is
+  /// full.
+  static constexpr std::size_t kQueueCapacity = 4096;
 
-  /// Opens LCM. Throws ClientError (LCM unavailable) that says what to do.
+  /// Joins the network of `lcm_url`, udpm://GROUP:PORT?ttl=N; memq:// is none, but this object alone. Throws ClientError (LCM
+  /// unavailable) that says what to do.
   explicit Connection(const std::string& lcm_url);
 
   const std::string& url() const noexcept { return url_; }
 
   /// Calls `method` of `handler` from handle() for each message whose channel matches `pattern` as a whole (a
-  /// regular expression), as long as the returned object lives. The handler must not throw: the call comes
-  /// through C.
+  /// regular expression), as long as the returned object lives.
   template <typename Handler>
   [[nodiscard]] Subscription subscribe(const std::string& pattern,
-                                       void (Handler::*method)(const lcm::ReceiveBuffer* buffer,
-                                                               const std::string& channel),
+                                       void (Handler::*method)(const ReceivedMessage& message),
                                        Handler* handler) {
-    lcm::Subscription* const subscription = lcm_.subscribe(pattern, method, handler);
-    subscription->setQueueCapacity(kQueueCapacity);
-    return {lcm_, subscription};
+    return {subscriptions_, {std::regex(pattern), [handler, method](const ReceivedMessage& message) {
+                               (handler->*method)(message);
+                             }}};
   }
 
   /// Throws ClientError when LCM does not take the message.
   void publish(const std::string& channel, std::span<const std::uint8_t> bytes);
 
-  /// Waits up to `timeout_ms` for one message and dispatches it. False: none came, or a signal did.
+  /// Waits up to `timeout_ms` for messages and dispatches one. False: there was none, or a signal came.
   bool handle(int timeout_ms);
 
  private:
-  std::string url_;
-  lcm::LCM lcm_;
-};
+  struct Network {
+    Network(const std::string& lcm_url, const MulticastAddress& address);
 
-/// The bytes of a received message.
-inline std::span<const std::uint8_t> payload(const lcm::ReceiveBuffer& buffer) {
-  return {static_cast<const std::uint8_t*>(buffer.data), buffer.data_size};
-}
+    lcm::LCM sender;
+    LcmSocket socket;
+    LcmReassembly reassembly;
+  };
+  struct Waiting {
+    std::string channel;
+    std::vector<std::uint8_t> bytes;
+    std::int64_t received_us = 0;
+  };
+  void wait(int timeout_ms) const;
+  void take_what_came();
+  void keep(std::string_view channel, std::span<const std::uint8_t> bytes);
+
+  std::string url_;
+  std::unique_ptr<Network> network_;  ///< none with memq://
+  Subscription::Entries subscriptions_;
+  std::deque<Waiting> waiting_;
+};
 
 }  // namespace strainwave

@@ -33,17 +33,18 @@ EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix
       subscription_(
           connection.subscribe(recorded_channels(prefix, joints), &EventLogWriter::on_message, this)) {}
 
-void EventLogWriter::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  if (!good_ || channel.size() > kMaxChannelLength) return;
-  std::string name = channel;  // liblcm wants it writable
+void EventLogWriter::on_message(const ReceivedMessage& message) {
+  if (!good_) return;
+  std::string name = message.channel;  // liblcm wants both writable
+  std::vector<std::uint8_t> data(message.bytes.begin(), message.bytes.end());
   lcm_eventlog_event_t event{};
-  event.timestamp = buffer->recv_utime;
+  event.timestamp = message.received_us;
   event.channellen = static_cast<std::int32_t>(name.size());
-  event.datalen = static_cast<std::int32_t>(buffer->data_size);
+  event.datalen = static_cast<std::int32_t>(data.size());
   event.channel = name.data();
-  event.data = buffer->data;
+  event.data = data.data();
   good_ = ::lcm_eventlog_write_event(log_.get(), &event) == 0;
-  if (good_) ++counts_[channel];
+  if (good_) ++counts_[name];
 }
 
 void EventLogWriter::finish() {

@@ -31,7 +31,7 @@ class EventLogWriter {
   void finish();
 
  private:
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void on_message(const ReceivedMessage& message);
 
   std::string name_;
   std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> log_;

@@ -83,9 +83,7 @@ class LatestMessages {
     return of_daemon ? "[^.]+\\." + std::string(kKindOf<Message>)
                      : channel_pattern("[^.]+", kKindOf<Message>);
   }
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    accept(channel, payload(*buffer));
-  }
+  void on_message(const ReceivedMessage& message) { accept(message.channel, message.bytes); }
 
   std::map<Name, View> views_;
   Subscription subscription_;

@@ -131,11 +131,11 @@ void OrderDesk::report(const Batch& batch) {
     message_ += fmt::format("{}{}", batch.joints == 1 ? ": " : "; ", fmt::join(batch.failures, "; "));
 }
 
-void OrderDesk::on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  const auto ack = decode_exactly<ack_v1>(payload(*buffer));
+void OrderDesk::on_ack(const ReceivedMessage& message) {
+  const auto ack = decode_exactly<ack_v1>(message.bytes);
   if (!ack) return;
   const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.order.is_answer(*ack, channel);
+    return waiting.order.is_answer(*ack, message.channel);
   });
   if (found == waiting_.end()) return;
   if (ack->accepted != 1 && renew(*found, *ack)) return;

@@ -73,7 +73,7 @@ class OrderDesk {
   bool renew(Waiting& waiting, const ack_v1& refusal);
   void fail(const Waiting& waiting, const std::string& why);
   void report(const Batch& batch);
-  void on_ack(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void on_ack(const ReceivedMessage& message);
 
   Connection& connection_;
   const StateView& states_;

@@ -20,8 +20,6 @@ constexpr std::size_t kDatagramsPerTurn = 256;
 /// Some client's largest burst, for several clients at once.
 constexpr std::size_t kWaitingOrders = 256;
 constexpr std::size_t kWaitingStops = 64;
-/// The largest message, and in front of it a header and a channel.
-constexpr std::size_t kLargestDatagram = WireMessage::kMaxBytes + 20 + kMaxChannelLength + 1;
 
 // Moves messages into a lane while it has room. Whether there were any.
 bool fill(InboundLane& lane, const std::atomic<std::uint64_t>& taken, OrderQueue& queue) noexcept {
@@ -61,7 +59,7 @@ void Gateway::open_network() {
   }
   try {
     if (!lcm_.good()) throw std::system_error(ENETUNREACH, std::generic_category(), "opening LCM's sender");
-    socket_ = std::make_unique<LcmSocket>(*address, kLargestDatagram);
+    socket_ = std::make_unique<LcmSocket>(*address, largest_datagram(WireMessage::kMaxBytes));
   } catch (const std::system_error& error) {
     problem_ = "LCM cannot be opened on '" + url + "': " + error.what();
   }

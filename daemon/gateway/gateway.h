@@ -9,10 +9,10 @@
 #include <span>
 #include <string>
 
-#include "daemon/gateway/lcm_reassembly.h"
-#include "daemon/gateway/lcm_socket.h"
 #include "daemon/gateway/order_queue.h"
 #include "daemon/gateway/shared_memory.h"
+#include "transport/lcm_reassembly.h"
+#include "transport/lcm_socket.h"
 
 namespace strainwave {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/gateway/lcm_reassembly.h"
 #include "daemon/gateway/shared_memory.h"
+#include "transport/lcm_reassembly.h"
 
 namespace strainwave {
 

@@ -12,6 +12,7 @@
 
 #include "base/broadcast_ring.h"
 #include "base/fixed_string.h"
+#include "lcmtypes/wire.h"
 
 namespace strainwave {
 
@@ -28,7 +29,7 @@ struct StateRecord {
 
 /// A message in wire form with its channel: an acknowledgement on its way out, or a command on its way in.
 struct WireMessage {
-  static constexpr std::size_t kMaxBytes = 8120;
+  static constexpr std::size_t kMaxBytes = kLargestMessageBytes;
   FixedString<64> channel;
   std::uint64_t size = 0;
   std::array<std::uint8_t, kMaxBytes> bytes{};

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "daemon/gateway/lcm_reassembly.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "transport/lcm_reassembly.h"
 
 namespace strainwave::fuzz {
 namespace {

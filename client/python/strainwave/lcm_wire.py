@@ -4,7 +4,7 @@
   fragment: u32 0x4c433033 "LC03", u32 sequence, u32 size of the whole message, u32 offset of this part in it,
             u16 number of this fragment, u16 count of fragments, in fragment 0 the channel and a zero, the part
 
-Source: LCM 1.3.1, lcm/udpm_util.h and lcm/lcm_udpm.c; the same rules as the daemon's own reader (daemon/gateway/lcm_wire.h,
+Source: LCM 1.3.1, lcm/udpm_util.h and lcm/lcm_udpm.c; the same rules as the daemon's own reader (transport/lcm_wire.h,
 lcm_reassembly.h). No number on the wire decides about memory.
 """
 import struct

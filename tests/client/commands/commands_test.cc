@@ -368,9 +368,7 @@ class LaterTiming {
   }
 
  private:
-  void on_trigger(const lcm::ReceiveBuffer*, const std::string&) {
-    connection_.publish("SW.TIMING", encode(timing_));
-  }
+  void on_trigger(const ReceivedMessage&) { connection_.publish("SW.TIMING", encode(timing_)); }
 
   Connection& connection_;
   timing_v1 timing_;

@@ -31,9 +31,9 @@ void FakeDaemon::publish_state(Mode mode) {
   publish_state();
 }
 
-void FakeDaemon::on_order(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  const auto bytes = payload(*buffer);
-  heard_.push_back({channel, {bytes.begin(), bytes.end()}});
+void FakeDaemon::on_order(const ReceivedMessage& message) {
+  const auto bytes = message.bytes;
+  heard_.push_back({message.channel, {bytes.begin(), bytes.end()}});
   if (drop > 0) {
     --drop;
     return;

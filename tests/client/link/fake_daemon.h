@@ -43,7 +43,7 @@ class FakeDaemon {
   std::function<void()> after_answer;    ///< called after each answer, before modes_after_answer
 
  private:
-  void on_order(const lcm::ReceiveBuffer* buffer, const std::string& channel);
+  void on_order(const ReceivedMessage& message);
   void answer(std::int64_t sender_id, std::int64_t sequence);
 
   Connection& connection_;

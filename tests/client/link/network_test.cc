@@ -15,6 +15,7 @@
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
 #include "tests/client/link/fake_daemon.h"
+#include "tests/support/fragment_attack.h"
 
 namespace strainwave {
 namespace {
@@ -81,7 +82,7 @@ TEST(ClientOverMulticast, RecordsWhatItReceives) {
   const std::string url = own_url();
   const RunningDaemon daemon(url);
   const auto file =
-      std::filesystem::path(testing::TempDir()) / ("network_record_" + std::to_string(::getpid()) + ".lcm");
+      std::filesystem::path(::testing::TempDir()) / ("network_record_" + std::to_string(::getpid()) + ".lcm");
   const Result result = run(url, {"record", "elbow", "--out", file.c_str(), "--duration_s", "0.3"});
   EXPECT_EQ(result.status, ExitStatus::kDone) << result.err;
   EventLogReader reader(file);
@@ -112,6 +113,28 @@ TEST(ClientOverMulticast, SurvivesMessagesThatAreNone) {
   stop = true;
   noise.join();
   EXPECT_EQ(result.status, ExitStatus::kDone) << result.err;
+}
+
+// They end a program that receives with LCM's library: this one, were it one.
+TEST(ClientOverMulticast, SurvivesTheFragmentsThatCrashLcmsLibraryAndStillSeesOrdersAndRecords) {
+  const std::string url = own_url();
+  const RunningDaemon daemon(url);
+  const auto file =
+      std::filesystem::path(::testing::TempDir()) / ("attack_record_" + std::to_string(::getpid()) + ".lcm");
+  const testing::FragmentAttack attack(
+      url, {"SW.elbow.STATE", "SW.elbow.ACK", "SW.elbow.COMMAND", "SW.elbow.LIMITS", "SW.TIMING"});
+  const Result status = run(url, {"status", "elbow"});
+  EXPECT_EQ(status.status, ExitStatus::kDone) << status.err;
+  EXPECT_NE(status.out.find("joint_position_rad"), std::string::npos) << status.out;
+  const Result watched = run(url, {"watch", "--plain", "--interval_s", "0.1", "--duration_s", "0.5"});
+  EXPECT_EQ(watched.status, ExitStatus::kDone) << watched.err;
+  EXPECT_NE(watched.out.find("holding"), std::string::npos) << watched.out;
+  const Result recorded = run(url, {"record", "elbow", "--out", file.c_str(), "--duration_s", "0.3"});
+  EXPECT_EQ(recorded.status, ExitStatus::kDone) << recorded.err;
+  EXPECT_NE(recorded.out.find("SW.elbow.STATE"), std::string::npos) << recorded.out;
+  EXPECT_EQ(run(url, {"enable", "elbow"}).status, ExitStatus::kDone);
+  EXPECT_GT(attack.rounds(), 100U);
+  std::filesystem::remove(file);
 }
 
 TEST(ClientOverMulticast, HearsNoDaemonOnAnotherPort) {

@@ -17,6 +17,7 @@
 #include "client/link/connection.h"
 #include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "tests/support/fragment_attack.h"
 
 namespace strainwave {
 namespace {
@@ -118,6 +119,19 @@ TEST_F(WatchOnATerminal, StartsFollowsTheSizeAndGivesTheTerminalBack) {
   ASSERT_TRUE(wait_for_text("holding")) << written_;
   press('s');
   ASSERT_TRUE(wait_for_text("disable")) << written_;
+  press('q');
+  ASSERT_TRUE(wait_for_text(kLeaveScreen)) << written_;
+  EXPECT_EQ(wait_for_end(), 0);
+}
+
+TEST_F(WatchOnATerminal, GoesOnUnderTheFragmentsThatCrashLcmsLibrary) {
+  ASSERT_TRUE(wait_for_text("holding")) << written_;
+  const testing::FragmentAttack attack(
+      url_, {"SW.elbow.STATE", "SW.elbow.ACK", "SW.elbow.LIMITS", "SW.elbow.TEMPERATURE", "SW.TIMING"});
+  while (attack.rounds() < 300) publish(), std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  written_.clear();
+  resize(40, 160);
+  ASSERT_TRUE(wait_for_text("holding")) << written_;
   press('q');
   ASSERT_TRUE(wait_for_text(kLeaveScreen)) << written_;
   EXPECT_EQ(wait_for_end(), 0);

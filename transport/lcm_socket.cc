@@ -1,4 +1,4 @@
-#include "daemon/gateway/lcm_socket.h"
+#include "transport/lcm_socket.h"
 
 #include <arpa/inet.h>
 #include <linux/filter.h>

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "daemon/gateway/lcm_reassembly.h"
 #include "lcmtypes/multicast_check.h"
+#include "transport/lcm_reassembly.h"
 
 namespace strainwave {
 

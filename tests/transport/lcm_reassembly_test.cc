@@ -1,4 +1,4 @@
-#include "daemon/gateway/lcm_reassembly.h"
+#include "transport/lcm_reassembly.h"
 
 #include <gtest/gtest.h>
 

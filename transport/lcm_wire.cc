@@ -1,4 +1,4 @@
-#include "daemon/gateway/lcm_wire.h"
+#include "transport/lcm_wire.h"
 
 #include <algorithm>
 #include <optional>
@@ -12,7 +12,6 @@ namespace {
 constexpr std::uint32_t kShortMagic = 0x4c433032;
 constexpr std::uint32_t kFragmentMagic = 0x4c433033;
 constexpr std::size_t kShortHeaderBytes = 8;
-constexpr std::size_t kFragmentHeaderBytes = 20;
 
 using Bytes = std::span<const std::uint8_t>;
 
@@ -44,11 +43,11 @@ LcmDatagram parse_short(Bytes datagram) noexcept {
 }
 
 LcmDatagram parse_fragment(Bytes datagram) noexcept {
-  if (datagram.size() < kFragmentHeaderBytes) return {};
+  if (datagram.size() < kLcmFragmentHeaderBytes) return {};
   LcmDatagram parsed{.kind = LcmDatagram::Kind::kFragment,
                      .sequence = u32_at(datagram, 4),
                      .channel = {},
-                     .part = datagram.subspan(kFragmentHeaderBytes),
+                     .part = datagram.subspan(kLcmFragmentHeaderBytes),
                      .message_bytes = u32_at(datagram, 8),
                      .offset = u32_at(datagram, 12),
                      .number = u16_at(datagram, 16),

@@ -1,5 +1,5 @@
-// The gateway's receiver with LCM's own library as the sender, and what its socket keeps away. In a network of its own.
-#include "daemon/gateway/lcm_socket.h"
+// Our receiver with LCM's own library as the sender, and what its socket keeps away. In a network of its own.
+#include "transport/lcm_socket.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "daemon/gateway/lcm_socket.h"
 #include "tests/support/lcm_datagrams.h"
 #include "tests/support/private_network.h"
+#include "transport/lcm_socket.h"
 
 namespace strainwave {
 namespace {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/fixed_string.h"
-#include "daemon/gateway/lcm_wire.h"
 #include "lcmtypes/channels.h"
+#include "transport/lcm_wire.h"
 
 namespace strainwave {
 

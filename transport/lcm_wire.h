@@ -12,7 +12,11 @@
 #include <span>
 #include <string_view>
 
+#include "lcmtypes/channels.h"
+
 namespace strainwave {
+
+inline constexpr std::size_t kLcmFragmentHeaderBytes = 20;
 
 struct LcmDatagram {
   enum class Kind {
@@ -30,6 +34,11 @@ struct LcmDatagram {
   std::uint16_t number = 0;
   std::uint16_t count = 0;
 };
+
+/// Bytes of the longest datagram of a message of `message_bytes` that is sent whole or in fragments.
+constexpr std::size_t largest_datagram(std::size_t message_bytes) noexcept {
+  return kLcmFragmentHeaderBytes + kMaxChannelLength + 1 + message_bytes;
+}
 
 /// Reads `datagram`, of any size and content.
 LcmDatagram parse_lcm_datagram(std::span<const std::uint8_t> datagram) noexcept;

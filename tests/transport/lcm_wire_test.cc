@@ -1,4 +1,4 @@
-#include "daemon/gateway/lcm_wire.h"
+#include "transport/lcm_wire.h"
 
 #include <gtest/gtest.h>
 
