@@ -1,5 +1,8 @@
 #include "base/printable.h"
 
+#include <array>
+#include <charconv>
+
 namespace strainwave {
 
 std::string printable(std::string_view text) {
@@ -13,6 +16,11 @@ std::string printable(std::string_view text) {
     safe += control ? '?' : text[i];
   }
   return safe;
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 }  // namespace strainwave

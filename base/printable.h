@@ -1,4 +1,4 @@
-// Text from outside made fit for a terminal or a log. Not real-time.
+// Text and numbers made fit for a terminal or a log. Not real-time.
 #pragma once
 
 #include <string>
@@ -9,5 +9,8 @@ namespace strainwave {
 /// `text` up to its first zero byte, without anything that could command a terminal or begin another line: each control
 /// character (C0, DEL, and C1 in UTF-8) is a question mark.
 std::string printable(std::string_view text);
+
+/// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.
+std::string number_text(double value);
 
 }  // namespace strainwave

@@ -4,17 +4,23 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace strainwave {
 
 /// Who besides root and our own user may write.
 enum class Writers { kNobody, kGroup };
 
-/// Whoever can write the file or folder, or put another in its place, decides. Throws InputError that names `path` and the remedy:
-/// owned by a third user (neither root nor ours), or writable by more than `allowed` (a folder with the sticky bit excepted).
-void require_protected(const std::filesystem::path& path, const struct stat& status, Writers allowed);
+/// Whoever can write the file, or put another in its place, decides. What is wrong with `path` and the folder it is in, and the
+/// remedy: owned by a third user (neither root nor ours), or writable by more than `allowed` (a folder with the sticky bit
+/// excepted); or nothing. What does not exist is left to whoever opens it.
+std::optional<std::string> find_exposure(const std::filesystem::path& path, Writers allowed);
 
-/// The same for `path` and the folder it is in. What does not exist is left to whoever opens it.
+/// The same as an InputError.
 void require_protected(const std::filesystem::path& path, Writers allowed);
+
+/// Of one file or folder whose status is known.
+void require_protected(const std::filesystem::path& path, const struct stat& status, Writers allowed);
 
 }  // namespace strainwave

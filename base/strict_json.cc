@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
+#include "base/nearest_word.h"
 
 namespace strainwave {
 
@@ -47,7 +48,14 @@ void StrictObject::complain(const std::string& key, const std::string& allowed) 
 }
 
 const ordered_json& StrictObject::get(const std::string& key) {
-  if (!has(key)) throw InputError(where(key) + ": is missing");
+  if (!has(key)) {
+    std::vector<std::string> others;
+    for (const auto& [name, value] : value_->items())
+      if (!read_.contains(name)) others.push_back(name);
+    const std::string* nearest = nearest_word(key, others);
+    throw InputError(where(key) + ": is missing" +
+                     (nearest != nullptr ? "; there is " + *nearest + ": is that what was meant?" : ""));
+  }
   read_.insert(key);
   return value_->at(key);
 }

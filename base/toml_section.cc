@@ -3,23 +3,16 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "base/input_error.h"
 #include "base/nearest_word.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 
 namespace strainwave {
 
 namespace {
-
-/// The shortest digits that read back to the same number.
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 std::string value_text(const toml::node& node) {
   if (const auto* text = node.as_string()) return "\"" + text->get() + "\"";
@@ -39,8 +32,14 @@ std::string join(const std::vector<std::string>& words, const char* quote) {
 
 }  // namespace
 
+/// A file's outermost table, and the doubts about what it says.
+struct TomlSection::Document {
+  toml::table root;
+  std::vector<std::string> warnings;
+};
+
 struct TomlSection::Table {
-  std::shared_ptr<const toml::table> document;
+  std::shared_ptr<Document> document;
   const toml::table* table;
 
   unsigned line() const { return static_cast<unsigned>(table->source().begin.line); }
@@ -85,8 +84,8 @@ TomlSection::TomlSection(std::shared_ptr<const Table> table, std::string file, s
 
 TomlSection TomlSection::parse(std::string_view text, const std::string& file) {
   try {
-    const auto document = std::make_shared<const toml::table>(toml::parse(text, file));
-    return {std::make_shared<const Table>(Table{document, document.get()}), file, ""};
+    const auto document = std::make_shared<Document>(Document{toml::parse(text, file), {}});
+    return {std::make_shared<const Table>(Table{document, &document->root}), file, ""};
   } catch (const toml::parse_error& error) {
     throw InputError(file + ":" + std::to_string(error.source().begin.line) +
                      ": not valid TOML: " + std::string(error.description()));
@@ -105,13 +104,24 @@ std::string TomlSection::full_name(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 
-void TomlSection::fail(std::string_view key, const std::string& allowed) const {
+std::string TomlSection::place(std::string_view key) const {
   const toml::node* node = table_->table->get(key);
   const unsigned line = node != nullptr ? static_cast<unsigned>(node->source().begin.line) : table_->line();
   // A table that stands nowhere has no line.
   const std::string where = line > 0 ? file_ + ":" + std::to_string(line) : file_;
-  if (node == nullptr) throw InputError(where + ": " + full_name(key) + " is missing: " + allowed);
-  throw InputError(where, full_name(key), value_text(*node), allowed);
+  return where + ": " + full_name(key) + (node == nullptr ? " is missing" : " = " + value_text(*node));
+}
+
+void TomlSection::fail(std::string_view key, const std::string& allowed) const {
+  throw InputError(place(key) + ": " + allowed);
+}
+
+void TomlSection::warn(std::string_view key, const std::string& doubt) const {
+  table_->document->warnings.push_back(place(key) + ": " + doubt);
+}
+
+const std::vector<std::string>& TomlSection::warnings() const {
+  return table_->document->warnings;
 }
 
 double TomlSection::number(std::string_view key, Range allowed) {
@@ -189,7 +199,7 @@ TomlSection TomlSection::section(std::string_view key) {
 TomlSection TomlSection::section_or_empty(std::string_view key) {
   static const toml::table nothing;
   if (Reader::find(*this, key) != nullptr) return section(key);
-  return {std::make_shared<const Table>(Table{nullptr, &nothing}), file_, full_name(key)};
+  return {std::make_shared<const Table>(Table{table_->document, &nothing}), file_, full_name(key)};
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) {

@@ -49,10 +49,17 @@ class TomlSection {
 
   /// How messages name `key`: "joint[0].limits.torque_limit_Nm".
   std::string full_name(std::string_view key) const;
+  /// Where `key` of this table stands and what it says: "arm.toml:12: joint[0].inertia_kgm2 = -1".
+  std::string place(std::string_view key) const;
   /// An InputError about `key` of this table.
   [[noreturn]] void fail(std::string_view key, const std::string& allowed) const;
+  /// Notes a doubt about what `key` says, which is allowed and yet rarely meant.
+  void warn(std::string_view key, const std::string& doubt) const;
+  /// The doubts about any table of the file, in the order in which they were noted.
+  const std::vector<std::string>& warnings() const;
 
  private:
+  struct Document;
   struct Table;  ///< toml++'s table, kept with its document
   struct Reader;
   TomlSection(std::shared_ptr<const Table> table, std::string file, std::string path);

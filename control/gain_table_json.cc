@@ -130,6 +130,9 @@ GainTable gain_table_from_json(std::string_view text, const std::string& source)
   const ordered_json document = parse_strict_json(text, source);
   StrictObject object(document, source);
   GainTable table;
+  if (object.has("exponential"))
+    throw InputError(source +
+                     ": holds fitted friction, not gains: strainwave-design gains makes a table of it");
   // The format first: another one has other keys.
   const long long format = object.integer("format");
   if (format != kGainTableFormat) {

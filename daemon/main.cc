@@ -8,6 +8,7 @@
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
+#include "daemon/start_check.h"
 #include "daemon/supervisor.h"
 
 namespace {
@@ -23,7 +24,8 @@ int main(int argc, char** argv) {
   std::string config_path;
   bool check_only = false;
   app.add_option("--config", config_path, "configuration file (TOML)")->required();
-  app.add_flag("--check", check_only, "read the configuration, say whether it is sound, and end");
+  app.add_flag("--check", check_only,
+               "load all that the start would, say whether the daemon would start here, and end");
   bool check_lines = false;
   app.add_flag("--check-lines", check_lines,
                "show every digital line of the joints and who holds it, and end");
@@ -46,6 +48,7 @@ int main(int argc, char** argv) {
     strainwave::DaemonConfig config = strainwave::read_config(config_path);
     config.gateway_socket = gateway_socket;
     if (check_only) {
+      strainwave::check_start(config, std::cout);
       std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix
                 << '\n';
       return strainwave::ExitStatus::kDone;

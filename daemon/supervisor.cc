@@ -10,10 +10,9 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
-#include "control/gain_table_json.h"
-#include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
 #include "daemon/drive_check.h"
+#include "daemon/initial_table.h"
 #include "daemon/realtime/realtime_setup.h"
 
 namespace strainwave {
@@ -95,6 +94,7 @@ Supervisor::Supervisor(const DaemonConfig& config)
       latest_(config.joints.size()),
       refusal_log_(20, 10'000 * kMillisecond_ns),
       incoming_(std::make_unique<WireMessage>()) {
+  for (const std::string& warning : config.warnings) spdlog::warn("{}", warning);
   fill_shared_memory();
   load_initial_tables();
 }
@@ -114,14 +114,11 @@ void Supervisor::fill_shared_memory() {
 void Supervisor::load_initial_tables() {
   for (std::size_t i = 0; i < config_.joints.size(); ++i) {
     const JointConfig& joint = config_.joints[i];
-    if (joint.table.empty()) continue;
-    const GainTable table = read_gain_table(joint.table);
-    const TableVerdict judged = judge_table(table, joint.plant, joint.loop.controller.torque_limit_Nm);
-    if (judged.reason != Reason::kAccepted)
-      throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
-    spdlog::info("{}: table {} from {}, {}", joint.name, table.name.view(), joint.table.string(),
-                 judged.text);
-    if (!orders_.load_first_table(i, table))
+    const auto initial = read_initial_table(joint);
+    if (!initial) continue;
+    spdlog::info("{}: table {} from {}, {}", joint.name, initial->table.name.view(), joint.table.string(),
+                 initial->verdict);
+    if (!orders_.load_first_table(i, initial->table))
       throw InputError(joint.table.string() + ": cannot be loaded for joint " + joint.name);
   }
 }

@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 namespace strainwave {
 
@@ -69,19 +70,49 @@ std::string echo_failure(in_addr group) {
   return "a datagram sent to the group did not come back; a firewall may drop it";
 }
 
-// As LCM reads it: the last of several counts, and what is no number is 0.
-int ttl_of(std::string_view options) {
-  int ttl = 0;
-  while (!options.empty()) {
-    options.remove_prefix(1);  // ? or &
-    const std::string_view option = options.substr(0, options.find('&'));
-    options.remove_prefix(option.size());
-    constexpr std::string_view kKey = "ttl=";
-    if (!option.starts_with(kKey)) continue;
-    ttl = 0;
-    std::from_chars(option.data() + kKey.size(), option.data() + option.size(), ttl);
+constexpr int kNoNumber = -1;
+
+/// All of `text` as a number; else kNoNumber.
+int whole_number(std::string_view text) {
+  int number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && last == end ? number : kNoNumber;
+}
+
+/// What stands behind the URL's question mark, "KEY=VALUE" each.
+std::vector<std::string_view> options_of(std::string_view lcm_url) {
+  std::vector<std::string_view> options;
+  std::string_view rest = lcm_url.substr(std::min(lcm_url.find('?'), lcm_url.size()));
+  while (!rest.empty()) {
+    rest.remove_prefix(1);  // ? or &
+    options.push_back(rest.substr(0, rest.find('&')));
+    rest.remove_prefix(options.back().size());
   }
+  return options;
+}
+
+constexpr std::string_view kTtl = "ttl=";
+constexpr std::string_view kReceiveBuffer = "recv_buf_size=";
+
+// As LCM reads it: the last of several counts, and what is no number is 0.
+int ttl_of(std::string_view lcm_url) {
+  int ttl = 0;
+  for (const std::string_view option : options_of(lcm_url))
+    if (option.starts_with(kTtl)) ttl = std::max(0, whole_number(option.substr(kTtl.size())));
   return ttl;
+}
+
+std::optional<std::string> find_option_defect(std::string_view option) {
+  constexpr int kMaxTtl = 255;
+  if (option.starts_with(kTtl)) {
+    const int ttl = whole_number(option.substr(kTtl.size()));
+    if (ttl >= 0 && ttl <= kMaxTtl) return std::nullopt;
+    return "'" + std::string(option) + "': ttl must be a number of hops from 0 (this machine alone) to 255";
+  }
+  if (option.starts_with(kReceiveBuffer) && whole_number(option.substr(kReceiveBuffer.size())) > 0)
+    return std::nullopt;
+  return "'" + std::string(option) + "' is not an option of LCM's: ttl=N and recv_buf_size=BYTES are";
 }
 
 }  // namespace
@@ -89,22 +120,19 @@ int ttl_of(std::string_view options) {
 std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url) {
   if (!lcm_url.starts_with(kScheme)) return std::nullopt;
   lcm_url.remove_prefix(kScheme.size());
-  const std::string_view options = lcm_url.substr(std::min(lcm_url.find('?'), lcm_url.size()));
+  MulticastAddress address{"239.255.76.67", 7667, ttl_of(lcm_url)};
   lcm_url = lcm_url.substr(0, lcm_url.find('?'));
-  MulticastAddress address{"239.255.76.67", 7667, ttl_of(options)};
   const std::size_t colon = lcm_url.find(':');
   if (const std::string_view group = lcm_url.substr(0, colon); !group.empty()) address.group = group;
-  if (colon != std::string_view::npos) {
-    const std::string_view port = lcm_url.substr(colon + 1);
-    if (std::from_chars(port.data(), port.data() + port.size(), address.port).ec != std::errc())
-      address.port = 0;
-  }
+  if (colon != std::string_view::npos) address.port = std::max(0, whole_number(lcm_url.substr(colon + 1)));
   return address;
 }
 
-std::optional<std::string> find_multicast_problem(std::string_view lcm_url) {
+std::optional<std::string> find_udpm_defect(std::string_view lcm_url) {
   const std::optional<MulticastAddress> address = parse_udpm_url(lcm_url);
-  if (!address) return std::nullopt;
+  if (!address)
+    return "'" + std::string(lcm_url) +
+           "' is not of the kind udpm://GROUP:PORT?ttl=N; the usual URL is udpm://239.255.76.67:7667?ttl=0";
   in_addr group{};
   if (::inet_pton(AF_INET, address->group.c_str(), &group) != 1 || !IN_MULTICAST(ntohl(group.s_addr))) {
     return "'" + address->group +
@@ -115,6 +143,17 @@ std::optional<std::string> find_multicast_problem(std::string_view lcm_url) {
     return std::string(
         "the port must be a number from 1 to 65535; the usual URL is udpm://239.255.76.67:7667?ttl=0");
   }
+  for (const std::string_view option : options_of(lcm_url))
+    if (auto defect = find_option_defect(option)) return defect;
+  return std::nullopt;
+}
+
+std::optional<std::string> find_multicast_problem(std::string_view lcm_url) {
+  const std::optional<MulticastAddress> address = parse_udpm_url(lcm_url);
+  if (!address) return std::nullopt;
+  if (auto defect = find_udpm_defect(lcm_url)) return defect;
+  in_addr group{};
+  ::inet_pton(AF_INET, address->group.c_str(), &group);
   const std::string failure = echo_failure(group);
   if (failure.empty()) return std::nullopt;
   return "multicast to " + address->group + " does not work here (" + failure +

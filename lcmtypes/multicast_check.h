@@ -18,6 +18,9 @@ struct MulticastAddress {
 };
 std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url);
 
+/// What is wrong with such a URL's text (group, port, options), and what is allowed; or nothing. Of another kind of URL: that.
+std::optional<std::string> find_udpm_defect(std::string_view lcm_url);
+
 /// What is wrong and what to do about it, or nothing when multicast works or the URL is not of the kind udpm.
 std::optional<std::string> find_multicast_problem(std::string_view lcm_url);
 

@@ -15,7 +15,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kPeriodTolerance = 1e-9;
+constexpr double kTolerance = 1e-9;
 
 TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const PlantIdentity& plant,
                          const FuzzyFriction& friction) {
@@ -27,11 +27,29 @@ TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const Pl
   return {Reason::kTableNotCertified, text.str()};
 }
 
+// The smaller of the two holds. Certified is what happens below it, so that a smaller one takes no proof away; it may take the torque
+// that the cold joint's friction needs.
+std::string which_torque_limit_holds(const GainTable& table, double torque_limit_Nm) {
+  if (std::abs(table.torque_limit_Nm - torque_limit_Nm) <= kTolerance * torque_limit_Nm) return "";
+  const bool lowered = torque_limit_Nm < table.torque_limit_Nm;
+  const double holds_Nm = lowered ? torque_limit_Nm : table.torque_limit_Nm;
+  std::ostringstream text;
+  text << "; torque limit " << holds_Nm << " N.m, "
+       << (lowered ? "joint.limits.torque_limit_Nm, below the table's "
+                   : "the table's, below joint.limits.torque_limit_Nm = ")
+       << (lowered ? table.torque_limit_Nm : torque_limit_Nm);
+  const TemperatureRule& coldest = table.friction.rules.front();
+  if (coldest.friction.static_Nm >= holds_Nm)
+    text << "; the joint at " << coldest.center_C << " degC withstands " << coldest.friction.static_Nm
+         << " N.m and will not move there";
+  return text.str();
+}
+
 }  // namespace
 
 TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, double torque_limit_Nm) {
   if (const auto defect = find_defect(table)) return {Reason::kTableDefect, *defect};
-  if (std::abs(table.plant.period_s - expected.period_s) > kPeriodTolerance * expected.period_s) {
+  if (std::abs(table.plant.period_s - expected.period_s) > kTolerance * expected.period_s) {
     std::ostringstream text;
     text << "period_s = " << table.plant.period_s << " in the table, " << expected.period_s
          << " in this daemon: design the table with --period_s " << expected.period_s;
@@ -39,17 +57,12 @@ TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, 
   }
   if (const auto mismatch = find_identity_mismatch(table, expected))
     return {Reason::kTableIdentity, *mismatch};
-  if (table.torque_limit_Nm > torque_limit_Nm * (1.0 + kPeriodTolerance)) {
-    std::ostringstream text;
-    text << "torque_limit_Nm = " << table.torque_limit_Nm
-         << " in the table, joint.limits.torque_limit_Nm = " << torque_limit_Nm
-         << ": the table may not ask for more";
-    return {Reason::kTableDefect, text.str()};
-  }
   TableVerdict primary = judge_gains("primary", table.primary, expected, table.friction);
   if (primary.reason != Reason::kAccepted) return primary;
   TableVerdict fallback = judge_gains("fallback", table.fallback, expected, table.friction);
-  return fallback.reason != Reason::kAccepted ? fallback : primary;
+  if (fallback.reason != Reason::kAccepted) return fallback;
+  primary.text += which_torque_limit_holds(table, torque_limit_Nm);
+  return primary;
 }
 
 std::int64_t table_digest(const GainTable& table) {

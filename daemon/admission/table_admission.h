@@ -15,7 +15,7 @@ struct TableVerdict {
 };
 
 /// Judges `table` for a joint that is `expected` (its own inertia, ratio, period) and delivers at most
-/// `torque_limit_Nm`. The certificate is recomputed here for the joint's own plant, never taken on trust.
+/// `torque_limit_Nm`, which holds where it is below the table's. The certificate is recomputed here for the joint's own plant, never taken on trust.
 TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, double torque_limit_Nm);
 
 /// A short name for the table's content, never 0: the same bits give the same number.

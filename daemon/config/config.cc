@@ -1,5 +1,7 @@
 #include "daemon/config/config.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,22 +12,22 @@
 #include "base/protected_file.h"
 #include "base/toml_section.h"
 #include "daemon/config/config_can.h"
-#include "daemon/config/config_gpio.h"
-#include "daemon/config/config_homing.h"
-#include "daemon/config/config_link.h"
-#include "daemon/config/config_simulated.h"
-#include "daemon/config/config_thermometer.h"
-#include "lcmtypes/channels.h"
+#include "daemon/config/config_doubts.h"
+#include "daemon/config/config_joint.h"
+#include "lcmtypes/multicast_check.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr Range kAnyAngle{-1e4, 1e4};
-constexpr Range kPositive{1e-9, 1e9};
 constexpr double kOrderLifetime_s = 1.0;
 constexpr double kMaxRecorder_MB = 1024.0;
 constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+/// Of this machine.
+std::int64_t last_processor() {
+  return std::max(1L, ::sysconf(_SC_NPROCESSORS_CONF)) - 1;
+}
 
 LoopConfig read_loop(TomlSection& section) {
   LoopConfig loop;
@@ -34,13 +36,14 @@ LoopConfig read_loop(TomlSection& section) {
                        ? RealTimePolicy::kIgnore
                        : RealTimePolicy::kEnforce;
   loop.priority = static_cast<int>(section.integer_or("priority", loop.priority, 1, 98));
-  loop.cpu = static_cast<int>(section.integer_or("cpu", loop.cpu, -1, 1023));
+  loop.cpu = static_cast<int>(section.integer_or("cpu", loop.cpu, -1, last_processor()));
   OverrunLimits& overruns = loop.overruns;
   overruns.in_a_row = static_cast<int>(section.integer_or("overrun_limit", overruns.in_a_row, 1, 1000000));
   overruns.stall_s = section.number_or("stall_limit_s", std::max(overruns.stall_s, 2.0 * loop.period_s),
                                        {2.0 * loop.period_s, 1e6});
   overruns.missed_share = section.number_or("missed_share_limit", overruns.missed_share, {0.0, 1.0});
   loop.state_rate_Hz = section.number_or("state_rate_Hz", loop.state_rate_Hz, {0.1, 1.0 / loop.period_s});
+  doubt_loop(section, loop);
   return loop;
 }
 
@@ -66,122 +69,6 @@ RecorderConfig read_recorder(TomlSection section, const std::filesystem::path& f
   return recorder;
 }
 
-std::string read_name(TomlSection& section, std::string_view key, std::string fallback) {
-  std::string name = fallback.empty() ? section.text(key) : section.text_or(key, std::move(fallback));
-  if (!is_valid_name(name)) section.fail(key, "1 to 24 of the characters A-Z a-z 0-9 _ - are allowed");
-  return name;
-}
-
-void read_limits(TomlSection section, JointLoopConfig& loop) {
-  JointLimits& limits = loop.limits;
-  limits.position_min_rad = section.number("position_min_rad", kAnyAngle);
-  limits.position_max_rad = section.number("position_max_rad", kAnyAngle);
-  if (limits.position_min_rad >= limits.position_max_rad)
-    section.fail("position_max_rad", "a position above position_min_rad is allowed");
-  limits.position_margin_rad = section.number_or("position_margin_rad", 0.05, {0.0, 10.0});
-  loop.controller.motion.velocity_rad_s = section.number("speed_limit_rad_s", {1e-4, 1e3});
-  loop.controller.motion.acceleration_rad_s2 = section.number("acceleration_rad_s2", {1e-3, 1e6});
-  loop.controller.motion.deceleration_rad_s2 =
-      section.number_or("deceleration_rad_s2", loop.controller.motion.acceleration_rad_s2, {1e-3, 1e6});
-  const double speed_rad_s = loop.controller.motion.velocity_rad_s;
-  limits.overspeed_rad_s = section.number_or("overspeed_rad_s", 1.25 * speed_rad_s + 0.1, {speed_rad_s, 1e3});
-  limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
-  loop.controller.torque_limit_Nm = section.number("torque_limit_Nm", kPositive);
-  limits.temperature_limit_C = section.number_or("temperature_limit_C", 80.0, {-50.0, 200.0});
-  limits.load_Nm = section.number_or("load_Nm", loop.controller.torque_limit_Nm, kPositive);
-  section.refuse_unknown_keys();
-}
-
-void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
-  TemperatureCheckConfig& check = loop.temperature;
-  loop.temperature_update_period_s =
-      section.number_or("update_period_s", loop.temperature_update_period_s, {1e-4, 60.0});
-  check.min_C = section.number_or("min_C", check.min_C, {-273.0, 300.0});
-  check.max_C = section.number_or("max_C", check.max_C, {check.min_C, 300.0});
-  check.max_rate_C_s = section.number_or("max_rate_C_s", check.max_rate_C_s, {1e-3, 1e3});
-  check.max_step_C = section.number_or("max_step_C", check.max_step_C, {1e-3, 300.0});
-  check.max_age_s = section.number_or("max_age_s", check.max_age_s, {1e-3, 3600.0});
-  check.max_constant_s = section.number_or("max_constant_s", check.max_constant_s, {0.0, 86400.0});
-  check.recovery_s = section.number_or("recovery_s", check.recovery_s, {0.0, 3600.0});
-  check.loss_is_fault = section.choice_or("on_loss", "fallback", {"fallback", "fault"}) == "fault";
-  // What is above max_C is not believed: the limit must be reached before.
-  if (loop.limits.temperature_limit_C >= check.max_C)
-    section.fail("max_C", "a temperature above joint.limits.temperature_limit_C = " +
-                              std::to_string(loop.limits.temperature_limit_C) +
-                              " is allowed: a joint at its limit must be believed");
-  section.refuse_unknown_keys();
-}
-
-void read_timeouts(TomlSection section, JointLoopConfig& loop) {
-  loop.start_timeout_s = section.number_or("start_timeout_s", loop.start_timeout_s, {0.01, 60.0});
-  loop.stop_timeout_s = section.number_or("stop_timeout_s", loop.stop_timeout_s, {0.01, 60.0});
-  loop.standstill_rad_s = section.number_or("standstill_rad_s", loop.standstill_rad_s, {1e-6, 1.0});
-  loop.blocked_s = section.number_or("blocked_s", loop.blocked_s, {0.01, 60.0});
-  loop.missed_readings_limit =
-      static_cast<int>(section.integer_or("missed_readings_limit", loop.missed_readings_limit, 0, 1000));
-  section.refuse_unknown_keys();
-}
-
-void read_features(TomlSection section, const PlantIdentity& plant, JointLoopConfig& loop) {
-  JointControllerConfig& controller = loop.controller;
-  controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
-  controller.use_rest = section.boolean_or("rest", controller.use_rest);
-  controller.rigid = section.boolean_or("rigid", controller.rigid);
-  controller.use_observer = section.boolean_or("observer", controller.rigid);
-  if (controller.use_observer && !controller.rigid)
-    section.fail("observer", "true is allowed only with rigid = true: its model is one inertia");
-  const bool can_land = controller.rigid && controller.use_observer && controller.use_rest;
-  controller.use_landing = section.boolean_or("landing", can_land);
-  if (controller.use_landing && !can_land)
-    section.fail("landing", "true is allowed only with rigid = true, observer = true and rest = true");
-  controller.encoder_deviation_counts =
-      section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
-  loop.initial_load_Nm = section.number_or("initial_load_Nm", loop.initial_load_Nm, {-1e6, 1e6});
-  controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
-  read_link(section, plant, controller);
-  section.refuse_unknown_keys();
-}
-
-JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
-                       CanConfig& can) {
-  JointConfig joint;
-  joint.name = read_name(section, "name", "");
-  joint.plant.joint_model = FixedString<32>(section.text("joint_model"));
-  joint.plant.inertia_kgm2 = section.number("inertia_kgm2", kPositive);
-  joint.plant.gear_ratio = section.number("gear_ratio", {1e-3, 1e5});
-  joint.plant.period_s = period_s;
-  joint.loop.controller.period_s = period_s;
-  if (section.has("table")) joint.table = folder / section.text("table");
-  read_limits(section.section("limits"), joint.loop);
-  read_temperature_check(section.section_or_empty("temperature"), joint.loop);
-  if (section.has("group")) joint.group = read_name(section, "group", "");
-  joint.loop.fault_stops_group = section.choice_or("on_fault", "joint", {"joint", "group"}) == "group";
-  if (joint.loop.fault_stops_group && joint.group.empty())
-    section.fail("on_fault", "\"group\" needs joint.group as well");
-  read_timeouts(section.section_or_empty("supervision"), joint.loop);
-  read_features(section.section_or_empty("control"), joint.plant, joint.loop);
-  joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
-  if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
-  if (joint.thermometer && joint.driver == "simulated")
-    section.fail("thermometer",
-                 "a sensor of a real drive is allowed: the simulated one has its own temperature");
-  TomlSection driver = section.section_or_empty(joint.driver);
-  if (joint.thermometer && driver.has("temperature"))
-    section.fail("thermometer",
-                 "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
-  HomingInputs inputs;
-  if (joint.driver == "can")
-    inputs = can.read_joint(driver, joint);
-  else if (joint.driver == "gpio")
-    inputs = read_gpio_driver(driver, section.full_name("gpio"), period_s, joint);
-  else
-    inputs = read_simulated_driver(driver, period_s, joint);
-  driver.refuse_unknown_keys();
-  read_homing(section.section_or_empty("homing"), inputs, joint);
-  section.refuse_unknown_keys();
-  return joint;
-}
-
 // Names of groups become numbers, which the loop compares.
 void number_groups(std::vector<JointConfig>& joints) {
   std::vector<std::string> groups;
@@ -191,6 +78,14 @@ void number_groups(std::vector<JointConfig>& joints) {
     joint.loop.group = static_cast<int>(found - groups.begin());
     if (found == groups.end()) groups.push_back(joint.group);
   }
+}
+
+std::string read_lcm_url(TomlSection& section) {
+  constexpr std::size_t kLongest = 255;
+  std::string url = section.text_or("lcm_url", kDefaultLcmUrl);
+  if (const auto defect = find_udpm_defect(url)) section.fail("lcm_url", *defect);
+  if (url.size() > kLongest) section.fail("lcm_url", "at most 255 characters are allowed");
+  return url;
 }
 
 GatewayUser read_gateway_user(TomlSection& section) {
@@ -228,6 +123,10 @@ SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
 
 }  // namespace
 
+Writers writers_allowed(const JointConfig& joint) {
+  return joint.driver == "simulated" ? Writers::kGroup : Writers::kNobody;
+}
+
 DaemonConfig read_config(const std::filesystem::path& path) {
   require_protected(path, Writers::kGroup);
   TomlSection root = TomlSection::read(path);
@@ -235,7 +134,7 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   TomlSection daemon = root.section_or_empty("daemon");
   config.loop = read_loop(daemon);
   config.prefix = read_name(daemon, "prefix", "SW");
-  config.lcm_url = daemon.text_or("lcm_url", kDefaultLcmUrl);
+  config.lcm_url = read_lcm_url(daemon);
   config.gateway_user = read_gateway_user(daemon);
   daemon.refuse_unknown_keys();
 
@@ -261,6 +160,11 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   config.security =
       read_security(root.section_or_empty("security"), config.loop, config.joints, path.parent_path());
   root.refuse_unknown_keys();
+  // Who can write this file decides what its joints do.
+  for (const JointConfig& joint : config.joints) require_protected(path, writers_allowed(joint));
+  config.warnings = root.warnings();
+  if (const auto exposure = find_exposure(path, Writers::kNobody))
+    config.warnings.push_back(*exposure + ", which a real joint needs");
   return config;
 }
 

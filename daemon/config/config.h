@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/protected_file.h"
 #include "control/gain_table.h"
 #include "daemon/admission/authorized_keys.h"
 #include "daemon/gateway/gateway_user.h"
@@ -48,6 +49,8 @@ struct JointConfig {
   std::variant<SimulatedDrive, GpioJointConfig, DriveOnBus> drive;
   DriveErrorText drive_error_text = nullptr;  ///< null: its drive has no numbers of its own
   std::filesystem::path table;                ///< initial gain table; empty: none
+  std::string
+      table_place;  ///< where the file names it, for messages: "arm.toml:14: joint[0].table = "t.json""
 };
 
 /// What several joints share.
@@ -67,7 +70,11 @@ struct DaemonConfig {
   SecurityPolicy security;
   std::vector<BusConfig> buses;
   std::vector<JointConfig> joints;
+  std::vector<std::string> warnings;  ///< what the file may say and yet rarely means (config_doubts.h)
 };
+
+/// Who besides root and our own user may write what decides about `joint`: the configuration and its table.
+Writers writers_allowed(const JointConfig& joint);
 
 /// Reads `path`. Throws InputError naming file, line, key, value and what is allowed: unreadable or malformed file,
 /// unknown, missing or repeated keys, impossible values, joints of the same name.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/input_error.h"
+#include "daemon/config/config_doubts.h"
 #include "daemon/config/config_motor.h"
 #include "daemon/config/config_odrive.h"
 #include "drivers/can/cia402/cia402_node.h"
@@ -83,6 +84,7 @@ void read_units(TomlSection& section, const JointConfig& joint, cia402::UnitConf
   units.counts_per_output_revolution = section.number("counts_per_output_revolution", {1.0, 1e10});
   units.direction = section.choice_or("direction", "same", {"same", "reversed"}) == "same" ? 1 : -1;
   units.position_offset_rad = section.number_or("position_offset_rad", 0.0, {-1e3, 1e3});
+  doubt_angle(section, "position_offset_rad", units.position_offset_rad);
   units.velocity_rad_s_per_unit = section.number_or("velocity_rad_s_per_unit", 0.0, {0.0, 1e3});
   units.rated_torque_unit_Nm = section.choice("rated_torque_unit", {"mNm", "uNm"}) == "mNm" ? 1e-3 : 1e-6;
   units.torque_at_joint = section.choice("torque_side", {"motor", "joint"}) == "joint";

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/printable.h"
 #include "control/gear_catalogue.h"
 
 namespace strainwave {
@@ -16,7 +17,7 @@ const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
   const Gear* gear = find_gear(section.text("gear"));
   if (gear == nullptr) section.fail("gear", "a gear of the catalogue is allowed: " + gear_names());
   if (std::abs(gear->ratio - plant.gear_ratio) > 1e-6 * gear->ratio)
-    section.fail("gear", "a gear of joint.gear_ratio = " + std::to_string(plant.gear_ratio) + " is allowed");
+    section.fail("gear", "a gear of joint.gear_ratio = " + number_text(plant.gear_ratio) + " is allowed");
   return *gear;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "daemon/config/config_doubts.h"
 #include "daemon/config/config_motor.h"
 #include "drivers/can/odrive/odrive_node.h"
 
@@ -31,6 +32,7 @@ void read_units(TomlSection& section, const JointConfig& joint, odrive::UnitConf
   units.encoder_turns_per_joint_turn = section.number("encoder_turns_per_joint_turn", {1e-3, 1e6});
   units.direction = section.choice_or("direction", "same", {"same", "reversed"}) == "same" ? 1 : -1;
   units.position_offset_rad = section.number_or("position_offset_rad", 0.0, {-1e3, 1e3});
+  doubt_angle(section, "position_offset_rad", units.position_offset_rad);
   units.torque_at_joint = section.choice("torque_side", {"motor", "joint"}) == "joint";
   units.gear_ratio = joint.plant.gear_ratio;
 }

@@ -34,9 +34,21 @@ TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosAndModels) {
   EXPECT_EQ(judge(), Reason::kTableIdentity);
 }
 
-TEST_F(TableAdmission, RefusesATableThatAsksForMoreTorqueThanTheJointAllows) {
-  torque_limit_Nm_ = table_.torque_limit_Nm * 0.9;
-  EXPECT_EQ(judge(), Reason::kTableDefect);
+TEST_F(TableAdmission, SaysWhichOfTwoTorqueLimitsHoldsAndWhereTheJointCannotMoveWithIt) {
+  const auto text = [&](double torque_limit_Nm) {
+    const TableVerdict verdict = judge_table(table_, joint_, torque_limit_Nm);
+    EXPECT_EQ(verdict.reason, Reason::kAccepted) << torque_limit_Nm;
+    return verdict.text;
+  };
+  EXPECT_EQ(text(34.0).find("torque limit"), std::string::npos);
+  EXPECT_NE(text(20.0).find("torque limit 20 N.m, joint.limits.torque_limit_Nm, below the table's 34"),
+            std::string::npos)
+      << text(20.0);
+  EXPECT_EQ(text(20.0).find("will not move"), std::string::npos);
+  EXPECT_NE(text(3.4).find("will not move there"), std::string::npos) << text(3.4);
+  EXPECT_NE(text(50.0).find("torque limit 34 N.m, the table's, below joint.limits.torque_limit_Nm = 50"),
+            std::string::npos)
+      << text(50.0);
 }
 
 TEST_F(TableAdmission, RefusesEverySingleGainWhoseSignIsTurned) {

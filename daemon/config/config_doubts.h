@@ -1,0 +1,24 @@
+// What a configuration may say and yet rarely means: degrees where radians are asked for, a supervision that is switched off. It is
+// not refused, since some joint may want it; the daemon says so at its start, and strainwaved --check. Not real-time.
+#pragma once
+
+#include <numbers>
+#include <string_view>
+
+#include "base/toml_section.h"
+#include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/loop_parts.h"
+
+namespace strainwave {
+
+/// Notes a doubt when the angle that `key` gives is larger than it usually is, of a position a turn: it may be meant in degrees.
+void doubt_angle(const TomlSection& section, std::string_view key, double angle_rad,
+                 double usual_rad = 2.0 * std::numbers::pi);
+
+/// Of [joint.limits], already read into `loop`, of a joint behind such a gear.
+void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio);
+
+/// Of [daemon], already read into `loop`.
+void doubt_loop(const TomlSection& section, const LoopConfig& loop);
+
+}  // namespace strainwave

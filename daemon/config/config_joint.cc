@@ -1,0 +1,156 @@
+#include "daemon/config/config_joint.h"
+
+#include <algorithm>
+
+#include "base/printable.h"
+#include "daemon/config/config_doubts.h"
+#include "daemon/config/config_gpio.h"
+#include "daemon/config/config_homing.h"
+#include "daemon/config/config_link.h"
+#include "daemon/config/config_simulated.h"
+#include "daemon/config/config_thermometer.h"
+#include "lcmtypes/channels.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr Range kAnyAngle{-1e4, 1e4};
+constexpr Range kPositive{1e-9, 1e9};
+
+void read_limits(TomlSection section, double gear_ratio, JointLoopConfig& loop) {
+  JointLimits& limits = loop.limits;
+  limits.position_min_rad = section.number("position_min_rad", kAnyAngle);
+  limits.position_max_rad = section.number("position_max_rad", kAnyAngle);
+  if (limits.position_min_rad >= limits.position_max_rad)
+    section.fail("position_max_rad", "a position above position_min_rad is allowed");
+  limits.position_margin_rad = section.number_or("position_margin_rad", 0.05, {0.0, 10.0});
+  loop.controller.motion.velocity_rad_s = section.number("speed_limit_rad_s", {1e-4, 1e3});
+  loop.controller.motion.acceleration_rad_s2 = section.number("acceleration_rad_s2", {1e-3, 1e6});
+  loop.controller.motion.deceleration_rad_s2 =
+      section.number_or("deceleration_rad_s2", loop.controller.motion.acceleration_rad_s2, {1e-3, 1e6});
+  const double speed_rad_s = loop.controller.motion.velocity_rad_s;
+  limits.overspeed_rad_s = section.number_or("overspeed_rad_s", 1.25 * speed_rad_s + 0.1, {speed_rad_s, 1e3});
+  limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
+  loop.controller.torque_limit_Nm = section.number("torque_limit_Nm", kPositive);
+  limits.temperature_limit_C = section.number_or("temperature_limit_C", 80.0, {-50.0, 200.0});
+  limits.load_Nm = section.number_or("load_Nm", loop.controller.torque_limit_Nm, kPositive);
+  doubt_limits(section, loop, gear_ratio);
+  section.refuse_unknown_keys();
+}
+
+void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
+  TemperatureCheckConfig& check = loop.temperature;
+  loop.temperature_update_period_s =
+      section.number_or("update_period_s", loop.temperature_update_period_s, {1e-4, 60.0});
+  check.min_C = section.number_or("min_C", check.min_C, {-273.0, 300.0});
+  check.max_C = section.number_or("max_C", check.max_C, {check.min_C, 300.0});
+  check.max_rate_C_s = section.number_or("max_rate_C_s", check.max_rate_C_s, {1e-3, 1e3});
+  check.max_step_C = section.number_or("max_step_C", check.max_step_C, {1e-3, 300.0});
+  check.max_age_s = section.number_or("max_age_s", check.max_age_s, {1e-3, 3600.0});
+  check.max_constant_s = section.number_or("max_constant_s", check.max_constant_s, {0.0, 86400.0});
+  check.recovery_s = section.number_or("recovery_s", check.recovery_s, {0.0, 3600.0});
+  check.loss_is_fault = section.choice_or("on_loss", "fallback", {"fallback", "fault"}) == "fault";
+  // What is above max_C is not believed: the limit must be reached before.
+  if (loop.limits.temperature_limit_C >= check.max_C)
+    section.fail("max_C", "a temperature above joint.limits.temperature_limit_C = " +
+                              number_text(loop.limits.temperature_limit_C) +
+                              " is allowed: a joint at its limit must be believed");
+  section.refuse_unknown_keys();
+}
+
+void read_timeouts(TomlSection section, JointLoopConfig& loop) {
+  loop.start_timeout_s = section.number_or("start_timeout_s", loop.start_timeout_s, {0.01, 60.0});
+  loop.stop_timeout_s = section.number_or("stop_timeout_s", loop.stop_timeout_s, {0.01, 60.0});
+  loop.standstill_rad_s = section.number_or("standstill_rad_s", loop.standstill_rad_s, {1e-6, 1.0});
+  loop.blocked_s = section.number_or("blocked_s", loop.blocked_s, {0.01, 60.0});
+  loop.missed_readings_limit =
+      static_cast<int>(section.integer_or("missed_readings_limit", loop.missed_readings_limit, 0, 1000));
+  section.refuse_unknown_keys();
+}
+
+void read_features(TomlSection section, const PlantIdentity& plant, JointLoopConfig& loop) {
+  JointControllerConfig& controller = loop.controller;
+  controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
+  controller.use_rest = section.boolean_or("rest", controller.use_rest);
+  controller.rigid = section.boolean_or("rigid", controller.rigid);
+  controller.use_observer = section.boolean_or("observer", controller.rigid);
+  if (controller.use_observer && !controller.rigid)
+    section.fail("observer", "true is allowed only with rigid = true: its model is one inertia");
+  const bool can_land = controller.rigid && controller.use_observer && controller.use_rest;
+  controller.use_landing = section.boolean_or("landing", can_land);
+  if (controller.use_landing && !can_land)
+    section.fail("landing", "true is allowed only with rigid = true, observer = true and rest = true");
+  controller.encoder_deviation_counts =
+      section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
+  const double torque_limit_Nm = controller.torque_limit_Nm;
+  loop.initial_load_Nm =
+      section.number_or("initial_load_Nm", loop.initial_load_Nm, {-torque_limit_Nm, torque_limit_Nm});
+  controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
+  read_link(section, plant, controller);
+  section.refuse_unknown_keys();
+}
+
+// The name under which tables are made for the joint.
+FixedString<32> read_model(TomlSection& section) {
+  const std::string model = section.text("joint_model");
+  const bool printable = std::all_of(model.begin(), model.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  FixedString<32> kept(model);
+  if (model.empty() || !printable || kept.view() != model)
+    section.fail("joint_model",
+                 "the model of the joint's tables, 1 to 31 printable ASCII characters, is allowed");
+  return kept;
+}
+
+}  // namespace
+
+std::string read_name(TomlSection& section, std::string_view key, std::string fallback) {
+  std::string name = fallback.empty() ? section.text(key) : section.text_or(key, std::move(fallback));
+  if (!is_valid_name(name)) section.fail(key, "1 to 24 of the characters A-Z a-z 0-9 _ - are allowed");
+  return name;
+}
+
+JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
+                       CanConfig& can) {
+  JointConfig joint;
+  joint.name = read_name(section, "name", "");
+  joint.plant.joint_model = read_model(section);
+  joint.plant.inertia_kgm2 = section.number("inertia_kgm2", kPositive);
+  joint.plant.gear_ratio = section.number("gear_ratio", {1e-3, 1e5});
+  joint.plant.period_s = period_s;
+  joint.loop.controller.period_s = period_s;
+  if (section.has("table")) {
+    joint.table = folder / section.text("table");
+    joint.table_place = section.place("table");
+  }
+  read_limits(section.section("limits"), joint.plant.gear_ratio, joint.loop);
+  read_temperature_check(section.section_or_empty("temperature"), joint.loop);
+  if (section.has("group")) joint.group = read_name(section, "group", "");
+  joint.loop.fault_stops_group = section.choice_or("on_fault", "joint", {"joint", "group"}) == "group";
+  if (joint.loop.fault_stops_group && joint.group.empty())
+    section.fail("on_fault", "\"group\" needs joint.group as well");
+  read_timeouts(section.section_or_empty("supervision"), joint.loop);
+  read_features(section.section_or_empty("control"), joint.plant, joint.loop);
+  joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
+  if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
+  if (joint.thermometer && joint.driver == "simulated")
+    section.fail("thermometer",
+                 "a sensor of a real drive is allowed: the simulated one has its own temperature");
+  TomlSection driver = section.section_or_empty(joint.driver);
+  if (joint.thermometer && driver.has("temperature"))
+    section.fail("thermometer",
+                 "one temperature is allowed: this sensor, or the drive's own in joint.can.temperature");
+  HomingInputs inputs;
+  if (joint.driver == "can")
+    inputs = can.read_joint(driver, joint);
+  else if (joint.driver == "gpio")
+    inputs = read_gpio_driver(driver, section.full_name("gpio"), period_s, joint);
+  else
+    inputs = read_simulated_driver(driver, period_s, joint);
+  driver.refuse_unknown_keys();
+  read_homing(section.section_or_empty("homing"), inputs, joint);
+  section.refuse_unknown_keys();
+  return joint;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,27 @@
+#include "daemon/initial_table.h"
+
+#include "base/input_error.h"
+#include "base/protected_file.h"
+#include "control/gain_table_json.h"
+#include "daemon/admission/table_admission.h"
+
+namespace strainwave {
+
+std::optional<InitialTable> read_initial_table(const JointConfig& joint) {
+  if (joint.table.empty()) return std::nullopt;
+  try {
+    require_protected(joint.table, writers_allowed(joint));
+    InitialTable initial;
+    initial.table = read_gain_table(joint.table);
+    const TableVerdict judged =
+        judge_table(initial.table, joint.plant, joint.loop.controller.torque_limit_Nm);
+    if (judged.reason != Reason::kAccepted)
+      throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
+    initial.verdict = judged.text;
+    return initial;
+  } catch (const InputError& error) {
+    throw InputError(joint.table_place + ": " + error.what());
+  }
+}
+
+}  // namespace strainwave

@@ -1,0 +1,50 @@
+#include "daemon/start_check.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include "base/input_error.h"
+#include "daemon/gateway/gateway_process.h"
+#include "daemon/initial_table.h"
+#include "lcmtypes/multicast_check.h"
+
+namespace strainwave {
+
+namespace {
+
+void check_tables(const DaemonConfig& config, std::ostream& out) {
+  for (const JointConfig& joint : config.joints) {
+    if (const auto initial = read_initial_table(joint))
+      out << joint.name << ": table '" << initial->table.name.view() << "': " << initial->verdict << '\n';
+    else
+      out << joint.name << ": no table: it can be enabled once one is loaded\n";
+  }
+}
+
+void check_gateway(const DaemonConfig& config) {
+  if (const std::filesystem::path program = find_gateway_program(); !std::filesystem::exists(program))
+    throw InputError(program.string() + ": the daemon's gateway is missing: install it again");
+  if (const auto problem = find_multicast_problem(config.lcm_url))
+    throw InputError("daemon.lcm_url = \"" + config.lcm_url + "\": " + *problem);
+}
+
+bool has_driver(const DaemonConfig& config, std::string_view driver) {
+  return std::any_of(config.joints.begin(), config.joints.end(),
+                     [&](const JointConfig& joint) { return joint.driver == driver; });
+}
+
+}  // namespace
+
+void check_start(const DaemonConfig& config, std::ostream& out) {
+  for (const std::string& warning : config.warnings) out << "warning: " << warning << '\n';
+  check_tables(config, out);
+  check_gateway(config);
+  out << "not checked:";
+  if (has_driver(config, "can")) out << " drives on CAN (strainwavectl can-check),";
+  if (has_driver(config, "gpio")) out << " digital lines (strainwavectl gpio-check),";
+  if (config.loop.real_time == RealTimePolicy::kEnforce) out << " real-time privileges,";
+  out << " whether another daemon has the prefix or a drive\n";
+}
+
+}  // namespace strainwave

@@ -1,0 +1,451 @@
+// Wrong inputs, as people type them, to every program: each is answered with the status for a wrong input, in one line that
+// names the place, the key, the value and what is allowed. Tables; a new way to go wrong is a new row.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+namespace {
+
+struct Ended {
+  int status = -1;
+  std::string said;
+};
+
+Ended run(const std::string& command) {
+  Ended ended;
+  std::FILE* pipe = ::popen((STRAINWAVE_BINARY_DIR "/bin/" + command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return ended;
+  std::array<char, 4096> part{};
+  for (std::size_t size = 0; (size = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    ended.said.append(part.data(), size);
+  const int status = ::pclose(pipe);
+  ended.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return ended;
+}
+
+/// The last line is the answer; doubts may stand before it.
+std::string last_line(const std::string& text) {
+  const std::string lines = text.substr(0, text.find_last_not_of('\n') + 1);
+  return lines.substr(lines.rfind('\n') + 1);
+}
+
+void expect_refused(const Ended& ended, const std::vector<std::string>& mentions, const std::string& what) {
+  EXPECT_EQ(ended.status, 2) << what << "\n" << ended.said;
+  const std::string answer = last_line(ended.said);
+  for (const std::string& part : mentions)
+    EXPECT_NE(answer.find(part), std::string::npos) << what << "\nmust mention " << part << "\n"
+                                                    << ended.said;
+  EXPECT_TRUE(answer.starts_with("strainwave")) << "begins with the program's name\n" << ended.said;
+  EXPECT_EQ(answer.find(":0:"), std::string::npos) << "no line 0\n" << ended.said;
+}
+
+constexpr const char* kSound = R"([daemon]
+period_s = 0.001
+prefix = "LAB"
+
+[security]
+unsigned_orders = "allow"
+
+[[joint]]
+name = "elbow"
+joint_model = "rhs17-6006"
+inertia_kgm2 = 0.089
+gear_ratio = 50
+driver = "simulated"
+
+[joint.limits]
+position_min_rad = -3.2
+position_max_rad = 3.2
+speed_limit_rad_s = 6.0
+acceleration_rad_s2 = 150
+following_error_rad = 0.1
+torque_limit_Nm = 34
+
+[joint.simulated]
+ambient_temperature_C = "sine:15,25,1"
+)";
+
+struct ConfigCase {
+  const char* from;  ///< replaced in the sound file
+  const char* to;
+  std::vector<std::string> mentions;
+};
+
+const std::vector<ConfigCase> kConfigCases{
+    // A key that was mistyped: its place, and the nearest that is right.
+    {"period_s = 0.001", "period = 0.001", {":2: daemon.period = 0.001", "did you mean period_s?"}},
+    {"prefix", "prefx", {":3: daemon.prefx = \"LAB\"", "did you mean prefix?"}},
+    {"speed_limit_rad_s = 6.0",
+     "speed = 6.0",
+     {"joint[0].limits.speed_limit_rad_s is missing", "line 18 has speed:"}},
+    {"speed_limit_rad_s = 6.0",
+     "speed_limit = 6.0",
+     {"joint[0].limits.speed_limit_rad_s is missing", "line 18 has speed_limit:"}},
+    {"position_min_rad", "positon_min_rad", {"position_min_rad is missing", "line 16 has positon_min_rad"}},
+    {"[joint.limits]", "[joint.limit]", {"joint[0].limits is missing", "line 15 has limit"}},
+    {"inertia_kgm2", "inertia", {"joint[0].inertia_kgm2 is missing", "line 11 has inertia"}},
+    {"torque_limit_Nm",
+     "torque_limit_nm",
+     {"joint[0].limits.torque_limit_Nm is missing", "line 21 has torque_limit_nm"}},
+    {"gear_ratio", "gearratio", {"joint[0].gear_ratio is missing", "line 12 has gearratio"}},
+    {"following_error_rad",
+     "folowing_error_rad",
+     {"following_error_rad is missing", "line 20 has folowing_error_rad"}},
+    {"driver =", "drivers =", {"joint[0].driver is missing", "line 13 has drivers"}},
+    {"joint_model", "model", {"joint[0].joint_model is missing: the key is required"}},
+    {"name = \"elbow\"\n", "", {":8: joint[0].name is missing: the key is required"}},
+    {"unsigned_orders",
+     "unsigned_order",
+     {"security.authorized_keys is missing", "unsigned_orders = \"allow\""}},
+    {"[joint.simulated]", "[joint.simulatd]", {"joint[0].simulatd = (a table)", "did you mean simulated?"}},
+    {"ambient_temperature_C",
+     "ambient_C",
+     {":24: joint[0].simulated.ambient_C = \"sine:15,25,1\"", "unknown key"}},
+    {"[daemon]", "[deamon]", {"deamon = (a table)", "did you mean daemon?"}},
+    {"[[joint]]", "[[joints]]", {"joint", "[[joint]] with two brackets"}},
+    {"[security]", "[secuirty]", {"security.authorized_keys is missing"}},
+    // A value of the wrong kind.
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = \"34\"",
+     {":21: joint[0].limits.torque_limit_Nm = \"34\"", "a number from", "without quotes"}},
+    {"period_s = 0.001",
+     "period_s = \"1 ms\"",
+     {":2: daemon.period_s = \"1 ms\"", "a number from", "to 0.1"}},
+    {"\"allow\"", "true", {":6: security.unsigned_orders = true", "allowed are \"refuse\", \"allow\""}},
+    {"\"allow\"", "false", {":6: security.unsigned_orders = false", "allowed are \"refuse\", \"allow\""}},
+    {"\"allow\"", "\"yes\"", {":6: security.unsigned_orders = \"yes\"", "allowed are \"refuse\", \"allow\""}},
+    {"\"allow\"", "\"alow\"", {"did you mean \"allow\"?"}},
+    {"name = \"elbow\"", "name = 7", {":9: joint[0].name = 7", "a text in quotes is allowed"}},
+    {"driver = \"simulated\"",
+     "driver = \"simulate\"",
+     {":13: joint[0].driver = \"simulate\"", "did you mean \"simulated\"?"}},
+    {"driver = \"simulated\"",
+     "driver = \"warp\"",
+     {"joint[0].driver = \"warp\"", "\"simulated\", \"can\", \"gpio\""}},
+    {"[[joint]]", "[joint]", {"joint = (a table)", "[[joint]] with two brackets"}},
+    {"[joint.limits]", "[[joint.limits]]", {"joint[0].limits = (a list of 1)", "written [joint[0].limits]"}},
+    {"[daemon]", "[[daemon]]", {"daemon = (a list of 1)", "a table, written [daemon]"}},
+    {"torque_limit_Nm = 34", "torque_limit_Nm = true", {"torque_limit_Nm = true", "a number from"}},
+    {"torque_limit_Nm = 34", "torque_limit_Nm = [34]", {"torque_limit_Nm = (a list of 1)", "a number from"}},
+    {"\"elbow\"", "\"left elbow\"", {":9: joint[0].name = \"left elbow\"", "1 to 24 of the characters"}},
+    {"\"LAB\"", "\"A.B\"", {":3: daemon.prefix = \"A.B\"", "1 to 24 of the characters"}},
+    {"\"rhs17-6006\"",
+     "\"a strain-wave gear with far too long a name\"",
+     {":10: joint[0].joint_model = \"a strain-wave gear", "1 to 31 printable"}},
+    {"\"rhs17-6006\"", "\"\"", {":10: joint[0].joint_model = \"\"", "1 to 31 printable"}},
+    // A value out of range.
+    {"inertia_kgm2 = 0.089",
+     "inertia_kgm2 = -0.089",
+     {":11: joint[0].inertia_kgm2 = -0.089:", "a number from 1e-09 to 1e+09"}},
+    {"torque_limit_Nm = 34", "torque_limit_Nm = nan", {"torque_limit_Nm = nan", "a number from"}},
+    {"torque_limit_Nm = 34", "torque_limit_Nm = inf", {"torque_limit_Nm = inf", "a number from"}},
+    {"torque_limit_Nm = 34", "torque_limit_Nm = 0", {"torque_limit_Nm = 0:", "a number from 1e-09"}},
+    {"gear_ratio = 50", "gear_ratio = 0", {":12: joint[0].gear_ratio = 0:", "a number from 0.001 to 1e+05"}},
+    {"period_s = 0.001", "period_s = 1", {":2: daemon.period_s = 1:", "to 0.1 is allowed"}},
+    {"period_s = 0.001", "period_s = -0.001", {"daemon.period_s = -0.001", "is allowed"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nstate_rate_Hz = 2000",
+     {":3: daemon.state_rate_Hz = 2000", "to 1000 is allowed"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\npriority = 99",
+     {":3: daemon.priority = 99", "a whole number from 1 to 98"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\npriority = 1.5",
+     {":3: daemon.priority = 1.5", "a whole number from 1 to 98"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\npriority = \"80\"",
+     {"daemon.priority = \"80\"", "without quotes"}},
+    {"period_s = 0.001", "period_s = 0.001\ncpu = 1000", {":3: daemon.cpu = 1000", "a whole number from -1"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nreal_time = \"on\"",
+     {"real_time = \"on\"", "\"enforce\", \"ignore\""}},
+    {"position_max_rad = 3.2",
+     "position_max_rad = -4",
+     {":17: joint[0].limits.position_max_rad = -4", "above position_min_rad"}},
+    {"speed_limit_rad_s = 6.0", "speed_limit_rad_s = 0", {"speed_limit_rad_s = 0:", "a number from"}},
+    {"speed_limit_rad_s = 6.0", "speed_limit_rad_s = -6", {"speed_limit_rad_s = -6", "a number from"}},
+    {"acceleration_rad_s2 = 150",
+     "acceleration_rad_s2 = 0",
+     {":19: joint[0].limits.acceleration_rad_s2 = 0", "a number from 0.001"}},
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = 34\ntemperature_limit_C = 500",
+     {"temperature_limit_C = 500", "from -50 to 200"}},
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = 34\n[joint.temperature]\nmax_C = 70",
+     {":23: joint[0].temperature.max_C = 70", "above joint.limits.temperature_limit_C = 80 is"}},
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = 34\noverspeed_rad_s = 1",
+     {"overspeed_rad_s = 1:", "a number from 6 to 1000"}},
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = 34\n[joint.control]\ninitial_load_Nm = 1e6",
+     {":23: joint[0].control.initial_load_Nm = 1e+06", "a number from -34 to 34 is allowed"}},
+    {"\"sine:15,25,1\"", "\"sine:15\"", {":24: joint[0].simulated.ambient_temperature_C = \"sine:15\""}},
+    {"\"sine:15,25,1\"", "\"constant:-300\"", {"ambient_temperature_C = \"constant:-300\""}},
+    {"driver = \"simulated\"",
+     "driver = \"simulated\"\non_fault = \"group\"",
+     {"on_fault = \"group\"", "joint.group"}},
+    {"driver = \"simulated\"",
+     "driver = \"simulated\"\non_fault = \"stop\"",
+     {"on_fault = \"stop\"", "\"joint\", \"group\""}},
+    // Where LCM's messages go.
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"239.255.76.67:7667\"",
+     {":3: daemon.lcm_url = \"239.255.76.67:7667\"", "udpm://GROUP:PORT?ttl=N"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"udpm://239.255.76.67:0\"",
+     {":3: daemon.lcm_url =", "the port must be a number from 1 to 65535"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"udpm://239.255.76.67:99999?ttl=0\"",
+     {":3: daemon.lcm_url =", "the port must be a number from 1 to 65535"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"udpm://239.255.76.67:7667x\"",
+     {"the port must be a number from 1 to 65535"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"udpm://10.0.0.1:7667\"",
+     {"'10.0.0.1' is not an IPv4 multicast group"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"udpm://239.255.76.67:7667?tll=1\"",
+     {"'tll=1' is not an option of LCM's", "ttl=N"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nlcm_url = \"udpm://239.255.76.67:7667?ttl=far\"",
+     {"'ttl=far'", "from 0 (this machine alone) to 255"}},
+    // What is no TOML.
+    {"prefix = \"LAB\"", "prefix = LAB", {":3: not valid TOML"}},
+    {"[[joint]]", "[[joint", {":8: not valid TOML"}},
+    {"gear_ratio = 50", "gear_ratio = 50\ngear_ratio = 51", {":13: not valid TOML", "gear_ratio"}},
+    {"gear_ratio = 50", "gear_ratio 50", {":12: not valid TOML"}},
+};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+class WrongInput : public ::testing::Test {
+ protected:
+  void write(const std::filesystem::path& path, std::string text, const std::string& from,
+             const std::string& to) const {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream(path) << text.replace(at, from.size(), to);
+  }
+  Ended check() const { return run("strainwaved --check --config " + file_.string()); }
+  /// The sound file with this line before the joint's limits.
+  void write_joint_with(const std::string& line) const {
+    write(file_, kSound, "driver = \"simulated\"\n", "driver = \"simulated\"\n" + line + "\n");
+  }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "c.toml";
+  const std::filesystem::path table_ = folder_.path() / "t.json";
+};
+
+TEST_F(WrongInput, InAConfigurationIsNamedByPlaceKeyValueAndWhatIsAllowed) {
+  for (const ConfigCase& wrong : kConfigCases) {
+    write(file_, kSound, wrong.from, wrong.to);
+    std::vector<std::string> mentions = wrong.mentions;
+    mentions.push_back(file_);
+    expect_refused(check(), mentions, wrong.to);
+  }
+}
+
+TEST_F(WrongInput, IsNotFoundInASoundConfiguration) {
+  std::ofstream(file_) << kSound;
+  const Ended ended = check();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_EQ(ended.said.find("warning"), std::string::npos) << ended.said;
+  EXPECT_NE(ended.said.find("elbow: no table"), std::string::npos) << ended.said;
+  EXPECT_NE(ended.said.find("not checked: real-time privileges"), std::string::npos) << ended.said;
+}
+
+/// Allowed, and yet rarely meant.
+const std::vector<ConfigCase> kDoubtCases{
+    {"position_max_rad = 3.2",
+     "position_max_rad = 180",
+     {":17: joint[0].limits.position_max_rad = 180", "turns", "if degrees are meant, write 3.1416"}},
+    {"position_min_rad = -3.2",
+     "position_min_rad = -90",
+     {":16: joint[0].limits.position_min_rad = -90", "if degrees are meant, write -1.5708"}},
+    {"following_error_rad = 0.1",
+     "following_error_rad = 5",
+     {":20: joint[0].limits.following_error_rad = 5", "if degrees are meant, write 0.087266"}},
+    {"speed_limit_rad_s = 6.0",
+     "speed_limit_rad_s = 360",
+     {":18: joint[0].limits.speed_limit_rad_s = 360", "rpm", "if degrees are meant, write 6.2832"}},
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = 34\noverspeed_rad_s = 30",
+     {":22: joint[0].limits.overspeed_rad_s = 30", "5 times its speed limit"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nmissed_share_limit = 1.0",
+     {":3: daemon.missed_share_limit = 1", "the supervision is off", "left out it is 0.1"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\nstall_limit_s = 2.0",
+     {":3: daemon.stall_limit_s = 2", "without control", "left out it is 0.02"}},
+    {"period_s = 0.001",
+     "period_s = 0.001\noverrun_limit = 1000",
+     {":3: daemon.overrun_limit = 1000", "only after 1 s", "left out it is 10"}},
+};
+
+TEST_F(WrongInput, ThatIsAllowedIsDoubtedWithTheLikelyMeaning) {
+  for (const ConfigCase& doubtful : kDoubtCases) {
+    write(file_, kSound, doubtful.from, doubtful.to);
+    const Ended ended = check();
+    EXPECT_EQ(ended.status, 0) << ended.said;
+    EXPECT_TRUE(ended.said.starts_with("warning: " + file_.string() + ":")) << ended.said;
+    for (const std::string& part : doubtful.mentions)
+      EXPECT_NE(ended.said.find(part), std::string::npos) << part << "\n" << ended.said;
+  }
+}
+
+struct TableCase {
+  const char* from;  ///< replaced in the shipped table
+  const char* to;
+  std::vector<std::string> mentions;
+};
+
+const std::vector<TableCase> kTableCases{
+    {"\"inertia_kgm2\": 0.089", "\"inertia_kgm2\": 0.1", {"inertia_kgm2 = 0.1", "this joint has 0.089"}},
+    {"\"gear_ratio\": 50.0", "\"gear_ratio\": 100.0", {"gear_ratio = 100", "this joint has 50"}},
+    {"\"period_s\": 0.001", "\"period_s\": 0.002", {"period_s = 0.002 in the table, 0.001 in this daemon"}},
+    {"\"period_s\": 0.001", "\"period_s\": 5", {"plant.period_s = 5", "must be from 1e-05 to 1"}},
+    {"\"joint_model\": \"rhs17-6006\"",
+     "\"joint_model\": \"rhs20\"",
+     {"rhs20", "this joint is a rhs17-6006"}},
+    {"\"format\": 2", "\"format\": 1", {"format = 1", "2"}},
+    {"\"torque_limit_Nm\"", "\"torque_limit\"", {"torque_limit_Nm: is missing", "there is torque_limit:"}},
+    {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": \"34\"", {"torque_limit_Nm", "number"}},
+    {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": -34.0", {"torque_limit_Nm = -34", "above 0"}},
+    {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": 3.0", {"static_Nm", "below torque_limit_Nm = 3"}},
+    {"\"static_Nm\": 5.", "\"static_Nm\": 5000.", {"friction.rules[0].static_Nm", "torque_limit_Nm"}},
+    {"\"coulomb_Nm\": 5.", "\"coulomb_Nm\": 6.", {"friction.rules[0].coulomb_Nm", "must be from"}},
+    {"\"zero_width_rad_s\": 0.", "\"zero_width_rad_s\": 1e-320, \"x\": 0.", {"x"}},
+    {"{", "", {"JSON"}},
+};
+
+TEST_F(WrongInput, InATableIsNamedByItsFileAndTheKeyOfTheConfigurationThatNamesIt) {
+  const std::string shipped = text_of(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
+  for (const TableCase& wrong : kTableCases) {
+    write(table_, shipped, wrong.from, wrong.to);
+    write_joint_with("table = \"t.json\"");
+    std::vector<std::string> mentions = wrong.mentions;
+    mentions.push_back(file_.string() + ":14: joint[0].table = \"t.json\"");
+    mentions.push_back(table_);
+    expect_refused(check(), mentions, wrong.to);
+  }
+}
+
+TEST_F(WrongInput, ATableThatIsNotThereOrEverybodysIsFoundBeforeTheStart) {
+  write_joint_with("table = \"t.json\"");
+  expect_refused(check(), {":14: joint[0].table = \"t.json\"", table_, "No such file"}, "no file");
+  std::filesystem::create_directory(table_);
+  expect_refused(check(), {":14: joint[0].table", "is a folder, not a file"}, "a folder");
+  std::filesystem::remove(table_);
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006-friction.json", table_);
+  expect_refused(check(), {":14: joint[0].table", table_, "holds fitted friction, not gains"}, "friction");
+  std::filesystem::remove(table_);
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json", table_);
+  expect_refused(check(), {"stability is not proved for this joint"}, "the source's table");
+  std::filesystem::remove(table_);
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json", table_);
+  EXPECT_EQ(check().status, 0) << check().said;
+  EXPECT_NE(check().said.find("elbow: table 'rhs17-6006 C4'"), std::string::npos) << check().said;
+  std::filesystem::permissions(table_, std::filesystem::perms::others_write,
+                               std::filesystem::perm_options::add);
+  expect_refused(check(), {":14: joint[0].table", "everyone may write it", "chmod o-w"}, "writable");
+}
+
+TEST_F(WrongInput, AConfigurationThatOthersMayWriteIsRefusedOrOfASimulatedJointDoubted) {
+  std::ofstream(file_) << kSound;
+  const auto add = std::filesystem::perm_options::add;
+  std::filesystem::permissions(file_, std::filesystem::perms::group_write, add);
+  const Ended doubted = check();
+  EXPECT_EQ(doubted.status, 0) << doubted.said;
+  EXPECT_NE(doubted.said.find("warning: " + file_.string() + ": its group may write it: chmod g-w"),
+            std::string::npos)
+      << doubted.said;
+  std::filesystem::permissions(file_, std::filesystem::perms::others_write, add);
+  expect_refused(check(), {"everyone may write it: chmod o-w " + file_.string()}, "world-writable");
+}
+
+TEST_F(WrongInput, ATorqueLimitBelowTheTablesIsToldWithWhatThenHolds) {
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json", table_);
+  std::string text(kSound);
+  text.replace(text.find("torque_limit_Nm = 34"), 20, "torque_limit_Nm = 3.4");
+  write(file_, text, "gear_ratio = 50\n", "gear_ratio = 50\ntable = \"t.json\"\n");
+  const Ended ended = check();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  for (const char* part :
+       {"torque limit 3.4 N.m, joint.limits.torque_limit_Nm, below the table's 34", "will not move there"})
+    EXPECT_NE(ended.said.find(part), std::string::npos) << part << "\n" << ended.said;
+}
+
+struct CommandCase {
+  const char* command;
+  std::vector<std::string> mentions;
+};
+
+const std::vector<CommandCase> kCommandCases{
+    {"strainwaved", {"--config", "--help"}},
+    {"strainwaved --confg x.toml", {"--confg is not an option", "did you mean --config?"}},
+    {"strainwaved --config /nonexistent.toml --check", {"/nonexistent.toml: cannot be read", "No such file"}},
+    {"strainwaved --config / --check", {"/: is a folder, not a file"}},
+    {"strainwaved --config x.toml spare words", {"unexpected: 'spare' 'words'"}},
+    {"strainwavectl", {"a command is required", "status", "move"}},
+    {"strainwavectl --timeout_s 0.01 status", {"--timeout_s", "'0.01'", "0.1 to 3600 seconds"}},
+    {"strainwavectl --timeout_s soon status", {"--timeout_s", "'soon'", "0.1 to 3600 seconds"}},
+    {"strainwavectl --prefix a.b status", {"--prefix", "'a.b' is not a name", "1 to 24"}},
+    {"strainwavectl move elbow 90deg", {"90deg", "in rad", "1.5708"}},
+    {"strainwavectl move elbow fast", {"'fast' is not a position", "a finite number in rad"}},
+    {"strainwavectl move el.bow 1", {"JOINT", "'el.bow' is not a name", "1 to 24"}},
+    {"strainwavectl move elbow 1 --speed_limit_rad_s -2",
+     {"--speed_limit_rad_s", "'-2' is not a number above 0"}},
+    {"strainwavectl move elbow 1 --tolerance_rad 0", {"--tolerance_rad", "'0' is not a number above 0"}},
+    {"strainwavectl enable", {"JOINT is required"}},
+    {"strainwavectl disable", {"JOINT is required", "--all"}},
+    {"strainwavectl watch --interval_s -1", {"--interval_s", "'-1'", "seconds above 0"}},
+    {"strainwavectl export /nonexistent.log --out /tmp/x", {"/nonexistent.log: cannot be read"}},
+    {"strainwavectl plot-record /", {"/ cannot be read"}},
+    {"strainwavectl load-table elbow /nonexistent", {"/nonexistent: cannot be read", "No such file"}},
+    {"strainwavectl load-table elbow " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006-friction.json",
+     {"rhs17-6006-friction.json: holds fitted friction, not gains"}},
+    {"strainwave-sim run --controller pid --plant perfect",
+     {"--plant", "perfect", "ideal, limited, realistic"}},
+    {"strainwave-design verify /nonexistent", {"/nonexistent: cannot be read", "No such file"}},
+    {"strainwave-design gains --weights 1,1,1 --friction x --out y", {"--weights", "4 required", "3"}},
+    {"strainwavectl statsu", {"'statsu' is not a command", "did you mean status?"}},
+    {"strainwavectl banana", {"'banana' is not a command", "there are status"}},
+    {"strainwavectl --tiemout_s 1 status", {"--tiemout_s is not an option", "did you mean --timeout_s?"}},
+    {"strainwavectl move elbow", {"POSITION_rad is required"}},
+    {"strainwavectl move elbow 1 --speed 2",
+     {"--speed is not an option", "did you mean --speed_limit_rad_s?"}},
+    {"strainwavectl enable elbow wrist hip", {"unexpected: 'wrist' 'hip'"}},
+    {"strainwavectl record elbow", {"--out is required"}},
+    {"strainwavectl inject elbow gremlins", {"gremlins", "sensor_nan"}},
+    {"strainwavectl keygen --out /tmp/x --role king", {"--role", "king", "operator", "engineer"}},
+    {"strainwave-sim", {"a command is required", "run"}},
+    {"strainwave-sim rnu", {"'rnu' is not a command", "did you mean run?"}},
+    {"strainwave-design shwo", {"'shwo' is not a command", "did you mean show?"}},
+};
+
+TEST(WrongCommandLine, IsNamedByWhatWasGivenAndWhatIsAllowed) {
+  for (const CommandCase& wrong : kCommandCases)
+    expect_refused(run(wrong.command), wrong.mentions, wrong.command);
+}
+
+TEST(WrongInputs, AreMany) {
+  EXPECT_GE(kConfigCases.size() + kTableCases.size() + kCommandCases.size(), 110U);
+}
+
+}  // namespace
+}  // namespace strainwave
