@@ -136,7 +136,9 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   const JointView& view = client.wait_for_joint(joint);
   const limits_v1 limits = wait_for_limits(client, joint);
   const IdentifyPlan plan = plan_identification(arguments, limits, view.state.joint_position_rad);
-  if (!output.json)
+  if (output.json)
+    output.stream << to_json(plan, joint) << '\n';
+  else
     output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_used_C,
                                  to_text(plan));
   output.stream.flush();

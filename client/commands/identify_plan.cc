@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "client/link/exit_status.h"
 
@@ -102,6 +103,21 @@ std::string to_text(const IdentifyPlan& plan) {
     text += fmt::format("  {:8.4f} rad/s  left out: the range is too short\n", speed);
   return text + fmt::format("  about {:.0f} s, between {:+.3f} and {:+.3f} rad, at most {:.1f} N.m\n",
                             plan.duration_s, plan.range_rad.first, plan.range_rad.second, plan.max_torque_Nm);
+}
+
+std::string to_json(const IdentifyPlan& plan, const std::string& joint) {
+  nlohmann::ordered_json json{{"joint", joint},
+                              {"duration_s", plan.duration_s},
+                              {"position_min_rad", plan.range_rad.first},
+                              {"position_max_rad", plan.range_rad.second},
+                              {"max_torque_Nm", plan.max_torque_Nm},
+                              {"left_out_rad_s", plan.left_out_rad_s}};
+  for (const Sweep& sweep : plan.sweeps)
+    json["sweeps"].push_back({{"speed_rad_s", sweep.speed_rad_s},
+                              {"from_rad", sweep.from_rad},
+                              {"to_rad", sweep.to_rad},
+                              {"steady_s", sweep.steady_s}});
+  return json.dump();
 }
 
 }  // namespace strainwave

@@ -40,5 +40,7 @@ IdentifyPlan plan_identification(const IdentifyArguments& arguments, const limit
 
 /// One line for each sweep, one for the whole.
 std::string to_text(const IdentifyPlan& plan);
+/// The same as one JSON object.
+std::string to_json(const IdentifyPlan& plan, const std::string& joint);
 
 }  // namespace strainwave

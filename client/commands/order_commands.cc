@@ -1,37 +1,31 @@
-// enable, disable, hold, clear-fault, home, revert-table, move: one message each, its answer, and where asked the mode that
-// follows.
+// enable, clear-fault, take-over, release, revert-table: one message each, its answer, and where asked the mode that follows.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <optional>
-#include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
-
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
+#include "client/commands/order_steps.h"
 
 namespace strainwave {
 
 namespace {
 
-// A state that left the daemon before it took the order may still arrive after the acknowledgement.
-constexpr double kOldStates_s = 0.1;
+bool is_enabled(Mode mode) {
+  return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
+}
+
+}  // namespace
 
 Mode mode_of(const JointView& view) {
   return static_cast<Mode>(view.state.mode);
 }
 
-command_v1 command(Action action) {
+command_v1 command_message(Action action) {
   command_v1 message{};
   message.action = static_cast<std::int32_t>(action);
   return message;
 }
 
-void order(Client& client, const std::string& joint, Action action) {
-  const Answer answer = client.request(joint, channel_kind::kCommand, command(action));
+void order_accepted(Client& client, const std::string& joint, Action action) {
+  const Answer answer = client.request(joint, channel_kind::kCommand, command_message(action));
   require_accepted(answer, joint, std::string(to_text(action)));
 }
 
@@ -41,118 +35,6 @@ ClientError faulted(const std::string& joint, const JointView& view) {
           fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
                       view.state.fault, to_text(fault), joint)};
 }
-
-/// A motion that is waited for.
-struct Motion {
-  Mode mode;            ///< while it lasts
-  std::string purpose;  ///< in words, after "did not"
-  std::function<bool(const JointView&)> replaced =
-      nullptr;  ///< by another order of this kind; null: cannot be
-};
-
-/// What ends the wait before the joint is there, in words; empty while it is on its way.
-std::string motion_ended(const JointView& view, const Motion& motion, std::int64_t session_id) {
-  if (view.state.session_id != session_id) return "the daemon was restarted";
-  const Mode mode = mode_of(view);
-  if (mode == Mode::kOff || mode == Mode::kStopping) return "the joint was disabled";
-  if (motion.replaced && motion.replaced(view)) return "another order replaced this one";
-  return "";
-}
-
-/// Waits for `done`, which is asked again and again once the order is in force.
-void wait_for_motion(Client& client, const std::string& joint, const Motion& motion,
-                     const std::function<bool(const JointView&)>& done) {
-  constexpr double kLook_s = 0.01;
-  const JointView& view = *client.find(joint);
-  const std::int64_t session_id = view.state.session_id;
-  const Deadline old_states(kOldStates_s);
-  bool motion_seen = false;
-  while (true) {
-    const std::int64_t seen = view.messages;
-    client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
-    if (seconds_between(view.received, now()) > client.options().timeout_s)
-      throw ClientError(
-          ExitStatus::kNoAnswer,
-          fmt::format("{}: the daemon fell silent during the motion; the joint's state is not known", joint));
-    const Mode mode = mode_of(view);
-    if (mode == Mode::kFaulted) throw faulted(joint, view);
-    motion_seen = motion_seen || mode == motion.mode;
-    if (!motion_seen && !old_states.passed()) continue;
-    if (const std::string end = motion_ended(view, motion, session_id); !end.empty()) {
-      throw ClientError(ExitStatus::kRefused, fmt::format("{}: did not {}: {}", joint, motion.purpose, end));
-    }
-    if (done(view)) return;
-  }
-}
-
-/// Inside a tolerance of a target, and staying there.
-class Arrival {
- public:
-  Arrival(double target_rad, double tolerance_rad, double patience_s)
-      : target_rad_(target_rad), tolerance_rad_(tolerance_rad), patience_s_(patience_s), start_(now()) {}
-
-  /// True once the joint has been inside for long enough. Throws ClientError (refused) when it holds outside.
-  bool reached(const std::string& joint, const JointView& view) {
-    constexpr double kStay_s = 0.1;
-    if (!(std::abs(error_rad(view)) <= tolerance_rad_))
-      inside_.reset();
-    else if (!inside_)
-      inside_ = view.received;
-    if (mode_of(view) != Mode::kHolding) {
-      holding_.reset();
-      return false;
-    }
-    if (!holding_) holding_ = now();
-    if (inside_ && seconds_between(*inside_, now()) >= kStay_s) return true;
-    if (seconds_between(*holding_, now()) > patience_s_)
-      throw ClientError(ExitStatus::kRefused,
-                        fmt::format("{}: holds {:.2e} rad away from {} rad, outside of --tolerance_rad {}",
-                                    joint, error_rad(view), target_rad_, tolerance_rad_));
-    return false;
-  }
-  /// From the order to when it was inside for good.
-  double duration_s() const { return std::max(0.0, seconds_between(start_, *inside_)); }
-  double error_rad(const JointView& view) const { return target_rad_ - view.state.joint_position_rad; }
-
- private:
-  double target_rad_;
-  double tolerance_rad_;
-  double patience_s_;
-  Instant start_;
-  std::optional<Instant> inside_;
-  std::optional<Instant> holding_;
-};
-
-bool is_enabled(Mode mode) {
-  return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
-}
-
-/// Sends a disable or hold, without waiting for a state; that it was sent is said whatever comes of it.
-void send_stop(Client& client, const std::string& joint, Action stop) {
-  try {
-    const Answer answer = client.request_unseen(joint, channel_kind::kCommand, command(stop));
-    require_accepted(answer, joint, std::string(to_text(stop)));
-  } catch (const ClientError& error) {
-    if (error.status() != ExitStatus::kNoAnswer) throw;
-    throw ClientError(error.status(), fmt::format("{}: the stop was sent {} times, and nothing answered: {}",
-                                                  joint, 1 + PendingOrder::kRepetitions, error.what()));
-  }
-}
-
-void wait_until_off(Client& client, const Output& output, const std::string& joint) {
-  const JointView& view = client.wait_for_joint(joint);
-  const auto decided = [&] {
-    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
-    return mode_of(view) == Mode::kOff;
-  };
-  if (!client.wait_until(decided, Deadline(client.options().timeout_s))) {
-    throw ClientError(ExitStatus::kNoAnswer, fmt::format("{}: accepted, but still {} after {} s", joint,
-                                                         to_text(mode_of(view)), client.options().timeout_s));
-  }
-  say(output, joint + ": disabled", {{"joint", joint}, {"mode", "off"}});
-}
-
-}  // namespace
 
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
                       const std::string& hint) {
@@ -166,7 +48,7 @@ void require_accepted(const Answer& answer, const std::string& joint, const std:
 
 void enable(Client& client, const Output& output, const std::string& joint) {
   const bool already = is_enabled(mode_of(client.wait_for_joint(joint)));
-  if (!already) order(client, joint, Action::kEnable);
+  if (!already) order_accepted(client, joint, Action::kEnable);
   const JointView& view = *client.find(joint);
   const Deadline old_states(kOldStates_s);
   const auto decided = [&] {
@@ -191,120 +73,27 @@ void enable(Client& client, const Output& output, const std::string& joint) {
        {"already", already}});
 }
 
-void disable(Client& client, const Output& output, const std::string& joint) {
-  send_stop(client, joint, Action::kDisable);
-  wait_until_off(client, output, joint);
-}
-
-void disable_all(Client& client, const Output& output) {
-  std::vector<std::string> stopping;
-  std::optional<ClientError> failure;
-  const auto attempt = [&](const std::string& joint, const auto& step) {
-    try {
-      step(joint);
-      return true;
-    } catch (const ClientError& error) {
-      if (error.status() == ExitStatus::kInterrupted) throw;
-      failure.emplace(failure ? failure->status() : error.status(),
-                      failure ? std::string(failure->what()) + "\n" + error.what() : error.what());
-      return false;
-    }
-  };
-  for (const std::string& joint : client.wait_for_joints())
-    if (attempt(joint, [&](const std::string& name) { send_stop(client, name, Action::kDisable); }))
-      stopping.push_back(joint);
-  for (const std::string& joint : stopping)
-    attempt(joint, [&](const std::string& name) { wait_until_off(client, output, name); });
-  if (failure) throw *failure;
-}
-
-void hold(Client& client, const Output& output, const std::string& joint) {
-  send_stop(client, joint, Action::kHold);
-  say(output, joint + ": holding where it stops", {{"joint", joint}, {"accepted", true}});
-}
-
 void clear_fault(Client& client, const Output& output, const std::string& joint) {
   if (mode_of(client.wait_for_joint(joint)) != Mode::kFaulted)
     return say(output, joint + ": has no fault", {{"joint", joint}, {"already", true}});
-  order(client, joint, Action::kClearFault);
+  order_accepted(client, joint, Action::kClearFault);
   say(output, joint + ": fault cleared; enable it to go on", {{"joint", joint}, {"already", false}});
 }
 
 void revert_table(Client& client, const Output& output, const std::string& joint) {
-  order(client, joint, Action::kRevertTable);
+  order_accepted(client, joint, Action::kRevertTable);
   say(output, joint + ": the previous table is in use again", {{"joint", joint}, {"accepted", true}});
 }
 
 void take_over(Client& client, const Output& output, const std::string& joint) {
-  order(client, joint, Action::kTakeOver);
+  order_accepted(client, joint, Action::kTakeOver);
   say(output, joint + ": taken over; who had it is refused from now on",
       {{"joint", joint}, {"accepted", true}});
 }
 
 void release(Client& client, const Output& output, const std::string& joint) {
-  order(client, joint, Action::kRelease);
+  order_accepted(client, joint, Action::kRelease);
   say(output, joint + ": released; the next who orders has it", {{"joint", joint}, {"accepted", true}});
-}
-
-void home(Client& client, const Output& output, const std::string& joint) {
-  order(client, joint, Action::kHome);
-  try {
-    wait_for_motion(client, joint, {Mode::kHoming, "find home"},
-                    [](const JointView& view) { return mode_of(view) == Mode::kHolding; });
-  } catch (const ClientError& error) {
-    if (error.status() != ExitStatus::kInterrupted) throw;
-    throw ClientError(
-        error.status(),
-        fmt::format("stopped waiting; {0} goes on homing. To stop it: strainwavectl hold {0}", joint));
-  }
-  const state_v1& state = client.find(joint)->state;
-  if ((state.notices & static_cast<std::int32_t>(Notice::kNotHomed)) != 0)
-    throw ClientError(ExitStatus::kRefused, joint + ": homing was stopped before it found home");
-  say(output, fmt::format("{}: homed, holding at {:.6f} rad", joint, state.joint_position_rad),
-      {{"joint", joint}, {"homed", true}, {"position_rad", state.joint_position_rad}});
-}
-
-void move(Client& client, const Output& output, const MoveArguments& arguments) {
-  const std::string& joint = arguments.joint;
-  const double position_rad = arguments.position_rad;
-  setpoint_v2 message{};
-  message.position_rad = position_rad;
-  message.speed_limit_rad_s = arguments.speed_limit_rad_s;
-  message.acknowledge = 1;
-  const Answer answer = client.request(joint, channel_kind::kSetpoint, message);
-  Arrival arrival(position_rad, arguments.tolerance_rad, client.options().timeout_s);
-  std::string hint;
-  if (answer.reason == Reason::kOutOfRange && std::abs(position_rad) > 2.0 * std::numbers::pi) {
-    hint = fmt::format("positions are in rad: {} degrees would be {:.6g}", position_rad,
-                       position_rad * std::numbers::pi / 180.0);
-  }
-  require_accepted(answer, joint, fmt::format("move to {} rad", position_rad), hint);
-  if (!arguments.wait) {
-    say(output, fmt::format("{}: moving to {} rad", joint, position_rad),
-        {{"joint", joint}, {"target_rad", position_rad}, {"arrived", false}});
-    return;
-  }
-  try {
-    wait_for_motion(client, joint,
-                    {Mode::kTracking, fmt::format("arrive at {} rad", position_rad),
-                     [&](const JointView& view) { return view.state.target_position_rad != position_rad; }},
-                    [&](const JointView& view) { return arrival.reached(joint, view); });
-  } catch (const ClientError& error) {
-    if (error.status() != ExitStatus::kInterrupted) throw;
-    throw ClientError(error.status(),
-                      fmt::format("stopped waiting; {} goes on to {} rad. To stop it: strainwavectl "
-                                  "hold {}",
-                                  joint, position_rad, joint));
-  }
-  const double error_rad = arrival.error_rad(*client.find(joint));
-  say(output,
-      fmt::format("{}: arrived at {} rad in {:.3f} s, error {:.2e} rad", joint, position_rad,
-                  arrival.duration_s(), error_rad),
-      {{"joint", joint},
-       {"target_rad", position_rad},
-       {"arrived", true},
-       {"duration_s", arrival.duration_s()},
-       {"error_rad", error_rad}});
 }
 
 }  // namespace strainwave

@@ -1,19 +1,62 @@
 #include "client/commands/sibling_program.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
 
+#include "base/unique_fd.h"
 #include "client/link/client.h"
 #include "client/link/exit_status.h"
 
 namespace strainwave {
 
-int run_sibling(const std::string& name, const std::vector<std::string>& arguments) {
+namespace {
+
+/// What a child writes to its standard output, if somebody wants to have it.
+class Capture {
+ public:
+  explicit Capture(std::string* into) : into_(into) {
+    ::posix_spawn_file_actions_init(&actions_);
+    if (into_ == nullptr) return;
+    std::array<int, 2> ends{-1, -1};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "making a pipe");
+    read_end_.reset(ends[0]);
+    write_end_.reset(ends[1]);
+    ::posix_spawn_file_actions_adddup2(&actions_, ends[1], STDOUT_FILENO);
+  }
+  ~Capture() { ::posix_spawn_file_actions_destroy(&actions_); }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+
+  const posix_spawn_file_actions_t* actions() const noexcept { return &actions_; }
+  /// Until the child closes it.
+  void read_all() {
+    if (into_ == nullptr) return;
+    write_end_.reset();
+    std::array<char, 4096> part{};
+    for (ssize_t size = 1; size > 0 || (size < 0 && errno == EINTR);) {
+      size = ::read(read_end_.get(), part.data(), part.size());
+      if (size > 0) into_->append(part.data(), static_cast<std::size_t>(size));
+    }
+  }
+
+ private:
+  std::string* into_;
+  UniqueFd read_end_;
+  UniqueFd write_end_;
+  posix_spawn_file_actions_t actions_{};
+};
+
+}  // namespace
+
+int run_sibling(const std::string& name, const std::vector<std::string>& arguments, std::string* printed) {
   std::error_code error;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / name;
   std::vector<std::string> words{program};
@@ -23,11 +66,14 @@ int run_sibling(const std::string& name, const std::vector<std::string>& argumen
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t child = -1;
-  if (const int failure = ::posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ);
+  Capture capture(printed);
+  if (const int failure =
+          ::posix_spawn(&child, program.c_str(), capture.actions(), nullptr, argv.data(), environ);
       failure != 0)
     throw ClientError(ExitStatus::kUsage, program +
                                               " cannot be run: " + std::generic_category().message(failure) +
                                               ": install it beside strainwavectl");
+  capture.read_all();
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waiting for " + name);

@@ -6,8 +6,9 @@
 
 namespace strainwave {
 
-/// Runs `name` with `arguments`, its output going where ours goes, and returns its exit status, 128 + n after
-/// signal n. Throws ClientError (file) when it is not there.
-int run_sibling(const std::string& name, const std::vector<std::string>& arguments);
+/// Runs `name` with `arguments` and returns its exit status, 128 + n after signal n. Its output goes where ours goes, or the standard one
+/// into `printed`. Throws ClientError (file) when it is not there.
+int run_sibling(const std::string& name, const std::vector<std::string>& arguments,
+                std::string* printed = nullptr);
 
 }  // namespace strainwave

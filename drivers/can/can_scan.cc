@@ -7,7 +7,6 @@
 #include "drivers/can/can_socket.h"
 #include "drivers/can/canopen/sdo_client.h"
 #include "drivers/can/cia402/cia402_description.h"
-#include "drivers/can/hexadecimal.h"
 
 namespace strainwave {
 
@@ -71,16 +70,6 @@ void describe_node(SdoClient& client, ScannedNode& node) {
   read_temperatures(client, node);
 }
 
-void write_node(const ScannedNode& node, std::ostream& out) {
-  out << "node " << static_cast<int>(node.node_id) << ": device type " << hexadecimal(node.device_type, 8);
-  if (!node.identity.empty()) out << ", " << node.identity;
-  out << '\n';
-  if (!node.modes.empty()) out << "  modes: " << node.modes << '\n';
-  for (const std::string& object : node.mapped) out << "  sends " << object << '\n';
-  for (const std::string& object : node.temperatures) out << "  temperature? " << object << '\n';
-  if (!node.trouble.empty()) out << "  " << node.trouble << '\n';
-}
-
 }  // namespace
 
 std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t timeout_ns) {
@@ -109,16 +98,13 @@ std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t t
   return nodes;
 }
 
-void scan_can_interface(const std::string& interface_name, std::ostream& out) {
+std::vector<ScannedNode> scan_can_interface(const std::string& interface_name) {
   const CanInterface interface = inspect_can_interface(interface_name);
   // At whatever bit rate it runs: that is what a scan is to find out.
   require_can_interface(interface_name, interface, interface.bit_rate.value_or(0), 1);
-  const std::vector<ScannedNode> nodes = scan_can_bus(
+  return scan_can_bus(
       [&](const CanPortOptions& options) { return std::make_unique<CanSocket>(interface_name, options); },
       kAskTimeout_ns);
-  for (const ScannedNode& node : nodes) write_node(node, out);
-  out << interface_name << ": " << nodes.size() << " CANopen node(s) answered"
-      << (nodes.empty() ? "; check bit rate, termination, and the drives' supply" : "") << '\n';
 }
 
 }  // namespace strainwave

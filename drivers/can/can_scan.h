@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,7 @@ struct ScannedNode {
 /// Asks the nodes 1..127 one after the other, each for `timeout_ns`.
 std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t timeout_ns);
 
-/// Scans the interface and writes what was found. Throws InputError when it cannot be used.
-void scan_can_interface(const std::string& interface_name, std::ostream& out);
+/// The same on an interface of this machine. Throws InputError when it cannot be used.
+std::vector<ScannedNode> scan_can_interface(const std::string& interface_name);
 
 }  // namespace strainwave

@@ -1,4 +1,4 @@
-"""Waiting for a motion's end. Source: client/commands/order_commands.cc, of which this is the same in Python."""
+"""Waiting for a motion's end. Source: client/commands/motion_commands.cc, of which this is the same in Python."""
 import dataclasses
 
 from .errors import Faulted, NoAnswer, NotDone

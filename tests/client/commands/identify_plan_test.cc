@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "client/link/exit_status.h"
 
@@ -97,6 +98,16 @@ TEST(IdentifyPlan, RefusesWhatIsBeyondTheLimitsAndNamesThem) {
   arguments = {};
   arguments.max_torque_Nm = 35.0;
   EXPECT_NE(refusal(arguments).find("limit is 34"), std::string::npos);
+}
+
+TEST(IdentifyPlan, AsJsonHasEverySweep) {
+  const IdentifyPlan plan = plan_identification({}, limits(), 0.0);
+  const auto json = nlohmann::json::parse(to_json(plan, "elbow"));
+  EXPECT_EQ(json.at("joint"), "elbow");
+  EXPECT_EQ(json.at("max_torque_Nm"), plan.max_torque_Nm);
+  ASSERT_EQ(json.at("sweeps").size(), plan.sweeps.size());
+  EXPECT_EQ(json.at("sweeps").front().at("speed_rad_s"), plan.sweeps.front().speed_rad_s);
+  EXPECT_EQ(json.at("left_out_rad_s").size(), plan.left_out_rad_s.size());
 }
 
 }  // namespace

@@ -59,7 +59,9 @@ class Fragments(unittest.TestCase):
         for header in (pack(magic, 1, 10, 0, 1, 1), pack(magic, 1, 10, 0, 0, 0), pack(magic, 1, 0xFFFFFFFF, 0, 1, 2),
                        pack(magic, 1, 10, 0xFFFFFFFF, 1, 2), pack(magic, 1, 10, 6, 1, 2), pack(magic, 1, 10, 5, 0, 2),
                        pack(magic, 1, 10, 0, 1, 0xFFFF)):
-            self.assertIsNone(Reassembly().take(HERE, header + b"c\0345"), header)
+            reassembly = Reassembly()
+            self.assertIsNone(reassembly.take(HERE, header + b"c\0" b"345"), header)
+            self.assertEqual(reassembly.malformed, 1, header)
 
     def test_that_overlap_or_leave_a_gap_make_no_message(self):
         for wrong_offset in (0, 50, 150):

@@ -1,0 +1,42 @@
+// A client with a daemon of the test's own on the other side of LCM's memory queue, and what a command printed or threw.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+#include "client/commands/commands.h"
+#include "client/link/exit_status.h"
+#include "tests/client/link/fake_daemon.h"
+
+namespace strainwave::testing {
+
+class CommandsTest : public ::testing::Test {
+ protected:
+  /// How `command` ended, with its message in `message`.
+  template <typename Command>
+  ExitStatus status_of(const Command& command) {
+    try {
+      command();
+      return ExitStatus::kDone;
+    } catch (const ClientError& error) {
+      message = error.what();
+      return error.status();
+    }
+  }
+  bool message_has(const std::string& part) const { return message.find(part) != std::string::npos; }
+  bool output_has(const std::string& part) const { return stream.str().find(part) != std::string::npos; }
+  ExitStatus move_and_wait(double position_rad) {
+    return status_of([&] { move(client, output, {"elbow", position_rad, true, 0.0}); });
+  }
+
+  Connection connection{"memq://"};
+  FakeDaemon daemon{connection, "SW", "elbow"};
+  Client client{connection, {"SW", 0.3}};
+  std::ostringstream stream;
+  Output output{stream, false};
+  std::string message;
+};
+
+}  // namespace strainwave::testing

@@ -1,0 +1,105 @@
+// Motions that are waited for.
+#include <gtest/gtest.h>
+
+#include <strainwave/setpoint_v2.hpp>
+
+#include "tests/client/commands/commands_fixture.h"
+
+namespace strainwave {
+namespace {
+
+using testing::CommandsTest;
+
+TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kHolding, Mode::kHoming, Mode::kHoming, Mode::kHolding};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_TRUE(output_has("elbow: homed"));
+  daemon.state.notices = static_cast<std::int32_t>(Notice::kNotHomed);
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("before it found home")) << message;
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kStopping};
+  EXPECT_EQ(status_of([&] { home(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("did not find home: the joint was disabled")) << message;
+}
+
+TEST_F(CommandsTest, MoveAsksForAnAcknowledgementOfAMoveNotAStream) {
+  daemon.publish_state(Mode::kHolding);
+  move(client, output, {"elbow", -0.25, false});
+  const auto setpoint = decode_exactly<setpoint_v2>(daemon.heard().at(0).bytes);
+  ASSERT_TRUE(setpoint);
+  EXPECT_EQ(setpoint->position_rad, -0.25);
+  EXPECT_EQ(setpoint->valid_for_s, 0.0);
+  EXPECT_EQ(setpoint->acknowledge, 1);
+}
+
+TEST_F(CommandsTest, MoveWaitsUntilTheJointHoldsAtTheTarget) {
+  daemon.publish_state(Mode::kHolding);
+  // The first state left the daemon before it took the order.
+  daemon.modes_after_answer = {Mode::kHolding, Mode::kTracking, Mode::kTracking, Mode::kHolding};
+  daemon.after_answer = [&] { daemon.state.joint_position_rad = 0.4995; };
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kDone) << message;
+  EXPECT_TRUE(output_has("arrived at 0.5 rad in ")) << stream.str();
+  EXPECT_TRUE(output_has("error 5.00e-04 rad")) << stream.str();
+  EXPECT_EQ(client.find("elbow")->messages, 5);
+}
+
+TEST_F(CommandsTest, MoveDoesNotCallItArrivedOutsideOfTheTolerance) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kHolding};
+  daemon.after_answer = [&] { daemon.state.joint_position_rad = 0.49; };
+  EXPECT_NE(move_and_wait(0.5), ExitStatus::kDone);
+  EXPECT_FALSE(output_has("arrived"));
+}
+
+TEST_F(CommandsTest, MoveEndsWithTheFaultThatEndedIt) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.state.fault = static_cast<std::int32_t>(Fault::kFollowingError);
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kFaulted};
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("following error")) << message;
+}
+
+TEST_F(CommandsTest, MoveEndsWhenAnotherOrderReplacesIt) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kTracking};
+  daemon.after_answer = [&] {
+    daemon.publish_state(Mode::kTracking);
+    daemon.state.target_position_rad = 0.1;  // a hold
+  };
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("another order")) << message;
+}
+
+TEST_F(CommandsTest, MoveEndsWhenTheJointIsDisabledOrTheDaemonRestarted) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kStopping};
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("disabled")) << message;
+  daemon.modes_after_answer = {Mode::kTracking};
+  daemon.after_answer = [&] {
+    daemon.publish_state(Mode::kTracking);
+    ++daemon.state.session_id;
+  };
+  EXPECT_EQ(move_and_wait(0.6), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("restarted")) << message;
+}
+
+TEST_F(CommandsTest, MoveSaysSoWhenTheDaemonFallsSilent) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.modes_after_answer = {Mode::kTracking};
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("fell silent")) << message;
+}
+
+TEST_F(CommandsTest, RefusedMoveThatLooksLikeDegreesGetsAHint) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.reason = Reason::kOutOfRange;
+  EXPECT_EQ(status_of([&] { move(client, output, {"elbow", 90.0, false}); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("90 degrees would be 1.5708")) << message;
+  EXPECT_EQ(status_of([&] { move(client, output, {"elbow", 3.0, false}); }), ExitStatus::kRefused);
+  EXPECT_FALSE(message_has("degrees")) << message;
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,139 @@
+// What only looks: status, watch, record, timing.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <map>
+#include <strainwave/timing_v1.hpp>
+
+#include "lcmtypes/event_log.h"
+#include "tests/client/commands/commands_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+namespace {
+
+using testing::CommandsTest;
+
+TEST_F(CommandsTest, StatusShowsEveryJointOrEveryFieldOfOne) {
+  daemon.publish_state(Mode::kHolding);
+  FakeDaemon(connection, "SW", "wrist").publish_state(Mode::kTracking);
+  show_status(client, output, {});
+  EXPECT_TRUE(output_has("elbow"));
+  EXPECT_TRUE(output_has("wrist"));
+  stream.str("");
+  show_status(client, output, {"elbow"});
+  EXPECT_TRUE(output_has("torque_feedforward_Nm"));
+  EXPECT_FALSE(output_has("wrist"));
+}
+
+TEST_F(CommandsTest, StatusAsJsonWritesNullForWhatIsNotFinite) {
+  daemon.state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
+  daemon.state.session_id = 0x7fff'ffff'ffff'fff1;
+  daemon.publish_state(Mode::kHolding);
+  output.json = true;
+  show_status(client, output, {"elbow"});
+  EXPECT_TRUE(output_has("\"temperature_used_C\": null")) << stream.str();
+  EXPECT_TRUE(output_has("\"session_id\": 9223372036854775793")) << stream.str();
+  EXPECT_TRUE(output_has("\"mode_text\": \"holding\"")) << stream.str();
+}
+
+TEST_F(CommandsTest, WatchWithoutATerminalWritesLinesWithoutControlCharacters) {
+  daemon.publish_state(Mode::kHolding);
+  watch(client, output, {{"elbow"}, 0.02, 0.1, false});
+  EXPECT_EQ(stream.str().find('\x1b'), std::string::npos);
+  EXPECT_TRUE(output_has("elbow"));
+}
+
+TEST_F(CommandsTest, StatusNamesTheDaemonOnlyWhenSeveralAreHeard) {
+  Client all{connection, {"SW", 0.3, "", true}};
+  FakeDaemon other(connection, "ARM2", "elbow");
+  daemon.publish_state(Mode::kHolding);
+  show_status(all, output, {});
+  EXPECT_FALSE(output_has("SW.elbow"));
+  stream.str("");
+  other.publish_state(Mode::kOff);
+  show_status(all, output, {});
+  EXPECT_TRUE(output_has("SW.elbow")) << stream.str();
+  EXPECT_TRUE(output_has("ARM2.elbow")) << stream.str();
+  stream.str("");
+  show_status(client, output, {});
+  EXPECT_FALSE(output_has("ARM2")) << "the prefix was chosen";
+}
+
+TEST_F(CommandsTest, RecordWritesEveryMessageOfTheChosenJoints) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "record.lcm";
+  FakeDaemon wrist(connection, "SW", "wrist");
+  daemon.publish_state(Mode::kHolding);
+  client.wait_for_joint("elbow");
+  for (int i = 0; i < 20; ++i) {
+    daemon.publish_state();
+    wrist.publish_state();
+  }
+  connection.publish("OTHER.elbow.STATE", encode(state_v1{}));
+  record(client, output, {{"elbow"}, file, 0.2, false});
+  std::map<std::string, int> counts;
+  EventLogReader reader(file);
+  for (LogEvent event; reader.next(event);) ++counts[event.channel];
+  EXPECT_EQ(counts, (std::map<std::string, int>{{"SW.elbow.STATE", 20}}));
+}
+
+TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "record_kept.lcm";
+  std::ofstream(file) << "precious\n";
+  daemon.publish_state();
+  const auto attempt = [&](bool overwrite) {
+    return status_of([&] { record(client, output, {{"elbow"}, file, 0.01, overwrite}); });
+  };
+  EXPECT_EQ(attempt(false), ExitStatus::kUsage);
+  std::string first;
+  std::getline(std::ifstream(file), first);
+  EXPECT_EQ(first, "precious");
+  EXPECT_EQ(attempt(true), ExitStatus::kDone);
+}
+
+TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
+  daemon.publish_state();
+  EXPECT_EQ(status_of([&] {
+              record(client, output, {{"elbow"}, "/nonexistent/a.lcm", 0.01, false});
+            }),
+            ExitStatus::kUsage);
+}
+
+/// memq:// drops what nobody has subscribed to yet: sends the message once a first one, the trigger, is
+/// dispatched.
+class LaterTiming {
+ public:
+  LaterTiming(Connection& connection, const timing_v1& timing)
+      : connection_(connection),
+        timing_(timing),
+        subscription_(connection.subscribe("TRIGGER", &LaterTiming::on_trigger, this)) {
+    connection_.publish("TRIGGER", encode(timing));
+  }
+
+ private:
+  void on_trigger(const ReceivedMessage&) { connection_.publish("SW.TIMING", encode(timing_)); }
+
+  Connection& connection_;
+  timing_v1 timing_;
+  Subscription subscription_;
+};
+
+TEST_F(CommandsTest, TimingSaysWhetherRealTimeIsUsedAndWhatWasRefused) {
+  timing_v1 timing{};
+  timing.real_time = 0;
+  timing.rejects[static_cast<int>(Reason::kWrongSession)] = 3;
+  const LaterTiming later(connection, timing);
+  show_timing(client, output);
+  EXPECT_TRUE(output_has("no (refused by the system)"));
+  EXPECT_TRUE(output_has("3 (another session of the daemon)")) << stream.str();
+}
+
+TEST_F(CommandsTest, TimingSaysSoWhenNoneComes) {
+  EXPECT_EQ(status_of([&] { show_timing(client, output); }), ExitStatus::kNoAnswer);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,161 @@
+// Orders, their answers, and what is printed of them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/inject_v1.hpp>
+#include <vector>
+
+#include "base/input_error.h"
+#include "client/commands/sibling_program.h"
+#include "tests/client/commands/commands_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+namespace {
+
+using testing::CommandsTest;
+
+TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
+  daemon.publish_state();
+  daemon.modes_after_answer = {Mode::kHolding};
+  enable(client, output, "elbow");
+  hold(client, output, "elbow");
+  daemon.publish_state(Mode::kFaulted);
+  while (connection.handle(0)) {
+  }
+  clear_fault(client, output, "elbow");
+  revert_table(client, output, "elbow");
+  daemon.modes_after_answer = {Mode::kHoming, Mode::kHolding};
+  home(client, output, "elbow");
+  daemon.modes_after_answer = {Mode::kOff};
+  disable(client, output, "elbow");
+  std::vector<std::int32_t> actions;
+  for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
+  EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 6, 2}));
+}
+
+TEST_F(CommandsTest, AnInjectionCarriesKindAmountAndDuration) {
+  daemon.publish_state();
+  inject(client, output, parse_injection("elbow", "sensor_jump", 0.25, 1.5));
+  ASSERT_EQ(daemon.heard().size(), 1U);
+  EXPECT_TRUE(daemon.heard().front().channel.ends_with(".INJECT"));
+  const auto injection = decode_exactly<inject_v1>(daemon.heard().front().bytes);
+  ASSERT_TRUE(injection);
+  EXPECT_EQ(injection->kind, static_cast<std::int32_t>(InjectedFault::kSensorJump));
+  EXPECT_EQ(injection->amount, 0.25);
+  EXPECT_EQ(injection->for_s, 1.5);
+}
+
+TEST_F(CommandsTest, AnUnknownInjectionNamesThoseThatThereAre) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "gremlins", 0.0, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("gremlins") && message_has("sensor_nan") && message_has("power_lost")) << message;
+}
+
+TEST_F(CommandsTest, AnAmountOutOfRangeIsRefusedWithRangeAndUnit) {
+  EXPECT_EQ(status_of([&] { parse_injection("elbow", "slow_read", 1.5, 0.0); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("1.5") && message_has("0 to 1 s")) << message;
+}
+
+TEST_F(CommandsTest, EnableReturnsOnceTheJointHolds) {
+  daemon.publish_state();
+  daemon.modes_after_answer = {Mode::kOff, Mode::kStarting, Mode::kHolding};
+  EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_EQ(client.find("elbow")->state.mode, static_cast<std::int32_t>(Mode::kHolding));
+  EXPECT_TRUE(output_has("elbow: enabled"));
+}
+
+TEST_F(CommandsTest, GpioCheckSaysWhereItsHelperMustBe) {
+  // Beside this test's program there is no strainwaved.
+  EXPECT_EQ(status_of([&] { gpio_check(output, "gpio.toml"); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("strainwaved")) << message;
+  EXPECT_TRUE(message_has("install it beside strainwavectl")) << message;
+}
+
+TEST(SiblingProgram, TellsItsStatusAndWhatItPrintedWhenAsked) {
+  std::string printed;
+  EXPECT_EQ(run_sibling("/bin/sh", {"-c", "echo one; echo two; echo aside >&2; exit 3"}, &printed), 3);
+  EXPECT_EQ(printed, "one\ntwo\n");
+  // More than a pipe holds.
+  EXPECT_EQ(run_sibling("/bin/sh", {"-c", "head -c 300000 /dev/zero"}, &printed), 0);
+  EXPECT_EQ(printed.size(), 300008U);
+  EXPECT_EQ(run_sibling("/bin/sh", {"-c", "kill -9 $$"}), 128 + 9);
+}
+
+TEST_F(CommandsTest, EnablePrintsTheReasonOfARefusal) {
+  daemon.publish_state();
+  daemon.reason = Reason::kNoTable;
+  daemon.text = "load one first";
+  EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_EQ(message, "elbow: enable refused (5, no gain table loaded): load one first");
+  EXPECT_EQ(stream.str(), "");
+}
+
+TEST_F(CommandsTest, EnableReportsAFaultDuringTheStart) {
+  daemon.publish_state();
+  daemon.state.fault = static_cast<std::int32_t>(Fault::kStartTimeout);
+  daemon.modes_after_answer = {Mode::kStarting, Mode::kFaulted};
+  EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("drive did not enable in time")) << message;
+  EXPECT_TRUE(message_has("clear-fault elbow")) << message;
+}
+
+TEST_F(CommandsTest, EnableThatNeverEndsIsNoSuccess) {
+  daemon.publish_state();
+  daemon.modes_after_answer = {Mode::kStarting};
+  EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("still starting")) << message;
+}
+
+TEST_F(CommandsTest, DisableReachesAJointThatIsNotHeard) {
+  daemon.modes_after_answer = {Mode::kStopping, Mode::kOff};
+  EXPECT_EQ(status_of([&] { disable(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_TRUE(output_has("elbow: disabled"));
+}
+
+TEST_F(CommandsTest, EnableAndClearFaultAreDoneAlreadyWhenThereIsNothingToDo) {
+  daemon.publish_state(Mode::kHolding);
+  enable(client, output, "elbow");
+  EXPECT_TRUE(output_has("elbow: enabled already, holding at")) << stream.str();
+  clear_fault(client, output, "elbow");
+  EXPECT_TRUE(output_has("elbow: has no fault")) << stream.str();
+  EXPECT_TRUE(daemon.heard().empty()) << "nothing was sent";
+}
+
+TEST_F(CommandsTest, AStopThatNobodyAnswersWasSentAllTheSame) {
+  EXPECT_EQ(status_of([&] { disable(client, output, "ghost"); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("ghost: the stop was sent 4 times, and nothing answered")) << message;
+}
+
+TEST_F(CommandsTest, DisableAllGoesOnAfterAFailure) {
+  FakeDaemon wrist(connection, "SW", "wrist");
+  daemon.publish_state(Mode::kHolding);
+  wrist.publish_state(Mode::kHolding);
+  daemon.drop = 100;
+  wrist.modes_after_answer = {Mode::kOff};
+  EXPECT_EQ(status_of([&] { disable_all(client, output); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("elbow: the stop was sent")) << message;
+  EXPECT_TRUE(output_has("wrist: disabled"));
+}
+
+TEST_F(CommandsTest, ResultsAreOneJsonObjectALineWhenAskedFor) {
+  output.json = true;
+  daemon.publish_state(Mode::kHolding);
+  hold(client, output, "elbow");
+  enable(client, output, "elbow");
+  EXPECT_TRUE(output_has("{\"joint\":\"elbow\",\"accepted\":true}\n")) << stream.str();
+  EXPECT_TRUE(output_has("\"already\":true}\n")) << stream.str();
+}
+
+TEST_F(CommandsTest, LoadTableRefusesAFileThatIsNoTableBeforeAnythingIsSent) {
+  daemon.publish_state();
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "no_table.json";
+  std::ofstream(file) << "{}";
+  EXPECT_THROW(load_table(client, output, {"elbow", file}), InputError);
+  EXPECT_THROW(load_table(client, output, {std::nullopt, "/nonexistent/table.json"}), InputError);
+  EXPECT_TRUE(daemon.heard().empty());
+}
+
+}  // namespace
+}  // namespace strainwave
