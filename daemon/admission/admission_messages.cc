@@ -1,0 +1,187 @@
+// The part of admission.h that judges what each kind of message says, once its envelope has passed.
+#include <cmath>
+#include <sstream>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/inject_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
+
+#include "daemon/admission/admission.h"
+#include "daemon/admission/table_admission.h"
+#include "daemon/admission/verdict.h"
+#include "lcmtypes/gain_table_message.h"
+#include "lcmtypes/wire.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kMaxValidFor_s = 3600.0;
+constexpr double kMaxInjection_s = 3600.0;
+// Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
+constexpr double kMaxVelocity_rad_s = 1000.0;
+constexpr double kMaxAcceleration_rad_s2 = 1e6;
+
+// What a setpoint says beyond its position must be possible, and is for streams only.
+std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
+  std::ostringstream text;
+  if (setpoint.derivatives < 0 || setpoint.derivatives > 2)
+    text << "derivatives = " << setpoint.derivatives << ": 0, 1 (velocity) or 2 (acceleration, too)";
+  else if (setpoint.stream_id == 0 && (setpoint.derivatives != 0 || setpoint.at_cycle != 0))
+    text << "a move (stream_id 0) ends at rest, as soon as it can: derivatives and at_cycle must be 0";
+  else if (setpoint.at_cycle < 0)
+    text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none";
+  else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
+    text << "velocity_rad_s = " << setpoint.velocity_rad_s << ": at most " << kMaxVelocity_rad_s;
+  else if (std::abs(setpoint.acceleration_rad_s2) > kMaxAcceleration_rad_s2)
+    text << "acceleration_rad_s2 = " << setpoint.acceleration_rad_s2 << ": at most "
+         << kMaxAcceleration_rad_s2;
+  else
+    return std::nullopt;
+  return text.str();
+}
+
+std::optional<OrderKind> order_of(Action action) {
+  switch (action) {
+    case Action::kEnable:
+      return OrderKind::kEnable;
+    case Action::kDisable:
+      return OrderKind::kDisable;
+    case Action::kHold:
+      return OrderKind::kHold;
+    case Action::kClearFault:
+      return OrderKind::kClearFault;
+    case Action::kRevertTable:
+      return OrderKind::kUseTable;
+    case Action::kHome:
+      return OrderKind::kHome;
+    case Action::kTakeOver:
+    case Action::kRelease:
+      break;  // of admission itself, not of the loop
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message) {
+  const auto setpoint = decode_exactly<setpoint_v2>(payload(message));
+  if (!setpoint) return discard(Reason::kMalformed);
+  Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
+  if (auto verdict = check_envelope(
+          message, {setpoint->session_id, setpoint->challenge, Role::kOperator, true}, requester))
+    return std::move(*verdict);
+  if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
+      !std::isfinite(setpoint->speed_limit_rad_s) || !std::isfinite(setpoint->velocity_rad_s) ||
+      !std::isfinite(setpoint->acceleration_rad_s2))
+    return refuse(
+        requester, Reason::kNotFinite,
+        "position_rad, velocity_rad_s, acceleration_rad_s2, valid_for_s and speed_limit_rad_s must be "
+        "finite numbers");
+  const JointAdmission& limits = joints_[joint];
+  std::ostringstream text;
+  if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
+    text << "position_rad = " << setpoint->position_rad << ": from " << limits.position_min_rad << " to "
+         << limits.position_max_rad << " is allowed (joint.limits of " << limits.name << ")";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s ||
+      (setpoint->valid_for_s > 0.0) != (setpoint->stream_id != 0)) {
+    text << "valid_for_s = " << setpoint->valid_for_s << " with stream_id = " << setpoint->stream_id
+         << ": both 0 (a move), or a stream and at most " << kMaxValidFor_s << " s are allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
+    text << "speed_limit_rad_s = " << setpoint->speed_limit_rad_s << ": from 0 (no limit of its own) to "
+         << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_limit_rad_s of " << limits.name
+         << ")";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (auto complaint = complaint_about_motion(*setpoint))
+    return refuse(requester, Reason::kOutOfRange, *complaint);
+  Verdict verdict = pass(requester, OrderKind::kSetpoint, setpoint->challenge);
+  verdict.order.velocity_rad_s = setpoint->velocity_rad_s;
+  verdict.order.acceleration_rad_s2 = setpoint->acceleration_rad_s2;
+  verdict.order.derivatives = setpoint->derivatives;
+  verdict.order.at_cycle = setpoint->at_cycle;
+  verdict.order.stream_id = setpoint->stream_id;
+  verdict.order.begins_stream = setpoint->begins_stream != 0;
+  verdict.order.position_rad = setpoint->position_rad;
+  verdict.order.valid_for_s = setpoint->valid_for_s;
+  verdict.order.speed_limit_rad_s = setpoint->speed_limit_rad_s;
+  return verdict;
+}
+
+Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) {
+  const auto command = decode_exactly<command_v1>(payload(message));
+  if (!command) return discard(Reason::kMalformed);
+  Requester requester{joint, command->sender_id, command->sequence};
+  const auto action = static_cast<Action>(command->action);
+  const auto kind = order_of(action);
+  if (action == Action::kDisable || action == Action::kHold)
+    return stop(message, *kind, command->session_id, command->challenge, requester);
+  const bool engineers = action == Action::kRevertTable || action == Action::kTakeOver;
+  if (auto verdict = check_envelope(message,
+                                    {command->session_id, command->challenge,
+                                     engineers ? Role::kEngineer : Role::kOperator, kind.has_value()},
+                                    requester))
+    return std::move(*verdict);
+  if (action == Action::kTakeOver || action == Action::kRelease) return change_owner(action, requester);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction,
+                  "action = " + std::to_string(command->action) + ": see docs/messages.md");
+  Verdict verdict = pass(requester, *kind, command->challenge);
+  verdict.revert_table = action == Action::kRevertTable;
+  return verdict;
+}
+
+Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& message) {
+  const auto table_message = decode_exactly<gain_table_v1>(payload(message));
+  if (!table_message) return discard(Reason::kMalformed);
+  Requester requester{joint, table_message->sender_id, table_message->sequence};
+  if (auto verdict = check_envelope(
+          message, {table_message->session_id, table_message->challenge, Role::kEngineer, true}, requester))
+    return std::move(*verdict);
+  auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
+  const TableVerdict judged = judge_table(*table, joints_[joint].plant, joints_[joint].torque_limit_Nm);
+  if (judged.reason != Reason::kAccepted) return refuse(requester, judged.reason, judged.text);
+  Verdict verdict = pass(requester, OrderKind::kUseTable, table_message->challenge);
+  verdict.text = judged.text;
+  verdict.table = std::move(table);
+  return verdict;
+}
+
+Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message) {
+  const auto inject = decode_exactly<inject_v1>(payload(message));
+  if (!inject) return discard(Reason::kMalformed);
+  Requester requester{joint, inject->sender_id, inject->sequence};
+  if (auto verdict =
+          check_envelope(message, {inject->session_id, inject->challenge, Role::kEngineer, false}, requester))
+    return std::move(*verdict);
+  if (!joints_[joint].takes_injected_faults)
+    return refuse(requester, Reason::kNotSimulated,
+                  joints_[joint].name + " has a real drive: faults are not injected there");
+  if (!std::isfinite(inject->for_s) || !std::isfinite(inject->amount))
+    return refuse(requester, Reason::kNotFinite, "for_s and amount must be finite numbers");
+  const auto kind = injected_fault_of(inject->kind);
+  if (!kind)
+    return refuse(requester, Reason::kUnknownAction,
+                  "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
+  const AmountRange range = amount_range(*kind);
+  std::ostringstream text;
+  if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {
+    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s
+         << " is allowed";
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  if (inject->amount < range.min || inject->amount > range.max) {
+    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max
+         << " is allowed for " << to_text(*kind);
+    return refuse(requester, Reason::kOutOfRange, text.str());
+  }
+  Verdict verdict = pass(requester, OrderKind::kInject, inject->challenge);
+  verdict.order.injection = {*kind, 0.0, inject->for_s, inject->amount};
+  return verdict;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,35 @@
+// What admission answers: the two ways to say no, and the message's bytes. Not real-time.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "daemon/admission/admission.h"
+
+namespace strainwave {
+
+/// Of a message as the gateway wrote it, whatever it says of its size.
+inline std::span<const std::uint8_t> payload(const WireMessage& message) {
+  return {message.bytes.data(), std::min<std::size_t>(message.size, message.bytes.size())};
+}
+
+/// Answered with why.
+inline Verdict refuse(const Requester& requester, Reason reason, const std::string& text) {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kRefuse;
+  verdict.reason = reason;
+  verdict.text = text;
+  verdict.requester = requester;
+  return verdict;
+}
+
+/// Counted, and not answered: nobody knows whom.
+inline Verdict discard(Reason reason) {
+  Verdict verdict;
+  verdict.reason = reason;
+  return verdict;
+}
+
+}  // namespace strainwave
