@@ -76,6 +76,10 @@ cia402::DriveInputs read_inputs(TomlSection section) {
   inputs.negative_limit = section.boolean_or("negative_limit", false);
   inputs.positive_limit = section.boolean_or("positive_limit", false);
   inputs.home = section.boolean_or("home", false);
+  const std::string index = section.choice_or("index", "none", {"none", "encoder", "probe"});
+  inputs.index = index == "encoder" ? cia402::ProbeSource::kIndex
+                 : index == "probe" ? cia402::ProbeSource::kInput
+                                    : cia402::ProbeSource::kNone;
   section.refuse_unknown_keys();
   return inputs;
 }
@@ -219,8 +223,8 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   };
   (void)cia402::pdo_layout(drive);  // refuses what does not fit
   bus.drives.emplace_back(drive);
-  return {drive.inputs.home, drive.inputs.negative_limit, drive.inputs.positive_limit, false,
-          !drive.absolute_encoder};
+  return {drive.inputs.home, drive.inputs.negative_limit, drive.inputs.positive_limit,
+          drive.inputs.index != cia402::ProbeSource::kNone, !drive.absolute_encoder};
 }
 
 std::vector<BusConfig> CanConfig::buses() const {

@@ -22,6 +22,9 @@ constexpr MappedObject kVelocity{{0x606C, 0}, 4};
 constexpr MappedObject kTargetTorque{{0x6071, 0}, 2};
 constexpr MappedObject kTorque{{0x6077, 0}, 2};
 constexpr MappedObject kDigitalInputs{{0x60FD, 0}, 4};
+constexpr MappedObject kProbeFunction{{0x60B8, 0}, 2};
+constexpr MappedObject kProbeStatus{{0x60B9, 0}, 2};
+constexpr MappedObject kProbePosition{{0x60BA, 0}, 4};
 
 constexpr std::uint8_t kEverySync = 1;
 constexpr int kMaxSyncDivider = 240;
@@ -92,6 +95,12 @@ PdoLayout pdo_layout(const DriveConfig& config) {
           ": TPDO2 has no room for the temperature beside the inputs: read it with way = \"sdo\"");
   }
   layout.mode = map(layout.slow, kModeDisplay);
+  layout.probe = {PdoDirection::kTransmit, 3, sync_divider(config), {}};
+  if (config.inputs.index != ProbeSource::kNone) {
+    (void)map(layout.command, kProbeFunction);
+    layout.probe_status = map(layout.probe, kProbeStatus);
+    layout.probe_position = map(layout.probe, kProbePosition);
+  }
   return layout;
 }
 

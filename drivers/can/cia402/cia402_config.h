@@ -8,6 +8,7 @@
 
 #include "drivers/can/canopen/canopen_pdo.h"
 #include "drivers/can/cia402/cia402_units.h"
+#include "drivers/can/cia402/touch_probe.h"
 
 namespace strainwave::cia402 {
 
@@ -65,6 +66,8 @@ struct DriveInputs {
   bool negative_limit = false;
   bool positive_limit = false;
   bool home = false;
+  ProbeSource index = ProbeSource::kNone;  ///< what touch probe 1 latches by
+  /// Of 60FDh.
   bool any() const noexcept { return negative_limit || positive_limit || home; }
 };
 
@@ -103,18 +106,19 @@ struct DriveConfig {
 /// Where the fields of the drive's PDOs lie.
 struct PdoLayout {
   struct Field {
-    int pdo = 0;             ///< 1 or 2; 0: nowhere
+    int pdo = 0;             ///< 1 to 3; 0: nowhere
     std::size_t offset = 0;  ///< in bytes
     std::size_t bytes = 0;
   };
-  canopen::Pdo command;  ///< RPDO1: controlword, target torque
+  canopen::Pdo command;  ///< RPDO1: controlword, target torque; with a touch probe its function
   canopen::Pdo fast;     ///< TPDO1, with every SYNC
   canopen::Pdo slow;     ///< TPDO2, with every nth; without objects when it is not needed
-  Field position, velocity, statusword, torque, mode, temperature, inputs;
+  canopen::Pdo probe;    ///< TPDO3, likewise: the touch probe's status and position
+  Field position, velocity, statusword, torque, mode, temperature, inputs, probe_status, probe_position;
 };
 
 /// TPDO1 has position, statusword and torque, or position and velocity when the drive's velocity is used;
-/// TPDO2 the rest. Throws InputError when there is no room for what the configuration asks.
+/// TPDO2 the rest, TPDO3 the touch probe. Throws InputError when there is no room for what the configuration asks.
 PdoLayout pdo_layout(const DriveConfig& config);
 
 /// What set-up found.

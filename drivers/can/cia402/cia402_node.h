@@ -18,6 +18,7 @@
 #include "drivers/can/cia402/cia402_config.h"
 #include "drivers/can/cia402/last_resort.h"
 #include "drivers/can/cia402/power_sequence.h"
+#include "drivers/can/cia402/touch_probe.h"
 #include "drivers/can/node_watch.h"
 #include "drivers/can/sample_age.h"
 #include "drivers/can/set_up_state.h"
@@ -59,6 +60,7 @@ class Node final : public CanNode {
 
  private:
   void receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept;
+  void receive_probe(const CanFrame& frame) noexcept;
   void judge_age(std::int64_t kernel_time_ns) noexcept;
   void receive_emergency(const canopen::Emergency& emergency) noexcept;
   void receive_heartbeat(canopen::NmtState state) noexcept;
@@ -96,6 +98,7 @@ class Node final : public CanNode {
   std::int64_t now_ns_ = 0;
   PowerSequence power_;
   PositionScale position_scale_;
+  TouchProbe probe_;
   double position_rad_ = 0.0;
   double velocity_rad_s_ = 0.0;
   double torque_applied_Nm_ = 0.0;

@@ -30,6 +30,7 @@ Node::Node(const DriveConfig& config)
       period_ns_(nanoseconds(config.period_s)),
       power_(times_of(config)),
       position_scale_(config.units),
+      probe_(config.inputs.index),
       watch_(nanoseconds(config.drive_heartbeat_timeout_s)),
       age_(period_ns_, layout_.slow.transmission_type),
       last_resort_(config.node_id) {}
@@ -38,7 +39,8 @@ std::vector<std::uint32_t> Node::receive_ids() const {
   std::vector<std::uint32_t> ids{layout_.fast.cob_id(config_.node_id),
                                  cob_id(CobId::kEmergency, config_.node_id),
                                  cob_id(CobId::kHeartbeat, config_.node_id)};
-  if (!layout_.slow.objects.empty()) ids.push_back(layout_.slow.cob_id(config_.node_id));
+  for (const canopen::Pdo* pdo : {&layout_.slow, &layout_.probe})
+    if (!pdo->objects.empty()) ids.push_back(pdo->cob_id(config_.node_id));
   return ids;
 }
 
@@ -56,9 +58,10 @@ std::vector<FrameTraffic> Node::traffic() const {
   std::vector<FrameTraffic> traffic{{"RPDO1 of " + config_.name, bytes(layout_.command), rate_Hz},
                                     {"TPDO1 of " + config_.name, bytes(layout_.fast), rate_Hz},
                                     {"heartbeat of " + config_.name, 1, 1.0 / config_.drive_heartbeat_s}};
-  if (!layout_.slow.objects.empty())
-    traffic.push_back(
-        {"TPDO2 of " + config_.name, bytes(layout_.slow), rate_Hz / layout_.slow.transmission_type});
+  for (const canopen::Pdo* pdo : {&layout_.slow, &layout_.probe})
+    if (!pdo->objects.empty())
+      traffic.push_back({"TPDO" + std::to_string(pdo->number) + " of " + config_.name, bytes(*pdo),
+                         rate_Hz / pdo->transmission_type});
   if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo)
     traffic.push_back({"temperature SDO of " + config_.name, static_cast<int>(kMaxCanBytes),
                        2.0 / config_.temperature->period_s});

@@ -1,14 +1,12 @@
-// Above 300 lines: the steps of a drive's set-up in the order in which they are done, each a few lines that only this order explains.
 #include "drivers/can/cia402/cia402_setup.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
 #include "base/durations.h"
 #include "drivers/can/cia402/cia402_description.h"
 #include "drivers/can/cia402/cia402_state.h"
+#include "drivers/can/cia402/setup_steps.h"
 #include "drivers/can/hexadecimal.h"
 
 namespace strainwave::cia402 {
@@ -36,14 +34,7 @@ constexpr Entry kQuickStopOption{0x605A, 0};
 constexpr Entry kMode{0x6060, 0};
 constexpr Entry kModeDisplay{0x6061, 0};
 constexpr Entry kTargetTorque{0x6071, 0};
-constexpr Entry kMaxTorque{0x6072, 0};
-constexpr Entry kRatedCurrent_mA{0x6075, 0};
-constexpr Entry kRatedTorque{0x6076, 0};
-constexpr Entry kPolarity{0x607E, 0};
-constexpr Entry kTorqueSlope{0x6087, 0};
-constexpr Entry kTorqueOffset{0x60B2, 0};
-constexpr Entry kPositiveTorqueLimit{0x60E0, 0};
-constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
+constexpr Entry kProbeFunction{0x60B8, 0};
 constexpr Entry kDeviceType{0x1000, 0};
 constexpr Entry kInterpolationMantissa{0x60C2, 1};
 constexpr Entry kInterpolationExponent{0x60C2, 2};
@@ -58,25 +49,6 @@ constexpr std::int64_t kModeWait_ns = 1'000'000'000;
 constexpr std::int64_t kDisableWait_ns = 500'000'000;
 /// Two nodes that answer do so one right after the other.
 constexpr std::int64_t kSecondAnswer_ns = 20'000'000;
-/// A late position, and how often it is looked for.
-constexpr std::int64_t kLongestDelay_ns = 20'000'000;
-constexpr int kDelaySamples = 5;
-constexpr int kOldPositions = 100;
-/// SYNCs until a drive must have sent both of its TPDOs.
-constexpr int kVerifySyncs = 2 * 240;
-
-std::uint32_t number(SdoClient& client, Entry entry, std::size_t bytes = 4) {
-  return static_cast<std::uint32_t>(client.upload_number(entry, bytes));
-}
-
-/// Milliseconds of seconds, milliamperes of amperes.
-std::uint32_t thousandths(double value) {
-  return static_cast<std::uint32_t>(std::lround(value * 1e3));
-}
-
-[[noreturn]] void refuse(const SdoClient& client, const std::string& what) {
-  throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
-}
 
 std::int64_t boot_timeout_ns(const DriveConfig& config) {
   return nanoseconds(config.boot_timeout_s);
@@ -148,7 +120,7 @@ bool switch_off(SdoClient& client, const canopen::Pdo& pdo, const SdoWrite& off,
 }
 
 void configure_pdos(SdoClient& client, const PdoLayout& layout) {
-  for (const canopen::Pdo* pdo : {&layout.command, &layout.fast, &layout.slow}) {
+  for (const canopen::Pdo* pdo : {&layout.command, &layout.fast, &layout.slow, &layout.probe}) {
     if (pdo->objects.empty()) continue;
     const std::uint32_t old_identifier = number(client, pdo->communication(1));
     std::vector<SdoWrite> writes = canopen::pdo_configuration(*pdo, client.node(), old_identifier);
@@ -158,9 +130,10 @@ void configure_pdos(SdoClient& client, const PdoLayout& layout) {
 }
 
 // Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it.
-void switch_off_other_pdos(SdoClient& client) {
+void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
+  const int first_unused_tpdo = layout.probe.objects.empty() ? layout.probe.number : layout.probe.number + 1;
   for (const auto& [direction, first_unused] :
-       {std::pair{PdoDirection::kReceive, 2}, std::pair{PdoDirection::kTransmit, 3}}) {
+       {std::pair{PdoDirection::kReceive, 2}, std::pair{PdoDirection::kTransmit, first_unused_tpdo}}) {
     for (int pdo = first_unused; pdo <= kPdosOfADrive; ++pdo) {
       const Entry identifier = canopen::pdo_switched_off(direction, pdo, 0).entry;
       const auto old_identifier = client.upload_if_there(identifier, 4);
@@ -208,61 +181,6 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
   client.write_verified({kInterpolationMantissa, mantissa, 1, ~0U, "interpolation period"});
   client.write_verified({kInterpolationExponent, static_cast<std::uint8_t>(exponent), 1, ~0U,
                          "unit of the interpolation period"});
-}
-
-/// In the drive as well, by whichever objects it has.
-void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, std::vector<std::string>& report) {
-  bool limited = false;
-  const auto limit_by = [&](Entry entry, const char* purpose) {
-    if (!client.upload_if_there(entry, 2)) return;
-    client.write_verified({entry, limit_per_mille, 2, ~0U, purpose});
-    limited = true;
-  };
-  limit_by(kMaxTorque, "torque limit");
-  limit_by(kPositiveTorqueLimit, "positive torque limit");
-  limit_by(kNegativeTorqueLimit, "negative torque limit");
-  if (!limited)
-    report.push_back(client.who() +
-                     ": the drive has none of 6072h, 60E0h and 60E1h: only this daemon limits the torque");
-}
-
-double configure_torque(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
-  const auto current_mA = client.upload_if_there(kRatedCurrent_mA, 4);
-  if (!current_mA && config.rated_current_A <= 0.0)
-    refuse(client,
-           "has no rated current (6075h) to check the unit of its torque with: give motor.rated_current_A");
-  const RatedValues rated{number(client, kRatedTorque), current_mA ? static_cast<std::uint32_t>(*current_mA)
-                                                                   : thousandths(config.rated_current_A)};
-  const double rated_Nm =
-      rated_joint_torque_Nm(rated, config.units, client.who() + ": node " + std::to_string(client.node()));
-  const TorqueScale scale(rated_Nm, config.units.direction, config.torque_limit_Nm);
-  if (scale.limit_per_mille() == 0)
-    refuse(client, "torque_Nm = " + std::to_string(config.torque_limit_Nm) +
-                       " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
-                       " N.m at the joint, which is the drive's step");
-  limit_torque(client, scale.limit_per_mille(), report);
-  return rated_Nm;
-}
-
-/// What would turn, shift or slow the torque that is ordered.
-void configure_torque_path(SdoClient& client, const DriveConfig& config, OperationMode mode,
-                           std::vector<std::string>& report) {
-  const auto polarity = client.upload_if_there(kPolarity, 1);
-  if (polarity.value_or(0) != 0)
-    refuse(client,
-           "607Eh (polarity) = " + hexadecimal(*polarity, 2) +
-               " turns signs in the drive: set it to 0 and store it, and say the direction by `direction`");
-  if (client.upload_if_there(kTorqueOffset, 2))
-    client.write_verified({kTorqueOffset, 0, 2, ~0U, "torque offset"});
-  if (mode != OperationMode::kTorque || !client.upload_if_there(kTorqueSlope, 4)) return;
-  // All of the torque there and back within a period.
-  const auto slope = static_cast<std::uint32_t>(std::lround(2.0 * INT16_MAX / config.period_s));
-  try {
-    client.write_verified({kTorqueSlope, slope, 4, ~0U, "torque slope"});
-  } catch (const InputError&) {
-    report.push_back(client.who() + ": the drive limits how fast torque changes: 6087h = " +
-                     std::to_string(number(client, kTorqueSlope)) + " per mille of rated torque in a second");
-  }
 }
 
 void set_mode(SdoClient& client, OperationMode mode) {
@@ -330,7 +248,9 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout
   reset_communication(client, config);
   take_torque_off(client);
   configure_pdos(client, layout);
-  switch_off_other_pdos(client);
+  switch_off_other_pdos(client, layout);
+  if (config.inputs.index != ProbeSource::kNone)
+    client.write_verified({kProbeFunction, 0, 2, ~0U, "touch probe off"});
   configure_supervision(client, config);
   found.rated_torque_Nm = configure_torque(client, config, found.report);
   configure_torque_path(client, config, found.mode, found.report);
@@ -342,74 +262,6 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout
   report_found(found, description, config);
   start_node(client, config);
   return found;
-}
-
-void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
-  const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
-  const std::int64_t period_ns = nanoseconds(config.period_s);
-  bool fast_seen = false;
-  bool slow_seen = layout.slow.objects.empty();
-  std::vector<ReceivedFrame> frames(16);
-  for (int sync = 0; sync < kVerifySyncs && !(fast_seen && slow_seen); ++sync) {
-    if (config.daemon_sends_sync) (void)port.send(canopen::sync_frame());
-    const std::int64_t deadline_ns = port.now_ns() + period_ns;
-    do {
-      const ReceiveResult result = port.receive(frames);
-      if (result.link != CanLink::kUp) throw InputError(who + "the CAN interface went down");
-      for (std::size_t i = 0; i < result.count; ++i) {
-        const CanFrame& frame = frames[i].frame;
-        for (const auto& [pdo, seen] :
-             {std::pair{&layout.fast, &fast_seen}, std::pair{&layout.slow, &slow_seen}}) {
-          if (frame.id != pdo->cob_id(config.node_id) || pdo->objects.empty()) continue;
-          if (frame.size != pdo->bytes())
-            throw InputError(who + "TPDO" + std::to_string(pdo->number) + " has " +
-                             std::to_string(frame.size) + " bytes instead of the " +
-                             std::to_string(pdo->bytes()) + " that were mapped");
-          *seen = true;
-        }
-      }
-      if (result.count == 0) (void)port.wait(deadline_ns - port.now_ns());
-    } while (port.now_ns() < deadline_ns);
-  }
-  if (fast_seen && slow_seen) return;
-  throw InputError(
-      who + "no TPDO" + (fast_seen ? "2" : "1") + " came in " + std::to_string(kVerifySyncs) + " periods: " +
-      (config.daemon_sends_sync ? "the drive does not answer our SYNC" : "is the SYNC producer running?"));
-}
-
-std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
-  const std::int64_t period_ns = nanoseconds(config.period_s);
-  std::array<ReceivedFrame, 16> frames;
-  /// When the first position came, or nothing at `end_ns`.
-  const auto position_until = [&](std::int64_t end_ns) -> std::optional<std::int64_t> {
-    while (port.now_ns() < end_ns) {
-      const ReceiveResult result = port.receive(frames);
-      for (std::size_t i = 0; i < result.count; ++i)
-        if (frames[i].frame.id == layout.fast.cob_id(config.node_id)) return port.now_ns();
-      if (result.count == 0) (void)port.wait(end_ns - port.now_ns());
-    }
-    return std::nullopt;
-  };
-  std::optional<std::int64_t> shortest_ns;
-  for (int i = 0; i < kDelaySamples; ++i) {
-    // What is still on its way belongs to another SYNC; what never ends, to another producer's.
-    for (int old = 0; old < kOldPositions && position_until(port.now_ns() + kLongestDelay_ns); ++old)
-      continue;
-    const std::int64_t sync_ns = port.now_ns();
-    (void)port.send(canopen::sync_frame());
-    if (const auto came_ns = position_until(sync_ns + kLongestDelay_ns))
-      shortest_ns = std::min(shortest_ns.value_or(INT64_MAX), *came_ns - sync_ns);
-  }
-  const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
-  if (!shortest_ns)
-    throw InputError(
-        who + "no position came within 20 ms of a SYNC, though some come: is there another SYNC producer?");
-  if (*shortest_ns > config.delay_periods * period_ns)
-    throw InputError(who + "a position comes " + std::to_string(static_cast<double>(*shortest_ns) * 1e-6) +
-                     " ms after its SYNC, delay_periods = " + std::to_string(config.delay_periods) +
-                     " allows for " + std::to_string(config.delay_periods * period_ns / 1000) +
-                     " us: let the drive send TPDO1 at once, or raise delay_periods");
-  return *shortest_ns;
 }
 
 void release_drive(SdoClient& client) {

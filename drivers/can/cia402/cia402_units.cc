@@ -80,6 +80,12 @@ PositionScale::PositionScale(const UnitConfig& units)
       offset_rad_(units.position_offset_rad),
       velocity_rad_s_per_unit_(units.direction * units.velocity_rad_s_per_unit) {}
 
+double PositionScale::elsewhere_rad(std::int32_t counts) const noexcept {
+  const auto ahead = static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) -
+                                               static_cast<std::uint32_t>(last_counts_));
+  return rad_per_count_ * static_cast<double>(total_counts_ + ahead) + offset_rad_;
+}
+
 double PositionScale::position_rad(std::int32_t counts) noexcept {
   if (!started_) {
     total_counts_ = counts;

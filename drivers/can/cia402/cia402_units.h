@@ -56,6 +56,8 @@ class PositionScale {
   explicit PositionScale(const UnitConfig& units);
 
   double position_rad(std::int32_t counts) noexcept;
+  /// Of another count of the same counter, at most half its range from the last one; that is not moved.
+  double elsewhere_rad(std::int32_t counts) const noexcept;
   double velocity_rad_s(std::int32_t units) const noexcept { return velocity_rad_s_per_unit_ * units; }
   bool has_velocity() const noexcept { return velocity_rad_s_per_unit_ != 0.0; }
 

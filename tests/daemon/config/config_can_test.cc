@@ -53,6 +53,20 @@ TEST_F(CanConfigTest, WantsAnIncrementalEncoderToBeHomed) {
   EXPECT_FALSE(read(example("elmo.toml")).joints[0].loop.homing.required) << "absolute";
 }
 
+TEST_F(CanConfigTest, HomesByTheIndexOfADriveWhoseTouchProbeMayBeUsed) {
+  const std::string by_index = replaced(example("epos4.toml"), "to = \"negative_limit\"",
+                                        "to = \"negative_limit\"\nthen_index = true");
+  expect_mentions(error_of(by_index), {"joint[0].homing.then_index", "an index input"});
+  const DaemonConfig config =
+      read(replaced(by_index, "positive_limit = true", "positive_limit = true\nindex = \"encoder\""));
+  EXPECT_TRUE(config.joints[0].loop.homing.then_index);
+  const auto& drive = std::get<cia402::DriveConfig>(config.buses[0].drives[0]);
+  EXPECT_EQ(drive.inputs.index, cia402::ProbeSource::kIndex);
+  expect_mentions(
+      error_after("epos4.toml", "positive_limit = true", "positive_limit = true\nindex = \"encodr\""),
+      {"joint[0].can.inputs.index = \"encodr\"", "did you mean \"encoder\""});
+}
+
 TEST_F(CanConfigTest, WantsTheTorqueThatTellsAMechanicalStop) {
   const HomingConfig homing = read(example("odrive.toml")).joints[0].loop.homing;
   EXPECT_EQ(homing.target, HomingTarget::kNegativeStop);

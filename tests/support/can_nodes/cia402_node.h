@@ -36,6 +36,8 @@ struct Cia402NodeConfig {
 };
 
 enum class NmtState : std::uint8_t { kBooting = 0, kStopped = 4, kOperational = 5, kPreOperational = 127 };
+/// As the record has it.
+const char* to_text(NmtState state);
 
 class Cia402Node final : public Node {
  public:
@@ -58,6 +60,7 @@ class Cia402Node final : public Node {
   const PdoCounts& pdo_counts() const { return pdos_.counts(); }
 
  private:
+  static constexpr int kErrorHistory = 8;
   void add_objects();
   void written(Key key);
   void send(const Frame& frame);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -37,6 +38,11 @@ inline std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = bytes.size(); i-- > 0;) value = (value << 8) | bytes[i];
   return value;
+}
+
+/// A float of four bytes.
+inline float float_at(const Frame& frame, std::size_t offset) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(little_endian(frame.bytes().subspan(offset, 4))));
 }
 
 }  // namespace strainwave::can_nodes

@@ -13,6 +13,10 @@
 
 namespace strainwave::can_nodes {
 
+/// Modes of operation, 6060h.
+inline constexpr int kModeTorqueProfile = 4;
+inline constexpr int kModeCyclicTorque = 10;
+
 /// Error codes of CiA 301 (table 26) and CiA 402 that the drive raises by itself.
 inline constexpr std::uint16_t kErrorHeartbeat = 0x8130;
 inline constexpr std::uint16_t kErrorPdoLength = 0x8210;
@@ -38,6 +42,7 @@ struct ServoDriveConfig {
   std::int64_t enable_delay_us = 10000;  ///< brake and current loop: Switched on to Operation enabled
   std::int64_t temperature_period_us = 100000;
   TemperatureObject temperature;
+  double counts_per_index = 6400.0;  ///< of 6064h, between two index pulses; one is at 0
 };
 
 class ServoDrive {
@@ -79,6 +84,10 @@ class ServoDrive {
   double limit_permille(std::uint16_t index) const;
   void show_state();
   void show_temperature();
+  void probe_index(double counts_before, double counts_now);
+  /// Of the drive against the joint: 1 or -1.
+  double direction() const;
+  double drive_counts() const;
   double joint_torque_per_permille() const;
 
   ServoDriveConfig config_;

@@ -15,6 +15,7 @@ QUICK_STOP_AFTER = 4
 HEARTBEAT_US = 50000
 MASTER_TIMEOUT_US = 150000
 STATUS_US = 10000
+POSITION_LATE = 1024
 
 
 def start_moving(drive):
@@ -170,6 +171,50 @@ class Failures(unittest.TestCase):
         self.expect_way_back()
 
 
+class LatePositions(unittest.TestCase):
+    """TPDO1 comes later than it did at the start, each time."""
+
+    def setUp(self):
+        make_bus()
+        self.drive = Drive()
+
+    def tearDown(self):
+        self.daemon.end()
+        self.drive.end()
+        remove_bus()
+
+    def rows_with_lateness(self, late_us, delay_periods):
+        """The states from a tenth of a second after the lateness began. The gap before the first late one is no fault here."""
+        name = self.id().split('.')[-1]
+        can = f'delay_periods = {delay_periods}\nquick_stop_after = 20'
+        self.daemon = Daemon(daemon_toml([joint_toml(can=can)]), name=name)
+        recording = Recording(name=name)
+        must('enable', JOINT)
+        time.sleep(0.3)
+        at_us = self.drive.tell(f'late-tpdo {late_us} 100000')
+        time.sleep(0.5)
+        rows = recording.end()
+        self.assertFalse(any(int(row['notices']) & POSITION_LATE for row in rows if int(row['utime']) < at_us))
+        return [row for row in rows if int(row['utime']) > at_us + 100000]
+
+    def test_2_4_ms_are_a_notice_where_the_configuration_allows_for_them(self):
+        rows = self.rows_with_lateness(2400, 3)
+        self.assertTrue(all(int(row['notices']) & POSITION_LATE for row in rows))
+        self.assertIsNone(first_fault(rows, 0))
+        must('disable', JOINT)
+
+    def test_2_4_ms_are_a_fault_where_it_allows_for_one(self):
+        self.expect_fault(self.rows_with_lateness(2400, 1))
+
+    def test_10_4_ms_are_a_fault_whatever_it_allows_for(self):
+        self.expect_fault(self.rows_with_lateness(10400, 8))
+
+    def expect_fault(self, rows):
+        self.assertTrue(all(int(row['fault']) == FAULTS['read failed'] for row in rows))
+        self.assertIn('us after their SYNC', self.daemon.text())
+        self.assertEqual(float(self.drive.report()['torque_Nm']), 0.0)
+
+
 class EndAndBeginning(unittest.TestCase):
     def setUp(self):
         make_bus()
@@ -215,4 +260,4 @@ class EndAndBeginning(unittest.TestCase):
         return text
 
 
-show_and_exit([Failures, EndAndBeginning])
+show_and_exit([Failures, LatePositions, EndAndBeginning])

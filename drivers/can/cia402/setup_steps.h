@@ -1,0 +1,37 @@
+// What the steps of a CiA 402 drive's set-up share. Blocking; not real-time.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/input_error.h"
+#include "drivers/can/canopen/sdo_client.h"
+#include "drivers/can/cia402/cia402_config.h"
+
+namespace strainwave::cia402 {
+
+/// A number of the drive's.
+inline std::uint32_t number(canopen::SdoClient& client, canopen::Entry entry, std::size_t bytes = 4) {
+  return static_cast<std::uint32_t>(client.upload_number(entry, bytes));
+}
+
+/// Milliseconds of seconds, milliamperes of amperes.
+inline std::uint32_t thousandths(double value) {
+  return static_cast<std::uint32_t>(std::lround(value * 1e3));
+}
+
+/// An InputError that names joint and node.
+[[noreturn]] inline void refuse(const canopen::SdoClient& client, const std::string& what) {
+  throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
+}
+
+/// Rated torque at the joint in N.m: 6075h and 6076h compared, and the limit written to what the drive has for it.
+double configure_torque(canopen::SdoClient& client, const DriveConfig& config,
+                        std::vector<std::string>& report);
+
+/// What would turn, shift or slow the torque that is ordered.
+void configure_torque_path(canopen::SdoClient& client, const DriveConfig& config, OperationMode mode,
+                           std::vector<std::string>& report);
+
+}  // namespace strainwave::cia402

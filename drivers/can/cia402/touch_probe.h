@@ -1,0 +1,53 @@
+// Touch probe 1 of a CiA 402 drive: the drive latches where the encoder's index, or a probe's input, rises. Each arming latches one
+// pulse, so that a pulse at the very place of the last one counts as well. Real-time safe. Source: CiA 402-2, 60B8h to 60BAh.
+//
+//   arm -> the drive says enabled -> it latches: one pulse -> disarm -> it says disabled -> arm
+#pragma once
+
+#include <cstdint>
+
+namespace strainwave::cia402 {
+
+/// What the drive is to latch by.
+enum class ProbeSource : std::uint8_t { kNone, kIndex, kInput };
+
+class TouchProbe {
+ public:
+  explicit TouchProbe(ProbeSource source = ProbeSource::kNone) noexcept : source_(source) {}
+
+  /// The drive has been set up: what it latched before is forgotten.
+  void restart() noexcept { state_ = State::kDisarming; }
+
+  /// 60B8h of this period.
+  std::uint16_t function() const noexcept {
+    if (source_ == ProbeSource::kNone || state_ == State::kDisarming) return 0;
+    return kEnable | kRisingEdge | (source_ == ProbeSource::kIndex ? kByIndex : std::uint16_t{0});
+  }
+
+  /// Takes 60B9h. True when it shows a pulse that was not there before; 60BAh is then where it was.
+  bool see(std::uint16_t status) noexcept {
+    const bool enabled = (status & kEnabled) != 0;
+    const bool latched = enabled && (status & kLatched) != 0;
+    const bool pulse = state_ == State::kArmed && latched;
+    if (state_ == State::kDisarming && !enabled)
+      state_ = State::kArmed;
+    else if (pulse)
+      state_ = State::kDisarming;
+    return pulse;
+  }
+
+ private:
+  enum class State : std::uint8_t { kDisarming, kArmed };
+  // 60B8h; bit 1 stays 0: the first event alone.
+  static constexpr std::uint16_t kEnable = 1U << 0U;
+  static constexpr std::uint16_t kByIndex = 1U << 2U;
+  static constexpr std::uint16_t kRisingEdge = 1U << 4U;
+  // 60B9h
+  static constexpr std::uint16_t kEnabled = 1U << 0U;
+  static constexpr std::uint16_t kLatched = 1U << 1U;
+
+  ProbeSource source_;
+  State state_ = State::kDisarming;
+};
+
+}  // namespace strainwave::cia402
