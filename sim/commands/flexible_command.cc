@@ -56,7 +56,8 @@ void run(const Options& options) {
       flexible_summary("The grid", grid, contenders),
       oscillation_table("The grid: oscillating cells", grid, contenders),
       price_table(grid, contenders, daemon),
-      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, first_contenders)};
+      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, first_contenders),
+      lasting_oscillations(first_grid(), first_contenders.back(), {1.5, 2.0, 2.5, 3.0, 4.0, 8.0})};
   write_text_file(out / "grid.csv", flexible_cells(grid, contenders).csv());
   write_text_file(out / "first-grid.csv", flexible_cells(first, first_contenders).csv());
   write_text_file(out / "price.csv", price_cells(grid, contenders, daemon).csv());

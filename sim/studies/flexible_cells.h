@@ -20,6 +20,7 @@ struct FlexibleCell {
   std::string effect = "none";  ///< what the joint has besides
   JointPlantConfig nominal;     ///< what the controllers are told
   JointPlantConfig plant;       ///< what they run on
+  double duration_s = 2.0;      ///< of a run; its last quarter is rest
 };
 
 /// The grid of docs/flexible-joint.md.

@@ -18,7 +18,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kDuration_s = 2.0;
 constexpr double kRestShare = 0.25;
 
 double total_inertia(const JointPlantConfig& plant) {
@@ -31,7 +30,7 @@ ClosedLoopConfig loop_of(const FlexibleCell& cell) {
   config.plant = cell.plant;
   config.ambient = TemperatureProfile::constant(cell.temperature_C);
   config.setpoint_rad = TimeProfile::constant(cell.step_rad, {"setpoint_position_rad"});
-  config.duration_s = kDuration_s;
+  config.duration_s = cell.duration_s;
   return config;
 }
 
