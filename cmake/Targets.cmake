@@ -42,7 +42,7 @@ endfunction()
 # from short ones, where the hardened library tells it sizes.
 function(strainwave_false_overlap)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS
-    -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>)
 endfunction()
 
 # strainwave_library(NAME SOURCES file... [PUBLIC lib...] [PRIVATE lib...])
