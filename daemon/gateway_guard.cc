@@ -15,9 +15,6 @@ namespace strainwave {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-/// A gateway that does nothing for this long hangs.
-constexpr std::int64_t kSilence_ns = 2000 * kMillisecond_ns;
-constexpr std::int64_t kStart_ns = 5000 * kMillisecond_ns;
 
 std::string user_of(const DaemonConfig& config) {
   if (!config.gateway_socket.empty()) return "as a service with a user of its own";
@@ -41,7 +38,7 @@ GatewayGuard::GatewayGuard(const DaemonConfig& config, GatewayProcess::Descripto
 
 void GatewayGuard::start() {
   process_.start(monotonic_now_ns());
-  const std::int64_t deadline_ns = monotonic_now_ns() + kStart_ns;
+  const std::int64_t deadline_ns = process_.started_ns() + GatewayPulse::kStart_ns;
   while (inbound_.ready.load(std::memory_order_acquire) == 0) {
     const std::int64_t now_ns = monotonic_now_ns();
     if (const auto end = process_.take_end(now_ns))
@@ -51,7 +48,8 @@ void GatewayGuard::start() {
     if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  spdlog::info("gateway: {}", user_);
+  spdlog::info("gateway: {}, ready after {} ms", user_,
+               (monotonic_now_ns() - process_.started_ns()) / kMillisecond_ns);
 }
 
 void GatewayGuard::watch(bool wanted, std::int64_t now_ns) {
@@ -72,15 +70,8 @@ void GatewayGuard::restart(std::int64_t now_ns) {
 }
 
 void GatewayGuard::end_hung(std::int64_t now_ns) {
-  const std::uint64_t turns = count(inbound_.turns);
-  if (turns != turns_seen_ || !process_.running()) {
-    turns_seen_ = turns;
-    moved_ns_ = now_ns;
-  }
-  const bool starting = now_ns - process_.started_ns() < kStart_ns;
-  if (starting || now_ns - moved_ns_ < kSilence_ns) return;
-  moved_ns_ = now_ns;
-  spdlog::error("the gateway has done nothing for 2 s: ending it");
+  if (!pulse_.hangs(process_.started_ns(), count(inbound_.turns), now_ns) || !process_.running()) return;
+  spdlog::error("the gateway has done nothing for {} s: ending it", pulse_.patience_s());
   process_.kill();
 }
 

@@ -7,6 +7,7 @@
 
 #include "daemon/config/config.h"
 #include "daemon/gateway/gateway_process.h"
+#include "daemon/gateway/gateway_pulse.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/log.h"
 
@@ -36,8 +37,7 @@ class GatewayGuard {
   LogLimiter dropped_log_;
   std::uint64_t dropped_seen_ = 0;
   std::uint64_t foreign_states_seen_ = 0;
-  std::uint64_t turns_seen_ = 0;
-  std::int64_t moved_ns_ = 0;  ///< when it was last seen to do something
+  GatewayPulse pulse_;
 };
 
 }  // namespace strainwave
