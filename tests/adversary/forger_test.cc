@@ -8,15 +8,18 @@
 namespace strainwave::testing {
 namespace {
 
-/// A child that sends `message` on `channel`, about a thousand times a second, each time with another wrong signature.
+/// A child that sends `message` on `channel`, about three thousand times a second, each time with another wrong signature: more
+/// than strangers are answered.
 class Forger {
  public:
   Forger(const std::string& channel, std::vector<std::uint8_t> message) : pid_(::fork()) {
     if (pid_ != 0) return;
     lcm::LCM lcm(kTestUrl);
     for (;;) {
-      ++message[message.size() - 1 - tries_++ % sizeof(Signature)];
-      lcm.publish(channel, message.data(), static_cast<unsigned int>(message.size()));
+      for (int i = 0; i < 3; ++i) {
+        ++message[message.size() - 1 - tries_++ % sizeof(Signature)];
+        lcm.publish(channel, message.data(), static_cast<unsigned int>(message.size()));
+      }
       ::usleep(1000);
     }
   }
