@@ -5,6 +5,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "control/gear_catalogue.h"
+
 namespace strainwave {
 
 static_assert(std::is_trivially_copyable_v<GainTable>, "tables are exchanged as bytes");
@@ -68,11 +70,22 @@ class Inspector {
   std::optional<std::string> found_;
 };
 
+bool nearly_equal(double a, double b) {
+  return std::abs(a - b) <= kIdentityTolerance * std::abs(b);
+}
+
 void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
   inspector.text("plant.joint_model", plant.joint_model, false);
   inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMaxInertia_kgm2);
   inspector.positive("plant.gear_ratio", plant.gear_ratio, kMaxGearRatio);
   inspector.in_range("plant.period_s", plant.period_s, kMinPeriod_s, kMaxPeriod_s);
+  inspector.text("plant.gear", plant.gear, true);
+  if (!inspector.ok() || plant.gear.view().empty()) return;
+  const Gear* gear = find_gear(plant.gear.view());
+  const std::string said = "plant.gear = " + std::string(plant.gear.view());
+  inspector.require(gear != nullptr, said + ": must be empty or one of " + gear_names());
+  inspector.require(gear == nullptr || nearly_equal(plant.gear_ratio, gear->ratio),
+                    said + ": must be a gear of plant.gear_ratio = " + number(plant.gear_ratio));
 }
 
 // Friction is fed forward beside the certified feedback: it must be friction, and less than the motor can give.
@@ -164,10 +177,6 @@ void inspect_gains(Inspector& inspector, const FeedbackGains& gains, int plant_r
   }
 }
 
-bool nearly_equal(double a, double b) {
-  return std::abs(a - b) <= kIdentityTolerance * std::abs(b);
-}
-
 }  // namespace
 
 std::optional<std::string> find_defect(const GainTable& table) {
@@ -204,6 +213,11 @@ std::optional<std::string> find_identity_mismatch(const GainTable& table, const 
   if (!(plant.joint_model == expected.joint_model)) {
     return "plant.joint_model = " + std::string(plant.joint_model.view()) + ": this joint is a " +
            std::string(expected.joint_model.view());
+  }
+  const bool both_named = !plant.gear.view().empty() && !expected.gear.view().empty();
+  if (both_named && !(plant.gear == expected.gear)) {
+    return "plant.gear = " + std::string(plant.gear.view()) + ": this joint has a " +
+           std::string(expected.gear.view());
   }
   if (!nearly_equal(plant.inertia_kgm2, expected.inertia_kgm2)) {
     return differs("inertia_kgm2", plant.inertia_kgm2, expected.inertia_kgm2);

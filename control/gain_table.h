@@ -22,7 +22,7 @@ namespace strainwave {
 inline constexpr int kMaxStates = 3;
 /// The zero-velocity rule and one high-velocity rule per temperature rule.
 inline constexpr int kMaxRules = 1 + kMaxTemperatureRules;
-inline constexpr int kGainTableFormat = 2;
+inline constexpr int kGainTableFormat = 3;
 
 using StateVector = Eigen::Vector3d;
 using StateMatrix = Eigen::Matrix3d;
@@ -31,6 +31,7 @@ using GainRow = Eigen::RowVector3d;
 /// What a table was designed for. The daemon refuses a table whose identity is not its joint's.
 struct PlantIdentity {
   FixedString<32> joint_model;  ///< e.g. "rhs17-6006"
+  FixedString<32> gear;         ///< its name in data/gears.csv, e.g. "csf-17-50"; empty: not said
   double inertia_kgm2 = 0.0;    ///< J > 0, at the joint side
   double gear_ratio = 0.0;      ///< N > 0
   double period_s = 0.0;        ///< ts > 0
@@ -99,8 +100,8 @@ struct GainTable {
 /// Not real-time.
 std::optional<std::string> find_defect(const GainTable& table);
 
-/// Why `table` is not for the joint that `expected` describes (model, inertia and ratio to 1e-9, period), or
-/// nothing.
+/// Why `table` is not for the joint that `expected` describes (model, inertia and ratio to 1e-9, period; the gear where both name
+/// one), or nothing.
 std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected);
 
 }  // namespace strainwave

@@ -19,6 +19,7 @@ constexpr const char* kZeroOrderHoldName = "zero-order-hold";
 
 ordered_json plant_to_json(const PlantIdentity& plant) {
   return {{"joint_model", plant.joint_model.view()},
+          {"gear", plant.gear.view()},
           {"inertia_kgm2", plant.inertia_kgm2},
           {"gear_ratio", plant.gear_ratio},
           {"period_s", plant.period_s}};
@@ -61,6 +62,7 @@ FixedString<N> text_field(StrictObject& object, const std::string& key) {
 PlantIdentity plant_from_json(StrictObject object) {
   PlantIdentity plant;
   plant.joint_model = text_field<32>(object, "joint_model");
+  plant.gear = text_field<32>(object, "gear");
   plant.inertia_kgm2 = object.number("inertia_kgm2");
   plant.gear_ratio = object.number("gear_ratio");
   plant.period_s = object.number("period_s");

@@ -8,6 +8,7 @@
 
 #include "base/input_error.h"
 #include "control/gain_table_json.h"
+#include "control/gear_catalogue.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
@@ -25,6 +26,7 @@ struct Options {
   std::string name;
   std::string controller = "C4";
   std::string joint_model = "rhs17-6006";
+  std::string gear;
   double inertia_kgm2 = 0.089;
   double gear_ratio = 50.0;
   double period_s = 1e-3;
@@ -64,6 +66,22 @@ std::string utc_now() {
   return text.data();
 }
 
+std::vector<std::string> gear_list() {
+  std::vector<std::string> names;
+  for (const Gear& gear : gear_catalogue()) names.push_back(gear.name);
+  return names;
+}
+
+/// As given, else the gear's. Throws InputError when a gear has another ratio than the one given.
+double ratio_of(const Options& options, const CLI::App& command) {
+  const Gear* const gear = find_gear(options.gear);
+  if (gear == nullptr) return options.gear_ratio;
+  if (command.count("--gear-ratio") > 0 && options.gear_ratio != gear->ratio)
+    throw InputError("gains", "--gear-ratio", std::to_string(options.gear_ratio),
+                     "must be that of " + gear->name + ", " + std::to_string(gear->ratio) + ", or left out");
+  return gear->ratio;
+}
+
 std::vector<StateVector> initial_states(const Options& options) {
   if (options.x0_box.empty()) return {StateVector::Map(options.x0.data())};
   for (const double half_width : options.x0_box) {
@@ -79,8 +97,9 @@ TableRequest make_request(const Options& options, const CLI::App& command) {
   TableRequest request;
   DesignRequest& design = request.design;
   design.plant.joint_model = std::string_view(options.joint_model);
+  design.plant.gear = std::string_view(options.gear);
   design.plant.inertia_kgm2 = options.inertia_kgm2;
-  design.plant.gear_ratio = options.gear_ratio;
+  design.plant.gear_ratio = ratio_of(options, command);
   design.plant.period_s = options.period_s;
   design.sampling = options.sampling == "zoh" ? Sampling::kZeroOrderHold : Sampling::kForwardEuler;
   design.weights = {options.weights[0], options.weights[1], options.weights[2], options.weights[3]};
@@ -95,7 +114,7 @@ TableRequest make_request(const Options& options, const CLI::App& command) {
   request.created_utc = utc_now();
   check_request(design);
   const FrictionRules rules =
-      read_friction_rules(options.friction, options.gear_ratio,
+      read_friction_rules(options.friction, design.plant.gear_ratio,
                           options.rules_side == "motor" ? GearSide::kMotor : GearSide::kJoint);
   design.friction = rules.friction;
   request.friction_sha256 = rules.sha256;
@@ -136,7 +155,13 @@ void add_plant_options(CLI::App& command, Options& options) {
       ->capture_default_str();
   command.add_option("--inertia_kgm2", options.inertia_kgm2, "inertia at the joint side")
       ->capture_default_str();
-  command.add_option("--gear-ratio", options.gear_ratio, "reduction ratio")->capture_default_str();
+  command
+      .add_option(
+          "--gear", options.gear,
+          "the gear by its catalogue name (data/gears.csv); the daemon compares it where its joint names one")
+      ->check(CLI::IsMember(gear_list()));
+  command.add_option("--gear-ratio", options.gear_ratio, "reduction ratio (default: the gear's)")
+      ->capture_default_str();
   command.add_option("--period_s", options.period_s, "sample period")->capture_default_str();
   command
       .add_option("--sampling", options.sampling,

@@ -77,6 +77,7 @@ std::string description(const GainTable& table) {
   std::string text = format("Gain table \"%s\" (format %d)\n", str(table.name).c_str(), table.format);
   text += format("  for joint %s: inertia %g kg m^2 at the joint, ratio %g, period %g s\n",
                  str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s);
+  if (!plant.gear.view().empty()) text += "  gear " + str(plant.gear) + "\n";
   text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
                  table.friction.temperature_min_C, table.friction.temperature_max_C);
   text += "\nfriction rules (joint side)\n";

@@ -46,6 +46,7 @@ void visit_table(const Copy& copy, Table& table, Message& message) {
   copy(table.format, message.format);
   copy(table.name.bytes, message.name);
   copy(table.plant.joint_model.bytes, message.joint_model);
+  copy(table.plant.gear.bytes, message.gear);
   copy(table.plant.inertia_kgm2, message.inertia_kgm2);
   copy(table.plant.gear_ratio, message.gear_ratio);
   copy(table.plant.period_s, message.period_s);

@@ -69,7 +69,7 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
   section.refuse_unknown_keys();
 }
 
-void read_features(TomlSection section, const PlantIdentity& plant, JointLoopConfig& loop) {
+void read_features(TomlSection section, PlantIdentity& plant, JointLoopConfig& loop) {
   JointControllerConfig& controller = loop.controller;
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);

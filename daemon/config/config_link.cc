@@ -23,7 +23,7 @@ const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
 
 }  // namespace
 
-void read_link(TomlSection& section, const PlantIdentity& plant, JointControllerConfig& controller) {
+void read_link(TomlSection& section, PlantIdentity& plant, JointControllerConfig& controller) {
   if (!section.has("gear")) {
     if (section.has("load_inertia_kgm2")) section.fail("load_inertia_kgm2", "it is allowed only with a gear");
     return;
@@ -31,7 +31,9 @@ void read_link(TomlSection& section, const PlantIdentity& plant, JointController
   if (controller.rigid) section.fail("gear", "it is allowed only without rigid = true: a gear is a spring");
   if (!controller.use_shaping) section.fail("gear", "it is allowed only with shaping = true");
   LinkConfig link;
-  link.spring = named_gear(section, plant).spring;
+  const Gear& gear = named_gear(section, plant);
+  plant.gear = FixedString<32>(gear.name);
+  link.spring = gear.spring;
   const double total_kgm2 = plant.inertia_kgm2;
   link.link_inertia_kgm2 =
       section.number("load_inertia_kgm2", {kLeastShare * total_kgm2, (1.0 - kLeastShare) * total_kgm2});

@@ -8,6 +8,6 @@
 namespace strainwave {
 
 /// Reads the gear, if there is one, of a joint whose other control keys have been read. Throws InputError.
-void read_link(TomlSection& section, const PlantIdentity& plant, JointControllerConfig& controller);
+void read_link(TomlSection& section, PlantIdentity& plant, JointControllerConfig& controller);
 
 }  // namespace strainwave

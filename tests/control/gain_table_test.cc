@@ -117,10 +117,37 @@ TEST(GainTable, IdentityComparesModelInertiaRatioAndPeriod) {
   EXPECT_NE(find_identity_mismatch(table, other)->find("another"), std::string::npos);
 }
 
+TEST(GainTable, IdentityComparesGearsWhereTableAndJointNameOne) {
+  GainTable table = reference_table();
+  PlantIdentity joint = table.plant;
+  joint.gear = FixedString<32>("csf-17-50");
+  EXPECT_EQ(find_identity_mismatch(table, joint), std::nullopt) << "the table names none";
+  table.plant.gear = FixedString<32>("csf-20-50");
+  EXPECT_EQ(find_identity_mismatch(table, reference_table().plant), std::nullopt) << "the joint names none";
+  const std::string mismatch = find_identity_mismatch(table, joint).value_or("");
+  for (const char* part : {"plant.gear", "csf-20-50", "csf-17-50"})
+    EXPECT_NE(mismatch.find(part), std::string::npos) << mismatch;
+  joint.gear = table.plant.gear;
+  EXPECT_EQ(find_identity_mismatch(table, joint), std::nullopt);
+}
+
 std::string defect_of(const std::function<void(GainTable&)>& change) {
   GainTable table = reference_table();
   change(table);
   return find_defect(table).value_or("");
+}
+
+TEST(GainTable, ItsGearIsOneOfTheCatalogueWithItsRatio) {
+  const auto named = [](const char* gear, double ratio) {
+    return defect_of([&](GainTable& table) {
+      table.plant.gear = FixedString<32>(gear);
+      table.plant.gear_ratio = ratio;
+    });
+  };
+  EXPECT_EQ(named("csf-17-50", 50.0), "");
+  EXPECT_NE(named("csf-18-50", 50.0).find("plant.gear = csf-18-50: must be empty or one of csf-14-50"),
+            std::string::npos);
+  EXPECT_NE(named("csf-17-100", 50.0).find("plant.gear_ratio = 50"), std::string::npos);
 }
 
 TEST(GainTable, FrictionIsFrictionAndBelowTheTorqueLimit) {

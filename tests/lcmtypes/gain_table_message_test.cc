@@ -60,6 +60,7 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   GainTable table;
   table.name = FixedString<48>("example");
   table.plant.joint_model = FixedString<32>("rhs17-6006");
+  table.plant.gear = FixedString<32>("csf-17-50");
   table.plant.inertia_kgm2 = 0.089;
   table.plant.period_s = 0.001;
   table.friction.rule_count = 5;
@@ -69,6 +70,7 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   const gain_table_v1 message = to_message(table);
   EXPECT_EQ(std::string(std::begin(message.name), std::begin(message.name) + 8), std::string("example\0", 8));
   EXPECT_EQ(std::string(std::begin(message.joint_model), std::begin(message.joint_model) + 10), "rhs17-6006");
+  EXPECT_EQ(std::string(std::begin(message.gear), std::begin(message.gear) + 9), "csf-17-50");
   EXPECT_EQ(message.inertia_kgm2, 0.089);
   EXPECT_EQ(message.period_s, 0.001);
   EXPECT_EQ(message.temperature_rule_count, 5);

@@ -20,7 +20,7 @@ TEST_F(TableAdmission, AcceptsTheTableForItsOwnJoint) {
   EXPECT_EQ(judge(), Reason::kAccepted);
 }
 
-TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosAndModels) {
+TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosModelsAndGears) {
   joint_.period_s *= 1.001;
   EXPECT_EQ(judge(), Reason::kTablePeriod);
   joint_ = table_.plant;
@@ -31,6 +31,11 @@ TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosAndModels) {
   EXPECT_EQ(judge(), Reason::kTableIdentity);
   joint_ = table_.plant;
   joint_.joint_model = FixedString<32>("another");
+  EXPECT_EQ(judge(), Reason::kTableIdentity);
+  joint_ = table_.plant;
+  joint_.gear = FixedString<32>("csf-17-50");
+  EXPECT_EQ(judge(), Reason::kAccepted) << "the table names none";
+  table_.plant.gear = FixedString<32>("csf-20-50");
   EXPECT_EQ(judge(), Reason::kTableIdentity);
 }
 

@@ -19,6 +19,7 @@ TEST_F(LinkConfigTest, AGearAndItsLoadMakeTheControllersLink) {
   EXPECT_DOUBLE_EQ(controller.link->link_inertia_kgm2, 0.1);
   EXPECT_NEAR(controller.link->motor_inertia_kgm2, 0.089, 1e-12);
   EXPECT_EQ(controller.link->spring.stiffness_1_Nm_rad, 8100.0);
+  EXPECT_EQ(config.joints.front().plant.gear.view(), "csf-17-50") << "what tables are compared with";
 }
 
 TEST_F(LinkConfigTest, WithoutAGearThereIsNoLink) {
