@@ -44,6 +44,7 @@ struct JointInputs {
 struct ActuatorReading {
   double joint_position_rad = 0.0;           ///< accumulated, not wrapped
   double joint_velocity_rad_s = 0.0;         ///< valid only when has_velocity
+  double link_position_rad = 0.0;  ///< of a second encoder, on the link; valid only when has_link_position
   double torque_applied_Nm = 0.0;            ///< what the drive says it applied last period
   double temperature_C = 0.0;                ///< latest known value; valid only when has_temperature
   std::int64_t temperature_produced_ns = 0;  ///< when the sensor produced it, CLOCK_MONOTONIC
@@ -57,6 +58,7 @@ struct ActuatorReading {
   bool position_lost = false;          ///< the count may be wrong: to be homed before it is believed
   bool brake_shut = false;             ///< torque holds the joint while its brake opens: no motion yet
   bool has_velocity = false;
+  bool has_link_position = false;
   bool has_temperature = false;
 };
 

@@ -44,9 +44,6 @@ SimulatedActuator::SimulatedActuator(const SimulatedActuatorConfig& config)
       temperature_noise_C_(checked_not_negative(config.temperature_noise_C, "temperature_noise_C")),
       random_(config.seed),
       period_ns_(nanoseconds(config.plant.period_s)) {
-  if (!std::isfinite(config.load_torque_Nm))
-    throw InputError("simulated actuator", "load_torque_Nm", std::to_string(config.load_torque_Nm),
-                     "must be finite");
   plant_.set_ambient_temperature(ambient_.at(0.0));
   sample_temperature();
 }
@@ -65,6 +62,8 @@ ActuatorReading SimulatedActuator::read(std::int64_t now_ns) noexcept {
   reading.has_position = true;
   reading.has_velocity = plant_.config().encoder.counts_per_joint_revolution <= 0.0;
   if (reading.has_velocity) reading.joint_velocity_rad_s = plant_.feedback_state().velocity_rad_s;
+  reading.has_link_position = plant_.has_link_encoder();
+  reading.link_position_rad = plant_.measured_link_position_rad() - encoder_zero_rad_;
   reading.torque_applied_Nm = plant_.applied_torque_Nm();
   reading.temperature_C = temperature_C_;
   reading.temperature_produced_ns = temperature_produced_ns_;
@@ -97,7 +96,8 @@ void SimulatedActuator::live_through_period() noexcept {
   const bool powered = drive_state_ == DriveState::kEnabled;
   if (!powered) plant_.clear_pending_torque();
   const bool attended = watchdog_periods_ == 0 || ++unattended_periods_ <= watchdog_periods_;
-  plant_.step(powered && attended ? command_.torque_Nm : 0.0, load_torque_Nm_);
+  plant_.step(powered && attended ? command_.torque_Nm : 0.0,
+              set_load_Nm_.value_or(load_torque_Nm_.at(plant_.time_s())));
   plant_.set_ambient_temperature(ambient_.at(plant_.time_s()));
   if (++temperature_age_periods_ >= temperature_periods_) sample_temperature();
 }

@@ -23,7 +23,7 @@ struct SimulatedActuatorConfig {
   TemperatureProfile ambient;    ///< over plant time, which starts at 0 with the first read()
   SimulatedInputsConfig inputs;  ///< by the plant's position
   bool incremental = false;      ///< the encoder counts from where the joint stands at the start
-  double load_torque_Nm = 0.0;   ///< constant, opposes positive motor torque
+  TimeProfile load_torque_Nm;    ///< over plant time; on the link, opposes positive motor torque
   double enable_delay_s = 0.05;  ///< from the first enabling write() to kEnabled, >= 0; counted in periods
   double watchdog_s = 0.0;  ///< without a write() for longer there is no torque, >= 0 (0: the last one stays)
   double temperature_period_s = 0.1;  ///< the sensor produces a value this often, >= 0 (0: every period)
@@ -46,8 +46,8 @@ class SimulatedActuator final : public Actuator {
   void stop() noexcept override;
   void clear_fault() noexcept override { fault_ = ActuatorFault::kNone; }
 
-  /// External torque from now on; opposes positive motor torque.
-  void set_load_torque_Nm(double load_torque_Nm) noexcept { load_torque_Nm_ = load_torque_Nm; }
+  /// External torque from now on, in the place of the configured one; opposes positive motor torque.
+  void set_load_torque_Nm(double load_torque_Nm) noexcept { set_load_Nm_ = load_torque_Nm; }
 
   /// The truth, for tests and plots.
   const JointPlant& plant() const noexcept { return plant_; }
@@ -62,7 +62,8 @@ class SimulatedActuator final : public Actuator {
   TemperatureProfile ambient_;
   SimulatedInputs inputs_;
   double encoder_zero_rad_;
-  double load_torque_Nm_;
+  TimeProfile load_torque_Nm_;
+  std::optional<double> set_load_Nm_;  ///< once somebody said so
   long enable_delay_periods_;
   long watchdog_periods_;
   long temperature_periods_;

@@ -25,6 +25,7 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   });
   visit("faults_total", state.faults_total);
   visit("drive_error", state.drive_error);
+  visit("link_position_rad", state.link_position_rad);
 }
 
 }  // namespace strainwave

@@ -6,6 +6,7 @@
 
 #include "base/input_error.h"
 #include "daemon/config/config_doubts.h"
+#include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
 #include "daemon/config/config_odrive.h"
 #include "drivers/can/cia402/cia402_node.h"
@@ -206,6 +207,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
+  read_encoder_side(section, joint.loop.controller.rigid);
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "daemon/config/config_doubts.h"
+#include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
 #include "drivers/can/odrive/odrive_node.h"
 
@@ -30,6 +31,8 @@ odrive::WatchdogEndpoints read_watchdog(TomlSection section) {
 
 void read_units(TomlSection& section, const JointConfig& joint, odrive::UnitConfig& units) {
   units.encoder_turns_per_joint_turn = section.number("encoder_turns_per_joint_turn", {1e-3, 1e6});
+  require_motor_encoder(section, units.encoder_turns_per_joint_turn, joint.plant.gear_ratio,
+                        joint.loop.controller.rigid);
   units.direction = section.choice_or("direction", "same", {"same", "reversed"}) == "same" ? 1 : -1;
   units.position_offset_rad = section.number_or("position_offset_rad", 0.0, {-1e3, 1e3});
   doubt_angle(section, "position_offset_rad", units.position_offset_rad);

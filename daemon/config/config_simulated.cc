@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/input_error.h"
+#include "daemon/config/config_encoder.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
@@ -15,13 +16,34 @@ namespace {
 
 constexpr double kDefaultTemperatureNoise_C = 0.02;
 
-TemperatureProfile read_profile(TomlSection& section) {
+TemperatureProfile read_ambient(TomlSection& section) {
   const std::string text = section.text_or("ambient_temperature_C", "constant:25");
   try {
     return TemperatureProfile::parse(text);
   } catch (const InputError& error) {
     section.fail("ambient_temperature_C", error.what());
   }
+}
+
+TimeProfile read_load(TomlSection& section) {
+  const std::string text = section.text_or("load_torque_Nm", "constant:0");
+  try {
+    return TimeProfile::parse(text, {"load_torque_Nm", -1e3, 1e3});
+  } catch (const InputError& error) {
+    section.fail("load_torque_Nm", error.what());
+  }
+}
+
+// What the controller is told of the drive, as with a real one: by default what is true of it.
+void read_what_is_told(TomlSection& section, const JointPlantConfig& plant,
+                       JointControllerConfig& controller) {
+  read_encoder_side(section, controller.rigid, plant.feedback == EncoderSide::kLink ? "link" : "motor");
+  const long delay_periods = std::lround(plant.delay.periods);
+  if (delay_periods > kMaxControlDelay && !section.has("delay_periods"))
+    section.fail("delay_periods", "it must be given, 0 to " + std::to_string(kMaxControlDelay) +
+                                      ", where joint.simulated.drive.delay_periods is larger");
+  controller.delay_periods =
+      static_cast<int>(section.integer_or("delay_periods", delay_periods, 0, kMaxControlDelay));
 }
 
 std::vector<std::string> injectable_faults() {
@@ -91,8 +113,8 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
   config.incremental = section.boolean_or("incremental", config.incremental);
   const HomingInputs available = read_inputs(section, joint.plant.gear_ratio, config.inputs);
-  config.ambient = read_profile(section);
-  config.load_torque_Nm = section.number_or("load_torque_Nm", 0.0, {-1e3, 1e3});
+  config.ambient = read_ambient(section);
+  config.load_torque_Nm = read_load(section);
   config.enable_delay_s = section.number_or("enable_delay_s", config.enable_delay_s, {0.0, 10.0});
   config.watchdog_s = section.number_or("watchdog_s", config.watchdog_s, {0.0, 10.0});
   config.temperature_period_s =
@@ -105,7 +127,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   controller.encoder_resolution_rad = config.plant.feedback == EncoderSide::kLink
                                           ? config.plant.link_encoder.resolution_rad()
                                           : config.plant.encoder.resolution_rad();
-  controller.delay_periods = static_cast<int>(std::lround(config.plant.delay.periods));
+  read_what_is_told(section, config.plant, controller);
   controller.motor = config.plant.motor;
   joint.drive = SimulatedDrive{config, {period_s, read_faults(section), &busy_wait, config.seed + 1}};
   joint.takes_injected_faults = true;

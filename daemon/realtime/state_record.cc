@@ -1,6 +1,7 @@
 #include "daemon/realtime/state_record.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace strainwave {
 
@@ -16,6 +17,9 @@ void fill_motion(const JointCycle& cycle, state_v1& state) noexcept {
   state.target_position_rad =
       controlled ? cycle.ordered.shown_rad(cycle.target_rad, cycle.zero) : position_rad;
   state.joint_position_rad = position_rad;
+  state.link_position_rad = cycle.reading.has_link_position
+                                ? cycle.zero.to_joint_rad(cycle.reading.link_position_rad)
+                                : std::numeric_limits<double>::quiet_NaN();
   state.joint_velocity_rad_s = cycle.joint_velocity_rad_s;
   state.torque_commanded_Nm = controlled ? motion.output.torque_Nm : 0.0;
   state.torque_applied_Nm = cycle.reading.torque_applied_Nm;

@@ -113,6 +113,16 @@ TEST_F(CanConfigTest, TakesOneTemperaturePerJoint) {
   EXPECT_TRUE(read(text).joints[0].thermometer.has_value());
 }
 
+TEST_F(CanConfigTest, RefusesAnEncoderBehindTheSpringOfAJointThatIsNotDeclaredRigid) {
+  expect_mentions(error_after("epos4.toml", "encoder_side = \"motor\"", ""),
+                  {"joint[0].can.encoder_side", "required"});
+  expect_mentions(error_after("elmo.toml", "encoder_side = \"motor\"", "encoder_side = \"link\""),
+                  {"joint[0].can.encoder_side = \"link\"", "\"motor\"", "joint.control.rigid"});
+  const std::string text =
+      replaced(example("epos4.toml"), "encoder_side = \"motor\"", "encoder_side = \"link\"");
+  EXPECT_NO_THROW(read(replaced(text, "[joint.can]", "[joint.control]\nrigid = true\n\n[joint.can]")));
+}
+
 TEST_F(CanConfigTest, LetsOneDriveMakeTheSyncWhenTheBusSaysSo) {
   expect_mentions(
       error_after("epos4.toml", "protocol = \"cia402\"", "protocol = \"cia402\"\nproduces_sync = true"),

@@ -42,6 +42,14 @@ TEST_F(OdriveConfigTest, TakesItsOwnNodeNumbersOnly) {
             std::string::npos);
 }
 
+TEST_F(OdriveConfigTest, RefusesAnEncoderThatDoesNotTurnWithTheMotor) {
+  const std::string message =
+      error_after("encoder_turns_per_joint_turn = 50", "encoder_turns_per_joint_turn = 1");
+  for (const char* part :
+       {"encoder_turns_per_joint_turn = 1", "joint.gear_ratio = 50", "joint.control.rigid"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
 TEST_F(OdriveConfigTest, WantsEveryUnitAndSideSaid) {
   for (const char* line : {"encoder_turns_per_joint_turn = 50\n", "encoder_counts_per_joint_turn = 320000\n",
                            "torque_side = \"motor\"\n", "torque_constant_Nm_A = 0.192\n"})

@@ -243,7 +243,6 @@ TEST(JointLoopNotices, TellOfATemperatureOutsideTheTable) {
 TEST(JointLoopNotices, TellOfATorqueLimit) {
   BenchJoint joint = demo_joint();
   joint.loop.controller.torque_limit_Nm = 3.0;
-  joint.drive.load_torque_Nm = 0.0;
   joint.loop.limits.following_error_rad = 10.0;
   JointBench bench({joint});
   bench.bring_to_hold(0);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace strainwave {
 namespace {
 
@@ -61,6 +63,13 @@ TEST_F(StateRecordTest, ShowsReferenceTargetAndEstimateUnderControlAllFromOneZer
   EXPECT_EQ(state.setpoint_velocity_rad_s, 0.2);
   EXPECT_EQ(state.joint_velocity_rad_s, 0.15);
   EXPECT_EQ(state.torque_commanded_Nm, 4.0);
+}
+
+TEST_F(StateRecordTest, ShowsTheLinkFromTheSameZeroAndNoNumberWhereNothingMeasuresIt) {
+  reading_.link_position_rad = 0.25;
+  EXPECT_TRUE(std::isnan(filled().link_position_rad));
+  reading_.has_link_position = true;
+  EXPECT_EQ(filled().link_position_rad, 1.25);
 }
 
 TEST_F(StateRecordTest, ShowsTheTargetToTheBitAsItWasOrdered) {

@@ -40,6 +40,7 @@ node_id = {node_id}
 protocol = "cia402"
 encoder = "absolute"
 counts_per_output_revolution = 320000
+encoder_side = "motor"
 rated_torque_unit = "mNm"
 torque_side = "motor"
 {can}

@@ -1,0 +1,87 @@
+// What a simulated joint with a spring may be, and what its controller may be told of it.
+#include "tests/daemon/config/config_file_test.h"
+
+namespace strainwave {
+namespace {
+
+class SimulatedConfigTest : public ConfigFileTest {
+ protected:
+  /// The demo's joint on a gear, not declared rigid, with further lines after [joint.simulated]'s own keys.
+  static std::string joint_with(const std::string& lines, const std::string& keys = "") {
+    return replaced(example("demo.toml"), "rigid = true", "rigid = false") + "\ngear = \"csf-17-50\"\n" +
+           "inertia_kgm2 = 0.089\n" + keys + lines;
+  }
+  static std::string link(const std::string& lines) {
+    return "[joint.simulated.link]\ninertia_kgm2 = 0.1\n" + lines;
+  }
+  const JointControllerConfig& controller(const std::string& text) {
+    config_ = read(text);
+    return config_.joints.front().loop.controller;
+  }
+  DaemonConfig config_;
+};
+
+const char* const kEncoder = "[joint.simulated.link_encoder]\ncounts_per_joint_revolution = 1e6\n";
+
+TEST_F(SimulatedConfigTest, TellsTheControllerWhatIsTrueOfTheDriveUnlessToldOtherwise) {
+  const std::string late = link("[joint.simulated.drive]\ndelay_periods = 2.4\n");
+  EXPECT_EQ(controller(joint_with(late)).delay_periods, 2);
+  EXPECT_EQ(controller(joint_with(late, "delay_periods = 1\n")).delay_periods, 1);
+  EXPECT_EQ(std::get<SimulatedDrive>(config_.joints.front().drive).actuator.plant.delay.periods, 2.4);
+  expect_mentions(error_of(joint_with(link("[joint.simulated.drive]\ndelay_periods = 12\n"))),
+                  {"joint[0].simulated.delay_periods", "0 to 8"});
+}
+
+TEST_F(SimulatedConfigTest, RefusesAnEncoderOfTheLinkWithGainsForTheMotorsSide) {
+  EXPECT_NO_THROW(read(joint_with(link(kEncoder)))) << "a second one beside the motor's";
+  const std::string fed_back = link(std::string(kEncoder) + "feedback = true\n");
+  expect_mentions(error_of(joint_with(fed_back)),
+                  {"joint[0].simulated.encoder_side", "\"motor\"", "rigid = true"});
+  expect_mentions(error_of(joint_with(fed_back, "encoder_side = \"link\"\n")),
+                  {"joint[0].simulated.encoder_side = \"link\"", "\"motor\"", "rigid = true"});
+  EXPECT_NO_THROW(read(joint_with(fed_back, "encoder_side = \"motor\"\n")))
+      << "said wrongly, to see what it does";
+  EXPECT_NO_THROW(read(replaced(joint_with(fed_back), "rigid = false", "rigid = true")));
+}
+
+TEST_F(SimulatedConfigTest, RefusesALinkEncoderWithoutItsResolution) {
+  expect_mentions(error_of(joint_with(link("[joint.simulated.link_encoder]\nfeedback = false\n"))),
+                  {"joint[0].simulated.link_encoder.counts_per_joint_revolution", "required"});
+  expect_mentions(
+      error_of(joint_with(link("[joint.simulated.link_encoder]\ncounts_per_joint_revolution = 0\n"))),
+      {"joint[0].simulated.link_encoder.counts_per_joint_revolution = 0", "from 1"});
+}
+
+TEST_F(SimulatedConfigTest, RefusesGearsAndSpringsThatCannotBe) {
+  expect_mentions(error_of(replaced(joint_with(link("")), "csf-17-50", "csf-18-50")),
+                  {"joint[0].simulated.gear = \"csf-18-50\"", "csf-17-50"});
+  expect_mentions(error_of(replaced(joint_with(link("")), "csf-17-50", "csf-17-100")),
+                  {"joint[0].simulated.gear = \"csf-17-100\"", "ratio of 50"});
+  expect_mentions(error_of(joint_with("")), {"joint[0].simulated.gear", "link.inertia_kgm2"});
+  expect_mentions(error_of(joint_with(link("[joint.simulated.spring]\nstiffness_1_Nm_rad = -8100\n"))),
+                  {"joint[0].simulated.spring.stiffness_1_Nm_rad = -8100", "from 1e-09"});
+  expect_mentions(error_of(joint_with(link("[joint.simulated.spring]\nscale = 0\n"))),
+                  {"joint[0].simulated.spring.scale = 0", "from 0.01"});
+  expect_mentions(
+      error_of(joint_with(link("[joint.simulated.spring]\ntorque_1_Nm = 20\ntorque_2_Nm = 10\n"))),
+      {"joint[0].simulated.spring.torque_2_Nm = 10", "from 20"});
+  expect_mentions(error_of(joint_with("[joint.simulated.link]\ninertia_kgm2 = -0.1\n")),
+                  {"joint[0].simulated.link.inertia_kgm2 = -0.1", "from"});
+}
+
+TEST_F(SimulatedConfigTest, TakesLoadsOverTime) {
+  const auto load_Nm = [&](const std::string& text, double time_s) {
+    config_ = read(joint_with(link(""), "load_torque_Nm = \"" + text + "\"\n"));
+    return std::get<SimulatedDrive>(config_.joints.front().drive).actuator.load_torque_Nm.at(time_s);
+  };
+  EXPECT_EQ(load_Nm("steps:0,20,5,1", 4.999), 0.0);
+  EXPECT_EQ(load_Nm("steps:0,20,5,1", 60.0), 20.0);
+  EXPECT_DOUBLE_EQ(load_Nm("ramp:4,10,1,4", 2.0), 6.0);
+  expect_mentions(error_of(joint_with(link(""), "load_torque_Nm = \"ramp:0,10,4,4\"\n")),
+                  {"joint[0].simulated.load_torque_Nm", "end_s", "greater than begin_s"});
+  expect_mentions(error_of(joint_with(link(""), "load_torque_Nm = \"constant:1e9\"\n")),
+                  {"joint[0].simulated.load_torque_Nm", "1000"});
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,220 @@
+// The running daemon on a simulated joint with a spring, over LCM, every cycle's state. For the virtual machine of tests/vm.
+//
+// What it does there is what `strainwave-sim` finds; and where table or configuration say what the joint is not, the torque stops
+// reversing within half a second of the first motion.
+#include <algorithm>
+#include <cmath>
+
+#include "control/gain_table_json.h"
+#include "sim/joint/plant_file.h"
+#include "sim/studies/contenders.h"
+#include "tests/support/daemon_fixture.h"
+
+namespace strainwave::testing {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kCounted_rad = 40e-6;  // two counts of the motor's encoder
+constexpr int kSamples = 2000;
+
+/// A link on the gear of size 17 with a fine encoder of its own: the same tables in a plant file and under [joint.simulated].
+std::string joint_with_a_link(const std::string& prefix, double link_kgm2, double damping_Nms_rad) {
+  const auto table = [&](const char* name) { return "[" + prefix + name + "]\n"; };
+  return table("link") + "inertia_kgm2 = " + std::to_string(link_kgm2) + "\n" + table("spring") +
+         "damping_Nms_rad = " + std::to_string(damping_Nms_rad) + "\n" + table("link_encoder") +
+         "counts_per_joint_revolution = 1e8\n";
+}
+
+/// What is compared: of the link, and of the torque.
+struct Figures {
+  double link_pi2 = 0.0;  ///< sum of |e / r| above 40 urad
+  double overshoot_rad = 0.0;
+  double peak_Nm = 0.0;
+
+  void add(double link_rad, double torque_Nm, double step_rad) {
+    const double error_rad = step_rad - link_rad;
+    if (std::abs(error_rad) > kCounted_rad) link_pi2 += std::abs(error_rad / step_rad);
+    overshoot_rad = std::max(overshoot_rad, -error_rad);
+    peak_Nm = std::max(peak_Nm, std::abs(torque_Nm));
+  }
+};
+
+class DaemonOnASpring : public DaemonTest {
+ protected:
+  void SetUp() override {
+    if (!in_virtual_time()) GTEST_SKIP() << "for the virtual machine: ctest -L vm";
+  }
+
+  /// A daemon that says every cycle; `control`, `limits` and `drive` are lines of those sections of its joint.
+  static std::string configured(double inertia_kgm2, const std::string& limits, const std::string& control,
+                                const std::string& drive) {
+    return "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = "
+           "\"allow\"\n"
+           "[[joint]]\nname = \"elbow\"\njoint_model = \"rhs17-6006\"\ngear_ratio = 50\ndriver = "
+           "\"simulated\"\n"
+           "inertia_kgm2 = " +
+           std::to_string(inertia_kgm2) +
+           "\n[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\ntorque_limit_Nm = 34\n" +
+           limits + "[joint.control]\n" + control +
+           "[joint.simulated]\nambient_temperature_C = \"constant:20\"\ntemperature_noise_C = 0\n" + drive;
+  }
+
+  void enable(const std::string& configuration, const GainTable& table) {
+    client_.reset();
+    daemon_.reset();
+    daemon_.emplace(folder_, configuration);
+    client_.emplace();
+    ASSERT_TRUE(client_->wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
+    const Answer loaded = client_->load("elbow", table);
+    ASSERT_TRUE(loaded.accepted) << loaded.text;
+    client_->forget_states();
+    ASSERT_TRUE(client_->command("elbow", Action::kEnable).accepted) << daemon_->log();
+    ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
+    client_->pump(milliseconds(3000));  // the temperature must have been good for a while
+  }
+
+  /// Every state from the first of a move's on.
+  std::vector<state_v1> states_of_a_move(double step_rad, int samples) {
+    client_->forget_states();
+    EXPECT_TRUE(client_->move("elbow", step_rad).accepted) << daemon_->log();
+    client_->pump(milliseconds(samples + 100));
+    std::vector<state_v1> states = client_->history("elbow");
+    const auto begin = std::find_if(states.begin(), states.end(), [&](const state_v1& state) {
+      return state.target_position_rad == step_rad;
+    });
+    states.erase(states.begin(), begin);
+    EXPECT_GE(states.size(), static_cast<std::size_t>(samples));
+    states.resize(std::min(states.size(), static_cast<std::size_t>(samples)));
+    for (std::size_t k = 1; k < states.size(); ++k)
+      EXPECT_EQ(states[k].cycle, states[k - 1].cycle + 1) << "a cycle is missing";
+    return states;
+  }
+
+  std::optional<DaemonProcess> daemon_;
+  std::optional<TestClient> client_;
+};
+
+TEST_F(DaemonOnASpring, MovesTheLinkAsTheStudySaysWithinOnePerCent) {
+  const GainTable table = read_gain_table(programs_folder() / "c4.json");
+  const double link_kgm2 = table.plant.inertia_kgm2 - 0.089;
+  constexpr double kDamping_Nms_rad = 1.5;
+  const JointPlantConfig plant =
+      plant_from_toml("gear = \"csf-17-50\"\n" + joint_with_a_link("", link_kgm2, kDamping_Nms_rad), "plant");
+  for (const double step_rad : {0.01, 0.1, 1.0}) {
+    ClosedLoopConfig config;
+    config.plant = plant;
+    config.ambient = TemperatureProfile::constant(20.0);
+    config.setpoint_rad = TimeProfile::constant(step_rad, {"setpoint_position_rad"});
+    config.duration_s = kSamples * plant.period_s;
+    Figures study;
+    for (const TracePoint& point :
+         run_closed_loop(config, *extended_contender("daemon", table).make(plant)).trace)
+      study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
+
+    enable(configured(table.plant.inertia_kgm2,
+                      "speed_limit_rad_s = 1000\noverspeed_rad_s = 1000\nacceleration_rad_s2 = 1e6\n"
+                      "following_error_rad = 10\n",
+                      "",
+                      "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
+                          joint_with_a_link("joint.simulated.", link_kgm2, kDamping_Nms_rad)),
+           table);
+    if (HasFatalFailure()) return;
+    Figures daemon;
+    for (const state_v1& state : states_of_a_move(step_rad, kSamples))
+      daemon.add(state.link_position_rad, state.torque_commanded_Nm, step_rad);
+
+    std::printf(
+        "%g rad: PI2 of the link %.5g, study %.5g; overshoot %.4g, study %.4g mrad; peak %.5g, study %.5g "
+        "N.m\n",
+        step_rad, daemon.link_pi2, study.link_pi2, 1e3 * daemon.overshoot_rad, 1e3 * study.overshoot_rad,
+        daemon.peak_Nm, study.peak_Nm);
+    EXPECT_NEAR(daemon.link_pi2 / study.link_pi2, 1.0, 0.01) << step_rad;
+    EXPECT_NEAR(daemon.overshoot_rad, study.overshoot_rad, 0.01 * study.overshoot_rad + 20e-6) << step_rad;
+    EXPECT_NEAR(daemon.peak_Nm / study.peak_Nm, 1.0, 0.01) << step_rad;
+  }
+}
+
+/// What table or configuration say that the joint is not.
+struct Mistake {
+  const char* what;
+  const char* table;  ///< its file
+  std::string drive;  ///< keys of [joint.simulated] and its tables
+};
+
+class DaemonInTheWrong : public DaemonOnASpring {
+ protected:
+  /// From the first motion in `states` on, the torque reverses for at most half a second. A motion that is longer reverses it twice:
+  /// where it begins to brake, and where it stops.
+  static void expect_quiet(const std::vector<state_v1>& states, const std::string& what) {
+    constexpr double kReversal_Nm = 4.0;  // more than the law's own friction compensation makes
+    ASSERT_FALSE(states.empty()) << what;
+    std::int64_t first_motion = -1;
+    std::int64_t last_reversal = -1;
+    int reversals = 0;
+    int late = 0;
+    bool still_moves = false;  // by its orders, when the half second is over
+    double side = 0.0;
+    for (const state_v1& state : states) {
+      const bool over = first_motion >= 0 && state.cycle > first_motion + 500;
+      still_moves = still_moves || (over && state.setpoint_velocity_rad_s != 0.0);
+      if (first_motion < 0 &&
+          std::abs(state.joint_position_rad - states.front().joint_position_rad) > kCounted_rad)
+        first_motion = state.cycle;
+      if (std::abs(state.torque_commanded_Nm) <= kReversal_Nm) continue;
+      if (side * state.torque_commanded_Nm < 0.0) {
+        last_reversal = state.cycle;
+        ++reversals;
+        late += over ? 1 : 0;
+      }
+      side = state.torque_commanded_Nm;
+    }
+    const bool reverses = last_reversal >= 0 && first_motion >= 0;
+    std::printf("%s: %d reversals, the last %lld ms after the first motion; fault %d\n", what.c_str(),
+                reversals, static_cast<long long>(reverses ? last_reversal - first_motion : 0),
+                states.back().fault);
+    EXPECT_LE(late, still_moves ? 2 : 0) << what;
+  }
+
+  void expect_quiet_after_half_a_second(const Mistake& mistake) {
+    const GainTable table = read_gain_table(programs_folder() / mistake.table);
+    for (const bool rigid : {false, true})
+      for (const double step_rad : {0.01, 1.0}) {
+        const std::string what = std::string(mistake.what) + (rigid ? ", declared rigid" : "");
+        enable(configured(table.plant.inertia_kgm2,
+                          "speed_limit_rad_s = 5\nacceleration_rad_s2 = 60\nfollowing_error_rad = 10\n"
+                          "overspeed_rad_s = 1000\n",
+                          rigid ? "rigid = true\n" : "", mistake.drive),
+               table);
+        if (HasFatalFailure()) return;
+        expect_quiet(client_->history("elbow"), what + ", held");
+        if (client_->state("elbow")->mode == static_cast<std::int32_t>(Mode::kFaulted)) continue;
+        const std::vector<state_v1> states = states_of_a_move(step_rad, 3000);
+        expect_quiet(states, what + ", moved by " + std::to_string(step_rad) + " rad");
+        EXPECT_TRUE(
+            std::any_of(states.begin(), states.end(),
+                        [](const state_v1& state) { return std::abs(state.torque_commanded_Nm) > 1.0; }))
+            << what << ": it was not moved at all";
+      }
+  }
+};
+
+TEST_F(DaemonInTheWrong, EndsReversalsWithinHalfASecondWhenTheTableIsForTenTimesTheInertia) {
+  expect_quiet_after_half_a_second({"inertia x 10", "c4.json", "inertia_kgm2 = 0.1089\n"});
+}
+
+TEST_F(DaemonInTheWrong, EndsReversalsWithinHalfASecondWhenTheDelayIsTwoAndItIsToldOne) {
+  expect_quiet_after_half_a_second({"delay 2 for 1", "rhs17-6006.json",
+                                    "delay_periods = 1\n[joint.simulated.drive]\ndelay_periods = 2\n"});
+}
+
+TEST_F(DaemonInTheWrong, EndsReversalsWithinHalfASecondWhenTheEncoderIsTheLinksAndItIsToldTheMotors) {
+  expect_quiet_after_half_a_second({"encoder on the link", "c4.json",
+                                    "encoder_side = \"motor\"\ngear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n"
+                                    "[joint.simulated.link]\ninertia_kgm2 = 0.089\n[joint.simulated.spring]\n"
+                                    "damping_Nms_rad = 1.0\n[joint.simulated.link_encoder]\n"
+                                    "counts_per_joint_revolution = 320000\nfeedback = true\n"});
+}
+
+}  // namespace
+}  // namespace strainwave::testing
