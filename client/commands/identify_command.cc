@@ -7,6 +7,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
 #include "client/commands/identify_plan.h"
+#include "client/commands/order_steps.h"
 #include "client/link/event_log_writer.h"
 #include "client/link/exit_status.h"
 #include "client/link/latest_messages.h"
@@ -20,8 +21,6 @@ constexpr double kValidFor_s = 0.5;
 constexpr double kRenewEvery_s = 0.1;
 // Beyond the time that a leg should take.
 constexpr double kPatience_s = 5.0;
-// A state that left the daemon before it took the setpoint may still arrive.
-constexpr double kOldStates_s = 0.2;
 
 class Identification {
  public:

@@ -11,7 +11,7 @@
 namespace strainwave {
 
 /// A state that left the daemon before it took the order may still arrive after the acknowledgement.
-inline constexpr double kOldStates_s = 0.1;
+inline constexpr double kOldStates_s = 0.2;
 
 Mode mode_of(const JointView& view);
 

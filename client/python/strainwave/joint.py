@@ -6,7 +6,7 @@ from .command_v1 import command_v1
 from .conversation import Conversation
 from .errors import Faulted, NoAnswer, NotDone
 from .messages import blank
-from .motion import Arrival, ArrivalWatch, wait_for_motion
+from .motion import OLD_STATES_S, Arrival, ArrivalWatch, wait_for_motion
 from .network import Network, check_name, now_s
 from .sender import Sender
 from .setpoint_v2 import setpoint_v2
@@ -15,7 +15,6 @@ from .stream import Stream, check_number
 from .vocabulary import Action, Mode, Notice
 
 _ENABLED = (Mode.HOLDING, Mode.TRACKING, Mode.HOMING)
-_OLD_STATES_S = 0.1  # a state that left the daemon before it took the order may arrive after the acknowledgement
 
 
 class Joint:
@@ -78,7 +77,7 @@ class Joint:
             mode = self._mode()
             if mode == Mode.FAULTED:
                 raise Faulted(self.name, State(self._conversation.state, 0.0).fault)
-            if mode == Mode.OFF and now_s() > ordered_s + _OLD_STATES_S:
+            if mode == Mode.OFF and now_s() > ordered_s + OLD_STATES_S:
                 raise NotDone(f"{self.name}: went back to off while it was starting; see the daemon's log")
             return mode in _ENABLED
 

@@ -6,7 +6,7 @@ from .network import now_s
 from .state import State
 from .vocabulary import Mode
 
-_OLD_STATES_S = 0.1
+OLD_STATES_S = 0.2  # a state that left the daemon before it took the order may arrive after the acknowledgement
 _LOOK_S = 0.01
 _STAY_S = 0.1
 
@@ -60,7 +60,7 @@ def _why_ended(state, session_id, replaced):
 def wait_for_motion(conversation, mode, purpose, done, replaced=lambda state: False):
     """Waits for done(State). `mode`: while the motion lasts; `purpose`: in words, after "did not". Raises Faulted, NotDone, NoAnswer."""
     session_id = conversation.state.session_id
-    old_states_end_s = now_s() + _OLD_STATES_S
+    old_states_end_s = now_s() + OLD_STATES_S
     motion_seen = False
     while True:
         seen = conversation.messages
