@@ -171,6 +171,20 @@ TEST(GainTable, FrictionIsFrictionAndBelowTheTorqueLimit) {
   EXPECT_NE(pushing.find("friction.rules[1].viscous_Nms_rad"), std::string::npos) << pushing;
 }
 
+TEST(GainTable, FrictionIsWhatAJointCanNeed) {
+  const auto declared = [](double static_Nm, double coulomb_Nm) {
+    return defect_of([=](GainTable& table) {
+      table.torque_limit_Nm = 34.0;
+      for (TemperatureRule& rule : table.friction.rules) rule.friction = {static_Nm, coulomb_Nm, 0.1};
+    });
+  };
+  EXPECT_EQ(declared(0.0, 0.0), "") << "a joint may have none";
+  EXPECT_EQ(declared(17.0, 3.4), "");
+  EXPECT_NE(declared(10.0, 0.0).find("at most 5 times coulomb_Nm = 0"), std::string::npos)
+      << declared(10.0, 0.0);
+  EXPECT_NE(declared(17.1, 17.0).find("half of torque_limit_Nm"), std::string::npos) << declared(17.1, 17.0);
+}
+
 TEST(GainTable, MembershipsOfSpeedHaveAWidth) {
   for (const double width : {1e-320, 1e-9, 0.0, -1.0}) {
     EXPECT_NE(defect_of([width](GainTable& t) {
