@@ -5,7 +5,8 @@
 // a threshold on one side to more than it on the other. Planned motion, however hard, makes none. There are two
 // thresholds, shares of static friction: a strong reversal is more than the law's own friction compensation
 // makes, and counts always; a weak one could just move the joint, and counts once the reference has come to
-// rest for a while. Each fills a level that leaks:
+// rest for a while; where it has rested for long, in a level of its own, since a sound joint then makes none. Each fills a level
+// that leaks:
 //
 //   level' = level exp(-period / leak) + reversals
 //
@@ -49,15 +50,18 @@ class ChatterMonitor {
   void count(const ChatterSample& sample) noexcept;
 
   double period_s_;
-  double leak_;       ///< of the level over a period
-  double rest_leak_;  ///< of the level at rest
+  double leak_;            ///< of the level over a period
+  double rest_leak_;       ///< of the level at rest
+  double unsettled_leak_;  ///< of the level at a long rest
   double level_ = 0.0;
   double rest_level_ = 0.0;
+  double unsettled_level_ = 0.0;
   double chatter_s_ = 0.0;  ///< since the fallback
   double rest_s_ = 0.0;     ///< since when the reference rests
   Side strong_;
   Side weak_;
-  bool surprised_ = false;  ///< since the last strong reversal
+  bool surprised_ = false;          ///< since the last strong reversal
+  bool surprised_at_rest_ = false;  ///< since the last weak one
   MonitorState state_ = MonitorState::kWatching;
 };
 

@@ -75,6 +75,19 @@ TEST(ChatterMonitor, SeesAtRestWhatIsTooWeakToBeSeenInMotionAndNeverWhatCannotMo
   }
 }
 
+TEST(ChatterMonitor, SeesASlowSwingAboutTheTargetThatGoesOnLongAfterTheReferenceHasComeToRest) {
+  for (const double frequency_Hz : {9.0, 14.0, 20.0}) {
+    ChatterMonitor monitor(0.001);
+    const int seen = periods_until(monitor, MonitorState::kFallenBack, frequency_Hz, 2.4, 10000, true);
+    EXPECT_GT(seen, 2000) << frequency_Hz << ": a joint may hunt for a while";
+    EXPECT_LT(seen, 6000) << frequency_Hz;
+  }
+  ChatterMonitor pushed(0.001);
+  EXPECT_LT(periods_until(pushed, MonitorState::kFallenBack, 3.0, 2.4, 60000, true), 0) << "by somebody";
+  ChatterMonitor moving(0.001);
+  EXPECT_LT(periods_until(moving, MonitorState::kFallenBack, 14.0, 2.4, 60000), 0);
+}
+
 TEST(ChatterMonitor, TakesWhatACoarseEncoderMakesOfTheTorqueForNoise) {
   ChatterMonitor monitor(0.001);
   for (int k = 0; k < 20000; ++k) {
