@@ -42,7 +42,7 @@ class HostileDatagrams(unittest.TestCase):
             self.send(bytes(broken[:chance.randrange(len(broken))]))
             self.send(chance.randbytes(chance.randrange(1400)))
         for kind in ("STATE", "ACK", "LIMITS"):
-            self.send(encode_short(2, f"SW.elbow.{kind}", b"\xff" * 320))
+            self.send(encode_short(2, f"SW.elbow.{kind}", b"\xff" * messages.size_of(state_v1)))
         state.session_id = 9  # in case noise made a state
         for _ in range(3):
             self.send(encode_short(3, "SW.elbow.STATE", state.encode()))
