@@ -67,6 +67,8 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
   JointControllerConfig& controller = joint.loop.controller;
   const double counts = section.number("encoder_counts_per_joint_turn", {1.0, 1e10});
   controller.encoder_resolution_rad = 2.0 * std::numbers::pi / counts;
+  // Both read the edges of an encoder that is sampled with the loop. This one has its own clock, and its own velocity.
+  controller.use_observer = controller.use_landing = false;
   controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
   TomlSection motor = section.section("motor");
   const double torque_constant_Nm_A = motor.number("torque_constant_Nm_A", {1e-9, 1e9});

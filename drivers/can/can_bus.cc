@@ -53,6 +53,7 @@ void CanBus::take(const ReceivedFrame& received) noexcept {
 // before it has left when it has, whether we were told so or not.
 void CanBus::take_own(const ReceivedFrame& received) noexcept {
   if (received.frame.id == canopen::sync_frame().id) note_sync(received.kernel_time_ns);
+  for (const auto& node : nodes_) node->note_own(received.frame, received.kernel_time_ns);
   if (received.frame.id == our_heartbeat_id()) {
     heartbeat_waits_ = false;
     outstanding_ = std::min(outstanding_, sent_since_heartbeat_);

@@ -54,6 +54,8 @@ class CanNode : public Actuator {
   virtual void begin_cycle(std::int64_t now_ns) noexcept = 0;
   /// A SYNC was on the bus, at this time of the kernel; 0: unknown.
   virtual void note_sync(std::int64_t /*kernel_time_ns*/) noexcept {}
+  /// A frame of ours has gone out, at this time of the kernel; 0: unknown.
+  virtual void note_own(const CanFrame& /*frame*/, std::int64_t /*kernel_time_ns*/) noexcept {}
   /// A data frame with one of receive_ids(), and when the kernel saw it. Untrusted.
   virtual void receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept = 0;
   /// The bus itself is in trouble: told each cycle, between the frames and read(); kNone when it is not.

@@ -39,6 +39,8 @@ std::string drive_error_text(std::uint32_t drive_error) {
 Node::Node(const DriveConfig& config)
     : config_(config),
       arm_timeout_ns_(nanoseconds(config.arm_timeout_s)),
+      period_ns_(nanoseconds(config.period_s)),
+      kernel_clock_(period_ns_),
       watch_(nanoseconds(config.heartbeat_timeout_s), kOurDetail) {}
 
 std::vector<std::uint32_t> Node::receive_ids() const {
@@ -120,10 +122,16 @@ void Node::forget_drive() noexcept {
   heartbeat_ns_ = now_ns_;
   watch_.hear(now_ns_);
   missed_ = 0;
+  sampled_ns_ = now_ns_ - 2 * period_ns_;
+  kernel_clock_.restart();
   has_heartbeat_ = has_temperature_ = was_armed_ = stop_ordered_ = false;
 }
 
-void Node::receive(const CanFrame& frame, std::int64_t /*kernel_time_ns*/) noexcept {
+void Node::note_own(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept {
+  if (frame.id == can_id(Command::kSetTorque, config_.node_id)) kernel_clock_.echoed(kernel_time_ns);
+}
+
+void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept {
   if (!setup_.ready()) return;
   const auto is = [&](Command command) { return frame.id == can_id(command, config_.node_id); };
   if (is(Command::kEstimates)) {
@@ -131,6 +139,9 @@ void Node::receive(const CanFrame& frame, std::int64_t /*kernel_time_ns*/) noexc
       position_rad_ = joint_position_rad(config_.units, estimates->position_turns);
       velocity_rad_s_ = joint_rad(config_.units, estimates->velocity_turns_s);
       fresh_ = true;
+      sampled_ns_ = kernel_clock_.loop_time_ns(kernel_time_ns).value_or(now_ns_);
+      // Nothing comes from the future, nor from before the last cycle.
+      if (position_age_ns() < 0 || position_age_ns() > 2 * period_ns_) sampled_ns_ = now_ns_;
       return;
     }
   } else if (is(Command::kHeartbeat)) {
@@ -160,9 +171,9 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   supervise();
   const NodeFault shown = watch_.shown(watch_.link_trouble(setup_, now_ns_));
   ActuatorReading reading;
-  reading.joint_position_rad = position_rad_;
+  reading.joint_position_rad = position_rad_ + velocity_rad_s_ * seconds(position_age_ns());
   reading.joint_velocity_rad_s = velocity_rad_s_;
-  reading.has_position = fresh_;
+  reading.has_position = reading.has_velocity = has_position();
   // One that was out of sight may have restarted: it has no message that tells of it.
   reading.position_lost = !config_.absolute_encoder &&
                           (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kLinkLost);
@@ -174,12 +185,17 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
     reading.drive_state = DriveState::kFault;
   else if (command_.enable)
     reading.drive_state =
-        closed_loop() && fresh_ && !stop_ordered_ ? DriveState::kEnabled : DriveState::kEnabling;
+        closed_loop() && has_position() && !stop_ordered_ ? DriveState::kEnabled : DriveState::kEnabling;
   else
     reading.drive_state = closed_loop() ? DriveState::kEnabled : DriveState::kDisabled;
   reading.fault = shown.fault;
   reading.drive_error = shown.fault != ActuatorFault::kNone ? shown.drive_error : heartbeat_.errors;
   return reading;
+}
+
+// Two clocks of nearly one period: now and then a cycle finds none and the next one two.
+bool Node::has_position() const noexcept {
+  return fresh_ || (missed_ <= 1 && position_age_ns() < 2 * period_ns_);
 }
 
 void Node::supervise() noexcept {
@@ -226,7 +242,8 @@ void Node::transmit(CanTransmitter& bus) noexcept {
   const bool driven = wants_torque() && closed_loop() && missed_ <= config_.zero_torque_after;
   torque_sent_Nm_ =
       driven ? std::clamp(command_.torque_Nm, -config_.torque_limit_Nm, config_.torque_limit_Nm) : 0.0;
-  // Sent in every period, enabled or not: it feeds the drive's watchdog.
+  // Sent in every period, enabled or not: it feeds the drive's watchdog, and its echo tells the kernel's time.
+  kernel_clock_.sent(now_ns_);
   (void)bus.send(torque_frame(config_.node_id,
                               drive_torque_Nm(config_.units, config_.torque_limit_Nm, torque_sent_Nm_)));
 }

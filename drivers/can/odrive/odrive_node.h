@@ -2,7 +2,10 @@
 // it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in
 // cia402_node.h.
 //
-// CANSimple has no SYNC and no supervision of the host but the drive's watchdog, which each torque frame
+// CANSimple has no SYNC: the drive sends its position by its own clock, and where in the loop's period that falls changes.
+// Each position comes with the velocity of the same instant; with it the position is carried to the beginning of the cycle.
+//
+// CANSimple has no supervision of the host but the drive's watchdog, which each torque frame
 // feeds. It has no boot-up message either: a drive that restarted shows itself by heartbeats that stay away
 // and by having left closed loop. Its controller mode is set anew whenever it is enabled.
 #pragma once
@@ -11,6 +14,7 @@
 #include <vector>
 
 #include "drivers/can/can_node.h"
+#include "drivers/can/kernel_clock.h"
 #include "drivers/can/node_watch.h"
 #include "drivers/can/odrive/odrive_config.h"
 #include "drivers/can/set_up_state.h"
@@ -37,6 +41,7 @@ class Node final : public CanNode {
   void shut_down(CanPort& port) noexcept override;
 
   void begin_cycle(std::int64_t now_ns) noexcept override;
+  void note_own(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept override;
   void receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept override;
   void note_bus(const NodeFault& trouble) noexcept override;
   void transmit(CanTransmitter& bus) noexcept override;
@@ -53,15 +58,20 @@ class Node final : public CanNode {
   bool wants_torque() const noexcept;
   void forget_drive() noexcept;
   void supervise() noexcept;
+  std::int64_t position_age_ns() const noexcept { return now_ns_ - sampled_ns_; }
+  bool has_position() const noexcept;
   NodeFault use_trouble() const noexcept;
   void lead_state(CanTransmitter& bus) noexcept;
 
   DriveConfig config_;
   std::int64_t arm_timeout_ns_;
+  std::int64_t period_ns_;
   SetUpState setup_;
 
   // The loop alone.
   std::int64_t now_ns_ = 0;
+  KernelClock kernel_clock_;
+  std::int64_t sampled_ns_ = 0;  ///< the position, by the loop's time
   std::int64_t heartbeat_ns_ = 0;
   std::int64_t temperature_ns_ = 0;
   std::int64_t enabling_since_ns_ = 0;

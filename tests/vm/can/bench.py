@@ -73,6 +73,7 @@ encoder_turns_per_joint_turn = 50
 encoder_counts_per_joint_turn = 320000
 torque_side = "motor"
 drive_heartbeat_s = 0.02
+delay_periods = 0  # on a bus whose frames take no time
 {can}
 [joint.can.watchdog]
 enabled_endpoint = 190

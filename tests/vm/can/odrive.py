@@ -53,7 +53,7 @@ class Odrive(unittest.TestCase):
         must('enable', JOINT)
         for setpoint_rad in (0.01, 0.1, 1.0):
             must('move', JOINT, str(setpoint_rad), '--wait')
-            # The plan is at its end; positions up to a period old leave the feedback a rest to settle.
+            # The plan is at its end; the law without landing comes closer by its integral.
             time.sleep(0.5)
             self.assertAlmostEqual(float(self.drive.report()['position_rad']), setpoint_rad, delta=3e-4)
         must('disable', JOINT)
