@@ -116,14 +116,27 @@ TEST_F(OdriveFailure, RefusesATorqueThatIsNoNumber) {
   EXPECT_EQ(axis_->torque_Nm(), 0.0);
 }
 
+TEST_F(OdriveFailure, CarriesThePositionOverAPeriodWithoutOneAndNoFurther) {
+  start_moving();
+  tell("skip-encoder 2");
+  step(kMoving);
+  ASSERT_TRUE(reading_.has_position);
+  const double period_of_motion_rad = axis_->plant().state().velocity_rad_s * 1e-3;
+  EXPECT_NEAR(reading_.joint_position_rad, axis_->plant().state().position_rad, 0.25 * period_of_motion_rad);
+  EXPECT_EQ(reading_.drive_state, DriveState::kEnabled);
+  step(kMoving);
+  EXPECT_FALSE(reading_.has_position);
+}
+
 TEST_F(OdriveFailure, CountsFramesOfTheWrongSize) {
   start();
   run(10, kOff);
   CanFrame frame;
   frame.id = odrive::can_id(odrive::Command::kEstimates, 2);
   frame.size = 7;
-  tell("skip-encoder 1");
+  tell("skip-encoder 2");
   can_.send_as_stranger(frame);
+  step(kOff);
   step(kOff);
   EXPECT_FALSE(reading_.has_position);
 }
