@@ -322,7 +322,7 @@ const std::vector<TableCase> kTableCases{
     {"\"joint_model\": \"rhs17-6006\"",
      "\"joint_model\": \"rhs20\"",
      {"rhs20", "this joint is a rhs17-6006"}},
-    {"\"format\": 2", "\"format\": 1", {"format = 1", "2"}},
+    {"\"format\": ", "\"format\": 1", {"format = 1", "this program reads format"}},
     {"\"torque_limit_Nm\"", "\"torque_limit\"", {"torque_limit_Nm: is missing", "there is torque_limit:"}},
     {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": \"34\"", {"torque_limit_Nm", "number"}},
     {"\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": -34.0", {"torque_limit_Nm = -34", "above 0"}},
