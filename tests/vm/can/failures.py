@@ -186,7 +186,7 @@ class LatePositions(unittest.TestCase):
     def rows_with_lateness(self, late_us, delay_periods):
         """The states from a tenth of a second after the lateness began. The gap before the first late one is no fault here."""
         name = self.id().split('.')[-1]
-        can = f'delay_periods = {delay_periods}\nquick_stop_after = 20'
+        can = f'delay_periods = {delay_periods}\nquick_stop_after = 20\n[joint.supervision]\nmissed_readings_limit = 20'
         self.daemon = Daemon(daemon_toml([joint_toml(can=can)]), name=name)
         recording = Recording(name=name)
         must('enable', JOINT)
