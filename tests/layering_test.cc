@@ -18,6 +18,23 @@ const IncludeRules& rules() {
   return kRules;
 }
 
+/// Sources above 300 lines that do not say why in their first lines.
+std::vector<std::string> find_long_files(const std::filesystem::path& root) {
+  constexpr int kLines = 300;
+  constexpr int kFirst = 6;
+  std::vector<std::string> found;
+  for (const std::filesystem::path& path : sources_under(root)) {
+    std::ifstream file(path);
+    int lines = 0;
+    bool explained = false;
+    for (std::string line; std::getline(file, line); ++lines)
+      explained = explained || (lines < kFirst && line.find("bove 300 lines") != std::string::npos);
+    if (lines > kLines && !explained)
+      found.push_back(path.lexically_relative(root).string() + " has " + std::to_string(lines) + " lines");
+  }
+  return found;
+}
+
 bool allowed(const char* file, const char* line) {
   return rules().find_defect(file, line).empty();
 }
@@ -38,6 +55,11 @@ TEST(Layering, HasOneTypeForAQualifiedName) {
   std::ostringstream list;
   for (const std::string& defect : defects) list << defect << '\n';
   EXPECT_TRUE(defects.empty()) << list.str();
+}
+
+TEST(Layering, KeepsFilesShortOrSaysWhyNot) {
+  EXPECT_EQ(find_long_files(STRAINWAVE_SOURCE_DIR), std::vector<std::string>{})
+      << "above 300 lines: split it, or say in its first lines why it is (\"Above 300 lines: ...\")";
 }
 
 TEST(Types, AreFoundAtNamespaceLevelAlone) {
@@ -188,6 +210,14 @@ TEST_F(SourceTree, WithAFolderThatTheTableDoesNotKnowIsReported) {
   ASSERT_EQ(defects.size(), 2U);
   EXPECT_NE(defects[0].find("helpers"), std::string::npos) << defects[0];
   EXPECT_NE(defects[1].find("stray.cc"), std::string::npos) << defects[1];
+}
+
+TEST_F(SourceTree, WithALongFileIsReportedUnlessItSaysWhy) {
+  const std::string lines(301, '\n');
+  write("daemon/long.cc", lines);
+  write("daemon/told.cc", "// Above 300 lines: a table.\n" + lines);
+  write("daemon/short.cc", std::string(300, '\n'));
+  EXPECT_EQ(find_long_files(root_), std::vector<std::string>{"daemon/long.cc has 301 lines"});
 }
 
 TEST_F(SourceTree, WithTwoTypesOfOneNameIsReportedWithBothFiles) {

@@ -14,7 +14,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// Text that roff takes literally.
+/// Text that roff takes literally; behind a comma its line may end, spaces or not.
 std::string roff(const std::string& text) {
   std::string safe;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -25,6 +25,7 @@ std::string roff(const std::string& text) {
     } else {
       safe += text[i] == '-' ? "\\-" : std::string(1, text[i]);
     }
+    if (text[i] == ',') safe += "\\:";
   }
   return safe;
 }
@@ -113,6 +114,7 @@ std::string identifier(std::string program) {
 std::string man_page(const CLI::App& app, const std::string& program) {
   std::ostringstream text;
   text << ".TH " << upper(program) << " 1 \"\" \"strainwave " << STRAINWAVE_VERSION << "\"\n";
+  text << ".ad l\n";  // lists of values leave no room to stretch a line
   text << ".SH NAME\n" << roff(program) << " \\- " << roff(app.get_description()) << "\n";
   text << ".SH SYNOPSIS\n\\fB" << roff(program) << "\\fR [\\fIOPTIONS\\fR]";
   if (!commands_of(app).empty()) text << " \\fICOMMAND\\fR [\\fIARGUMENTS\\fR]";

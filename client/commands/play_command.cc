@@ -39,10 +39,14 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
   return setpoints;
 }
 
-/// Only what was wanted is taken over; who, when and for whom, the sender says anew.
+/// Only what was wanted is taken over; who, when and for whom, the sender says anew. The cycle that a sample was for belongs to
+/// the session that it was recorded in.
 setpoint_v2 order_of(const setpoint_v2& recorded) {
   setpoint_v2 order{};
   order.position_rad = recorded.position_rad;
+  order.velocity_rad_s = recorded.velocity_rad_s;
+  order.acceleration_rad_s2 = recorded.acceleration_rad_s2;
+  order.derivatives = recorded.derivatives;
   order.valid_for_s = recorded.valid_for_s;
   order.speed_limit_rad_s = recorded.speed_limit_rad_s;
   return order;

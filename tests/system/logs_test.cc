@@ -10,6 +10,7 @@
 
 #include "lcmtypes/event_log.h"
 #include "tests/support/daemon_fixture.h"
+#include "tests/support/event_log_file.h"
 
 namespace strainwave::testing {
 namespace {
@@ -128,6 +129,31 @@ TEST_F(Logs, PlayMovesTheJointAgainWithAKeyAndNotWithout) {
     return std::abs(state.joint_position_rad - 0.2) < 1e-3;
   })) << position_rad();
   EXPECT_EQ(ctl("play " + path("a.lcm") + " --joint wrist"), 2) << output_;
+}
+
+TEST_F(Logs, PlaySendsTheVelocitiesAndAccelerationsOfARecordedStream) {
+  EventLogFile log(path("stream.lcm"));
+  for (int i = 0; i < 3; ++i) {
+    setpoint_v2 sample{};
+    sample.stream_id = 7;
+    sample.begins_stream = i == 0 ? 1 : 0;
+    sample.valid_for_s = 0.5;
+    sample.position_rad = 0.001 * i;
+    sample.velocity_rad_s = 0.0625;
+    sample.acceleration_rad_s2 = 0.03125;
+    sample.derivatives = 2;
+    sample.at_cycle = 1'000'000'000;  // of the session that it was recorded in
+    log.add(1'000'000 + 20'000 * i, "SW.elbow.SETPOINT", sample);
+  }
+  record("a.lcm", {"play " + path("stream.lcm") + " --joint elbow"});
+  ASSERT_EQ(shell(std::string(kControl) + "export " + path("a.lcm") + " --out " + path("csv")), 0) << output_;
+  std::ifstream setpoints(path("csv/SW.elbow.SETPOINT.csv"));
+  std::string line;
+  std::getline(setpoints, line);
+  int sent = 0;
+  for (; std::getline(setpoints, line); ++sent)
+    EXPECT_NE(line.find(",0.0625,0.03125,0,2,"), std::string::npos) << line;
+  EXPECT_EQ(sent, 3);
 }
 
 TEST_F(Logs, PlayHoldsAndSaysWhyWhenTheDaemonRefuses) {
