@@ -57,7 +57,7 @@ Reason JointLoop::enable(const CycleTime& time) noexcept {
   if (service_ == Service::kEnding) return Reason::kEnding;
   if (!controller_.has_table()) return Reason::kNoTable;
   // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
-  if (mode_.is(Mode::kOff) && !watch_.fresh() && reading().fault == ActuatorFault::kNone)
+  if (mode_.is(Mode::kOff) && watch_.too_many_missed() && reading().fault == ActuatorFault::kNone)
     return Reason::kDriveNotReady;
   if (mode_.is(Mode::kOff) && std::abs(measured_velocity_rad_s()) > config_.standstill_rad_s)
     return Reason::kMoving;

@@ -14,7 +14,10 @@ class ReadingWatch {
  public:
   /// Up to `missed_limit` periods in a row, those that the loop left out included, may pass without a fresh position.
   ReadingWatch(const PositionCheckConfig& position, int missed_limit) noexcept
-      : position_check_(position), period_s_(position.period_s), missed_limit_(missed_limit) {}
+      : position_check_(position),
+        period_s_(position.period_s),
+        missed_limit_(missed_limit),
+        missed_(missed_limit + 1) {}
 
   /// Inertia and the largest static friction of the joint, of its gain table.
   void set_joint(double inertia_kgm2, double static_friction_Nm) noexcept {
@@ -30,6 +33,7 @@ class ReadingWatch {
   const ActuatorReading& reading() const noexcept { return reading_; }
   bool fresh() const noexcept { return freshness_ == Freshness::kFresh; }
   bool missed() const noexcept { return missed_ > 0; }
+  /// Also before the first position.
   bool too_many_missed() const noexcept { return missed_ > missed_limit_; }
 
  private:
@@ -45,7 +49,7 @@ class ReadingWatch {
   int missed_limit_;
   ActuatorReading reading_;
   Freshness freshness_ = Freshness::kNone;
-  int missed_ = 0;  ///< periods in a row, counted to one beyond the limit
+  int missed_;  ///< periods in a row, counted to one beyond the limit, where it begins: nothing has been heard
 };
 
 }  // namespace strainwave

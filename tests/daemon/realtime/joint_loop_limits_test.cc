@@ -69,7 +69,7 @@ TEST_F(JointLoopLimits, LetASilentDriveSayItsFaultWhenSomebodyEnablesIt) {
   order(OrderKind::kDisable);
   while (loop_->mode() != Mode::kOff) step();
   drive_->reading.has_position = false;
-  step();
+  for (int i = 0; i <= config_.missed_readings_limit; ++i) step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
   drive_->reading.fault = ActuatorFault::kDriveRestarted;
   step();
@@ -149,8 +149,20 @@ TEST_F(JointLoopLimits, LeaveAJointThatIsOffAloneWhateverItsDriveSays) {
   EXPECT_EQ(loop_->mode(), Mode::kOff);
   drive_->reading.has_position = false;
   drive_->reading.fault = ActuatorFault::kNone;
-  step();
+  for (int i = 0; i <= config_.missed_readings_limit; ++i) step();
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kDriveNotReady);
+}
+
+TEST_F(JointLoopLimits, EnableADriveWhosePositionIsMissingInThisVeryPeriod) {
+  drive_->reading.has_position = false;
+  for (int i = 0; i < 2; ++i) step();
+  EXPECT_EQ(order(OrderKind::kEnable), Reason::kAccepted);
+  drive_->reading.drive_state = DriveState::kEnabled;
+  step();
+  EXPECT_EQ(loop_->mode(), Mode::kStarting) << "nobody takes a joint over without its position";
+  drive_->reading.has_position = true;
+  step();
+  EXPECT_EQ(loop_->mode(), Mode::kHolding);
 }
 
 TEST_F(JointLoopLimits, ShowTheFirstOfSeveralFaults) {

@@ -45,6 +45,9 @@ TEST_F(ReadingWatchTest, CarriesAMissingPositionOnByTheVelocityOfAControlledJoin
 }
 
 TEST_F(ReadingWatchTest, CountsMissesInARowAndForgivesThemWhenTold) {
+  EXPECT_TRUE(watch_.too_many_missed()) << "nothing has been heard";
+  take();
+  EXPECT_FALSE(watch_.missed());
   reading_.has_position = false;
   for (int i = 0; i < 3; ++i) take();
   EXPECT_TRUE(watch_.missed());
