@@ -42,11 +42,11 @@ struct JointInputs {
 
 /// One period's measurements.
 struct ActuatorReading {
-  double joint_position_rad = 0.0;           ///< accumulated, not wrapped
-  double joint_velocity_rad_s = 0.0;         ///< valid only when has_velocity
-  double link_position_rad = 0.0;  ///< of a second encoder, on the link; valid only when has_link_position
-  double torque_applied_Nm = 0.0;            ///< what the drive says it applied last period
-  double temperature_C = 0.0;                ///< latest known value; valid only when has_temperature
+  double joint_position_rad = 0.0;    ///< accumulated, not wrapped
+  double joint_velocity_rad_s = 0.0;  ///< valid only when has_velocity
+  double link_position_rad = 0.0;     ///< of a second encoder, on the link; valid only when has_link_position
+  double torque_applied_Nm = 0.0;     ///< what the drive says it applied last period
+  double temperature_C = 0.0;         ///< latest known value; valid only when has_temperature
   std::int64_t temperature_produced_ns = 0;  ///< when the sensor produced it, CLOCK_MONOTONIC
   DriveState drive_state = DriveState::kDisabled;
   ActuatorFault fault = ActuatorFault::kNone;

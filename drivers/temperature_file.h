@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "base/latest_value.h"
+#include "drivers/temperature_sample.h"
 
 namespace strainwave {
 
@@ -41,10 +42,9 @@ std::optional<double> parse_temperature(TemperatureFileKind kind, std::string_vi
 
 class TemperatureFile {
  public:
-  struct Sample {
-    double temperature_C = 0.0;
-    std::int64_t produced_ns = 0;  ///< when the read began: no value is older than that
-    bool valid = false;            ///< any value since the start
+  /// Its instant is when the read began.
+  struct Sample : TemperatureSample {
+    bool valid = false;  ///< any value since the start
   };
 
   /// Starts the thread. Throws InputError when the file cannot be opened or the configuration is impossible.

@@ -1,4 +1,4 @@
-// Messages that the core sends by itself: acknowledgements, temperature, timing. Made here in wire form,
+// Messages that the core sends by itself: acknowledgements, temperature, limits, timing. Made here in wire form,
 // published by the gateway. Not real-time.
 #pragma once
 

@@ -60,7 +60,7 @@ class Ownership {
   }
   /// How long the owner may yet be silent, s; 0 when there is none.
   double lease_s(std::size_t joint, std::int64_t now_ns) const {
-    return owner_id(joint, now_ns) == 0 ? 0.0 : static_cast<double>(leases_[joint].until_ns - now_ns) * 1e-9;
+    return owner_id(joint, now_ns) == 0 ? 0.0 : seconds(leases_[joint].until_ns - now_ns);
   }
   /// Of whoever keeps `joint` from others, reserved or owned.
   const Holder& holder(std::size_t joint) const { return leases_[joint].holder; }

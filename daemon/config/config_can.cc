@@ -218,8 +218,8 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   controller.motor = read_motor(section.section("motor"), drive);
   controller.encoder_resolution_rad = 2.0 * std::numbers::pi / drive.units.counts_per_output_revolution;
   // What is read was sampled with the last SYNC, and what is ordered acts from the next one on: one period.
-  controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
-  drive.delay_periods = std::max(1, controller.delay_periods);
+  controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 1, kMaxControlDelay));
+  drive.delay_periods = controller.delay_periods;
   joint.drive_error_text = [](Fault /*fault*/, std::uint32_t drive_error) {
     return cia402::drive_error_text(drive_error);
   };

@@ -136,7 +136,8 @@ void Gateway::publish_states() {
 
 void Gateway::publish_messages() {
   WireMessage message;
-  while (outbound_.messages.read(message_cursor_, message, messages_dropped_)) {
+  // Who is too slow for slow messages gets the newest; nobody counts those in between.
+  for (std::uint64_t dropped = 0; outbound_.messages.read(message_cursor_, message, dropped);) {
     const auto size =
         static_cast<unsigned int>(std::min<std::uint64_t>(message.size, WireMessage::kMaxBytes));
     lcm_.publish(std::string(message.channel.view()), message.bytes.data(), size);

@@ -50,7 +50,6 @@ class Gateway {
   std::uint64_t state_cursor_;
   std::uint64_t message_cursor_;
   std::uint64_t states_dropped_ = 0;
-  std::uint64_t messages_dropped_ = 0;
 };
 
 }  // namespace strainwave

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 class GatewayPulse {
@@ -30,7 +32,7 @@ class GatewayPulse {
     return true;
   }
   /// How long it may do nothing, s.
-  double patience_s() const noexcept { return static_cast<double>(patience_ns()) * 1e-9; }
+  double patience_s() const noexcept { return seconds(patience_ns()); }
 
  private:
   std::int64_t patience_ns() const noexcept { return turned_ ? kSilence_ns : kStart_ns; }

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <string_view>
 
+#include "base/durations.h"
 #include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -20,7 +21,7 @@ void append_number(std::string& text, Number number) {
 }
 
 void append_sample(std::string& text, const FlightSample& sample, std::int64_t fault_ns) {
-  append_number(text, static_cast<double>(sample.time_ns - fault_ns) * 1e-9);
+  append_number(text, seconds(sample.time_ns - fault_ns));
   visit_cycle_fields(sample, [&](const FieldName&, auto value) {
     text += ',';
     // A byte is a number here, not a character.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 void QuadratureDecoder::reset(bool a, bool b, std::uint32_t last_sequence) noexcept {
@@ -14,7 +16,7 @@ void QuadratureDecoder::reset(bool a, bool b, std::uint32_t last_sequence) noexc
 
 // A bucket that fills at the cap's rate and holds one burst.
 bool QuadratureDecoder::too_fast(std::int64_t time_ns) noexcept {
-  const double elapsed_s = static_cast<double>(std::max<std::int64_t>(0, time_ns - last_ns_)) * 1e-9;
+  const double elapsed_s = seconds(std::max<std::int64_t>(0, time_ns - last_ns_));
   last_ns_ = time_ns;
   allowance_edges_ = std::min(kBurst_edges, allowance_edges_ + elapsed_s * max_rate_Hz_) - 1.0;
   return allowance_edges_ < 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "drivers/can/cia402/cia402_objects.h"
 
 namespace strainwave::cia402 {
 
@@ -14,15 +15,15 @@ using canopen::MappedObject;
 using canopen::Pdo;
 using canopen::PdoDirection;
 
-constexpr MappedObject kControlword{{0x6040, 0}, 2};
-constexpr MappedObject kStatusword{{0x6041, 0}, 2};
-constexpr MappedObject kModeDisplay{{0x6061, 0}, 1};
+constexpr MappedObject kMappedControlword{kControlword, 2};
+constexpr MappedObject kMappedStatusword{kStatusword, 2};
+constexpr MappedObject kMappedModeDisplay{kModeDisplay, 1};
 constexpr MappedObject kPosition{{0x6064, 0}, 4};
 constexpr MappedObject kVelocity{{0x606C, 0}, 4};
-constexpr MappedObject kTargetTorque{{0x6071, 0}, 2};
+constexpr MappedObject kMappedTargetTorque{kTargetTorque, 2};
 constexpr MappedObject kTorque{{0x6077, 0}, 2};
 constexpr MappedObject kDigitalInputs{{0x60FD, 0}, 4};
-constexpr MappedObject kProbeFunction{{0x60B8, 0}, 2};
+constexpr MappedObject kMappedProbeFunction{kProbeFunction, 2};
 constexpr MappedObject kProbeStatus{{0x60B9, 0}, 2};
 constexpr MappedObject kProbePosition{{0x60BA, 0}, 4};
 
@@ -78,13 +79,13 @@ double temperature_C(const TemperatureObject& object, std::uint64_t raw) noexcep
 
 PdoLayout pdo_layout(const DriveConfig& config) {
   PdoLayout layout;
-  layout.command = {PdoDirection::kReceive, 1, kEverySync, {kControlword, kTargetTorque}};
+  layout.command = {PdoDirection::kReceive, 1, kEverySync, {kMappedControlword, kMappedTargetTorque}};
   layout.fast = {PdoDirection::kTransmit, 1, kEverySync, {}};
   layout.slow = {PdoDirection::kTransmit, 2, sync_divider(config), {}};
   layout.position = map(layout.fast, kPosition);
   if (config.uses_drive_velocity()) layout.velocity = map(layout.fast, kVelocity);
   Pdo& status = config.uses_drive_velocity() ? layout.slow : layout.fast;
-  layout.statusword = map(status, kStatusword);
+  layout.statusword = map(status, kMappedStatusword);
   layout.torque = map(status, kTorque);
   if (config.inputs.any()) layout.inputs = map(layout.slow, kDigitalInputs);
   if (config.temperature && config.temperature->way == TemperatureObject::Way::kPdo) {
@@ -94,10 +95,10 @@ PdoLayout pdo_layout(const DriveConfig& config) {
           config.name +
           ": TPDO2 has no room for the temperature beside the inputs: read it with way = \"sdo\"");
   }
-  layout.mode = map(layout.slow, kModeDisplay);
+  layout.mode = map(layout.slow, kMappedModeDisplay);
   layout.probe = {PdoDirection::kTransmit, 3, sync_divider(config), {}};
   if (config.inputs.index != ProbeSource::kNone) {
-    (void)map(layout.command, kProbeFunction);
+    (void)map(layout.command, kMappedProbeFunction);
     layout.probe_status = map(layout.probe, kProbeStatus);
     layout.probe_position = map(layout.probe, kProbePosition);
   }

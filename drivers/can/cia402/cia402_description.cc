@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/hexadecimal.h"
 
 namespace strainwave::cia402 {
@@ -11,7 +12,6 @@ namespace {
 using canopen::Entry;
 using canopen::SdoClient;
 
-constexpr Entry kDeviceType{0x1000, 0};
 constexpr Entry kDeviceName{0x1008, 0};
 constexpr std::uint16_t kIdentityObject = 0x1018;
 constexpr Entry kSupportedModes{0x6502, 0};

@@ -73,7 +73,6 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
   } else if (const auto state = canopen::decode_heartbeat(frame)) {
     return receive_heartbeat(*state);
   }
-  ++malformed_;
 }
 
 // A position that is late now and then is a matter of the bus; one that stays late misleads the control law, which takes it
@@ -85,10 +84,7 @@ void Node::judge_age(std::int64_t kernel_time_ns) noexcept {
 }
 
 void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept {
-  if (frame.size != pdo.bytes()) {
-    ++malformed_;
-    return;
-  }
+  if (frame.size != pdo.bytes()) return;
   const auto has = [&](const PdoLayout::Field& field) { return field.pdo == pdo.number; };
   if (has(layout_.statusword)) {
     power_.see(static_cast<std::uint16_t>(raw_field(frame, layout_.statusword)), now_ns_);
@@ -125,10 +121,7 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
 }
 
 void Node::receive_probe(const CanFrame& frame) noexcept {
-  if (frame.size != layout_.probe.bytes()) {
-    ++malformed_;
-    return;
-  }
+  if (frame.size != layout_.probe.bytes()) return;
   if (!probe_.see(static_cast<std::uint16_t>(raw_field(frame, layout_.probe_status)))) return;
   ++inputs_.index_count;
   inputs_.index_position_rad =

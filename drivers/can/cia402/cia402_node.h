@@ -55,9 +55,6 @@ class Node final : public CanNode {
   void stop() noexcept override { stop_ordered_ = true; }
   void clear_fault() noexcept override;
 
-  /// Count since the start, for tests.
-  std::int64_t malformed_frames() const noexcept { return malformed_; }
-
  private:
   void receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept;
   void receive_probe(const CanFrame& frame) noexcept;
@@ -105,7 +102,6 @@ class Node final : public CanNode {
   JointInputs inputs_;
   double pdo_temperature_C_ = 0.0;
   std::int64_t pdo_temperature_ns_ = 0;
-  std::int64_t malformed_ = 0;
   std::int64_t followed_ns_ = 0;  ///< when the drive last followed, or had no torque to follow
   bool followed_ = false;         ///< since operation was enabled
   int missed_ = 0;

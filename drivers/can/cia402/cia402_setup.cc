@@ -5,6 +5,7 @@
 
 #include "base/durations.h"
 #include "drivers/can/cia402/cia402_description.h"
+#include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/cia402/cia402_state.h"
 #include "drivers/can/cia402/setup_steps.h"
 #include "drivers/can/hexadecimal.h"
@@ -28,14 +29,8 @@ constexpr Entry kProducerHeartbeat_ms{0x1017, 0};
 // Drive profile, CiA 402.
 constexpr Entry kAbortConnection{0x6007, 0};
 constexpr Entry kErrorCode{0x603F, 0};
-constexpr Entry kControlword{0x6040, 0};
-constexpr Entry kStatusword{0x6041, 0};
 constexpr Entry kQuickStopOption{0x605A, 0};
 constexpr Entry kMode{0x6060, 0};
-constexpr Entry kModeDisplay{0x6061, 0};
-constexpr Entry kTargetTorque{0x6071, 0};
-constexpr Entry kProbeFunction{0x60B8, 0};
-constexpr Entry kDeviceType{0x1000, 0};
 constexpr Entry kInterpolationMantissa{0x60C2, 1};
 constexpr Entry kInterpolationExponent{0x60C2, 2};
 

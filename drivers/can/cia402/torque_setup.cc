@@ -47,7 +47,7 @@ double configure_torque(SdoClient& client, const DriveConfig& config, std::vecto
       rated_joint_torque_Nm(rated, config.units, client.who() + ": node " + std::to_string(client.node()));
   const TorqueScale scale(rated_Nm, config.units.direction, config.torque_limit_Nm);
   if (scale.limit_per_mille() == 0)
-    refuse(client, "torque_Nm = " + std::to_string(config.torque_limit_Nm) +
+    refuse(client, "torque_limit_Nm = " + std::to_string(config.torque_limit_Nm) +
                        " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
                        " N.m at the joint, which is the drive's step");
   limit_torque(client, scale.limit_per_mille(), report);

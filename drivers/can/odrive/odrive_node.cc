@@ -158,9 +158,7 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
     temperature_C_ = *temperature_C;
     temperature_ns_ = now_ns_;
     has_temperature_ = true;
-    return;
   }
-  ++malformed_;
 }
 
 void Node::note_bus(const NodeFault& trouble) noexcept {

@@ -51,8 +51,6 @@ class Node final : public CanNode {
   void stop() noexcept override { stop_ordered_ = true; }
   void clear_fault() noexcept override;
 
-  std::int64_t malformed_frames() const noexcept { return malformed_; }
-
  private:
   bool closed_loop() const noexcept { return heartbeat_.state == AxisState::kClosedLoop; }
   bool wants_torque() const noexcept;
@@ -76,7 +74,6 @@ class Node final : public CanNode {
   std::int64_t temperature_ns_ = 0;
   std::int64_t enabling_since_ns_ = 0;
   std::int64_t state_sent_ns_ = 0;
-  std::int64_t malformed_ = 0;
   Heartbeat heartbeat_;
   double position_rad_ = 0.0;
   double velocity_rad_s_ = 0.0;

@@ -1,0 +1,15 @@
+// The objects of the drive profile (CiA 402-2) that more than one file reads, writes or maps.
+#pragma once
+
+#include "drivers/can/canopen/canopen_sdo.h"
+
+namespace strainwave::cia402 {
+
+inline constexpr canopen::Entry kDeviceType{0x1000, 0};  // CiA 301
+inline constexpr canopen::Entry kControlword{0x6040, 0};
+inline constexpr canopen::Entry kStatusword{0x6041, 0};
+inline constexpr canopen::Entry kModeDisplay{0x6061, 0};
+inline constexpr canopen::Entry kTargetTorque{0x6071, 0};
+inline constexpr canopen::Entry kProbeFunction{0x60B8, 0};
+
+}  // namespace strainwave::cia402
