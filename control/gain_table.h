@@ -2,10 +2,13 @@
 // struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see
 // docs/theory.md.
 //
-// State of the error dynamics, in this order:  x = [ integral of error (rad.s), error (rad), velocity (rad/s)
-// ], error = joint position - setpoint. Feedback torque u = F x (N.m, joint side), so stabilising gains are
-// negative. Controllers without an integrator keep the same layout with zeros in the integral's row and
-// column.
+// State of the error dynamics, in this order:
+//
+//   x = [ integral of error (rad.s), error (rad), velocity (rad/s) ]
+//   error = joint position - setpoint
+//   u = F x, feedback torque (N.m, joint side), so stabilising gains are negative
+//
+// Controllers without an integrator keep the same layout with zeros in the integral's row and column.
 #pragma once
 
 #include <Eigen/Core>

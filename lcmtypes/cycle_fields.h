@@ -1,5 +1,5 @@
-// What is known of one joint in one cycle: every field with its name and unit, once. The state message, the flight record and
-// all that prints or draws them visit this list. Real-time safe if the visitor is.
+// What is known of one joint in one cycle: every field that state message and flight record share, with its name and unit, once. Both,
+// and all that prints or draws them, visit this list. Real-time safe if the visitor is.
 #pragma once
 
 #include <string_view>

@@ -57,7 +57,7 @@ class Client {
   /// The same after waiting as wait_for_joints() does.
   std::vector<JointName> wait_for_heard();
 
-  /// Sends `message` (setpoint_v2, command_v1 or gain_table_v1) to `joint` on the channel of `kind` and waits
+  /// Sends `message` (setpoint_v2, command_v1, gain_table_v1 or inject_v1) to `joint` on the channel of `kind` and waits
   /// for the answer. Throws ClientError when the joint is not heard or no answer comes.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {

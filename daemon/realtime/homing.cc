@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 namespace {
@@ -37,7 +39,7 @@ bool Homing::other_limit_ahead(const JointInputs& inputs) const noexcept {
 }
 
 bool Homing::may_go_on(const Observation& observation) const noexcept {
-  const double elapsed_s = static_cast<double>(observation.now_ns - begin_ns_) * 1e-9;
+  const double elapsed_s = seconds(observation.now_ns - begin_ns_);
   // Both limits at once are a broken wire.
   const bool both_limits = observation.inputs.negative_limit && observation.inputs.positive_limit;
   return elapsed_s <= config_.timeout_s && !both_limits &&
@@ -134,7 +136,7 @@ Homing::Order Homing::push(const Observation& observation) noexcept {
     stands_since_ns_ = observation.now_ns;
     return {};
   }
-  if (static_cast<double>(observation.now_ns - stands_since_ns_) * 1e-9 < kStands_s) return {};
+  if (seconds(observation.now_ns - stands_since_ns_) < kStands_s) return {};
   (void)found(observation.joint_position_rad);
   return {Order::Kind::kMove, found_rad_, config_.creep_speed_rad_s};
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "base/durations.h"
 #include "daemon/realtime/mode_machine.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -26,9 +27,7 @@ class JointMode {
   std::uint32_t drive_error() const noexcept { return drive_error_; }
   std::int64_t faults_total() const noexcept { return faults_total_; }
 
-  double seconds(std::int64_t now_ns) const noexcept {
-    return static_cast<double>(now_ns - since_ns_) * 1e-9;
-  }
+  double seconds(std::int64_t now_ns) const noexcept { return strainwave::seconds(now_ns - since_ns_); }
   /// Whether the mode began in the period of `now_ns`.
   bool began(std::int64_t now_ns) const noexcept { return since_ns_ == now_ns; }
 

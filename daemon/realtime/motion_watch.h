@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "base/durations.h"
 #include "control/joint_controller.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -36,7 +37,7 @@ class MotionWatch {
   bool planned_too_often(int replans, std::int64_t now_ns) noexcept;
   bool overloaded(double load_Nm, std::int64_t now_ns) noexcept;
   bool lasts(std::int64_t since_ns, std::int64_t now_ns) const noexcept {
-    return static_cast<double>(now_ns - since_ns) * 1e-9 >= config_.blocked_s;
+    return seconds(now_ns - since_ns) >= config_.blocked_s;
   }
 
   MotionWatchConfig config_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 namespace {
@@ -33,7 +35,7 @@ bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven
 }
 
 double PositionCheck::elapsed_s(std::int64_t now_ns) const noexcept {
-  return std::max(config_.period_s, static_cast<double>(now_ns - last_ns_) * 1e-9);
+  return std::max(config_.period_s, seconds(now_ns - last_ns_));
 }
 
 bool PositionCheck::jumped(double position_rad, double elapsed_s) const noexcept {

@@ -32,7 +32,7 @@ struct JointCycle {
   std::int32_t notices = 0;
 };
 
-/// Every field but joint_index and those that the gateway adds (utime, session_id).
+/// Every field but joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).
 void fill_record(const JointCycle& cycle, StateRecord& record) noexcept;
 
 /// The same cycle for the flight recorder.

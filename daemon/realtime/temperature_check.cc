@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/durations.h"
+
 namespace strainwave {
 
 namespace {
-constexpr double kSecondsPerNanosecond = 1e-9;
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
-  return static_cast<double>(to_ns - from_ns) * kSecondsPerNanosecond;
+  return seconds(to_ns - from_ns);
 }
 }  // namespace
 

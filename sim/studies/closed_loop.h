@@ -2,8 +2,9 @@
 // profile, and the source's performance indices. Offline. Source: Zhao (2006), chapter 6; docs/theory.md,
 // "Scenarios".
 //
-// Sample k at t = k ts: the controller sees the measurement and the setpoint of t; its torque acts over [t, t
-// + ts) after the plant's own delay and limits.  e_k = r(t_k) - theta(t_k), with the true position:
+// Sample k at t = k ts: the controller sees the measurement and the setpoint of t; its torque acts over
+// [t, t + ts) after the plant's own delay and limits. With the true position:
+//   e_k = r(t_k) - theta(t_k)
 //   PI1 = sum e_k^2,   PI2 = sum |e_k / r_k|,   the initial transient included.
 #pragma once
 
