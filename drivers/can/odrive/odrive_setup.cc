@@ -76,7 +76,8 @@ std::string check_version(CanPort& port, const DriveConfig& config) {
 std::string check_watchdog(CanPort& port, const DriveConfig& config) {
   if (!config.watchdog)
     return where(config) +
-           ": its watchdog was NOT verified ([joint.can.watchdog] is not set): if it is off, the drive goes on "
+           ": its watchdog was NOT verified ([joint.can.watchdog] is not set): if it is off, the drive goes "
+           "on "
            "with its last torque when this daemon ends";
   const auto parameter = [&]<typename Value>(std::uint16_t endpoint, auto decode, Value /*type*/) {
     const auto value =
@@ -84,7 +85,8 @@ std::string check_watchdog(CanPort& port, const DriveConfig& config) {
                    [&](const CanFrame& frame) { return decode(frame, endpoint); });
     if (!value)
       throw InputError(where(config) + " does not tell its parameter " + std::to_string(endpoint) +
-                       ": take enabled_endpoint and timeout_endpoint of [joint.can.watchdog] from the flat_endpoints.json of its firmware");
+                       ": take enabled_endpoint and timeout_endpoint of [joint.can.watchdog] from the "
+                       "flat_endpoints.json of its firmware");
     return *value;
   };
   if (!parameter(config.watchdog->enabled, decode_parameter_bool, bool{}))
@@ -130,7 +132,8 @@ void verify_axis(CanPort& port, const DriveConfig& config) {
                      std::to_string(config.period_s * 1e3) + " ms");
   if (!temperature)
     throw InputError(
-        settings + "temperature_msg_rate_ms: no temperature within 0.5 s; set it, or temperature_source = \"none\"");
+        settings +
+        "temperature_msg_rate_ms: no temperature within 0.5 s; set it, or temperature_source = \"none\"");
 }
 
 void release_axis(CanPort& port, const DriveConfig& config) {
