@@ -22,11 +22,13 @@ void check_tables(const DaemonConfig& config, std::ostream& out) {
   }
 }
 
-void check_gateway(const DaemonConfig& config) {
+void check_gateway(const DaemonConfig& config, std::ostream& out) {
   if (const std::filesystem::path program = find_gateway_program(); !std::filesystem::exists(program))
     throw InputError(program.string() + ": the daemon's gateway is missing: install it again");
+  // No matter of the configuration: the service has the route made before it starts.
   if (const auto problem = find_multicast_problem(config.lcm_url))
-    throw InputError("daemon.lcm_url = \"" + config.lcm_url + "\": " + *problem);
+    out << "warning: daemon.lcm_url = \"" << config.lcm_url << "\": " << *problem
+        << "\nThe service does this by itself (strainwave-multicast.service).\n";
 }
 
 bool has_driver(const DaemonConfig& config, std::string_view driver) {
@@ -39,7 +41,7 @@ bool has_driver(const DaemonConfig& config, std::string_view driver) {
 void check_start(const DaemonConfig& config, std::ostream& out) {
   for (const std::string& warning : config.warnings) out << "warning: " << warning << '\n';
   check_tables(config, out);
-  check_gateway(config);
+  check_gateway(config, out);
   out << "not checked:";
   if (has_driver(config, "can")) out << " drives on CAN (strainwavectl can-check),";
   if (has_driver(config, "gpio")) out << " digital lines (strainwavectl gpio-check),";

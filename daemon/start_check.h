@@ -9,7 +9,8 @@
 namespace strainwave {
 
 /// Writes to `out` the doubts about `config`, what holds for each joint's table, and what was not checked. Throws InputError for
-/// what would end the start: a table that is not there, not protected or not certified; no gateway; no multicast.
+/// what would end the start: a table that is not there, not protected or not certified; no gateway. Multicast that does not work
+/// now is a doubt.
 void check_start(const DaemonConfig& config, std::ostream& out);
 
 }  // namespace strainwave
