@@ -111,6 +111,11 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   }
   config.plant.substeps = static_cast<int>(section.integer_or("substeps", config.plant.substeps, 1, 1000));
   config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
+  try {
+    (void)JointPlant(config.plant);
+  } catch (const InputError& error) {
+    section.fail("substeps", error.what());
+  }
   config.incremental = section.boolean_or("incremental", config.incremental);
   const HomingInputs available = read_inputs(section, joint.plant.gear_ratio, config.inputs);
   config.ambient = read_ambient(section);

@@ -39,7 +39,34 @@ void check(const Transmission& gear) {
     require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
 }
 
-void check(const JointEffects& e, double motor_inertia_kgm2, double substep_s) {
+// What the integration of a sub-step bears: its fastest swing turns by at most 1 rad, its fastest decay is at most e^-2.
+void check_substeps(const JointPlantConfig& c) {
+  const JointEffects& e = c.effects;
+  constexpr double kLargestDecay = 2.0;
+  double swing_rad_s = 0.0;
+  double decay_1_s = 0.0;
+  double link_inertia_kgm2 = c.joint.inertia_kgm2;
+  if (e.transmission) {
+    link_inertia_kgm2 = e.transmission->link_inertia_kgm2;
+    const TorsionSpring& spring = e.transmission->spring;
+    const double stiffest =
+        std::max({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
+    swing_rad_s = free_free_frequency_rad_s(c.joint.inertia_kgm2, link_inertia_kgm2, stiffest);
+    decay_1_s = e.transmission->damping_Nms_rad * (1.0 / c.joint.inertia_kgm2 + 1.0 / link_inertia_kgm2) +
+                e.transmission->link_viscous_Nms_rad / link_inertia_kgm2;
+  }
+  swing_rad_s = std::hypot(swing_rad_s, std::sqrt(e.contact.stiffness_Nm_rad / link_inertia_kgm2));
+  decay_1_s += e.contact.damping_Nms_rad / link_inertia_kgm2;
+  const double needed = std::ceil(c.period_s * std::max(swing_rad_s, decay_1_s / kLargestDecay));
+  if (needed > c.substeps)
+    throw InputError(
+        "simulated joint", "substeps", std::to_string(c.substeps),
+        "at least " + std::to_string(static_cast<long long>(std::min(needed, 1e18))) +
+            " are needed for this joint's fastest swing and decay; or take a softer spring or contact, "
+            "less damping, or more inertia");
+}
+
+void check(const JointEffects& e) {
   require(std::isfinite(e.gear_ratio) && e.gear_ratio > 0.0, "gear_ratio", e.gear_ratio,
           "must be finite and > 0");
   for (const auto& [key, value] : {std::pair{"friction.transmitted_share", e.friction.transmitted_share},
@@ -51,20 +78,7 @@ void check(const JointEffects& e, double motor_inertia_kgm2, double substep_s) {
     require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
   require(e.drive.ripple_share >= 0.0 && e.drive.ripple_share < 1.0, "drive.ripple_share",
           e.drive.ripple_share, "must be in [0, 1)");
-  double fastest_rad_s = 0.0;
-  double link_inertia_kgm2 = motor_inertia_kgm2;
-  if (e.transmission) {
-    check(*e.transmission);
-    link_inertia_kgm2 = e.transmission->link_inertia_kgm2;
-    const TorsionSpring& spring = e.transmission->spring;
-    const double stiffest =
-        std::max({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
-    fastest_rad_s = free_free_frequency_rad_s(motor_inertia_kgm2, link_inertia_kgm2, stiffest);
-  }
-  fastest_rad_s = std::hypot(fastest_rad_s, std::sqrt(e.contact.stiffness_Nm_rad / link_inertia_kgm2));
-  require(fastest_rad_s * substep_s <= 1.0, "substeps", fastest_rad_s * substep_s,
-          "radians of the joint's fastest swing in one sub-step: at most 1 is allowed; take more substeps, a "
-          "softer spring or contact, or more inertia");
+  if (e.transmission) check(*e.transmission);
 }
 
 JointPlantConfig checked(const JointPlantConfig& c) {
@@ -101,7 +115,8 @@ JointPlantConfig checked(const JointPlantConfig& c) {
   require(c.feedback == EncoderSide::kMotor || c.link_encoder.counts_per_joint_revolution > 0.0,
           "link_counts_per_joint_revolution", c.link_encoder.counts_per_joint_revolution,
           "must be > 0 where the link's encoder is the feedback");
-  check(c.effects, c.joint.inertia_kgm2, c.period_s / c.substeps);
+  check(c.effects);
+  check_substeps(c);
   return c;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -47,7 +48,7 @@ TEST(Catalogue, ReadsParametersAsTheyAre) {
 class CatalogueFile : public ::testing::Test {
  protected:
   std::string message_of(const std::string& text) {
-    const auto path = std::filesystem::path(testing::TempDir()) / "catalogue_test.csv";
+    const std::filesystem::path path = temporary_.path() / "catalogue.csv";
     std::ofstream(path) << text;
     try {
       read_catalogue(path, 1.6);
@@ -56,6 +57,8 @@ class CatalogueFile : public ::testing::Test {
     }
     return "";
   }
+
+  TemporaryFolder temporary_;
 };
 
 TEST_F(CatalogueFile, RefusesWhatIsNotACatalogue) {
@@ -91,7 +94,7 @@ TEST_F(CatalogueFile, AByteOrderMarkIsNoPartOfTheFirstColumn) {
 }
 
 TEST_F(CatalogueFile, AColumnOfStartingTorqueCountsBeforeTheOption) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "catalogue_test_starting.csv";
+  const std::filesystem::path path = temporary_.path() / "starting.csv";
   std::ofstream(path) << "temperature_C,torque_1rpm_Ncm,torque_2rpm_Ncm,starting_torque_Ncm\n0,1,1,0.5\n5,1,"
                          "1,0.25\n10,1,1,0\n";
   const FrictionData data = read_catalogue(path, 1.6);

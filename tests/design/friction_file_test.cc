@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "base/text_file.h"
 #include "control/units.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -45,7 +46,8 @@ TEST(FrictionFile, Table5IsTable4AtTheOtherSideOfTheGear) {
 }
 
 TEST(FrictionFile, RefusesRulesThatAreNotInOrderOrNotPhysical) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "friction_rules_test.csv";
+  const TemporaryFolder temporary;
+  const std::filesystem::path path = temporary.path() / "rules.csv";
   const auto message_of = [&path](const std::string& rows) {
     std::ofstream(path) << "center_C,width_C,static_Ncm,coulomb_Ncm,viscous_Ncm_per_rpm\n" << rows;
     try {

@@ -122,6 +122,33 @@ TEST(JointPlant, ShowsALaggingTemperature) {
   EXPECT_EQ(plant.joint_temperature_C(), 30.0);
 }
 
+TEST(JointPlant, WantsSubstepsThatItsFastestSwingAndDecayBear) {
+  const auto message = [](auto&& change) {
+    JointPlantConfig config = flexible_plant();
+    change(config);
+    try {
+      JointPlant plant(config);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(message([](auto&) {}), "accepted");
+  const std::string stiff = message([](auto& c) { c.effects.transmission->spring.stiffness_3_Nm_rad = 1e9; });
+  // sqrt(1e9 (1 / 0.089 + 1 / 0.089)) 1 ms = 149.9
+  EXPECT_NE(stiff.find("substeps = 10: at least 150"), std::string::npos) << stiff;
+  for (const double damping_Nms_rad : {2000.0, 1e9})
+    EXPECT_NE(
+        message([&](auto& c) { c.effects.transmission->damping_Nms_rad = damping_Nms_rad; }).find("substeps"),
+        std::string::npos);
+  EXPECT_NE(message([](auto& c) { c.effects.transmission->link_viscous_Nms_rad = 3000.0; }).find("substeps"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& c) {
+              c.effects.contact = {.stiffness_Nm_rad = 1e4, .damping_Nms_rad = 1e9};
+            }).find("substeps"),
+            std::string::npos);
+}
+
 TEST(JointPlant, RefusesAnImpossibleConfigurationByName) {
   const auto message = [](auto&& spoil) {
     JointPlantConfig config = realistic_plant();

@@ -39,6 +39,22 @@ delay_periods = 2.5
   EXPECT_EQ(plant.delay.periods, 2.5);
 }
 
+TEST(PlantFile, KeepsTheSlopesOfItsBaseUnlessItSaysTheFirst) {
+  const TorsionSpring of_base = flexible_plant().effects.transmission->spring;
+  ASSERT_GT(of_base.stiffness_3_Nm_rad, of_base.stiffness_1_Nm_rad) << "else nothing is tested";
+  for (const char* text : {"base = \"flexible\"\n", "base = \"flexible\"\n[spring]\ndamping_Nms_rad = 0.5\n",
+                           "base = \"flexible\"\n[link]\ninertia_kgm2 = 0.1\n"}) {
+    const TorsionSpring spring = plant_from_toml(text, "joint.toml").effects.transmission->spring;
+    EXPECT_EQ(spring.stiffness_1_Nm_rad, of_base.stiffness_1_Nm_rad) << text;
+    EXPECT_EQ(spring.stiffness_2_Nm_rad, of_base.stiffness_2_Nm_rad) << text;
+    EXPECT_EQ(spring.stiffness_3_Nm_rad, of_base.stiffness_3_Nm_rad) << text;
+  }
+  const TorsionSpring linear =
+      plant_from_toml("base = \"flexible\"\n[spring]\nstiffness_1_Nm_rad = 5000\n", "joint.toml")
+          .effects.transmission->spring;
+  EXPECT_EQ(linear.stiffness_3_Nm_rad, 5000.0);
+}
+
 TEST(PlantFile, IsTheRealisticJointWhenEmpty) {
   const JointPlantConfig plant = plant_from_toml("", "joint.toml");
   EXPECT_EQ(plant.encoder.counts_per_joint_revolution, kReferenceCountsPerRevolution);
@@ -62,7 +78,7 @@ TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
   names("[link]\ninertia_kgm2 = 0.1\n[spring]\nstiffness_1_Nm_rad = -8000",
         {"joint.toml:4", "spring.stiffness_1_Nm_rad = -8000"});
   names("[link_encoder]\nfeedback = true", {"link_encoder.counts_per_joint_revolution"});
-  names("base = \"flexible\"\n[spring]\nstiffness_3_Nm_rad = 1e8", {"substeps", "at most 1"});
+  names("base = \"flexible\"\n[spring]\nstiffness_3_Nm_rad = 1e8", {"substeps = 10", "at least 48"});
   EXPECT_NE(refusal("[simulation]\nsubsteps = 2.5").find("substeps"), std::string::npos);
   EXPECT_NE(refusal("[joint\n").find("joint.toml:1:"), std::string::npos);
 }
