@@ -61,7 +61,7 @@ void StateEstimator::let_torque_act(int periods, int late_periods, const JointMo
                                     EstimateSource source) noexcept {
   const auto predict = [&](int late) {
     if (source != EstimateSource::kObserver) return;
-    observer_.predict(torques_Nm_[static_cast<std::size_t>(config_.delay_periods + late)], model);
+    observer_.predict(torque_before_Nm(config_.delay_periods + late), model);
   };
   const int later = late_periods - late_periods_;
   for (int period = 0; period < periods; ++period) {
@@ -94,8 +94,8 @@ void StateEstimator::read(const JointMeasurement& measurement, int elapsed_perio
 // The torques that are under way already decide the motion until this period's torque acts.
 void StateEstimator::look_ahead() noexcept {
   for (int i = config_.delay_periods + late_periods_ - 1; i >= 0; --i) {
-    const ModelMotion motion = adapted_.advance(torques_Nm_[static_cast<std::size_t>(i)], then_.disturbance,
-                                                then_.velocity_rad_s, config_.observer.period_s);
+    const ModelMotion motion = adapted_.advance(torque_before_Nm(i), then_.disturbance, then_.velocity_rad_s,
+                                                config_.observer.period_s);
     then_.position_rad += motion.displacement_rad;
     then_.velocity_rad_s = motion.velocity_rad_s;
   }

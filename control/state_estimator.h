@@ -71,6 +71,9 @@ class StateEstimator {
   void observe(const JointMeasurement& measurement) noexcept;
   void read(const JointMeasurement& measurement, int elapsed_periods) noexcept;
   void look_ahead() noexcept;
+  double torque_before_Nm(int periods) const noexcept {
+    return torques_Nm_[static_cast<std::size_t>(periods)];
+  }
 
   StateEstimatorConfig config_;
   VelocityObserver observer_;

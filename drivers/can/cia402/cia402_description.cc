@@ -3,6 +3,7 @@
 #include <array>
 
 #include "drivers/can/cia402/cia402_objects.h"
+#include "drivers/can/cia402/setup_steps.h"
 #include "drivers/can/hexadecimal.h"
 
 namespace strainwave::cia402 {
@@ -17,10 +18,6 @@ constexpr std::uint16_t kIdentityObject = 0x1018;
 constexpr Entry kSupportedModes{0x6502, 0};
 constexpr std::uint32_t kServoProfile = 0x0192;
 constexpr std::uint32_t kProfileMask = 0xFFFF;
-
-std::uint32_t number(SdoClient& client, Entry entry) {
-  return static_cast<std::uint32_t>(client.upload_number(entry, 4));
-}
 
 }  // namespace
 
