@@ -33,7 +33,8 @@ void read_spring(TomlSection section, const Gear* gear, Transmission& transmissi
   };
   stiffness("stiffness_1_Nm_rad", spring.stiffness_1_Nm_rad);
   // One slope is enough: a spring that is told only its first goes on with it. One that is told none stays what it was.
-  if (gear == nullptr && section.has("stiffness_1_Nm_rad")) spring.stiffness_2_Nm_rad = spring.stiffness_3_Nm_rad = spring.stiffness_1_Nm_rad;
+  if (gear == nullptr && section.has("stiffness_1_Nm_rad"))
+    spring.stiffness_2_Nm_rad = spring.stiffness_3_Nm_rad = spring.stiffness_1_Nm_rad;
   spring.torque_1_Nm = section.number_or("torque_1_Nm", spring.torque_1_Nm, kNotNegative);
   stiffness("stiffness_2_Nm_rad", spring.stiffness_2_Nm_rad);
   spring.torque_2_Nm = section.number_or("torque_2_Nm", std::max(spring.torque_1_Nm, spring.torque_2_Nm),
