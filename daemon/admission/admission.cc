@@ -32,6 +32,7 @@ Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
                   ? discard(Reason::kUnknownJoint)
                   : judge(name->kind, static_cast<std::size_t>(joint - joints_.begin()), message);
   }
+  verdict.requester.source = message.source;
   if (verdict.kind != Verdict::Kind::kOrder && verdict.kind != Verdict::Kind::kDone)
     count_reject(verdict.reason);
   if (verdict.kind == Verdict::Kind::kRefuse) settle(verdict.requester, false, now_ns);
@@ -75,7 +76,7 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
 }
 
 std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role needed, Requester& requester,
-                                               TokenBucket& verifications) {
+                                               FairShare& verifications) {
   if (is_unsigned(payload(message))) {
     if (!security_.unsigned_allowed)
       return refuse(
@@ -89,10 +90,15 @@ std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role 
         requester, Reason::kBadSignature,
         "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
         "and start the daemon again");
-  if (!verifications.available(now_ns_))
+  if (!verifications.available(message.source, now_ns_))
     return refuse(requester, Reason::kBusy, "too many forged or repeated orders at once: try again");
   auto verdict = check_signed(message, *key, needed, requester);
-  if (verdict) verifications.take();
+  if (verdict) {
+    verifications.take(message.source, now_ns_);
+  } else {
+    verifications_.prove(message.source, now_ns_);
+    stop_verifications_.prove(message.source, now_ns_);
+  }
   return verdict;
 }
 

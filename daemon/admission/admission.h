@@ -17,9 +17,9 @@
 #include "control/gain_table.h"
 #include "daemon/admission/authorized_keys.h"
 #include "daemon/admission/challenges.h"
+#include "daemon/admission/fair_share.h"
 #include "daemon/admission/ownership.h"
 #include "daemon/admission/sequence_memory.h"
-#include "daemon/admission/token_bucket.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/orders.h"
 #include "lcmtypes/vocabulary.h"
@@ -50,6 +50,7 @@ struct Requester {
   bool owns = false;      ///< the order needed the joint: Admission::settle() wants to know what became of it
   std::int64_t key = -1;  ///< index of the key that signed, -1: none
   std::int64_t last_sequence = 0;  ///< with kOldSequence: what the sequence must rise above
+  std::uint64_t source = 0;        ///< as WireMessage::source
 };
 
 /// What to do with one message.
@@ -73,7 +74,7 @@ struct Verdict {
 class Admission {
  public:
   /// Verifications a second that may end in a refusal, on the average and at once. One costs about 0.1 ms:
-  /// whoever sends forgeries gets at most an eighth of one processor, and beyond it they are refused unread.
+  /// forgeries get at most an eighth of one processor, and beyond it they are refused unread. Sources share it.
   static constexpr double kWastedVerificationsPer_s = 1000.0;
   static constexpr double kWastedVerificationsAtOnce = 200.0;
   /// Identities without a key that are remembered.
@@ -122,7 +123,7 @@ class Admission {
   std::optional<Verdict> check_sequence(SequenceMemory& memory, std::int64_t who, Requester& requester) const;
   std::optional<Verdict> check_owner(Requester& requester);
   std::optional<Verdict> check_sender(const WireMessage& message, Role needed, Requester& requester,
-                                      TokenBucket& verifications);
+                                      FairShare& verifications);
   Verdict stop(const WireMessage& message, OrderKind kind, std::int64_t session_id, std::int64_t challenge,
                Requester requester);
   Verdict change_owner(Action action, const Requester& requester);
@@ -136,8 +137,8 @@ class Admission {
   Ownership ownership_;
   SequenceMemory sequences_;
   SequenceMemory unsigned_sequences_;
-  TokenBucket verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
-  TokenBucket stop_verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
+  FairShare verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
+  FairShare stop_verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
   bool ending_ = false;
   std::int64_t now_ns_ = 0;
   std::array<std::int64_t, kReasonCount> rejects_{};

@@ -70,7 +70,7 @@ void PendingOrders::handle(Verdict& verdict, std::int64_t now_ns) {
     case Verdict::Kind::kDiscard:
       return;
     case Verdict::Kind::kRepeat:
-      if (stranger_answers_.try_take(now_ns)) answers_.repeat(verdict.requester);
+      if (stranger_answers_.try_take(verdict.requester.source, now_ns)) answers_.repeat(verdict.requester);
       return;
     case Verdict::Kind::kRefuse:
       return answer(verdict.requester, verdict.reason, verdict.text, now_ns);
@@ -105,8 +105,8 @@ void PendingOrders::refuse(Verdict& verdict, Reason reason, const std::string& t
 }
 
 void PendingOrders::answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns) {
-  TokenBucket& share = to.stop ? stop_answers_ : stranger_answers_;
-  if (to.authentic || share.try_take(now_ns)) answers_.answer(to, reason, text);
+  FairShare& share = to.stop ? stop_answers_ : stranger_answers_;
+  if (to.authentic || share.try_take(to.source, now_ns)) answers_.answer(to, reason, text);
 }
 
 // Puts the table into a slot that the loop does not use, or names the slot to return to.

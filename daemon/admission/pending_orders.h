@@ -9,15 +9,16 @@
 
 #include "daemon/admission/admission.h"
 #include "daemon/admission/answers.h"
+#include "daemon/admission/fair_share.h"
 #include "daemon/admission/table_book.h"
-#include "daemon/admission/token_bucket.h"
 #include "daemon/realtime/realtime_loop.h"
 
 namespace strainwave {
 
 class PendingOrders {
  public:
-  /// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others.
+  /// Answers a second to messages that anybody could have sent: enough for people, too few to crowd out the others. Sources
+  /// share them.
   static constexpr double kStrangerAnswersPer_s = 200.0;
   static constexpr double kStrangerAnswersAtOnce = 50.0;
   /// The same for stops: no forgery of another order uses this share up.
@@ -68,8 +69,8 @@ class PendingOrders {
   std::vector<Unanswered> unanswered_;       ///< by joint: its book is busy until this is known
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
   std::int64_t next_order_id_ = 1;
-  TokenBucket stranger_answers_{kStrangerAnswersPer_s, kStrangerAnswersAtOnce};
-  TokenBucket stop_answers_{kStopAnswersPer_s, kStopAnswersAtOnce};
+  FairShare stranger_answers_{kStrangerAnswersPer_s, kStrangerAnswersAtOnce};
+  FairShare stop_answers_{kStopAnswersPer_s, kStopAnswersAtOnce};
 };
 
 }  // namespace strainwave

@@ -18,6 +18,7 @@ void OrderQueue::push(const LcmSource& from, std::string_view channel,
   *entry = {true, from, turn + 1, ++arrivals_};
   WireMessage& message = messages_[static_cast<std::size_t>(entry - entries_.data())];
   message.channel = FixedString<64>(channel);
+  message.source = std::uint64_t{from.address} << 16U | from.port;
   message.size = bytes.size();
   std::copy(bytes.begin(), bytes.end(), message.bytes.begin());
 }
@@ -33,6 +34,7 @@ bool OrderQueue::pop(WireMessage& into) noexcept {
   turn_ = next->turn;
   const WireMessage& message = messages_[static_cast<std::size_t>(next - entries_.data())];
   into.channel = message.channel;
+  into.source = message.source;
   into.size = message.size;
   std::memcpy(into.bytes.data(), message.bytes.data(), message.size);
   return true;

@@ -17,7 +17,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303036;  // "SWMEM006"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303037;  // "SWMEM007"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {
@@ -31,6 +31,7 @@ struct StateRecord {
 struct WireMessage {
   static constexpr std::size_t kMaxBytes = kLargestMessageBytes;
   FixedString<64> channel;
+  std::uint64_t source = 0;  ///< on its way in: a number for the address and port that it came from
   std::uint64_t size = 0;
   std::array<std::uint8_t, kMaxBytes> bytes{};
 };

@@ -1,9 +1,6 @@
 // The flooder: ten thousand crafted datagrams a second, among them the fragments that crash LCM's library. Every stop is
 // obeyed and acknowledged, and the gateway lives. Where time is virtual, within 50 ms each.
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +12,7 @@
 #include <thread>
 
 #include "lcmtypes/vocabulary.h"
+#include "tests/adversary/port_sender.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/lcm_datagrams.h"
 #include "tests/system/hostile_datagrams.h"
@@ -33,23 +31,14 @@ constexpr double kBound_ms = 50.0;
 /// Floods the group from several ports until it is killed. The crashing fragments go to a channel of orders: LCM's library
 /// only looks at fragments of channels that somebody listens to, and whoever listens with it would die.
 [[noreturn]] void flood(std::uint64_t seed) {
-  sockaddr_in group{};
-  group.sin_family = AF_INET;
-  group.sin_port = htons(7667);
-  ::inet_pton(AF_INET, "239.255.76.67", &group.sin_addr);
-  std::array<int, 8> sockets{};
-  for (int& socket : sockets) socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  std::array<PortSender, 8> ports;
   HostileDatagrams datagrams(seed);
   std::uint32_t sequence = 0;
-  const auto send = [&](int socket, const Bytes& datagram) {
-    ::sendto(socket, datagram.data(), datagram.size(), 0,
-             static_cast<const sockaddr*>(static_cast<const void*>(&group)), sizeof group);
-  };
   auto due = Clock::now();
   for (std::size_t turn = 0;; ++turn) {
-    const int socket = sockets[turn % sockets.size()];
-    for (const Bytes& datagram : crashing_fragments("SW.elbow.COMMAND", ++sequence)) send(socket, datagram);
-    for (int i = 2; i < kPer_ms; ++i) send(socket, datagrams.next());
+    const PortSender& port = ports[turn % ports.size()];
+    for (const Bytes& datagram : crashing_fragments("SW.elbow.COMMAND", ++sequence)) port.send(datagram);
+    for (int i = 2; i < kPer_ms; ++i) port.send(datagrams.next());
     due += milliseconds(1);
     std::this_thread::sleep_until(due);
   }

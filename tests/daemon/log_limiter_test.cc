@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "daemon/admission/token_bucket.h"
 #include "daemon/log.h"
 
 namespace strainwave {
@@ -21,22 +20,6 @@ TEST(LogLimiter, LetsTheBurstThroughInEveryWindowAndAccountsForTheRest) {
   }
   EXPECT_EQ(logged, 10 * 20);
   EXPECT_EQ(reported, 9 * (10'000 - 20));
-}
-
-TEST(TokenBucket, GivesTheBurstAtOnceAndThenItsRate) {
-  TokenBucket bucket(100.0, 10.0);
-  int taken = 0;
-  while (bucket.try_take(0)) ++taken;
-  EXPECT_EQ(taken, 10);
-  for (int i = 1; i <= 10'000; ++i) taken += bucket.try_take(i * (kSecond_ns / 1000)) ? 1 : 0;
-  EXPECT_NEAR(taken, 10 + 1000, 1);
-}
-
-TEST(TokenBucket, NeverHoldsMoreThanTheBurst) {
-  TokenBucket bucket(100.0, 10.0);
-  int taken = 0;
-  while (bucket.try_take(1000 * kSecond_ns)) ++taken;
-  EXPECT_EQ(taken, 10);
 }
 
 }  // namespace

@@ -55,8 +55,8 @@ class HostileOrders : public ::testing::Test {
     message.position_rad = std::uniform_real_distribution<>(-1.0, 1.0)(random_);
     return message;
   }
-  // One millisecond apart: the bound on wasted verifications has a test of its own.
-  Verdict consider(const WireMessage& message) { return admission_.consider(message, now_ns_ += 1'000'000); }
+  // Two milliseconds apart: the bound on wasted verifications has a test of its own.
+  Verdict consider(const WireMessage& message) { return admission_.consider(message, now_ns_ += 2'000'000); }
 
   /// The attack's message, and the cause it must be counted under.
   std::pair<WireMessage, Reason> make(Attack attack) {

@@ -1,0 +1,62 @@
+// Bounds how often something may happen on the average, with a reserve for bursts, whoever asks for it, and shares it among those who
+// ask: whoever took more of late must leave more for the others, so that one who floods is refused while one who comes for the first
+// time is not. Sources that proved who they are have the last of the reserve to themselves. Bounded memory. Time is an argument. Not for
+// the loop.
+//
+// A source that took w within the last second or so (each counts for exp(-age / 1 s)) gets another one only where more is left than
+//   min(w, burst / 2) + burst / 8,     without the burst / 8 for a proven source.
+// Against k that take what they can, w = rate / k: all together get the rate, and one that is new finds enough as long as k is
+// fewer than the rate per second.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace strainwave {
+
+class FairShare {
+ public:
+  /// Beyond it the source that took the least is forgotten.
+  static constexpr std::size_t kTakers = 256;
+  /// Beyond it the one whose proof is oldest is.
+  static constexpr std::size_t kProven = 64;
+
+  /// `per_second` > 0 on the average, `burst` >= 1 at once, of all sources together.
+  FairShare(double per_second, double burst) noexcept
+      : per_ns_(per_second * 1e-9), burst_(burst), left_(burst) {}
+
+  /// Whether `source` may have one at `now_ns`; the clock may stand still but not go back.
+  bool available(std::uint64_t source, std::int64_t now_ns) noexcept;
+  /// `source` has had one at `now_ns`.
+  void take(std::uint64_t source, std::int64_t now_ns) noexcept;
+  bool try_take(std::uint64_t source, std::int64_t now_ns) noexcept {
+    const bool had_one = available(source, now_ns);
+    if (had_one) take(source, now_ns);
+    return had_one;
+  }
+  /// `source` has shown at `now_ns` who it is.
+  void prove(std::uint64_t source, std::int64_t now_ns) noexcept;
+
+ private:
+  struct Taker {
+    std::uint64_t source = 0;
+    double taken = 0.0;  ///< at `at_ns`, each with its weight
+    std::int64_t at_ns = 0;
+    double taken_by(std::int64_t now_ns) const noexcept;
+  };
+  struct Proof {
+    std::uint64_t source = 0;
+    std::int64_t at_ns = -1;  ///< -1: free
+  };
+  bool is_proven(std::uint64_t source) const noexcept;
+
+  double per_ns_;
+  double burst_;
+  double left_;
+  std::int64_t filled_ns_ = 0;
+  std::array<Taker, kTakers> takers_{};
+  std::array<Proof, kProven> proven_{};
+};
+
+}  // namespace strainwave

@@ -1,0 +1,35 @@
+// Sends datagrams to the tests' LCM group from a port of its own: to the gateway, a source of its own.
+#pragma once
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "tests/support/lcm_datagrams.h"
+
+namespace strainwave::testing {
+
+class PortSender {
+ public:
+  PortSender() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    group_.sin_family = AF_INET;
+    group_.sin_port = htons(7667);
+    ::inet_pton(AF_INET, "239.255.76.67", &group_.sin_addr);
+  }
+  ~PortSender() { ::close(socket_); }
+  PortSender(const PortSender&) = delete;
+  PortSender& operator=(const PortSender&) = delete;
+
+  /// As UDP is: what the system does not take is lost.
+  void send(const Bytes& datagram) const {
+    ::sendto(socket_, datagram.data(), datagram.size(), 0,
+             static_cast<const sockaddr*>(static_cast<const void*>(&group_)), sizeof group_);
+  }
+
+ private:
+  int socket_;
+  sockaddr_in group_{};
+};
+
+}  // namespace strainwave::testing
