@@ -18,11 +18,11 @@ constexpr double kLargestEntry = 0x1p400;
 constexpr double kSmallestDiagonal = 0x1p-400;
 
 struct Balanced {
-  StateMatrix matrix = StateMatrix::Identity();
+  ProofMatrix matrix;
   double error_norm = 0.0;  // bound on the spectral norm of the balanced error
 };
 
-bool balanceable(const StateMatrix& matrix, const StateMatrix& error, int size) noexcept {
+bool balanceable(const ProofMatrix& matrix, const ProofMatrix& error, int size) noexcept {
   for (int i = 0; i < size; ++i) {
     if (!(matrix(i, i) >= kSmallestDiagonal)) return false;
     for (int j = 0; j < size; ++j) {
@@ -36,12 +36,13 @@ bool balanceable(const StateMatrix& matrix, const StateMatrix& error, int size) 
 }
 
 // D * matrix * D with D = diag(2^-round(log2(a_ii)/2)), which brings the diagonal to [0.5, 2).
-Balanced balance(const StateMatrix& matrix, const StateMatrix& error, int size) noexcept {
-  std::array<int, kMaxStates> exponent{};
+Balanced balance(const ProofMatrix& matrix, const ProofMatrix& error, int size) noexcept {
+  std::array<int, kMaxProofStates> exponent{};
   for (int i = 0; i < size; ++i) {
     exponent[static_cast<std::size_t>(i)] = -((std::ilogb(matrix(i, i)) + 1) >> 1);
   }
   Balanced balanced;
+  balanced.matrix.resize(size, size);
   for (int i = 0; i < size; ++i) {
     double row_error = 0.0;
     for (int j = 0; j < size; ++j) {
@@ -58,8 +59,8 @@ Balanced balance(const StateMatrix& matrix, const StateMatrix& error, int size) 
 }
 
 // Plain Cholesky, in the order that Rump's bound assumes; true when every pivot is positive.
-bool cholesky_succeeds(const StateMatrix& matrix, int size) noexcept {
-  StateMatrix factor = StateMatrix::Zero();
+bool cholesky_succeeds(const ProofMatrix& matrix, int size) noexcept {
+  ProofMatrix factor = ProofMatrix::Zero(size, size);
   for (int j = 0; j < size; ++j) {
     double pivot = matrix(j, j);
     for (int k = 0; k < j; ++k) pivot -= factor(j, k) * factor(j, k);
@@ -74,16 +75,13 @@ bool cholesky_succeeds(const StateMatrix& matrix, int size) noexcept {
   return true;
 }
 
-double smallest_eigenvalue(const StateMatrix& matrix, int size) noexcept {
-  // The unused part is diagonal; raise it above any eigenvalue that counts.
-  StateMatrix padded = matrix;
-  for (int i = size; i < kMaxStates; ++i) padded(i, i) = 2.0 * kMaxStates;
-  return Eigen::SelfAdjointEigenSolver<StateMatrix>(padded, Eigen::EigenvaluesOnly).eigenvalues()(0);
+double smallest_eigenvalue(const ProofMatrix& matrix) noexcept {
+  return Eigen::SelfAdjointEigenSolver<ProofMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
 }  // namespace
 
-PositiveDefiniteResult test_positive_definite(const StateMatrix& matrix, const StateMatrix& error,
+PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const ProofMatrix& error,
                                               int size) noexcept {
   PositiveDefiniteResult result;
   result.margin = -std::numeric_limits<double>::infinity();
@@ -91,17 +89,17 @@ PositiveDefiniteResult test_positive_definite(const StateMatrix& matrix, const S
   const Balanced balanced = balance(matrix, error, size);
   double trace = 0.0;
   for (int i = 0; i < size; ++i) trace += balanced.matrix(i, i);
-  // When Cholesky succeeds, the matrix it was given is no further than gamma_4/(1 - gamma_4) * trace (about 4
-  // half ulps of the trace for n = 3) from one that is positive definite (Rump, 2006). 16 also covers the
+  // When Cholesky succeeds, the matrix it was given is no further than gamma_k/(1 - gamma_k) * trace, k = n + 1
+  // (about k half ulps of the trace), from one that is positive definite (Rump, 2006). 4 k also covers the
   // rounding of the shift and of this line; the balanced entries are near 1, so that underflow is far below
   // it.
-  const double shift = (1.0 + 64.0 * kHalfUlp) * balanced.error_norm + 16.0 * kHalfUlp * trace;
-  StateMatrix shifted = balanced.matrix;
+  const double shift = (1.0 + 64.0 * kHalfUlp) * balanced.error_norm + 4.0 * (size + 1) * kHalfUlp * trace;
+  ProofMatrix shifted = balanced.matrix;
   for (int i = 0; i < size; ++i) shifted(i, i) -= shift;
   if (!shifted.allFinite()) return result;
 
   result.certain = cholesky_succeeds(shifted, size);
-  const double estimate = smallest_eigenvalue(balanced.matrix, size) - shift;
+  const double estimate = smallest_eigenvalue(balanced.matrix) - shift;
   // The estimate has its own rounding; Cholesky decides the sign.
   result.margin =
       result.certain ? std::max(estimate, std::numeric_limits<double>::min()) : std::min(estimate, 0.0);

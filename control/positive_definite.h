@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "control/gain_table.h"
+#include "control/bounded_matrix.h"
 
 namespace strainwave {
 
@@ -18,9 +18,9 @@ struct PositiveDefiniteResult {
       0.0;  ///< estimate of the smallest eigenvalue after balancing, less the error bound; > 0 when certain
 };
 
-/// Tests the leading `size` x `size` block of `matrix` (1 <= size <= 3; only its symmetric part counts).
+/// Tests the leading `size` x `size` block of `matrix` (1 <= size <= kMaxProofStates; only its symmetric part counts).
 /// `error` bounds the error of each entry, same block; entries >= 0. NaN or infinity anywhere answers no.
-PositiveDefiniteResult test_positive_definite(const StateMatrix& matrix, const StateMatrix& error,
+PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const ProofMatrix& error,
                                               int size) noexcept;
 
 }  // namespace strainwave

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "control/gain_table.h"
+
 namespace strainwave {
 namespace {
 

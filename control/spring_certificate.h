@@ -1,0 +1,73 @@
+// The certificate of gains on a joint whose gear is a spring: whoever receives gains and a matrix P can prove, without a solver, that
+// the sampled and held loop of spring_plant.h is stable everywhere in a box of joints. Not real-time.
+//
+//   P - H' P H / r^2 > 0,   P > 0        H = H(K, 1/Jl, D, b, j)
+//
+// for every stiffness K, link inertia Jl, damping D and viscous friction b of the box and every gain j. Then V = x' P x falls by r^2
+// each sample, whatever K, Jl, D, b and the blend of the gains do from one sample to the next: a spring of several slopes, friction
+// that changes, a temperature that is taken for any other. Within a sample they stand still.
+//
+// Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D and b, so that its exponential is what interpolates those of the
+// box's 16 corners, within E (interpolation_error(), summed over the four). With |E_v| <= E
+//   H = sum_v lambda_v (H_v + E_v),    |H x| <= max_v |(H_v + E_v) x|   in the norm x' P x
+// and every inequality is tested with E added to the errors of H_v. H is affine in the gain, so that the same holds for blends.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "control/spring_plant.h"
+
+namespace strainwave {
+
+struct BoxRange {
+  double from = 0.0;
+  double to = 0.0;  ///< >= from
+};
+
+/// The joints that are meant.
+struct SpringBox {
+  double motor_inertia_kgm2 = 0.0;  ///< > 0
+  BoxRange link_inertia_kgm2;       ///< > 0
+  BoxRange stiffness_Nm_rad;        ///< > 0
+  BoxRange damping_Nms_rad;         ///< >= 0, of the wind-up's speed
+  BoxRange viscous_Nms_rad;         ///< >= 0, of the motor's side
+};
+
+/// The loop that is closed around them.
+struct SpringLoop {
+  double period_s = 0.0;    ///< > 0
+  int delay_periods = 0;    ///< 0..kMaxSpringDelay
+  double decay_rate = 1.0;  ///< r in (0, 1]
+};
+
+/// A corner of a box with its sampled plant, [A B; 0 1]; its error is the box's E and the rounding.
+struct SpringCorner {
+  SpringPlant plant;
+  BoundedMatrix sampled;
+};
+std::vector<SpringCorner> spring_corners(const SpringBox& box, double period_s);
+
+/// `box` cut into cells of equal ratios of the stiffness and of 1/Jm + 1/Jl: by the former first. Their borders are shared to the bit.
+std::vector<SpringBox> spring_cells(const SpringBox& box, int stiffness_cells, int inertia_cells);
+
+struct SpringReport {
+  bool certified = false;
+  int inequalities = 0;
+  double margin = 0.0;  ///< the least, as PositiveDefiniteResult::margin
+  SpringPlant worst;    ///< the corner that has it
+  int worst_gain = 0;
+};
+
+/// P: kSpringLoopStates + delay rows and columns. At least one gain.
+SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
+                     const ProofMatrix& P);
+
+/// The largest eigenvalue of the loop, in magnitude, r left out: what no proof can be better than. Not rigorous.
+double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop);
+
+/// Margin and corner in words.
+std::string describe(const SpringReport& report);
+
+}  // namespace strainwave

@@ -1,0 +1,117 @@
+#include "control/spring_certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace strainwave {
+namespace {
+
+const SpringLoop kLoop{1e-3, 1, 1.0};
+const std::array<GainRow, 1> kGains{GainRow(-310.0, -990.0, -21.0)};
+const SpringBox kBox{0.089, {0.0999, 0.1001}, {9990.0, 10010.0}, {0.5, 0.51}, {0.0, 0.01}};
+
+// sum_k H'^k W H^k of the middle of `box`.
+ProofMatrix lyapunov(const SpringBox& box) {
+  const auto middle = [](const BoxRange& range) { return 0.5 * (range.from + range.to); };
+  const SpringPlant plant{box.motor_inertia_kgm2, middle(box.link_inertia_kgm2), middle(box.stiffness_Nm_rad),
+                          middle(box.damping_Nms_rad), middle(box.viscous_Nms_rad)};
+  const BoundedMatrix sampled = spring_exponential(spring_generator(plant, kLoop.period_s));
+  ProofMatrix H = spring_loop(sampled, kGains[0], kLoop.period_s, kLoop.delay_periods).value;
+  Eigen::Matrix<double, 7, 1> weights;
+  weights << 0.1, 1.0, 1e-4, 100.0, 1e-4, 1e-2, 1e-6;
+  ProofMatrix P = weights.asDiagonal();
+  for (int k = 0; k < 26; ++k) {
+    P = (P + H.transpose() * P * H).eval();
+    H = (H * H).eval();
+  }
+  return 0.5 * (P + P.transpose());
+}
+
+TEST(SpringCertificate, CertifiesASmallBoxByTheLyapunovMatrixOfItsMiddle) {
+  const SpringReport report = certify(kGains, kBox, kLoop, lyapunov(kBox));
+  EXPECT_TRUE(report.certified) << describe(report);
+  EXPECT_EQ(report.inequalities, 1 + 16);
+  EXPECT_GT(report.margin, 0.0);
+}
+
+// A joint whose stiffness, inertia, damping and friction are anything in the box at every sample anew.
+TEST(SpringCertificate, WhatItCertifiesFallsAlongARandomWalkThroughTheBox) {
+  std::mt19937_64 random(11);
+  const auto any = [&](const BoxRange& range) {
+    return std::uniform_real_distribution<double>(range.from, range.to)(random);
+  };
+  const ProofMatrix P = lyapunov(kBox);
+  Eigen::VectorXd x = Eigen::VectorXd::Unit(7, 1);
+  for (int k = 0; k < 20000; ++k) {
+    const SpringPlant plant{kBox.motor_inertia_kgm2, any(kBox.link_inertia_kgm2), any(kBox.stiffness_Nm_rad),
+                            any(kBox.damping_Nms_rad), any(kBox.viscous_Nms_rad)};
+    const BoundedMatrix sampled = spring_exponential(spring_generator(plant, kLoop.period_s));
+    const Eigen::VectorXd next =
+        spring_loop(sampled, kGains[0], kLoop.period_s, kLoop.delay_periods).value * x;
+    ASSERT_LT(next.dot(P * next), x.dot(P * x)) << k;
+    x = next;
+    if (k % 500 == 499) x = Eigen::VectorXd::NullaryExpr(7, [&] { return any({-1.0, 1.0}); });
+  }
+}
+
+TEST(SpringCertificate, RefusesAWrongSignAnywhereInTheGain) {
+  for (const int entry : {0, 1, 2}) {
+    std::array<GainRow, 1> wrong = kGains;
+    wrong[0](entry) = -wrong[0](entry);
+    EXPECT_FALSE(certify(wrong, kBox, kLoop, lyapunov(kBox)).certified) << entry;
+  }
+}
+
+TEST(SpringCertificate, RefusesChangedEntriesOfP) {
+  for (Eigen::Index i = 0; i < 7; ++i) {
+    ProofMatrix P = lyapunov(kBox);
+    P(i, i) = -P(i, i);
+    EXPECT_FALSE(certify(kGains, kBox, kLoop, P).certified) << i;
+  }
+  EXPECT_FALSE(certify(kGains, kBox, kLoop, ProofMatrix::Identity(7, 7)).certified);
+  ProofMatrix P = lyapunov(kBox);
+  P(2, 3) = P(3, 2) = std::nan("");
+  EXPECT_FALSE(certify(kGains, kBox, kLoop, P).certified);
+}
+
+TEST(SpringCertificate, RefusesAWiderBoxALongerDelayAndAFasterDecay) {
+  const ProofMatrix P = lyapunov(kBox);
+  SpringBox wider = kBox;
+  wider.stiffness_Nm_rad = {1000.0, 40000.0};
+  EXPECT_FALSE(certify(kGains, wider, kLoop, P).certified);
+  wider = kBox;
+  wider.link_inertia_kgm2 = {0.02, 1.0};
+  EXPECT_FALSE(certify(kGains, wider, kLoop, P).certified);
+  EXPECT_FALSE(certify(kGains, kBox, {1e-3, 1, 0.9}, P).certified);
+  EXPECT_FALSE(certify(kGains, kBox, {1e-2, 1, 1.0}, P).certified);
+}
+
+// With two periods of delay the velocity of two readings excites what it damps with one: no proof could say otherwise.
+TEST(SpringCertificate, TheSecondPeriodOfDelayDrivesAStiffSpringWithoutDamping) {
+  const SpringPlant light{0.089, 0.05, 13000.0, 0.0, 0.0};
+  EXPECT_LT(spring_loop_radius(light, kGains[0], {1e-3, 1, 1.0}), 1.0);
+  EXPECT_GT(spring_loop_radius(light, kGains[0], {1e-3, 2, 1.0}), 1.02);
+}
+
+TEST(SpringCertificate, CellsCoverTheirBoxWithoutGaps) {
+  const SpringBox box{0.089, {0.05, 0.3}, {8100.0, 13000.0}, {0.0, 3.0}, {0.0, 2.4}};
+  const std::vector<SpringBox> cells = spring_cells(box, 3, 4);
+  ASSERT_EQ(cells.size(), 12U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const SpringBox& cell = cells[4 * k + j];
+      EXPECT_EQ(cell.stiffness_Nm_rad.from, k == 0 ? 8100.0 : cells[4 * (k - 1)].stiffness_Nm_rad.to);
+      EXPECT_EQ(cell.link_inertia_kgm2.from, j == 0 ? 0.05 : cells[4 * k + j - 1].link_inertia_kgm2.to);
+      EXPECT_LT(cell.link_inertia_kgm2.from, cell.link_inertia_kgm2.to);
+      EXPECT_LT(cell.stiffness_Nm_rad.from, cell.stiffness_Nm_rad.to);
+    }
+  }
+  EXPECT_EQ(cells.back().stiffness_Nm_rad.to, 13000.0);
+  EXPECT_EQ(cells.back().link_inertia_kgm2.to, 0.3);
+}
+
+}  // namespace
+}  // namespace strainwave
