@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/text/state_fields.h"
+#include "lcmtypes/state_fields.h"
 #include "client/text/text.h"
 
 namespace strainwave {
