@@ -69,7 +69,7 @@ TEST_P(Manual, AnotherKindIsAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, Manual,
-                         ::testing::Values("strainwaved", "strainwavectl", "strainwave-sim",
+                         ::testing::Values("strainwaved", "strainwavectl", "strainwave-telemetry", "strainwave-sim",
                                            "strainwave-design"),
                          [](const auto& program) {
                            std::string name = program.param;
