@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "lcmtypes/state_fields.h"
 #include "client/text/text.h"
+#include "lcmtypes/state_fields.h"
 
 namespace strainwave {
 

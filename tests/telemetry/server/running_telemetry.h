@@ -14,7 +14,8 @@ namespace strainwave::testing {
 class RunningTelemetry {
  public:
   /// On a free port, with further `options`.
-  explicit RunningTelemetry(const std::vector<std::string>& options = {}, const std::string& address = "127.0.0.1");
+  explicit RunningTelemetry(const std::vector<std::string>& options = {},
+                            const std::string& address = "127.0.0.1");
   /// Ends it by SIGTERM.
   ~RunningTelemetry();
   RunningTelemetry(const RunningTelemetry&) = delete;
