@@ -19,6 +19,11 @@ constexpr double kNoiseSteps = 4.0;
 // long run; a move has three, a push from outside two.
 constexpr double kLeak_s = 0.1;
 constexpr double kLimit = 3.3;
+// A plan that needs all of the torque leaves nothing to see beyond it on its own side. There the whole torque is looked at: five
+// reversals that no plan orders in 50 ms reach the limit. A certified law on a hardly damped spring may make four where a motion
+// begins to brake, while friction that moves, 1.5 of static friction at most, cannot make one.
+constexpr double kTurnedShare = 1.5;
+constexpr double kTurnedLimit = 3.9;
 // Pushes of a landing reverse by design, and a first push may surprise; ten of them in 0.1 s do not on a sound
 // joint. Half of a reversal would already make one of 2000 landings with friction off by up to 30 % fall back.
 constexpr double kLandingWeight = 0.35;
@@ -33,10 +38,10 @@ constexpr double kRestLimit = 60.0;
 constexpr double kUnsettled_s = 2.0;
 constexpr double kUnsettledLeak_s = 5.0;
 constexpr double kUnsettledLimit = 40.0;
-// After the fallback: what still counts as chatter, and how long it may last. With the time to notice it, which on a
-// long move comes only where the reference brakes, this ends every chatter within half a second of the first motion.
+// After the fallback: what still counts as chatter, and how long it may last. With the time to notice it no chatter lasts longer
+// than some third of a second; on a long move it may begin only where the reference brakes.
 constexpr double kGoesOn = 0.6;  // share of the limits
-constexpr double kPatience_s = 0.3;
+constexpr double kPatience_s = 0.25;
 
 }  // namespace
 
@@ -48,11 +53,14 @@ ChatterMonitor::ChatterMonitor(double period_s) noexcept
 
 void ChatterMonitor::reset() noexcept {
   level_ = 0.0;
+  turned_level_ = 0.0;
   rest_level_ = 0.0;
   unsettled_level_ = 0.0;
   chatter_s_ = 0.0;
   rest_s_ = 0.0;
   strong_ = {};
+  torque_ = {};
+  plan_ = {};
   weak_ = {};
   surprised_ = false;
   surprised_at_rest_ = false;
@@ -69,16 +77,23 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   surprised_ = surprised_ || sample.surprised;
   surprised_at_rest_ = surprised_at_rest_ || sample.surprised;
   rest_s_ = sample.reference_rests ? rest_s_ + period_s_ * sample.elapsed_periods : 0.0;
-  const double noise_Nm = kNoiseSteps * sample.feedback_step_Nm;
-  const double static_Nm = sample.static_friction_Nm;
-  if (strong_.reversed(sample.excess_torque_Nm, std::max(kStrongShare * static_Nm, noise_Nm))) {
+  const auto beyond_Nm = [&](double share) {
+    return sample.doubt_Nm +
+           std::max(share * sample.static_friction_Nm, kNoiseSteps * sample.feedback_step_Nm);
+  };
+  const double excess_Nm = sample.torque_Nm - sample.planned_torque_Nm;
+  // At rest the law's compensation of friction is part of it: that is told from chatter as any other excess.
+  const double turned_Nm = beyond_Nm(sample.reference_rests ? kStrongShare : kTurnedShare);
+  if (torque_.reversed(sample.torque_Nm, turned_Nm) && !sample.landing) turned_level_ += 1.0;
+  if (plan_.reversed(sample.planned_torque_Nm, turned_Nm)) turned_level_ -= 1.0;
+  if (strong_.reversed(excess_Nm, beyond_Nm(kStrongShare))) {
     if (!sample.landing)
       level_ += 1.0;
     else if (surprised_)
       level_ += kLandingWeight;
     surprised_ = false;
   }
-  const bool weak = weak_.reversed(sample.excess_torque_Nm, std::max(kWeakShare * static_Nm, noise_Nm));
+  const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare));
   if (!weak) return;
   if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += 1.0;
   if (rest_s_ >= kUnsettled_s)
@@ -86,23 +101,27 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   surprised_at_rest_ = false;
 }
 
+bool ChatterMonitor::any_level_reaches(double share) const noexcept {
+  return level_ >= share * kLimit || turned_level_ >= share * kTurnedLimit ||
+         rest_level_ >= share * kRestLimit || unsettled_level_ >= share * kUnsettledLimit;
+}
+
 MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
   for (int period = 0; period < sample.elapsed_periods; ++period) {
     level_ *= leak_;
+    turned_level_ *= leak_;
     rest_level_ *= rest_leak_;
     unsettled_level_ *= unsettled_leak_;
   }
   count(sample);
   if (state_ == MonitorState::kWatching) {
-    if (level_ < kLimit && rest_level_ < kRestLimit && unsettled_level_ < kUnsettledLimit) return state_;
+    if (!any_level_reaches(1.0)) return state_;
     reset();
     state_ = MonitorState::kFallenBack;
     return state_;
   }
-  const bool goes_on = level_ >= kGoesOn * kLimit || rest_level_ >= kGoesOn * kRestLimit ||
-                       unsettled_level_ >= kGoesOn * kUnsettledLimit;
   const double elapsed_s = period_s_ * sample.elapsed_periods;
-  chatter_s_ = goes_on ? chatter_s_ + elapsed_s : std::max(0.0, chatter_s_ - elapsed_s);
+  chatter_s_ = any_level_reaches(kGoesOn) ? chatter_s_ + elapsed_s : std::max(0.0, chatter_s_ - elapsed_s);
   if (chatter_s_ >= kPatience_s) state_ = MonitorState::kFaultDue;
   return state_;
 }

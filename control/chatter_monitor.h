@@ -5,8 +5,9 @@
 // a threshold on one side to more than it on the other. Planned motion, however hard, makes none. There are two
 // thresholds, shares of static friction: a strong reversal is more than the law's own friction compensation
 // makes, and counts always; a weak one could just move the joint, and counts once the reference has come to
-// rest for a while; where it has rested for long, in a level of its own, since a sound joint then makes none. Each fills a level
-// that leaks:
+// rest for a while; where it has rested for long, in a level of its own, since a sound joint then makes none. Where the plan needs all
+// of the torque nothing beyond it can be commanded: there the reversals of the whole torque count, less those of the plan. Each
+// fills a level that leaks:
 //
 //   level' = level exp(-period / leak) + reversals
 //
@@ -23,9 +24,11 @@ enum class MonitorState : int { kWatching = 0, kFallenBack = 1, kFaultDue = 2 };
 
 /// One period, joint side.
 struct ChatterSample {
-  double excess_torque_Nm = 0.0;    ///< commanded beyond what the planned motion and the load need
+  double torque_Nm = 0.0;           ///< commanded
+  double planned_torque_Nm = 0.0;   ///< what the planned motion and the load need of it; beyond it is excess
   double static_friction_Nm = 0.0;  ///< of the table, at this temperature
-  double feedback_step_Nm = 0.0;    ///< what the least change that the encoder can show makes of the torque
+  double doubt_Nm = 0.0;  ///< added to every threshold where the plan rests on a spring and a load as told
+  double feedback_step_Nm = 0.0;  ///< what the least change that the encoder can show makes of the torque
   bool reference_rests = false;
   bool landing = false;
   bool surprised = false;  ///< the encoder's reading contradicted the model
@@ -42,23 +45,28 @@ class ChatterMonitor {
   MonitorState state() const noexcept { return state_; }
 
  private:
-  /// The side on which the excess torque last was, beyond a threshold.
+  /// The side on which a torque last was, beyond a threshold.
   struct Side {
     int sign = 0;  ///< -1, 1; 0: not yet
     bool reversed(double torque_Nm, double threshold_Nm) noexcept;
   };
   void count(const ChatterSample& sample) noexcept;
+  /// `share` of its limit.
+  bool any_level_reaches(double share) const noexcept;
 
   double period_s_;
   double leak_;            ///< of the level over a period
   double rest_leak_;       ///< of the level at rest
   double unsettled_leak_;  ///< of the level at a long rest
   double level_ = 0.0;
+  double turned_level_ = 0.0;  ///< reversals of the whole torque, less the plan's
   double rest_level_ = 0.0;
   double unsettled_level_ = 0.0;
   double chatter_s_ = 0.0;  ///< since the fallback
   double rest_s_ = 0.0;     ///< since when the reference rests
   Side strong_;
+  Side torque_;  ///< of the whole torque
+  Side plan_;    ///< of what the plan needs of it
   Side weak_;
   bool surprised_ = false;          ///< since the last strong reversal
   bool surprised_at_rest_ = false;  ///< since the last weak one

@@ -170,11 +170,9 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   const double needed_Nm = config_.motor.limit_Nm(
       moves ? planned_torque_Nm() : state_.now().disturbance.load_Nm, state_.then().velocity_rad_s);
   ChatterSample sample;
-  sample.excess_torque_Nm = output.torque_Nm - std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
-  if (linked() && moves) {
-    const double beyond_Nm = std::abs(sample.excess_torque_Nm) - kSpringDoubt * torque_limit_Nm_;
-    sample.excess_torque_Nm = std::copysign(std::max(0.0, beyond_Nm), sample.excess_torque_Nm);
-  }
+  sample.torque_Nm = output.torque_Nm;
+  sample.planned_torque_Nm = std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  sample.doubt_Nm = linked() && moves ? kSpringDoubt * torque_limit_Nm_ : 0.0;
   sample.static_friction_Nm = model_.friction.static_Nm;
   sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
   sample.reference_rests = !moves;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -11,9 +13,10 @@ namespace {
 
 constexpr double kStatic_Nm = 2.0;
 
-ChatterSample sample_with(double excess_Nm) {
+ChatterSample sample_with(double torque_Nm, double planned_Nm = 0.0) {
   ChatterSample sample;
-  sample.excess_torque_Nm = excess_Nm;
+  sample.torque_Nm = torque_Nm;
+  sample.planned_torque_Nm = planned_Nm;
   sample.static_friction_Nm = kStatic_Nm;
   return sample;
 }
@@ -46,7 +49,61 @@ TEST(ChatterMonitor, TakesWhatTheLawsFrictionCompensationMakesForNoneWhileTheRef
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> noise(-2.4 * kStatic_Nm, 2.4 * kStatic_Nm);
   for (int k = 0; k < 20000; ++k)
-    ASSERT_EQ(monitor.step(sample_with(noise(random))), MonitorState::kWatching);
+    ASSERT_EQ(monitor.step(sample_with(10.0 + noise(random), 10.0)), MonitorState::kWatching);
+}
+
+/// Periods of 1 ms until the fallback where a plan needs all of the torque and the torque swings between that and as much against it.
+int periods_until_fallback(double frequency_Hz, const std::function<double(int)>& planned_Nm,
+                           double lowest_Nm) {
+  ChatterMonitor monitor(0.001);
+  for (int k = 0; k < 1000; ++k) {
+    const double now_Nm = planned_Nm(k);
+    const bool against = std::sin(2e-3 * std::numbers::pi * frequency_Hz * k) < 0.0;
+    const double torque_Nm = against ? std::copysign(lowest_Nm, -now_Nm) : now_Nm;
+    if (monitor.step(sample_with(torque_Nm, now_Nm)) != MonitorState::kWatching) return k;
+  }
+  return -1;
+}
+
+TEST(ChatterMonitor, SeesWithin50msATorqueThatReversesWhereThePlanLeavesNothingBeyondIt) {
+  for (const double frequency_Hz : {55.0, 86.0, 112.0, 160.0, 250.0}) {
+    const int seen = periods_until_fallback(
+        frequency_Hz, [](int) { return 34.0; }, 34.0);
+    EXPECT_GE(seen, 0) << frequency_Hz;
+    EXPECT_LE(seen, 50) << frequency_Hz;
+  }
+  EXPECT_LT(periods_until_fallback(
+                112.0, [](int) { return 34.0; }, 1.4 * kStatic_Nm),
+            0)
+      << "less than moves the joint";
+}
+
+TEST(ChatterMonitor, TakesReversalsThatThePlanOrdersForNoneHoweverFast) {
+  for (const double frequency_Hz : {0.5, 5.0, 20.0, 60.0})
+    for (const int late_periods : {0, 1, 4}) {
+      ChatterMonitor monitor(0.001);
+      const auto planned_Nm = [&](int k) {
+        return 30.0 * std::sin(2e-3 * std::numbers::pi * frequency_Hz * k);
+      };
+      for (int k = late_periods; k < 20000; ++k) {
+        const double excess_Nm = std::clamp(planned_Nm(k - late_periods) - planned_Nm(k), -4.0, 4.0);
+        ASSERT_EQ(monitor.step(sample_with(planned_Nm(k) + excess_Nm, planned_Nm(k))),
+                  MonitorState::kWatching)
+            << frequency_Hz << " Hz, " << late_periods << " periods late, at " << k;
+      }
+    }
+}
+
+TEST(ChatterMonitor, GivesAPlanThatRestsOnWhatItWasToldItsDoubt) {
+  for (const double doubt_Nm : {0.0, 7.0}) {
+    ChatterMonitor monitor(0.001);
+    for (int k = 0; k < 1000; ++k) {
+      ChatterSample sample = sample_with(k / 5 % 2 == 0 ? 8.0 : -8.0);
+      sample.doubt_Nm = doubt_Nm;
+      monitor.step(sample);
+    }
+    EXPECT_EQ(monitor.state() == MonitorState::kWatching, doubt_Nm > 0.0);
+  }
 }
 
 TEST(ChatterMonitor, LetsALandingReverseWhereItWouldTakeTheLawForChattering) {

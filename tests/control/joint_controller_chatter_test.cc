@@ -1,14 +1,13 @@
-// The daemon's controller on joints that are not what table and configuration say. The joint is written here,
-// on its own: two masses, a spring, dry friction, a delay; nothing of control/ or sim/ is in it.
+// The daemon's controller on joints that are not what table and configuration say. The joint is tests/support/two_mass_joint.h.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <deque>
 #include <numbers>
 #include <random>
 
 #include "control/gain_table_json.h"
 #include "control/joint_controller.h"
+#include "tests/support/two_mass_joint.h"
 
 namespace strainwave {
 namespace {
@@ -16,62 +15,6 @@ namespace {
 constexpr double kCount_rad = 2.0 * std::numbers::pi / 320000.0;
 constexpr double kLimit_Nm = 34.0;
 constexpr double kStrong_Nm = 4.0;
-
-struct JointData {
-  double motor_kgm2 = 0.089;
-  double link_kgm2 = 0.0;  ///< 0: rigid
-  double stiffness_Nm_rad = 1e4;
-  double damping_Nms_rad = 1.0;
-  double static_Nm = 1.6;
-  double coulomb_Nm = 0.8;
-  double viscous_Nms_rad = 0.3;
-  int delay_periods = 1;
-  bool encoder_on_link = false;
-};
-
-class TwoMassJoint {
- public:
-  explicit TwoMassJoint(const JointData& data)
-      : data_(data), pending_(static_cast<std::size_t>(data.delay_periods), 0.0) {}
-
-  void step(double torque_Nm) {
-    pending_.push_back(torque_Nm);
-    const double acting_Nm = pending_.front();
-    pending_.pop_front();
-    constexpr int kSubsteps = 200;
-    for (int k = 0; k < kSubsteps; ++k) advance(acting_Nm, 1e-3 / kSubsteps);
-  }
-  double reading_rad() const {
-    const double position_rad = data_.encoder_on_link && data_.link_kgm2 > 0.0 ? link_rad_ : motor_rad_;
-    return std::nearbyint(position_rad / kCount_rad) * kCount_rad;
-  }
-  double motor_rad() const { return motor_rad_; }
-  bool moves() const { return motor_rad_s_ != 0.0; }
-
- private:
-  void advance(double torque_Nm, double duration_s) {
-    double spring_Nm = 0.0;
-    if (data_.link_kgm2 > 0.0) {
-      spring_Nm = data_.stiffness_Nm_rad * (motor_rad_ - link_rad_) +
-                  data_.damping_Nms_rad * (motor_rad_s_ - link_rad_s_);
-      link_rad_s_ += duration_s / data_.link_kgm2 * spring_Nm;
-      link_rad_ += duration_s * link_rad_s_;
-    }
-    const double driving_Nm = torque_Nm - spring_Nm;
-    if (motor_rad_s_ == 0.0 && std::abs(driving_Nm) <= data_.static_Nm) return;
-    const double direction =
-        motor_rad_s_ != 0.0 ? std::copysign(1.0, motor_rad_s_) : std::copysign(1.0, driving_Nm);
-    const double friction_Nm =
-        direction * (data_.coulomb_Nm + data_.viscous_Nms_rad * std::abs(motor_rad_s_));
-    const double next_rad_s = motor_rad_s_ + duration_s / data_.motor_kgm2 * (driving_Nm - friction_Nm);
-    motor_rad_s_ = next_rad_s * direction < 0.0 ? 0.0 : next_rad_s;
-    motor_rad_ += duration_s * motor_rad_s_;
-  }
-
-  JointData data_;
-  std::deque<double> pending_;
-  double motor_rad_ = 0.0, motor_rad_s_ = 0.0, link_rad_ = 0.0, link_rad_s_ = 0.0;
-};
 
 /// The catalogue's table for another inertia: the same closed loop.
 GainTable table_for(double inertia_kgm2) {
@@ -108,7 +51,7 @@ struct Outcome {
 };
 
 /// Runs as the daemon would: from the fault on there is no torque.
-Outcome run(const JointData& data, const GainTable& table, bool rigid, const std::vector<double>& targets,
+Outcome run(const TwoMassData& data, const GainTable& table, bool rigid, const std::vector<double>& targets,
             int periods_each) {
   TwoMassJoint joint(data);
   JointController controller(config_for(rigid));
@@ -147,7 +90,7 @@ Outcome run(const JointData& data, const GainTable& table, bool rigid, const std
   return outcome;
 }
 
-void expect_quiet_after_half_a_second(const JointData& data, const GainTable& table, const char* what) {
+void expect_quiet_after_half_a_second(const TwoMassData& data, const GainTable& table, const char* what) {
   for (const bool rigid : {false, true})
     for (const double target_rad : {0.001, 0.01, 0.1, 1.0}) {
       const Outcome outcome = run(data, table, rigid, {target_rad}, 3000);
@@ -164,14 +107,14 @@ TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWhenTheTableIsForTenTimesTheI
 }
 
 TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWhenTheDelayIsTwoAndTheJointIsToldOne) {
-  JointData late;
+  TwoMassData late;
   late.delay_periods = 2;
   expect_quiet_after_half_a_second(late, table_for(0.089), "delay 2");
 }
 
 TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionOnASpring) {
   for (const double link_kgm2 : {0.03, 0.089, 0.267}) {
-    JointData data;
+    TwoMassData data;
     data.link_kgm2 = link_kgm2;
     expect_quiet_after_half_a_second(data, table_for(0.089 + link_kgm2), "spring");
   }
@@ -179,7 +122,7 @@ TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionOnASpring) {
 
 TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWithTheEncoderOnTheOtherSideOfASpring) {
   for (const double link_kgm2 : {0.1, 0.267}) {
-    JointData data;
+    TwoMassData data;
     data.link_kgm2 = link_kgm2;
     data.encoder_on_link = true;
     expect_quiet_after_half_a_second(data, table_for(0.089 + link_kgm2), "encoder on the link");
@@ -221,7 +164,7 @@ TEST(Chatter, IsNotSeenInAStreamOfSetpoints) {
 TEST(Chatter, IsNotSeenWhereFrictionAndInertiaAreThirtyPerCentOff) {
   for (const double friction : {0.7, 1.3})
     for (const double inertia : {0.8, 1.2}) {
-      JointData data;
+      TwoMassData data;
       data.static_Nm *= friction;
       data.coulomb_Nm *= friction;
       data.viscous_Nms_rad *= friction;

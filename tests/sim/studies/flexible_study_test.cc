@@ -11,6 +11,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/parallel.h"
+
 namespace strainwave {
 namespace {
 
@@ -121,9 +123,39 @@ TEST(FlexibleStudy, FindsInTheMiddleOfTheGridWhatTheReadmeSaysOfAllOfIt) {
     for (const auto& [step_rad, of_step] : logarithms) {
       const double mean = std::exp(std::accumulate(of_step.begin(), of_step.end(), 0.0) /
                                    static_cast<double>(of_step.size()));
-      EXPECT_NEAR(mean / *printed, 1.0, 0.25) << said[c].first << ", " << step_rad << " rad: " << mean;
+      // What chatters until the monitor ends it differs by a factor of ten from cell to cell.
+      const double tolerance = said[c].first == std::string("declared rigid") ? 0.5 : 0.25;
+      EXPECT_NEAR(mean / *printed, 1.0, tolerance) << said[c].first << ", " << step_rad << " rad: " << mean;
       ++printed;
     }
+  }
+}
+
+/// The number in column `column` of the page's row of contender `name`, from 1.
+int page_number(const std::string& name, int column) {
+  std::ifstream page(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "docs" / "flexible-joint.md");
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("| " + name + " |", 0) != 0) continue;
+    std::istringstream fields(line.substr(name.size() + 4));
+    std::string field;
+    for (int k = 0; k < column; ++k) std::getline(fields, field, '|');
+    return std::stoi(field);
+  }
+  throw std::invalid_argument(name);
+}
+
+TEST(FlexibleStudy, FallsBackAndSwitchesOffInAsManyCellsOfTheGridAsThePageSays) {
+  const std::vector<FlexibleCell> grid = flexible_grid();
+  for (const char* name : {"daemon", "daemon told of its spring"}) {
+    std::vector<MonitorState> states(grid.size());
+    const Contender& judged = contender(name);
+    run_in_parallel(grid.size(), [&](std::size_t i) { states[i] = run_cell(grid[i], judged).monitor; });
+    const auto cells = [&](MonitorState state) {
+      return static_cast<int>(std::count(states.begin(), states.end(), state));
+    };
+    // Which side of a limit a cell falls on may differ between compilers.
+    EXPECT_NEAR(cells(MonitorState::kFallenBack), page_number(name, 4), 3) << name;
+    EXPECT_NEAR(cells(MonitorState::kFaultDue), page_number(name, 5), 1) << name;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "lcmtypes/message_json.h"
+#include "client/text/message_json.h"
 
 #include <fmt/format.h>
 
