@@ -5,7 +5,7 @@ set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc")
 set(unit_dir lib/systemd/system)
 
 # Package strainwave: daemon, client, units, example configuration, documentation.
-install(TARGETS strainwaved strainwavectl DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+install(TARGETS strainwaved strainwavectl strainwave-telemetry DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
 install(TARGETS strainwave-gateway DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
 install(PROGRAMS systemd/grant-sysfs DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
 
@@ -17,6 +17,8 @@ endfunction()
 strainwave_unit(strainwaved strainwaved strainwave "" "The daemon of this machine, with /etc/strainwave/strainwaved.toml.")
 strainwave_unit(strainwaved@ %i strainwave/%i " (%i)"
   "A further daemon: strainwaved@left uses /etc/strainwave/left.toml, with a daemon.prefix and drives of its own.")
+configure_file(systemd/strainwave-telemetry.service.in "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" @ONLY)
+install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" DESTINATION ${unit_dir} COMPONENT daemon)
 configure_file("systemd/strainwave-gateway@.service.in" "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" systemd/strainwave-gateway.socket
         systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
@@ -41,7 +43,7 @@ function(strainwave_install_manual component)
     install(FILES "${folder}/_${program}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/vendor-completions COMPONENT ${component})
   endforeach()
 endfunction()
-strainwave_install_manual(daemon strainwaved strainwavectl)
+strainwave_install_manual(daemon strainwaved strainwavectl strainwave-telemetry)
 
 # Package strainwave-design: what needs no robot.
 install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
@@ -96,7 +98,7 @@ foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmty
 endforeach()
 
 # What the packages hold; scripts/package builds it without the tests.
-add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-sim strainwave-lcmtypes strainwave_python
+add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-telemetry strainwave-sim strainwave-lcmtypes strainwave_python
                   manual strainwave_changelogs)
 if(STRAINWAVE_BUILD_DESIGN)
   add_dependencies(products strainwave-design)

@@ -135,7 +135,7 @@ TEST(Layering, HasOneStackInsideTheClientTheSimulatorAndTheBus) {
 
 TEST(Layering, LetsNothingThatIsShippedIncludeTests) {
   for (const char* file : {"control/a.cc", "design/a.cc", "sim/a.cc", "drivers/a.cc", "lcmtypes/a.cc",
-                           "daemon/a.cc", "client/a.cc"}) {
+                           "daemon/a.cc", "client/a.cc", "telemetry/a.cc"}) {
     EXPECT_FALSE(allowed(file, "#include \"tests/support/include_rules.h\"")) << file;
   }
 }
@@ -161,6 +161,9 @@ TEST(Layering, KeepsLibrariesWhereTheyBelong) {
   EXPECT_TRUE(allowed("daemon/gateway/gateway.h", "#include <lcm/lcm-cpp.hpp>"));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include <lcm/lcm-cpp.hpp>"));
   EXPECT_FALSE(allowed("client/watch/order_desk.h", "#include <lcm/lcm-cpp.hpp>"));
+  EXPECT_FALSE(allowed("telemetry/a.cc", "#include <lcm/lcm-cpp.hpp>"));
+  EXPECT_TRUE(allowed("telemetry/server/a.cc", "#include <boost/asio.hpp>"));
+  EXPECT_FALSE(allowed("telemetry/a.cc", "#include <boost/asio.hpp>"));
   EXPECT_FALSE(allowed("control/a.h", "#include <strainwave/state_v1.hpp>"));
   EXPECT_FALSE(allowed("client/a.h", "#include <nlohmann/json.hpp>"));
   EXPECT_FALSE(allowed("client/a.h", "#include <CLI/CLI.hpp>"));

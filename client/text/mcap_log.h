@@ -25,9 +25,6 @@ class McapLog {
   bool good() const noexcept { return writer_.good(); }
 
  private:
-  template <typename Message>
-  bool write(const std::string& channel, std::int64_t received_us, std::span<const std::uint8_t> data);
-
   McapWriter writer_;
   std::map<std::string, std::uint16_t> channels_;
 };

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/printable.h"
-#include "client/text/message_fields.h"
+#include "lcmtypes/message_fields.h"
 
 namespace strainwave {
 

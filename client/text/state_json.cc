@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/text/state_fields.h"
 #include "client/text/text.h"
+#include "lcmtypes/state_fields.h"
 
 namespace strainwave {
 

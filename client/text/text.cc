@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "client/link/exit_status.h"
-#include "client/text/state_fields.h"
+#include "lcmtypes/state_fields.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {

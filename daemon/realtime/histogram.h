@@ -1,22 +1,16 @@
-// A histogram of durations with fixed buckets, written by one thread and read by others. Real-time safe.
-// Bucket i counts values below bucket_upper_ns(i) = 1000 * 2^(i/4) ns and not below the bound before; the last takes the
-// rest. 64 buckets reach from 1 us to 55 ms at 19 % resolution.
+// A histogram of durations with the buckets of lcmtypes/timing_buckets.h, written by one thread and read by others. Real-time safe.
 #pragma once
 
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "lcmtypes/timing_buckets.h"
+
 namespace strainwave {
 
-inline constexpr std::size_t kHistogramBuckets = 64;
 using HistogramCounts = std::array<std::int64_t, kHistogramBuckets>;
-
-inline double bucket_upper_ns(std::size_t bucket) {
-  return 1000.0 * std::exp2(static_cast<double>(bucket) / 4.0);
-}
 
 /// The value below which `fraction` of the counted durations lie, interpolated within its bucket; 0 when empty.
 inline double percentile_ns(const HistogramCounts& counts, double fraction) {

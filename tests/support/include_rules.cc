@@ -20,7 +20,8 @@ const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"Clp_", {"sim/studies/linear_program.cc"}},
     {"lcm/", {"daemon/gateway/", "client/link/", "tests/"}},
-    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "tests/", "bench/"}},
+    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "telemetry/", "tests/", "bench/"}},
+    {"boost/", {"telemetry/server/"}},
     {"toml++/", {"base/toml_section.cc"}},
     {"seccomp", {"daemon/gateway/"}},
     {"gpiod", {"drivers/gpio/line_request_v"}},
@@ -29,7 +30,9 @@ const std::vector<Library> kLibraries{
     {"gtest/", {"tests/"}},
     {"benchmark/", {"bench/"}},
     {"nlohmann/json.hpp", {""}, false},
-    {"CLI/", {"design/", "sim/", "daemon/", "client/", "base/manual/", "tests/support/"}, false},
+    {"CLI/",
+     {"design/", "sim/", "daemon/", "client/", "telemetry/", "base/manual/", "tests/support/"},
+     false},
 };
 
 /// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON

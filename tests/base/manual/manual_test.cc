@@ -69,8 +69,8 @@ TEST_P(Manual, AnotherKindIsAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, Manual,
-                         ::testing::Values("strainwaved", "strainwavectl", "strainwave-sim",
-                                           "strainwave-design"),
+                         ::testing::Values("strainwaved", "strainwavectl", "strainwave-telemetry",
+                                           "strainwave-sim", "strainwave-design"),
                          [](const auto& program) {
                            std::string name = program.param;
                            std::erase(name, '-');

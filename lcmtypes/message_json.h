@@ -13,14 +13,14 @@
 #include <utility>
 #include <vector>
 
-#include "client/text/message_fields.h"
+#include "lcmtypes/message_fields.h"
 
 namespace strainwave {
 
 /// "strainwave.state_v1"
 template <typename Message>
 std::string schema_name() {
-  return std::string("strainwave.") + Message::getTypeName();
+  return std::string("strainwave.").append(Message::getTypeName());
 }
 
 namespace json {

@@ -1,4 +1,4 @@
-#include "client/text/message_json.h"
+#include "lcmtypes/message_json.h"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 #include <strainwave/timing_v1.hpp>
 #include <string_view>
 
-#include "client/text/state_fields.h"
+#include "lcmtypes/state_fields.h"
 
 namespace strainwave {
 

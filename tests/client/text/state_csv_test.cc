@@ -1,4 +1,4 @@
-#include "client/text/state_fields.h"
+#include "client/text/state_csv.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,6 @@
 #include <random>
 #include <sstream>
 
-#include "client/text/state_csv.h"
-#include "tests/support/message_files.h"
-
 namespace strainwave {
 namespace {
 
@@ -20,19 +17,6 @@ std::vector<std::string> columns(const std::string& line) {
   std::istringstream stream(line);
   for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
   return parts;
-}
-
-std::vector<MessageField> declared_fields() {
-  return read_message_fields(STRAINWAVE_SOURCE_DIR "/lcmtypes/state_v1.lcm", "state_v1");
-}
-
-TEST(StateFields, AreThoseOfTheMessageInItsOrder) {
-  std::vector<std::string> visited;
-  visit_state_fields(state_v1{}, [&](const char* name, const auto&) { visited.emplace_back(name); });
-  std::vector<std::string> declared;
-  for (const MessageField& field : declared_fields()) declared.push_back(field.name);
-  ASSERT_FALSE(declared.empty());
-  EXPECT_EQ(visited, declared);
 }
 
 TEST(StateCsv, HasTheWeightsInUseAndWordsForNumbers) {

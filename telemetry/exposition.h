@@ -1,0 +1,33 @@
+// A page of metrics in Prometheus' text format 0.0.4: families one after the other, each with its samples together. Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace strainwave {
+
+/// Names and values; these are names of ours and words of the vocabulary, and need no escapes.
+using MetricLabels = std::vector<std::pair<std::string_view, std::string_view>>;
+
+enum class MetricType { kGauge, kCounter, kHistogram };
+
+class Exposition {
+ public:
+  /// Begins a family; samples until the next one are its own. A family without samples leaves nothing.
+  void family(std::string_view name, MetricType type, std::string_view help);
+  void sample(const MetricLabels& labels, double value) { sample("", labels, value); }
+  /// Of a histogram: `suffix` is "_bucket" or "_count".
+  void sample(std::string_view suffix, const MetricLabels& labels, double value);
+
+  std::string text() && { return std::move(text_); }
+
+ private:
+  std::string text_;
+  std::string name_;
+  std::string heading_;  ///< of the family, until its first sample
+};
+
+}  // namespace strainwave

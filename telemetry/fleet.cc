@@ -1,0 +1,72 @@
+#include "telemetry/fleet.h"
+
+#include <cmath>
+
+#include "lcmtypes/cycle_fields.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+/// Of the joint's speed limit: below it the direction of a motion, and so its friction, is in doubt.
+constexpr double kSlowShare = 0.01;
+
+bool has(const state_v1& state, Notice notice) {
+  return (state.notices & static_cast<std::int32_t>(notice)) != 0;
+}
+
+/// A motion whose feedback tells of friction: free, and not at the torque's limit.
+bool tells_of_friction(const state_v1& state, const limits_v1& limits) {
+  return state.mode == static_cast<std::int32_t>(Mode::kTracking) && !has(state, Notice::kTorqueLimited) &&
+         std::fabs(state.setpoint_velocity_rad_s) > kSlowShare * limits.speed_limit_rad_s;
+}
+
+}  // namespace
+
+void JointRecord::take(const state_v1& latest, double now_s) {
+  state = latest;
+  state_heard_s = now_s;
+  torque_Nm.take(state.torque_commanded_Nm, now_s);
+  if (!limits) return;
+  tracking_error_rad.take(strainwave::tracking_error_rad(state, limits->period_s), now_s);
+  if (!tells_of_friction(state, *limits)) return;
+  const double direction = std::copysign(1.0, state.setpoint_velocity_rad_s);
+  friction_modelled_Nm.take(direction * state.torque_feedforward_Nm, now_s);
+  friction_excess_Nm.take(direction * state.torque_feedback_Nm, now_s);
+}
+
+void Fleet::take(const ChannelName& name, const state_v1& message, double now_s) {
+  const JointName joint(name.prefix, name.joint);
+  if (!joints_.contains(joint) && joints_.size() >= kMaxJoints) {
+    forget_silent(now_s);
+    if (joints_.size() >= kMaxJoints) return;
+  }
+  joints_[joint].take(message, now_s);
+}
+
+void Fleet::take(const ChannelName& name, const limits_v1& message, double) {
+  const auto found = joints_.find({name.prefix, name.joint});
+  if (found != joints_.end()) found->second.limits = message;
+}
+
+void Fleet::take(const ChannelName& name, const temperature_v1& message, double) {
+  const auto found = joints_.find({name.prefix, name.joint});
+  if (found != joints_.end()) found->second.temperature = message;
+}
+
+void Fleet::take(const ChannelName& name, const timing_v1& message, double now_s) {
+  if (!name.joint.empty()) return;
+  if (!daemons_.contains(name.prefix) && daemons_.size() >= kMaxDaemons) {
+    forget_silent(now_s);
+    if (daemons_.size() >= kMaxDaemons) return;
+  }
+  daemons_[name.prefix] = {message, now_s};
+}
+
+void Fleet::forget_silent(double now_s) {
+  std::erase_if(joints_, [&](const auto& entry) { return now_s - entry.second.state_heard_s > kSilent_s; });
+  std::erase_if(daemons_, [&](const auto& entry) { return now_s - entry.second.timing_heard_s > kSilent_s; });
+}
+
+}  // namespace strainwave

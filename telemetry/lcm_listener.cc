@@ -1,0 +1,35 @@
+#include "telemetry/lcm_listener.h"
+
+#include <stdexcept>
+#include <system_error>
+
+#include "base/input_error.h"
+#include "lcmtypes/multicast_check.h"
+#include "lcmtypes/wire.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr int kBatchesAtOnce = 8;
+
+MulticastAddress checked(const std::string& lcm_url) {
+  if (const auto defect = find_udpm_defect(lcm_url)) throw InputError("--lcm-url: " + *defect);
+  if (const auto problem = find_multicast_problem(lcm_url)) throw std::runtime_error(*problem);
+  return *parse_udpm_url(lcm_url);
+}
+
+}  // namespace
+
+LcmListener::LcmListener(const std::string& lcm_url)
+    : socket_(checked(lcm_url), largest_datagram(kLargestMessageBytes)), reassembly_(kLargestMessageBytes) {}
+
+void LcmListener::receive(const Take& take) {
+  const auto take_datagram = [&](const LcmSource& from, std::span<const std::uint8_t> datagram) {
+    if (const auto message = reassembly_.take(from, datagram)) take(message->channel, message->bytes);
+  };
+  for (int batch = 0; batch < kBatchesAtOnce; ++batch)
+    if (socket_.receive(take_datagram) < LcmSocket::kBatch) return;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,35 @@
+// LCM's network, heard and never spoken to: whole messages of every channel, by our own receiver (transport/). Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "transport/lcm_reassembly.h"
+#include "transport/lcm_socket.h"
+
+namespace strainwave {
+
+class LcmListener {
+ public:
+  using Take = std::function<void(std::string_view channel, std::span<const std::uint8_t> bytes)>;
+
+  /// Joins the network of `lcm_url`. Throws InputError for a URL that is none, std::runtime_error when the network is not there.
+  explicit LcmListener(const std::string& lcm_url);
+
+  /// Becomes readable when there is something to receive.
+  int descriptor() const noexcept { return socket_.descriptor(); }
+
+  /// Hands what is here to `take`: some hundred datagrams at most, so that nothing else waits long. Never waits.
+  void receive(const Take& take);
+
+  const LcmReassembly::Counts& counts() const noexcept { return reassembly_.counts(); }
+
+ private:
+  LcmSocket socket_;
+  LcmReassembly reassembly_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,61 @@
+// strainwave-telemetry: live plots and metrics of what is said on LCM. See `strainwave-telemetry --help`.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "base/input_error.h"
+#include "base/manual/command_line.h"
+#include "telemetry/telemetry.h"
+
+namespace {
+
+struct Options {
+  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string listen = "127.0.0.1:8765";
+  std::string token_file;
+  std::vector<std::string> origins{"https://app.foxglove.dev", "file://"};
+};
+
+void define(CLI::App& program, Options& options) {
+  program.add_option("--lcm-url", options.lcm_url, "the LCM network")
+      ->envname("LCM_DEFAULT_URL")
+      ->capture_default_str()
+      ->type_name("URL");
+  program
+      .add_option("--listen", options.listen,
+                  "where viewers and Prometheus connect; another address than loopback needs --token-file")
+      ->capture_default_str()
+      ->type_name("ADDRESS:PORT");
+  program.add_option("--token-file", options.token_file, "whoever connects must show the token in this file")
+      ->envname("STRAINWAVE_TELEMETRY_TOKEN_FILE")
+      ->type_name("FILE");
+  program.add_option("--origin", options.origins, "web pages that may show telemetry without a token")
+      ->capture_default_str()
+      ->type_name("URL");
+}
+
+strainwave::ExitStatus serve(const Options& options) {
+  using namespace strainwave;
+  const ListenAddress address = parse_listen_address(options.listen);
+  AccessRules rules{options.token_file.empty() ? "" : read_token(options.token_file), options.origins};
+  if (!is_loopback(address.host) && rules.token.empty())
+    throw InputError("--listen: " + address.host +
+                     " is open to other machines: give --token-file FILE, or listen on 127.0.0.1");
+  Telemetry telemetry(options.lcm_url, address, std::move(rules));
+  const std::string host =
+      address.host.find(':') == std::string::npos ? address.host : "[" + address.host + "]";
+  const std::string place = host + ":" + std::to_string(telemetry.port());
+  std::cout << "Foxglove: ws://" << place << "\nPrometheus: http://" << place << "/metrics" << std::endl;
+  telemetry.run();
+  return ExitStatus::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(
+      "Serves what is said on LCM to Foxglove (WebSocket) and Prometheus (metrics). It only listens.");
+  strainwave::configure_program(program, "strainwave-telemetry");
+  Options options;
+  define(program, options);
+  return strainwave::run_program(program, argc, argv, [&] { return serve(options); });
+}

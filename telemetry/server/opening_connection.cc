@@ -1,0 +1,99 @@
+#include "telemetry/server/opening_connection.h"
+
+#include <chrono>
+
+#include "telemetry/server/viewer_connection.h"
+
+namespace strainwave {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+constexpr auto kLongestRequest_s = std::chrono::seconds(10);
+constexpr std::uint32_t kLargestHeader = 8192;
+
+std::string_view view(beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+}  // namespace
+
+OpeningConnection::OpeningConnection(boost::asio::ip::tcp::socket&& socket, ServerShared& shared)
+    : stream_(std::move(socket)), shared_(shared) {
+  parser_.header_limit(kLargestHeader);
+}
+
+void OpeningConnection::start() {
+  stream_.expires_after(kLongestRequest_s);
+  http::async_read(
+      stream_, buffer_, parser_,
+      [self = shared_from_this()](const beast::error_code& error, std::size_t) { self->on_request(error); });
+}
+
+void OpeningConnection::end() {
+  beast::error_code ignored;
+  stream_.socket().close(ignored);
+}
+
+void OpeningConnection::on_request(const beast::error_code& error) {
+  shared_.opening.remove_if([&](const auto& other) { return other.expired() || other.lock().get() == this; });
+  if (error == http::error::header_limit || error == http::error::unexpected_body)
+    return refuse(Status::bad_request, "the request is too long");
+  if (!error) answer(parser_.get());
+}
+
+void OpeningConnection::answer(const Request& request) {
+  const std::string_view target = view(request.target());
+  const RequestFacts facts{target, view(request[http::field::authorization]),
+                           view(request[http::field::origin]), view(request[http::field::host])};
+  switch (judge(facts, shared_.rules)) {
+    case Access::kNoToken:
+      return refuse(Status::unauthorized,
+                    "a token is required: the header 'Authorization: Bearer TOKEN', or ?token=TOKEN");
+    case Access::kForeignPage:
+      return refuse(Status::forbidden,
+                    "this page, or this name of the machine, is not allowed: see --origin and --token-file");
+    case Access::kGranted:
+      break;
+  }
+  if (beast::websocket::is_upgrade(request)) return become_viewer(request);
+  if (request.method() != http::verb::get) return refuse(Status::method_not_allowed, "only GET is answered");
+  if (path_of(target) == "/metrics")
+    return respond(Status::ok, "text/plain; version=0.0.4; charset=utf-8", shared_.metrics());
+  if (path_of(target) == "/")
+    return respond(Status::ok, "text/plain; charset=utf-8",
+                   "strainwave-telemetry: /metrics is for Prometheus; ws:// on this port is for Foxglove.\n");
+  refuse(Status::not_found, "there is /metrics, and ws:// for Foxglove");
+}
+
+void OpeningConnection::become_viewer(const Request& request) {
+  const auto subprotocol = choose_subprotocol(view(request[http::field::sec_websocket_protocol]));
+  if (!subprotocol)
+    return refuse(Status::bad_request, "the subprotocols are foxglove.sdk.v1 and foxglove.websocket.v1");
+  if (shared_.viewers.size() >= TelemetryServer::kMaxViewers)
+    return refuse(Status::service_unavailable, "too many viewers are connected");
+  std::make_shared<ViewerConnection>(std::move(stream_), shared_)->start(request, *subprotocol);
+}
+
+void OpeningConnection::refuse(Status status, const std::string& why) {
+  ++shared_.refused;
+  respond(status, "text/plain; charset=utf-8", why + "\n");
+}
+
+void OpeningConnection::respond(Status status, const char* type, std::string body) {
+  response_.result(status);
+  response_.set(http::field::content_type, type);
+  if (status == Status::unauthorized) response_.set(http::field::www_authenticate, "Bearer");
+  response_.keep_alive(false);
+  response_.body() = std::move(body);
+  response_.prepare_payload();
+  stream_.expires_after(kLongestRequest_s);
+  http::async_write(stream_, response_, [self = shared_from_this()](const beast::error_code&, std::size_t) {
+    beast::error_code ignored;
+    self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  });
+}
+
+}  // namespace strainwave

@@ -1,0 +1,34 @@
+// A connection from its beginning to its one request: the page of metrics, a refusal, or a viewer, which goes on as ViewerConnection.
+// Not real-time.
+#pragma once
+
+#include "telemetry/server/shared.h"
+
+namespace strainwave {
+
+class OpeningConnection : public std::enable_shared_from_this<OpeningConnection> {
+ public:
+  OpeningConnection(boost::asio::ip::tcp::socket&& socket, ServerShared& shared);
+
+  void start();
+  /// Gives it up: others wait.
+  void end();
+
+ private:
+  using Status = boost::beast::http::status;
+  using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+
+  void on_request(const boost::beast::error_code& error);
+  void answer(const Request& request);
+  void become_viewer(const Request& request);
+  void respond(Status status, const char* type, std::string body);
+  void refuse(Status status, const std::string& why);
+
+  boost::beast::tcp_stream stream_;
+  boost::beast::flat_buffer buffer_;
+  boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
+  boost::beast::http::response<boost::beast::http::string_body> response_;
+  ServerShared& shared_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,32 @@
+// What all connections of the server share. Not real-time.
+#pragma once
+
+#include <utility>  // which Boost 1.74's asio forgets to include
+
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
+#include <functional>
+#include <list>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "telemetry/server/server.h"
+
+namespace strainwave {
+
+class OpeningConnection;
+class ViewerConnection;
+
+struct ServerShared {
+  AccessRules rules;
+  const Topics& topics;
+  std::function<std::string()> metrics;
+  std::string session;  ///< tells viewers one start of the server from the next
+  std::list<std::weak_ptr<OpeningConnection>> opening;  ///< the oldest first
+  std::set<std::shared_ptr<ViewerConnection>> viewers;
+  std::uint64_t refused = 0;
+  std::uint64_t dropped_before = 0;  ///< of viewers that are gone
+};
+
+}  // namespace strainwave

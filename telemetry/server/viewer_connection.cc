@@ -1,0 +1,116 @@
+#include "telemetry/server/viewer_connection.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace strainwave {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+
+// A viewer that answers no ping as long has gone.
+constexpr auto kIdle_s = std::chrono::seconds(30);
+constexpr auto kHandshake_s = std::chrono::seconds(10);
+// What the system buffers comes on top of the queue's bound.
+constexpr int kSystemBuffer = 256 * 1024;
+
+}  // namespace
+
+ViewerConnection::ViewerConnection(beast::tcp_stream&& stream, ServerShared& shared)
+    : stream_(std::move(stream)), shared_(shared) {
+  stream_.read_message_max(Viewer::kLongestMessage);
+}
+
+void ViewerConnection::start(const beast::http::request<beast::http::empty_body>& request,
+                             std::string_view subprotocol) {
+  beast::error_code ignored;
+  auto& tcp = beast::get_lowest_layer(stream_);
+  tcp.expires_never();  // the WebSocket has times of its own
+  tcp.socket().set_option(boost::asio::socket_base::send_buffer_size(kSystemBuffer), ignored);
+  tcp.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+  stream_.set_option(websocket::stream_base::timeout{kHandshake_s, kIdle_s, true});
+  stream_.set_option(websocket::stream_base::decorator(
+      [name = std::string(subprotocol)](websocket::response_type& response) {
+        response.set(beast::http::field::sec_websocket_protocol, name);
+      }));
+  stream_.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
+    if (error) return self->end();
+    self->shared_.viewers.insert(self);
+    self->say(server_info(self->shared_.session));
+    self->say(advertise(self->shared_.topics));
+    self->read();
+  });
+}
+
+void ViewerConnection::publish(std::uint32_t topic, std::uint64_t received_ns,
+                               const std::shared_ptr<const std::string>& json) {
+  const auto subscription = viewer_.subscription(topic);
+  if (!subscription) return;
+  queue_.push_data(message_head(*subscription, received_ns), json);
+  send();
+}
+
+void ViewerConnection::remove_topic(std::uint32_t topic) {
+  viewer_.forget(topic);
+  say(unadvertise(topic));
+}
+
+void ViewerConnection::report_drops() {
+  if (queue_.dropped() == reported_drops_) return;
+  reported_drops_ = queue_.dropped();
+  say(status(StatusLevel::kWarning,
+             fmt::format("{} messages were dropped: this connection is too slow", reported_drops_),
+             "dropped"));
+}
+
+void ViewerConnection::read() {
+  stream_.async_read(incoming_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+    self->on_message(error);
+  });
+}
+
+void ViewerConnection::on_message(const beast::error_code& error) {
+  if (error) return end();
+  std::optional<std::string> answer;
+  if (stream_.got_text()) {
+    const auto bytes = incoming_.cdata();
+    answer = viewer_.take({static_cast<const char*>(bytes.data()), bytes.size()}, shared_.topics);
+  } else {
+    answer = status(StatusLevel::kError, "nothing can be published here", "refused");
+  }
+  incoming_.consume(incoming_.size());
+  if (answer) say(std::move(*answer));
+  if (stream_.is_open()) read();
+}
+
+void ViewerConnection::say(std::string text) {
+  if (!queue_.push_control(std::move(text))) return end();
+  send();
+}
+
+void ViewerConnection::send() {
+  if (sending_ || !stream_.is_open()) return;
+  sending_ = queue_.pop();
+  if (!sending_) return;
+  stream_.text(!sending_->head.has_value());
+  const std::array<boost::asio::const_buffer, 2> buffers{
+      sending_->head ? boost::asio::buffer(*sending_->head) : boost::asio::const_buffer(),
+      boost::asio::buffer(*sending_->body)};
+  stream_.async_write(buffers, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+    self->sending_.reset();
+    if (error) return self->end();
+    self->send();
+  });
+}
+
+// Whatever is under way ends with an error, and calls this again.
+void ViewerConnection::end() {
+  if (shared_.viewers.erase(shared_from_this()) > 0) shared_.dropped_before += queue_.dropped();
+  beast::error_code ignored;
+  beast::get_lowest_layer(stream_).socket().close(ignored);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,70 @@
+#include "telemetry/telemetry.h"
+
+#include <chrono>
+
+#include "base/utime.h"
+#include "lcmtypes/message_json.h"
+#include "lcmtypes/message_kinds.h"
+
+namespace strainwave {
+
+Telemetry::Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules)
+    : listener_(lcm_url), server_(address, std::move(rules), topics_, [this] { return metrics(); }) {}
+
+void Telemetry::run() {
+  server_.run(listener_.descriptor(), [this] {
+    listener_.receive(
+        [this](std::string_view channel, std::span<const std::uint8_t> bytes) { take(channel, bytes); });
+  });
+}
+
+void Telemetry::take(std::string_view channel, std::span<const std::uint8_t> bytes) {
+  const auto name = parse_channel(channel);
+  const bool ours = name && visit_message(name->kind, bytes, [&]<typename Message>(const Message& message) {
+                      fleet_.take(*name, message, now_s());
+                      const Topic* topic = topic_of<Message>(std::string(channel));
+                      if (topic != nullptr && server_.is_wanted(topic->id))
+                        server_.publish(topic->id, utime_now(), message_json(message));
+                    });
+  ++(ours ? heard_ : not_ours_);
+}
+
+template <typename Message>
+const Topic* Telemetry::topic_of(const std::string& channel) {
+  if (const Topic* known = topics_.find(channel, now_s())) return known;
+  const Topic* topic = topics_.add(channel, schema_name<Message>(), message_schema<Message>(), now_s());
+  if (topics_.given_up()) server_.remove_topic(*topics_.given_up());
+  if (topic != nullptr) server_.add_topic(*topic);
+  return topic;
+}
+
+std::string Telemetry::metrics() {
+  fleet_.forget_silent(now_s());
+  Exposition page;
+  expose_joints(page, fleet_.joints(), now_s());
+  expose_daemons(page, fleet_.daemons());
+  const ServerCounts counts = server_.counts();
+  const auto count = [](std::uint64_t number) { return static_cast<double>(number); };
+  page.family("strainwave_telemetry_messages_total", MetricType::kCounter,
+              "Messages heard on LCM, by whether they are of Strainwave.");
+  page.sample({{"kind", "strainwave"}}, count(heard_));
+  page.sample({{"kind", "other"}}, count(not_ours_));
+  page.family("strainwave_telemetry_datagrams_malformed_total", MetricType::kCounter,
+              "Datagrams that are not LCM's, or too long.");
+  page.sample({}, count(listener_.counts().malformed + listener_.counts().too_long));
+  page.family("strainwave_telemetry_viewers", MetricType::kGauge, "Viewers connected.");
+  page.sample({}, count(counts.viewers));
+  page.family("strainwave_telemetry_dropped_messages_total", MetricType::kCounter,
+              "Messages not sent, since their viewers were too slow.");
+  page.sample({}, count(counts.dropped_messages));
+  page.family("strainwave_telemetry_requests_refused_total", MetricType::kCounter,
+              "Requests without a token, from foreign pages, malformed, or too many.");
+  page.sample({}, count(counts.refused));
+  return std::move(page).text();
+}
+
+double Telemetry::now_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace strainwave

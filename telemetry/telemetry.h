@@ -1,0 +1,40 @@
+// From what is heard on LCM to viewers and metrics: the program without its command line. Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "telemetry/fleet.h"
+#include "telemetry/lcm_listener.h"
+#include "telemetry/server/server.h"
+#include "telemetry/topics.h"
+
+namespace strainwave {
+
+class Telemetry {
+ public:
+  /// Throws InputError or std::runtime_error that say what to do.
+  Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules);
+
+  std::uint16_t port() const { return server_.port(); }
+  /// Until SIGINT or SIGTERM.
+  void run();
+
+ private:
+  void take(std::string_view channel, std::span<const std::uint8_t> bytes);
+  template <typename Message>
+  const Topic* topic_of(const std::string& channel);
+  std::string metrics();
+  double now_s() const;
+
+  LcmListener listener_;
+  Topics topics_;
+  Fleet fleet_;
+  std::uint64_t heard_ = 0;
+  std::uint64_t not_ours_ = 0;
+  TelemetryServer server_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,171 @@
+// Whoever connects to strainwave-telemetry may be hostile or merely slow: it stays up, small, and there for the others.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <strainwave/timing_v1.hpp>
+#include <thread>
+
+#include "tests/support/test_client.h"
+#include "tests/telemetry/server/running_telemetry.h"
+
+namespace strainwave::testing {
+namespace {
+
+using Json = nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+/// Somebody who says much on LCM: 4 kB of JSON, some thousand times a second.
+class Chatter {
+ public:
+  Chatter() : thread_([this] { run(); }) {}
+  ~Chatter() {
+    stop_ = true;
+    thread_.join();
+  }
+  std::uint64_t said() const noexcept { return said_; }
+
+ private:
+  void run() {
+    lcm::LCM lcm(kTestUrl);
+    timing_v1 timing{};
+    for (auto& count : timing.wakeup_latency_count) count = 1234567890123;
+    for (auto& count : timing.execution_time_count) count = 1234567890123;
+    while (!stop_) {
+      for (int i = 0; i < 20; ++i, ++said_) lcm.publish("SW.TIMING", &timing);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  std::atomic<bool> stop_{false};
+  std::atomic<std::uint64_t> said_{0};
+  std::thread thread_;
+};
+
+/// The number under which the server offers SW.TIMING.
+std::uint32_t timing_topic(const RawClient& viewer) {
+  const std::string text = viewer.read_until("\"topic\":\"SW.TIMING\"");
+  const std::size_t channel = text.rfind("{\"encoding\"");
+  const std::size_t id = text.find("\"id\":", channel);
+  return id == std::string::npos ? 0 : static_cast<std::uint32_t>(std::stoul(text.substr(id + 5)));
+}
+
+std::string subscribe(std::uint32_t topic) {
+  return Json{{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", topic}}}}}.dump();
+}
+
+TEST(HostileClient, WhoReadsNothingLosesMessagesAndCostsNoMemory) {
+  const RunningTelemetry telemetry;
+  const Chatter chatter;
+  std::vector<std::unique_ptr<RawClient>> slow;
+  for (int i = 0; i < 4; ++i) {
+    slow.push_back(std::make_unique<RawClient>(telemetry.port(), 4096));
+    ASSERT_TRUE(slow.back()->become_viewer());
+    const std::uint32_t topic = timing_topic(*slow.back());
+    ASSERT_NE(topic, 0U);
+    ASSERT_TRUE(slow.back()->send_text(subscribe(topic)));
+  }
+  const long before_kB = telemetry.memory_kB();
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  while (telemetry.metric("strainwave_telemetry_dropped_messages_total") < 2000.0 && Clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_GE(telemetry.metric("strainwave_telemetry_dropped_messages_total"), 2000.0);
+  // Four queues of 2 MiB, and what the allocator keeps between.
+  EXPECT_LT(telemetry.memory_kB() - before_kB, 24 * 1024);
+}
+
+TEST(HostileClient, SendsHugeFramesAndIsSentAway) {
+  const RunningTelemetry telemetry;
+  for (const std::uint64_t bytes : {std::uint64_t{70000}, std::uint64_t{1} << 32, std::uint64_t{1} << 62}) {
+    const RawClient client(telemetry.port());
+    ASSERT_TRUE(client.become_viewer());
+    client.send(frame_header(bytes) + std::string(100000, 'x'));
+    EXPECT_TRUE(client.is_closed_within(5.0)) << bytes;
+  }
+  EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
+  EXPECT_FALSE(telemetry.metrics().empty());
+}
+
+TEST(HostileClient, SendsJunkAndIsToldSo) {
+  const RunningTelemetry telemetry;
+  const RawClient client(telemetry.port());
+  ASSERT_TRUE(client.become_viewer());
+  for (const std::string& junk :
+       {std::string("{"), std::string(60000, '['), std::string("\xff\xff"), std::string(),
+        std::string("{\"op\":\"subscribe\",\"subscriptions\":[{\"id\":1,\"channelId\":99}]}")}) {
+    ASSERT_TRUE(client.send_text(junk));
+    if (junk == "\xff\xff") break;  // no UTF-8: the WebSocket protocol itself ends there
+    EXPECT_NE(client.read_until("\"status\"").find("\"level\":2"), std::string::npos) << junk.substr(0, 20);
+  }
+  EXPECT_TRUE(client.is_closed_within(5.0));
+  EXPECT_FALSE(telemetry.metrics().empty());
+}
+
+TEST(HostileClient, AsksForAThousandSubscriptionsOfOneTopicAndGetsOne) {
+  const RunningTelemetry telemetry;
+  const Chatter chatter;
+  const RawClient client(telemetry.port());
+  ASSERT_TRUE(client.become_viewer());
+  const std::uint32_t topic = timing_topic(client);
+  Json list = Json::array();
+  for (int id = 0; id < 1000; ++id) list.push_back({{"id", id}, {"channelId", topic}});
+  ASSERT_TRUE(client.send_text(Json{{"op", "subscribe"}, {"subscriptions", list}}.dump()));
+  EXPECT_NE(client.read_until("is subscribed to already").find("is subscribed to already"),
+            std::string::npos);
+}
+
+TEST(HostileClient, AsksWithoutEverReadingTheAnswersAndIsSentAway) {
+  const RunningTelemetry telemetry;
+  const RawClient client(telemetry.port(), 4096);
+  ASSERT_TRUE(client.become_viewer());
+  const std::string question = "{\"op\":\"" + std::string(60, 'x') + "\"}";
+  std::string questions;
+  for (int i = 0; i < 1000; ++i) questions += frame_header(question.size()) + question;
+  int sent = 0;
+  while (client.send(questions) && sent < 1000) ++sent;
+  EXPECT_LT(sent, 1000) << "a million answers pile up somewhere";
+  EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
+  EXPECT_FALSE(telemetry.metrics().empty());
+}
+
+TEST(HostileClient, SendsItsRequestSlowlyAndKeepsNobodyElseOut) {
+  const RunningTelemetry telemetry;
+  std::vector<std::unique_ptr<RawClient>> slow;
+  for (int i = 0; i < 300; ++i) {
+    slow.push_back(std::make_unique<RawClient>(telemetry.port()));
+    slow.back()->send("GET /metrics HT");
+  }
+  EXPECT_FALSE(telemetry.metrics().empty());
+  // The first ones were pushed out, the last ones have ten seconds.
+  EXPECT_TRUE(slow.front()->is_closed_within(2.0));
+  EXPECT_TRUE(slow.back()->is_closed_within(20.0));
+}
+
+TEST(HostileClient, SendsAHeaderWithoutEndAndIsRefused) {
+  const RunningTelemetry telemetry;
+  const RawClient client(telemetry.port());
+  client.send("GET /" + std::string(20000, 'a'));
+  EXPECT_TRUE(client.is_closed_within(5.0));
+  EXPECT_FALSE(telemetry.metrics().empty());
+}
+
+TEST(HostileClient, ComesInCrowdsAndMostAreRefused) {
+  const RunningTelemetry telemetry;
+  std::vector<std::unique_ptr<RawClient>> crowd;
+  int viewers = 0;
+  for (int i = 0; i < 100; ++i) {
+    crowd.push_back(std::make_unique<RawClient>(telemetry.port()));
+    viewers += crowd.back()->become_viewer() ? 1 : 0;
+  }
+  EXPECT_EQ(viewers, 32);
+  EXPECT_EQ(telemetry.metric("strainwave_telemetry_viewers"), 32.0);
+  crowd.clear();
+  const RawClient later(telemetry.port());
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_TRUE(later.become_viewer()) << "those that left made room";
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,124 @@
+// What strainwave-telemetry shows of what is said on LCM.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <lcm/lcm-cpp.hpp>
+#include <strainwave/limits_v1.hpp>
+#include <strainwave/state_v1.hpp>
+#include <strainwave/timing_v1.hpp>
+#include <thread>
+
+#include "tests/support/fragment_attack.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_client.h"
+#include "tests/telemetry/server/running_telemetry.h"
+
+namespace strainwave::testing {
+namespace {
+
+using std::chrono::milliseconds;
+
+template <typename Condition>
+bool comes_true(const Condition& condition) {
+  for (int i = 0; i < 100; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(milliseconds(50));
+  }
+  return false;
+}
+
+class Server : public ::testing::Test {
+ protected:
+  lcm::LCM lcm_{kTestUrl};
+};
+
+TEST_F(Server, ShowsPrometheusWhatEachPrefixSays) {
+  const RunningTelemetry telemetry;
+  ASSERT_NE(telemetry.port(), 0);
+  state_v1 state{};
+  state.mode = 3;
+  for (const char* prefix : {"left", "right", "third"}) {
+    state.torque_commanded_Nm += 1.5;
+    timing_v1 timing{};
+    timing.overruns = 7;
+    lcm_.publish(std::string(prefix) + ".elbow.STATE", &state);
+    lcm_.publish(std::string(prefix) + ".TIMING", &timing);
+  }
+  EXPECT_TRUE(comes_true([&] {
+    return telemetry.metric(R"(strainwave_joint_torque_newton_meters{prefix="third",joint="elbow"})") ==
+               4.5 &&
+           telemetry.metric(R"(strainwave_joint_torque_newton_meters{prefix="left",joint="elbow"})") == 1.5 &&
+           telemetry.metric(R"(strainwave_joint_mode{prefix="right",joint="elbow"})") == 3.0 &&
+           telemetry.metric(R"(strainwave_overruns_total{prefix="right"})") == 7.0;
+  })) << telemetry.metrics();
+}
+
+TEST_F(Server, OffersAViewerWhatIsHeardBeforeAndAfterItConnects) {
+  const RunningTelemetry telemetry;
+  state_v1 state{};
+  lcm_.publish("SW.elbow.STATE", &state);
+  ASSERT_TRUE(comes_true([&] { return telemetry.metrics().find("joint=\"elbow\"") != std::string::npos; }));
+  const RawClient viewer(telemetry.port());
+  ASSERT_TRUE(viewer.become_viewer());
+  EXPECT_NE(viewer.read_until("SW.elbow.STATE").find("serverInfo"), std::string::npos);
+  lcm_.publish("SW.knee.STATE", &state);
+  EXPECT_NE(viewer.read_until("SW.knee.STATE").find("\"op\":\"advertise\""), std::string::npos);
+}
+
+TEST_F(Server, OutlivesWhatEndsLcmsLibrary) {
+  const RunningTelemetry telemetry;
+  {
+    const FragmentAttack attack(kTestUrl, {"SW.elbow.STATE", "SW.TIMING"});
+    EXPECT_TRUE(comes_true([&] { return attack.rounds() > 200; }));
+  }
+  const std::vector<std::uint8_t> junk(100, 0xff);
+  lcm_.publish("SW.elbow.STATE", junk.data(), static_cast<unsigned int>(junk.size()));
+  EXPECT_TRUE(comes_true(
+      [&] { return telemetry.metric(R"(strainwave_telemetry_messages_total{kind="other"})") >= 1.0; }));
+  EXPECT_TRUE(telemetry.running());
+}
+
+TEST_F(Server, BelongsToWhoeverHasTheTokenWhereThereIsOne) {
+  const TemporaryFolder folder;
+  const std::string token = folder.path() / "token";
+  std::ofstream(token) << "0123456789abcdef\n";
+  std::filesystem::permissions(token, std::filesystem::perms::owner_read);
+  const RunningTelemetry telemetry({"--token-file", token});
+  const auto answer = [&](const std::string& request) {
+    const RawClient client(telemetry.port());
+    client.send(request + "Host: robot\r\n\r\n");
+    return client.read_all().substr(0, 12);
+  };
+  EXPECT_EQ(answer("GET /metrics HTTP/1.1\r\n"), "HTTP/1.1 401");
+  EXPECT_EQ(answer("GET /metrics HTTP/1.1\r\nAuthorization: Bearer 0123456789abcdeX\r\n"), "HTTP/1.1 401");
+  EXPECT_EQ(answer("GET /metrics HTTP/1.1\r\nAuthorization: Bearer 0123456789abcdef\r\n"), "HTTP/1.1 200");
+  EXPECT_EQ(answer("GET /metrics?token=0123456789abcdef HTTP/1.1\r\n"), "HTTP/1.1 200");
+}
+
+TEST_F(Server, DoesNotListenToOtherMachinesWithoutAToken) {
+  const TemporaryFolder folder;
+  const std::string token = folder.path() / "token";
+  std::ofstream(token) << "0123456789abcdef\n";
+  std::filesystem::permissions(token, std::filesystem::perms::owner_read);
+  const RunningTelemetry without({}, "0.0.0.0");
+  EXPECT_EQ(without.port(), 0);
+  const RunningTelemetry with({"--token-file", token}, "0.0.0.0");
+  EXPECT_NE(with.port(), 0);
+}
+
+TEST_F(Server, IsNotForPagesThatABrowserHappensToVisit) {
+  const RunningTelemetry telemetry;
+  const auto answer = [&](const std::string& headers) {
+    const RawClient client(telemetry.port());
+    client.send("GET /metrics HTTP/1.1\r\n" + headers + "\r\n");
+    return client.read_all().substr(0, 12);
+  };
+  EXPECT_EQ(answer("Host: localhost\r\n"), "HTTP/1.1 200");
+  EXPECT_EQ(answer("Host: localhost\r\nOrigin: https://evil.example\r\n"), "HTTP/1.1 403");
+  EXPECT_EQ(answer("Host: evil.example\r\n"), "HTTP/1.1 403");
+}
+
+}  // namespace
+}  // namespace strainwave::testing

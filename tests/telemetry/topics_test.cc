@@ -1,0 +1,34 @@
+#include "telemetry/topics.h"
+
+#include <gtest/gtest.h>
+
+namespace strainwave {
+namespace {
+
+TEST(Topics, KeepTheirNumberAndNeverGetAnothers) {
+  Topics topics;
+  const std::uint32_t first = topics.add("SW.a.STATE", "s", "{}", 0.0)->id;
+  const std::uint32_t second = topics.add("SW.b.STATE", "s", "{}", 0.0)->id;
+  EXPECT_NE(first, second);
+  ASSERT_NE(topics.find("SW.a.STATE", 1.0), nullptr);
+  EXPECT_EQ(topics.find("SW.a.STATE", 1.0)->id, first);
+  EXPECT_EQ(topics.find("SW.c.STATE", 1.0), nullptr);
+}
+
+TEST(Topics, GiveUpWhatIsSilentForWhatIsNewAndNeverWhatIsSpokenOn) {
+  Topics topics;
+  const std::uint32_t silent = topics.add("SW.silent.STATE", "s", "{}", 0.0)->id;
+  for (std::size_t i = 1; i < Topics::kMax; ++i)
+    ASSERT_NE(topics.add("SW.j" + std::to_string(i) + ".STATE", "s", "{}", 1.0), nullptr);
+  EXPECT_EQ(topics.add("SW.new.STATE", "s", "{}", 30.0), nullptr) << "all were heard within the minute";
+  EXPECT_FALSE(topics.given_up());
+  const Topic* added = topics.add("SW.new.STATE", "s", "{}", Topics::kSilent_s + 0.5);
+  ASSERT_NE(added, nullptr);
+  EXPECT_EQ(topics.given_up(), silent);
+  EXPECT_FALSE(topics.has(silent));
+  EXPECT_NE(added->id, silent);
+  EXPECT_EQ(topics.size(), Topics::kMax);
+}
+
+}  // namespace
+}  // namespace strainwave
