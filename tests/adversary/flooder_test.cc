@@ -10,8 +10,10 @@
 #include <cstdio>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "lcmtypes/vocabulary.h"
+#include "lcmtypes/wire.h"
 #include "tests/adversary/port_sender.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/lcm_datagrams.h"
@@ -44,10 +46,33 @@ constexpr double kBound_ms = 50.0;
   }
 }
 
+/// Floods with sound orders that cost the core most: a table to certify, ten thousand times a second from as many ports as the gateway
+/// keeps orders, so that no order of another finds a place.
+[[noreturn]] void flood_with_tables(gain_table_v1 table) {
+  TestClient listener;
+  std::vector<PortSender> ports(256);
+  auto due = Clock::now();
+  for (;;) {
+    listener.pump(milliseconds(0));
+    const auto& state = listener.state("elbow");
+    for (int i = 0; i < kPer_ms && state; ++i) {
+      table.challenge = state->challenge;
+      ++table.sequence;
+      const auto port = static_cast<std::size_t>(table.sequence) % ports.size();
+      ports[port].send(short_datagram("SW.elbow.TABLE", encode(table)));
+    }
+    due += milliseconds(1);
+    std::this_thread::sleep_until(due);
+  }
+}
+
 class Flooder {
  public:
   explicit Flooder(std::uint64_t seed) : pid_(::fork()) {
     if (pid_ == 0) flood(seed);
+  }
+  explicit Flooder(const gain_table_v1& table) : pid_(::fork()) {
+    if (pid_ == 0) flood_with_tables(table);
   }
   ~Flooder() {
     ::kill(pid_, SIGKILL);
@@ -115,6 +140,23 @@ TEST_F(FlooderTest, EveryStopIsObeyedAndAcknowledgedAndTheGatewayLives) {
   EXPECT_EQ(daemon_->gateway_pid(), gateway_) << daemon_->log();
   EXPECT_EQ(daemon_->log().find("the gateway ended"), std::string::npos);
   EXPECT_NE(daemon_->log().find("malformed datagrams"), std::string::npos) << "the flood did not come in";
+}
+
+// What a lane of their own is for: among the orders there is no room, and each costs the core milliseconds.
+TEST_F(FlooderTest, StopsGoBeforeOrdersForWhichThereIsNoRoom) {
+  double longest_ms = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(hold_position()) << i << daemon_->log();
+    gain_table_v1 table = client_.make_table("elbow", shipped_table());
+    const Flooder flooder(table);
+    client_.pump(seconds(1));
+    longest_ms = std::max(longest_ms, stop_ms());
+    ASSERT_FALSE(HasFailure()) << "stop " << i;
+  }
+  std::printf("the longest took %.2f ms\n", longest_ms);
+  if (in_virtual_time()) {
+    EXPECT_LT(longest_ms, kBound_ms);
+  }
 }
 
 TEST_F(FlooderTest, TheDaemonEndsInOrderWhenItIsToldTo) {

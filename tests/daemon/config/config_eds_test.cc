@@ -1,6 +1,7 @@
 // The shipped examples against what their vendors' drives have: start-up itself is run against the data sheets.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 
 #include "daemon/config/config.h"
@@ -54,6 +55,52 @@ TEST_F(DataSheets, AnObjectThatCannotBeMappedIsRefusedByItsName) {
 
 TEST_F(DataSheets, AnotherVendorsDriveIsRefused) {
   expect_mentions(check(example("epos4.toml"), "elmo_gold.eds"), {"refused", "vendor_id", "0000009Ah"});
+}
+
+// What the profile has for touch probe 1; `lacks`: except this.
+std::string touch_probe(const std::string& lacks = "") {
+  struct Object {
+    const char* index;
+    const char* type;
+    const char* access;
+  };
+  std::string text;
+  for (const auto& [index, type, access] :
+       {Object{"60B8", "0x0006", "rww"}, {"60B9", "0x0006", "ro"}, {"60BA", "0x0004", "ro"}})
+    if (index != lacks)
+      text += std::string("\n[") + index + "]\nParameterName=Touch probe\nObjectType=0x7\nDataType=" + type +
+              "\nAccessType=" + access + "\nPDOMapping=1\n";
+  return text;
+}
+
+// The second transmitted PDO's sections once more, as those of the third.
+std::string third_pdo(const std::string& eds) {
+  std::string text;
+  std::istringstream lines(eds);
+  bool copies = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) copies = line.starts_with("[1801") || line.starts_with("[1A01");
+    if (copies && line.starts_with('[')) line[4] = '2';
+    if (copies) text += line + '\n';
+  }
+  return text;
+}
+
+TEST_F(DataSheets, HomingByTheEncodersIndexNeedsAllOfTheTouchProbe) {
+  const std::string by_index =
+      replaced(replaced(example("epos4.toml"), "to = \"negative_limit\"", "to = \"index\""),
+               "negative_limit = true", "index = \"encoder\"\nnegative_limit = true");
+  std::ifstream file(sheet("epos4.eds"));
+  std::ostringstream epos4;
+  epos4 << file.rdbuf();
+  const auto check_with = [&](const std::string& objects) {
+    std::ofstream(folder_ / "drive.eds") << epos4.str() << third_pdo(epos4.str()) << objects;
+    return check(by_index, folder_ / "drive.eds");
+  };
+  const std::string whole = check_with(touch_probe());
+  EXPECT_EQ(whole.find("refused"), std::string::npos) << whole;
+  for (const char* object : {"60B8", "60B9", "60BA"})
+    expect_mentions(check_with(touch_probe(object)), {"refused", "drive.eds", object});
 }
 
 TEST_F(DataSheets, ExamplesAcceptTheShippedTable) {
