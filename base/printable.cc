@@ -1,19 +1,68 @@
 #include "base/printable.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 
 namespace strainwave {
+
+namespace {
+
+struct Character {
+  std::size_t bytes = 0;  ///< 0: no UTF-8
+  std::uint32_t code = 0;
+};
+
+Character first_character(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  if (byte(0) < 0x80) return {1, byte(0)};
+  const int leading_ones = std::countl_one(byte(0));
+  const auto bytes = static_cast<std::size_t>(leading_ones);
+  if (bytes < 2 || bytes > 4 || bytes > text.size()) return {};
+  std::uint32_t code = byte(0) & (0x7FU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if (std::countl_one(byte(i)) != 1) return {};
+    code = code << 6U | (byte(i) & 0x3FU);
+  }
+  constexpr std::array<std::uint32_t, 5> kShortest{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code < kShortest.at(bytes) || code > 0x10FFFF || surrogate ? Character{} : Character{bytes, code};
+}
+
+struct Span {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+// C0, DEL and C1; what breaks lines, is invisible or turns the direction of writing (Unicode's categories Cc, Zl, Zp and Cf, as far as
+// they show nothing).
+bool commands_a_terminal(std::uint32_t code) {
+  constexpr std::array<Span, 9> kHidden{{{0x00, 0x1F},
+                                         {0x7F, 0x9F},
+                                         {0xAD, 0xAD},
+                                         {0x61C, 0x61C},
+                                         {0x200B, 0x200F},
+                                         {0x2028, 0x202E},
+                                         {0x2060, 0x206F},
+                                         {0xFEFF, 0xFEFF},
+                                         {0xE0000, 0xE007F}}};
+  return std::any_of(kHidden.begin(), kHidden.end(),
+                     [code](const Span& span) { return code >= span.first && code <= span.last; });
+}
+
+}  // namespace
 
 std::string printable(std::string_view text) {
   text = text.substr(0, text.find('\0'));
   std::string safe;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto before = static_cast<unsigned char>(i > 0 ? text[i - 1] : '\0');
-    const bool control =
-        byte < 0x20 || byte == 0x7F || (before == 0xC2 && byte < 0xA0);  // U+0080..U+009F in UTF-8
-    safe += control ? '?' : text[i];
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const bool shown = character.bytes > 0 && !commands_a_terminal(character.code);
+    safe += shown ? text.substr(0, character.bytes) : "?";
+    text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
   }
   return safe;
 }

@@ -6,8 +6,9 @@
 
 namespace strainwave {
 
-/// `text` up to its first zero byte, without anything that could command a terminal or begin another line: each control
-/// character (C0, DEL, and C1 in UTF-8) is a question mark.
+/// `text` up to its first zero byte, without anything that could command a terminal, begin another line, or make it read as
+/// something else: each control character, each invisible one or one that turns the direction of writing, and each byte that is no
+/// UTF-8 is a question mark.
 std::string printable(std::string_view text);
 
 /// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.

@@ -260,12 +260,20 @@ TEST_F(StrangerTest, WritesNoLineOfHisOwnIntoTheLogAndCommandsNoTerminal) {
   for (int i = 0; i < 200; ++i) {
     stranger_.send("SW.\n<0>elbow: \x1b[2Jgone", Bytes(20));
     stranger_.send("SW.elbow.\x1b]0;title\x07\n<0>forged", Bytes(20));
+    stranger_.send("SW.elbow\u202EDNAMMOC.COMMAND", Bytes(20));
+    stranger_.send(
+        "SW.elbow\x9B"
+        "2J.COMMAND",
+        Bytes(20));
     client_->pump(milliseconds(1));
   }
   client_->pump(milliseconds(300));
   const std::string log = daemon_->log();
   EXPECT_EQ(log.find('\x1b'), std::string::npos);
   EXPECT_EQ(log.find("\n<0>"), std::string::npos);
+  EXPECT_EQ(log.find('\x9B'), std::string::npos);
+  EXPECT_EQ(log.find("\u202E"), std::string::npos);
+  EXPECT_NE(log.find("SW.elbow?DNAMMOC"), std::string::npos) << log;
   EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 100);
 }
 

@@ -18,6 +18,25 @@ TEST(Printable, KeepsTextAndDropsWhatCommandsATerminal) {
             std::string::npos);
 }
 
+TEST(Printable, ShowsNoTextInAnotherOrderThanItIs) {
+  // U+202E turns the direction, U+2028 begins a line, U+200B is invisible, U+FEFF too.
+  EXPECT_EQ(printable("elbow\u202Edelbasid"), "elbow?delbasid");
+  EXPECT_EQ(printable("a\u2028b\u200Bc\uFEFFd\u2066e"), "a?b?c?d?e");
+  EXPECT_EQ(printable("\u00C4rmel \u2013 \u65E5\u672C \U0001F916"),
+            "\u00C4rmel \u2013 \u65E5\u672C \U0001F916");
+}
+
+TEST(Printable, TakesNothingForTextThatIsNoUtf8) {
+  // A terminal of eight bits obeys 9Bh by itself; an overlong escape, a lone surrogate, a sequence that ends too early.
+  EXPECT_EQ(printable("a\x9B"
+                      "2J"),
+            "a?2J");
+  EXPECT_EQ(printable("\xC0\x9B[2J"), "??[2J");
+  EXPECT_EQ(printable("\xED\xA0\x80."), "???.");
+  EXPECT_EQ(printable("\xE2\x80"), "??");
+  EXPECT_EQ(printable("\xFF\xFE\xF8\x88\x80\x80\x80"), "???????");
+}
+
 TEST(Printable, StopsAtTheFirstZeroByte) {
   EXPECT_EQ(printable(std::string("ab\0cd", 5)), "ab");
 }
