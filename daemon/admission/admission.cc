@@ -62,7 +62,8 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
   if (envelope.session_id != session_id_)
     return refuse(requester, Reason::kWrongSession,
                   "the message is meant for session " + std::to_string(envelope.session_id) +
-                      ", this daemon's is another: read session_id from the STATE channel and send again");
+                      ", this daemon's is " + std::to_string(session_id_) +
+                      " (session_id on the STATE channel): send again");
   if (challenges_.expiry_cycle(envelope.challenge) < 0)
     return refuse(
         requester, Reason::kTooOld,
@@ -91,7 +92,10 @@ std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role 
         "signed with a key that is not in this daemon's security.authorized_keys: add its public line there "
         "and start the daemon again");
   if (!verifications.available(message.source, now_ns_))
-    return refuse(requester, Reason::kBusy, "too many forged or repeated orders at once: try again");
+    return refuse(requester, Reason::kBusy,
+                  "more forged or repeated orders than the " +
+                      std::to_string(static_cast<int>(kWastedVerificationsPer_s)) +
+                      " a second that are verified: try again");
   auto verdict = check_signed(message, *key, needed, requester);
   if (verdict) {
     verifications.take(message.source, now_ns_);
@@ -111,7 +115,7 @@ std::optional<Verdict> Admission::check_signed(const WireMessage& message, std::
   if (signer.role < needed)
     return refuse(requester, Reason::kRoleNotAllowed,
                   "the key of " + signer.comment + " has the role " + std::string(to_text(signer.role)) +
-                      ", this order needs " + std::string(to_text(needed)));
+                      ", this order needs " + std::string(to_text(needed)) + " (security.authorized_keys)");
   requester.key = static_cast<std::int64_t>(key);
   return check_sequence(sequences_, requester.key, requester);
 }
@@ -142,8 +146,9 @@ std::optional<Verdict> Admission::check_owner(Requester& requester) {
   text << "sender " << owner.sender_id;
   if (owner.key >= 0)
     text << " (key of " << security_.keys[static_cast<std::size_t>(owner.key)].comment << ")";
-  text << " has " << joints_[requester.joint].name << ": wait until he is silent for " << security_.lease_s
-       << " s or releases it, or take it over with an engineer's key; a stop or hold is always possible";
+  text << " has " << joints_[requester.joint].name << " until he is silent for " << security_.lease_s
+       << " s (security.lease_s) or releases it; an engineer's key takes it over, and a stop or hold is "
+          "always possible";
   return refuse(requester, Reason::kNotOwner, text.str());
 }
 

@@ -1,5 +1,6 @@
 // The part of admission.h that judges what each kind of message says, once its envelope has passed.
 #include <cmath>
+#include <initializer_list>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
@@ -21,6 +22,18 @@ constexpr double kMaxInjection_s = 3600.0;
 // Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
 constexpr double kMaxVelocity_rad_s = 1000.0;
 constexpr double kMaxAcceleration_rad_s2 = 1e6;
+
+struct Number {
+  const char* name;
+  double value;
+};
+
+std::optional<std::string> complaint_about_numbers(std::initializer_list<Number> numbers) {
+  for (const Number& number : numbers)
+    if (!std::isfinite(number.value))
+      return std::string(number.name) + " = " + std::to_string(number.value) + ": a finite number is allowed";
+  return std::nullopt;
+}
 
 // What a setpoint says beyond its position must be possible, and is for streams only.
 std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
@@ -71,18 +84,18 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   if (auto verdict = check_envelope(
           message, {setpoint->session_id, setpoint->challenge, Role::kOperator, true}, requester))
     return std::move(*verdict);
-  if (!std::isfinite(setpoint->position_rad) || !std::isfinite(setpoint->valid_for_s) ||
-      !std::isfinite(setpoint->speed_limit_rad_s) || !std::isfinite(setpoint->velocity_rad_s) ||
-      !std::isfinite(setpoint->acceleration_rad_s2))
-    return refuse(
-        requester, Reason::kNotFinite,
-        "position_rad, velocity_rad_s, acceleration_rad_s2, valid_for_s and speed_limit_rad_s must be "
-        "finite numbers");
+  if (const auto complaint = complaint_about_numbers({{"position_rad", setpoint->position_rad},
+                                                      {"velocity_rad_s", setpoint->velocity_rad_s},
+                                                      {"acceleration_rad_s2", setpoint->acceleration_rad_s2},
+                                                      {"valid_for_s", setpoint->valid_for_s},
+                                                      {"speed_limit_rad_s", setpoint->speed_limit_rad_s}}))
+    return refuse(requester, Reason::kNotFinite, *complaint);
   const JointAdmission& limits = joints_[joint];
   std::ostringstream text;
   if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
     text << "position_rad = " << setpoint->position_rad << ": from " << limits.position_min_rad << " to "
-         << limits.position_max_rad << " is allowed (joint.limits of " << limits.name << ")";
+         << limits.position_max_rad << " is allowed (joint.limits.position_min_rad and position_max_rad of "
+         << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s ||
@@ -129,7 +142,10 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
   if (action == Action::kTakeOver || action == Action::kRelease) return change_owner(action, requester);
   if (!kind)
     return refuse(requester, Reason::kUnknownAction,
-                  "action = " + std::to_string(command->action) + ": see docs/messages.md");
+                  "action = " + std::to_string(command->action) + ": from " +
+                      std::to_string(static_cast<int>(Action::kEnable)) + " to " +
+                      std::to_string(static_cast<int>(Action::kRelease)) +
+                      " is allowed, see docs/messages.md");
   Verdict verdict = pass(requester, *kind, command->challenge);
   verdict.revert_table = action == Action::kRevertTable;
   return verdict;
@@ -160,13 +176,16 @@ Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message
     return std::move(*verdict);
   if (!joints_[joint].takes_injected_faults)
     return refuse(requester, Reason::kNotSimulated,
-                  joints_[joint].name + " has a real drive: faults are not injected there");
-  if (!std::isfinite(inject->for_s) || !std::isfinite(inject->amount))
-    return refuse(requester, Reason::kNotFinite, "for_s and amount must be finite numbers");
+                  joints_[joint].name +
+                      " has a real drive: faults are injected with joint.driver = \"simulated\" only");
+  if (const auto complaint = complaint_about_numbers({{"for_s", inject->for_s}, {"amount", inject->amount}}))
+    return refuse(requester, Reason::kNotFinite, *complaint);
   const auto kind = injected_fault_of(inject->kind);
   if (!kind)
     return refuse(requester, Reason::kUnknownAction,
-                  "kind = " + std::to_string(inject->kind) + ": see docs/faults.md");
+                  "kind = " + std::to_string(inject->kind) + ": from 0 to " +
+                      std::to_string(static_cast<int>(InjectedFault::kPowerLost)) +
+                      " is allowed, see docs/faults.md");
   const AmountRange range = amount_range(*kind);
   std::ostringstream text;
   if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {

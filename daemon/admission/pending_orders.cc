@@ -1,5 +1,7 @@
 #include "daemon/admission/pending_orders.h"
 
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "daemon/admission/table_admission.h"
@@ -8,19 +10,36 @@ namespace strainwave {
 
 namespace {
 
+// What the loop refused by a number: the number, what is allowed, and where that is set.
+std::string number_refused(const Reply& reply, OrderKind kind) {
+  std::ostringstream text;
+  if (reply.reason == Reason::kMoving)
+    text << " and moves at " << reply.value << " rad/s: it is enabled at standstill, at most " << reply.limit
+         << " rad/s (joint.supervision.standstill_rad_s)";
+  else if (reply.reason == Reason::kTooOld)
+    text << std::fixed << std::setprecision(0) << ": at_cycle = " << reply.value
+         << " is not to come any more, it is cycle " << reply.limit << "; from " << reply.limit + 1.0
+         << " is allowed";
+  else if (kind == OrderKind::kUseTable)
+    text << ": the table's torque_limit_Nm = " << reply.value << " is less than the " << reply.limit
+         << " N.m that hold the joint; at least that is allowed while it holds: disable it first, or load a "
+            "stronger table";
+  else
+    text << ": at_cycle is " << reply.value << " s ahead; at most " << reply.limit << " s are allowed";
+  return text.str();
+}
+
 // What the loop's refusal means for whoever asked: the mode it met, and the way on.
-std::string advice(const Reply& reply) {
+std::string advice(const Reply& reply, OrderKind kind) {
   std::string mode = "the joint is " + std::string(to_text(reply.mode));
+  if (reply.limit != 0.0) return mode + number_refused(reply, kind);
   switch (reply.reason) {
     case Reason::kNoTable:
-      return mode + ": load a gain table first";
+      return mode + ": load a gain table first (joint.table, or strainwavectl load-table)";
     case Reason::kFaulted:
       return mode + ": see its fault, remove the cause, clear the fault";
     case Reason::kMoving:
-      return reply.mode == Mode::kOff
-                 ? mode + " and moves at " + std::to_string(reply.joint_velocity_rad_s) +
-                       " rad/s: it is enabled only at standstill (joint.supervision.standstill_rad_s)"
-                 : mode + ": hold or disable it first, a table is taken over only at standstill";
+      return mode + ": hold or disable it first, a table is taken over only at standstill";
     case Reason::kEnding:
       return mode + ", and the daemon brings every joint to rest: start it again";
     case Reason::kStreamEnded:
@@ -90,9 +109,13 @@ void PendingOrders::obey(Verdict& verdict, std::int64_t now_ns) {
   verdict.order.id = next_order_id_++;
   if (!loop_.joint(joint).orders().push(verdict.order)) {
     if (is_table) books_[joint].end(false);
-    return refuse(verdict, Reason::kBusy, "too many orders at once: send fewer, or wait for answers", now_ns);
+    return refuse(verdict, Reason::kBusy,
+                  "too many orders at once, at most " + std::to_string(kWaitingOrders) +
+                      " of a joint may wait for its loop: send fewer, or wait for answers",
+                  now_ns);
   }
-  pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, table_id};
+  pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, table_id,
+                                verdict.order.kind};
 }
 
 void PendingOrders::refuse(Verdict& verdict, Reason reason, const std::string& text, std::int64_t now_ns) {
@@ -141,7 +164,7 @@ void PendingOrders::take_replies(std::int64_t now_ns) {
     if (pending.table_id != 0) books_[pending.requester.joint].end(accepted);
     if (!accepted) admission_.count_reject(reply.reason);
     admission_.settle(pending.requester, accepted, now_ns);
-    answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply), now_ns);
+    answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply, pending.kind), now_ns);
     pending_.erase(found);
   }
   std::erase_if(pending_, [&](const auto& entry) {

@@ -49,6 +49,7 @@ class PendingOrders {
     std::string text;  ///< to send with the acceptance
     std::int64_t deadline_ns;
     std::int64_t table_id;  ///< of a table order, else 0
+    OrderKind kind;
   };
   /// A table order whose reply did not come.
   struct Unanswered {

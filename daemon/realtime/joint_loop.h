@@ -118,10 +118,10 @@ class JointLoop {
   void command_drive(const CycleTime& time) noexcept;
   void tell(const CycleTime& time) noexcept;
 
-  Reason obey(const Order& order, const CycleTime& time) noexcept;
-  Reason enable(const CycleTime& time) noexcept;
-  Reason use_table(const TableSlot& slot) noexcept;
-  Reason begin_setpoint(const Order& order, const CycleTime& time) noexcept;
+  Ruling obey(const Order& order, const CycleTime& time) noexcept;
+  Ruling enable(const CycleTime& time) noexcept;
+  Ruling use_table(const TableSlot& slot) noexcept;
+  Ruling begin_setpoint(const Order& order, const CycleTime& time) noexcept;
   PositionRange reachable_range() const noexcept;
   Reason hold() noexcept;
   Reason clear_fault(const CycleTime& time) noexcept;

@@ -24,13 +24,13 @@ void JointLoop::take_orders(const CycleTime& time) noexcept {
   while (orders_.pop(order)) {
     // The loop may have stood still while the order waited.
     const bool too_old = order.expires_cycle >= 0 && time.cycle > order.expires_cycle;
-    const Reason reason = too_old ? Reason::kTooOld : obey(order, time);
+    const Ruling ruling = too_old ? Ruling(Reason::kTooOld) : obey(order, time);
     // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
-    if (order.id != 0) (void)replies_.push({order.id, reason, mode(), measured_velocity_rad_s()});
+    if (order.id != 0) (void)replies_.push({order.id, ruling.reason, mode(), ruling.value, ruling.limit});
   }
 }
 
-Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
+Ruling JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
   switch (order.kind) {
     case OrderKind::kEnable:
       return enable(time);
@@ -52,44 +52,47 @@ Reason JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
   return Reason::kUnknownAction;
 }
 
-Reason JointLoop::enable(const CycleTime& time) noexcept {
+Ruling JointLoop::enable(const CycleTime& time) noexcept {
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   if (service_ == Service::kEnding) return Reason::kEnding;
   if (!controller_.has_table()) return Reason::kNoTable;
   // A drive that is silent because of a fault says so: the joint then faults, and the fault can be cleared.
   if (mode_.is(Mode::kOff) && watch_.too_many_missed() && reading().fault == ActuatorFault::kNone)
     return Reason::kDriveNotReady;
-  if (mode_.is(Mode::kOff) && std::abs(measured_velocity_rad_s()) > config_.standstill_rad_s)
-    return Reason::kMoving;
+  const double speed_rad_s = std::abs(measured_velocity_rad_s());
+  if (mode_.is(Mode::kOff) && speed_rad_s > config_.standstill_rad_s)
+    return {Reason::kMoving, speed_rad_s, config_.standstill_rad_s};
   if (!change_mode(ModeEvent::kEnableOrdered, time)) return Reason::kWrongMode;
   ordered_.forget();
   return Reason::kAccepted;
 }
 
-Reason JointLoop::use_table(const TableSlot& slot) noexcept {
+Ruling JointLoop::use_table(const TableSlot& slot) noexcept {
   // At rest a swap is always allowed; under control only while the reference stands still.
   const bool at_standstill = mode_.is(Mode::kHolding);
   if (!at_rest() && !at_standstill) return Reason::kMoving;
   const GainTable& table = slot.table;
   // Less torque than the joint needs to stay where it is would let it fall.
-  if (mode_.controlled() && std::abs(motion_.output.torque_Nm) > table.torque_limit_Nm)
-    return Reason::kOutOfRange;
+  const double holds_Nm = std::abs(motion_.output.torque_Nm);
+  if (mode_.controlled() && holds_Nm > table.torque_limit_Nm)
+    return {Reason::kOutOfRange, table.torque_limit_Nm, holds_Nm};
   controller_.load(table);
   table_ = &slot;
   watch_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));
   return Reason::kAccepted;
 }
 
-Reason JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
+Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   if (service_ == Service::kEnding) return Reason::kEnding;
   // A late packet of a stream that has ended must not set the joint moving again.
   if (!ordered_.takes(order.stream_id, order.begins_stream)) return Reason::kStreamEnded;
   if (!zero_.known()) return Reason::kNotHomed;
   const std::int64_t in_periods = order.at_cycle == 0 ? 0 : order.at_cycle - time.cycle;
-  if (order.at_cycle != 0 && in_periods <= 0) return Reason::kTooOld;
-  if (static_cast<double>(in_periods) * config_.controller.period_s > kFarthestAhead_s)
-    return Reason::kOutOfRange;
+  if (order.at_cycle != 0 && in_periods <= 0)
+    return {Reason::kTooOld, static_cast<double>(order.at_cycle), static_cast<double>(time.cycle)};
+  const double ahead_s = static_cast<double>(in_periods) * config_.controller.period_s;
+  if (ahead_s > kFarthestAhead_s) return {Reason::kOutOfRange, ahead_s, kFarthestAhead_s};
   const double target_rad = zero_.to_drive_rad(order.position_rad);
   if (into_limit_switch(target_rad - reading().joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;

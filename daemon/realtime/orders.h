@@ -38,12 +38,26 @@ struct Order {
   std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
 };
 
+/// What the loop makes of an order, and of a refusal by a number that number and the bound that it met; else both are 0:
+///   kMoving of an enable            the joint's speed, rad/s, and joint.supervision.standstill_rad_s
+///   kOutOfRange of a setpoint       how far its at_cycle is ahead, and how far it may be, s
+///   kOutOfRange of a table          its torque limit, and the torque that holds the joint, N.m
+///   kTooOld of a setpoint           its at_cycle, and the present cycle; 0 and 0 when it waited too long
+struct Ruling {
+  Ruling(Reason given) noexcept : reason(given) {}  // implicit: most are a reason alone
+  Ruling(Reason given, double refused, double bound) noexcept : reason(given), value(refused), limit(bound) {}
+  Reason reason;
+  double value = 0.0;
+  double limit = 0.0;
+};
+
 /// What became of an order. Only the real-time thread knows the mode in the cycle that counts, so it has the last word.
 struct Reply {
   std::int64_t id = 0;
   Reason reason = Reason::kAccepted;
-  Mode mode = Mode::kOff;             ///< at that moment
-  double joint_velocity_rad_s = 0.0;  ///< likewise
+  Mode mode = Mode::kOff;  ///< at that moment
+  double value = 0.0;      ///< as in Ruling
+  double limit = 0.0;      ///< likewise
 };
 
 /// A change worth a line in the log.
@@ -56,7 +70,9 @@ struct LoopEvent {
   std::uint32_t drive_error = 0;  ///< with a fault: what the driver said
 };
 
-using OrderQueue = SpscQueue<Order, 64>;
+/// Orders of a joint that may wait for its loop.
+inline constexpr std::size_t kWaitingOrders = 64;
+using OrderQueue = SpscQueue<Order, kWaitingOrders>;
 using ReplyQueue = SpscQueue<Reply, 4096>;
 using EventQueue = SpscQueue<LoopEvent, 1024>;
 

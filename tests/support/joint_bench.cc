@@ -90,9 +90,8 @@ Reason JointBench::order(std::size_t joint, Order order) {
   order.id = next_order_id_++;
   if (!joints_[joint]->orders().push(order)) throw std::runtime_error("the queue of orders is full");
   step();
-  Reply reply;
-  while (replies_->pop(reply))
-    if (reply.id == order.id) return reply.reason;
+  while (replies_->pop(last_reply_))
+    if (last_reply_.id == order.id) return last_reply_.reason;
   throw std::runtime_error("the loop did not answer an order");
 }
 

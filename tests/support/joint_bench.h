@@ -75,6 +75,7 @@ class JointBench {
 
   /// Gives the order and makes one step; the loop's answer.
   Reason order(std::size_t joint, Order order);
+  const Reply& last_reply() const noexcept { return last_reply_; }
   Reason order(std::size_t joint, OrderKind kind) { return this->order(joint, Order{.kind = kind}); }
   /// A move, or with `valid_for_s` a setpoint of stream 1, which begins with it unless `begins` is false.
   Reason move(std::size_t joint, double position_rad, double valid_for_s = 0.0, bool begins = true) {
@@ -106,6 +107,7 @@ class JointBench {
 
  private:
   std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
+  Reply last_reply_;
   std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::vector<WatchedActuator*> drives_;

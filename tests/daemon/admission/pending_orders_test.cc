@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <strainwave/ack_v1.hpp>
+#include <string>
 
 #include "lcmtypes/wire.h"
 #include "tests/support/joint_bench.h"
@@ -42,6 +46,25 @@ class PendingOrdersTest : public ::testing::Test {
       if (replies) (void)loop_.replies().push({order.id, Reason::kAccepted, Mode::kOff});
     }
   }
+  /// The text of the refusal that the loop's `reply` makes of an order of this kind.
+  std::string refusal(OrderKind kind, Reply reply) {
+    order(kind, true);
+    Order taken;
+    EXPECT_TRUE(loop_.joint(0).orders().pop(taken));
+    reply.id = taken.id;
+    EXPECT_TRUE(loop_.replies().push(reply));
+    orders_.take_replies(now_ns_);
+    WireMessage message;
+    std::uint64_t dropped = 0;
+    std::string text;
+    while (memory_->messages.read(cursor_, message, dropped))
+      if (const auto ack = decode_exactly<ack_v1>({message.bytes.data(), message.size})) {
+        const auto* end = std::find(std::begin(ack->text), std::end(ack->text), 0);
+        text.assign(std::begin(ack->text), end);
+        EXPECT_LT(text.size(), sizeof ack->text - 1) << "cut off: " << text;
+      }
+    return text;
+  }
   int acceptances() {
     WireMessage message;
     std::uint64_t dropped = 0;
@@ -70,6 +93,26 @@ TEST_F(PendingOrdersTest, AreAnsweredWhenTheLoopHasReplied) {
   orders_.take_replies(now_ns_);
   EXPECT_FALSE(orders_.waiting());
   EXPECT_EQ(acceptances(), 1);
+}
+
+TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAndTheKey) {
+  const auto expect_mentions = [](const std::string& text, std::initializer_list<const char*> parts) {
+    for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+  };
+  expect_mentions(refusal(OrderKind::kEnable, {0, Reason::kMoving, Mode::kOff, 3.6, 0.01}),
+                  {"3.6 rad/s", "at most 0.01", "joint.supervision.standstill_rad_s"});
+  expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kOutOfRange, Mode::kHolding, 2.5, 1.0}),
+                  {"at_cycle", "2.5 s", "at most 1 s"});
+  expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding, 86400123.0, 86400124.0}),
+                  {"at_cycle = 86400123", "it is cycle 86400124", "from 86400125"});
+  expect_mentions(refusal(OrderKind::kUseTable, {0, Reason::kOutOfRange, Mode::kHolding, 8.0, 12.5}),
+                  {"torque_limit_Nm = 8", "12.5 N.m", "at least"});
+}
+
+TEST_F(PendingOrdersTest, ThatWaitedTooLongAreNotSaidToBeForAnotherCycle) {
+  const std::string text = refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding});
+  EXPECT_NE(text.find("waited"), std::string::npos) << text;
+  EXPECT_EQ(text.find("at_cycle"), std::string::npos) << text;
 }
 
 TEST_F(PendingOrdersTest, OfATableWhoseReplyIsLostLeaveTheBookFreeOnceAStateTells) {

@@ -90,8 +90,7 @@ class JointLoopBrake : public ::testing::Test {
     order.id = 1;
     loop_->orders().push(order);
     step();
-    Reply reply;
-    return replies_.pop(reply) ? reply.reason : Reason::kTimedOut;
+    return replies_.pop(last_reply_) ? last_reply_.reason : Reason::kTimedOut;
   }
   /// How far the joint leaves its place while it is enabled and for a second after.
   double sag_rad() {
@@ -104,6 +103,7 @@ class JointLoopBrake : public ::testing::Test {
     return std::max(before_rad - lowest_rad_, highest_rad_ - before_rad);
   }
   ReplyQueue replies_;
+  Reply last_reply_;
   EventQueue events_;
   BrakedDrive* drive_ = nullptr;
   std::unique_ptr<JointLoop> loop_;
@@ -126,6 +126,8 @@ TEST_F(JointLoopBrake, RefusesATableThatCannotHoldTheLoadThatIsHeld) {
   loop_->table_slot(1).table.torque_limit_Nm = 8.0;
   const Order swap{.kind = OrderKind::kUseTable, .table_slot = 1};
   EXPECT_EQ(order(swap), Reason::kOutOfRange);
+  EXPECT_EQ(last_reply_.value, 8.0);
+  EXPECT_NEAR(last_reply_.limit, kLoad_Nm, 0.5);
   run(1000);
   EXPECT_EQ(loop_->mode(), Mode::kHolding);
   loop_->table_slot(1).table.torque_limit_Nm = 30.0;

@@ -150,8 +150,12 @@ TEST(JointLoopStreaming, RefuseASampleForACycleThatIsOverOrFarAway) {
   order.begins_stream = false;
   order.at_cycle = bench.cycle();
   EXPECT_EQ(bench.order(0, order), Reason::kTooOld);
+  EXPECT_EQ(bench.last_reply().value, static_cast<double>(order.at_cycle));
+  EXPECT_GE(bench.last_reply().limit, bench.last_reply().value);
   order.at_cycle = bench.cycle() + 2000;
   EXPECT_EQ(bench.order(0, order), Reason::kOutOfRange);
+  EXPECT_NEAR(bench.last_reply().value, 2.0, 0.002);
+  EXPECT_EQ(bench.last_reply().limit, 1.0);
 }
 
 TEST(JointLoopStreaming, SayThatTheyAskForMoreThanTheJointHas) {
