@@ -108,6 +108,11 @@ class JointController {
   /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
   void follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
               const PositionRange& range) noexcept;
+  /// By how much the joint is later than a stream that comes with its velocities: what who streams sends earlier.
+  double stream_lag_s() const noexcept {
+    const double delay_s = config_.delay_periods * config_.period_s;
+    return linked() ? delay_s + 0.5 * link_motion_->spread_s() : delay_s;
+  }
   /// Decelerates to rest and holds.
   void stop() noexcept;
   /// Where the motion ends, as far as the orders say: of a stream its last sample.

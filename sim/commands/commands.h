@@ -20,6 +20,7 @@ void add_bound_command(CLI::App& program);
 void add_robustness_command(CLI::App& program);
 void add_heat_command(CLI::App& program);
 void add_flexible_command(CLI::App& program);
+void add_temperature_command(CLI::App& program);
 
 /// The folder `name` ("data") of the installation, or of the source tree the program was built from. Throws
 /// InputError when there is neither.

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   strainwave::add_robustness_command(program);
   strainwave::add_heat_command(program);
   strainwave::add_flexible_command(program);
+  strainwave::add_temperature_command(program);
   // Each command runs in its callback, as part of the parse.
   return strainwave::run_program(program, argc, argv, [] { return strainwave::ExitStatus::kDone; });
 }

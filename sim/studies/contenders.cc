@@ -27,6 +27,8 @@ double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {
              : kNoTorqueLimit_Nm;
 }
 
+}  // namespace
+
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
                                       const ExtendedFeatures& features) {
   JointControllerConfig config;
@@ -49,8 +51,6 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.use_landing = features.rigid && features.observer && features.rest;
   return config;
 }
-
-}  // namespace
 
 Contender plain_contender(const std::string& name, const GainTable& table) {
   return {name, [table](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {

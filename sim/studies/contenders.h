@@ -47,6 +47,10 @@ constexpr ExtendedFeatures daemon_defaults() {
   return features;
 }
 
+/// How the daemon would configure its controller for the plant; the torque limit is the table's.
+JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
+                                      const ExtendedFeatures& features);
+
 /// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,
                              const ExtendedFeatures& features);

@@ -1,0 +1,59 @@
+#include "sim/studies/path_follower.h"
+
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+constexpr int kInterval = 10;  // periods between two samples of the stream
+
+}  // namespace
+
+StreamedController::StreamedController(const JointControllerConfig& config, const GainTable& table,
+                                       const SmoothPath& path, const Told& told) noexcept
+    : config_(config), table_(table), path_(path), told_(told), controller_(config) {
+  controller_.load(table_);
+}
+
+void StreamedController::send(double time_s) noexcept {
+  const Reference then = path_.at(time_s + kInterval * config_.period_s + controller_.stream_lag_s());
+  controller_.follow({then.position_rad, then.velocity_rad_s, then.acceleration_rad_s2, 2, kInterval},
+                     periods_ == 0, 0.0, {});
+}
+
+double StreamedController::torque_Nm(const LoopSample& sample) noexcept {
+  if (periods_ == 0) controller_.start(sample.joint_position_rad);
+  if (periods_ % kInterval == 0) send(sample.time_s);
+  ++periods_;
+  JointMeasurement measurement;
+  measurement.joint_position_rad = sample.joint_position_rad;
+  measurement.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(0.0);
+  measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
+  measurement.temperature_C = told_.fixed_C.value_or(sample.temperature_C + told_.shift_C);
+  measurement.temperature_valid = std::isfinite(measurement.temperature_C);
+  const JointStep step = controller_.step(measurement);
+  monitor_ = step.monitor;
+  return monitor_ == MonitorState::kFaultDue ? 0.0 : step.output.torque_Nm;
+}
+
+void StreamedController::reset() noexcept {
+  controller_ = JointController(config_);
+  controller_.load(table_);
+  monitor_ = MonitorState::kWatching;
+  periods_ = 0;
+}
+
+// Each quantity for the instant that it is of: the position's reading, the middle of the difference that is the velocity, the middle
+// of the period over which the torque acts.
+double PeerOnPath::torque_Nm(const LoopSample& sample) noexcept {
+  if (!started_) peer_->reset(sample.joint_position_rad);
+  started_ = true;
+  const double acting_s = (joint_.delay_periods + 0.5) * joint_.period_s;
+  const Reference reference{path_.at(sample.time_s).position_rad,
+                            path_.at(sample.time_s - 0.5 * joint_.period_s).velocity_rad_s,
+                            path_.at(sample.time_s + acting_s).acceleration_rad_s2};
+  return peer_->step(reference, sample.joint_position_rad);
+}
+
+}  // namespace strainwave

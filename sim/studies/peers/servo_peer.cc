@@ -1,0 +1,27 @@
+#include "sim/studies/peers/servo_peer.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace strainwave {
+
+ServoJoint servo_joint(const JointPlantConfig& plant) {
+  ServoJoint joint;
+  joint.period_s = plant.period_s;
+  joint.delay_periods = plant.delay.periods;
+  joint.inertia_kgm2 = plant.joint.inertia_kgm2;
+  joint.torque_limit_Nm = plant.motor.peak_torque_Nm;
+  joint.resonance_rad_s = std::numeric_limits<double>::infinity();
+  if (!plant.effects.transmission) return joint;
+  const Transmission& gear = *plant.effects.transmission;
+  joint.inertia_kgm2 += gear.link_inertia_kgm2;
+  joint.resonance_rad_s = free_free_frequency_rad_s(plant.joint.inertia_kgm2, gear.link_inertia_kgm2,
+                                                    gear.spring.stiffness_1_Nm_rad);
+  return joint;
+}
+
+double velocity_bandwidth_rad_s(const ServoJoint& joint) noexcept {
+  return std::min(0.5 / joint.small_times_s(), 0.5 * joint.resonance_rad_s);
+}
+
+}  // namespace strainwave

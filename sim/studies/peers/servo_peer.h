@@ -1,0 +1,45 @@
+// What a user could take in the place of Strainwave: a controller of the motor's position that knows the joint's inertia, its
+// resonance and the loop's delay, and no friction. Each gets the same encoder, delay and torque limit. step() is real-time safe.
+// Joint side, SI.
+#pragma once
+
+#include <memory>
+
+#include "control/reference_shaper.h"
+#include "sim/joint/joint_plant.h"
+
+namespace strainwave {
+
+/// What a drive's commissioning finds out of a joint.
+struct ServoJoint {
+  double period_s = 0.001;
+  double delay_periods = 0.0;
+  double inertia_kgm2 = 0.0;     ///< motor and link together
+  double torque_limit_Nm = 0.0;  ///< > 0
+  double resonance_rad_s = 0.0;  ///< of motor and link against each other; infinite of a rigid joint
+  /// Small times of the loop together: the torque's delay, half a period that it is held, half of the difference that is the velocity.
+  double small_times_s() const noexcept { return (delay_periods + 1.0) * period_s; }
+};
+
+ServoJoint servo_joint(const JointPlantConfig& plant);
+
+/// Rad/s at which the velocity loop of a drive on this joint crosses unity gain: that of the symmetrical optimum,
+///   1 / (2 T),  T: the loop's small times
+/// and no more than half of the resonance, beyond which the motor no longer carries its load. Sources: Schroeder (2009), by the
+/// user's guide of Modelica's DriveControl ("Speed controller": Ti = 4 T, Kp = J / (2 T)); Beckhoff's AX5000 manual ("Adjustment
+/// procedure": a factor of 2 to 3 below the resonance).
+double velocity_bandwidth_rad_s(const ServoJoint& joint) noexcept;
+
+class ServoPeer {
+ public:
+  virtual ~ServoPeer() = default;
+  ServoPeer() = default;
+  ServoPeer(const ServoPeer&) = delete;
+  ServoPeer& operator=(const ServoPeer&) = delete;
+  /// Torque for this period: where the motor is to be now, how fast and with which acceleration, and where it is read.
+  virtual double step(const Reference& reference, double joint_position_rad) noexcept = 0;
+  /// Forgets everything; the joint rests at `joint_position_rad`.
+  virtual void reset(double joint_position_rad) noexcept = 0;
+};
+
+}  // namespace strainwave
