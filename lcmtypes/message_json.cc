@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/printable.h"
+#include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave::json {
@@ -85,6 +87,11 @@ Words words_of(const temperature_v1& message) {
 
 Words words_of(const ack_v1& message) {
   return {{"reason_text", to_text(static_cast<Reason>(message.reason))}};
+}
+
+Derived derived_from(const state_v1& state, std::optional<double> period_s) {
+  return {{"tracking_error_rad",
+           period_s ? tracking_error_rad(state, *period_s) : std::numeric_limits<double>::quiet_NaN()}};
 }
 
 std::size_t used_entries(const state_v1& state, std::string_view field, std::size_t size) {

@@ -2,11 +2,13 @@
 // Not real-time.
 //
 // Numbers that name somebody (..._id) are texts, since readers in JavaScript would round them; a number that is none (NaN) is null.
-// Modes, faults and their like come a second time as words (mode_text, ...); weights only as far as rules are in use.
+// Modes, faults and their like come a second time as words (mode_text, ...); weights only as far as rules are in use. A state also has
+// its tracking_error_rad, where the period of the loop is known (loop_periods.h).
 #pragma once
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,6 +85,14 @@ Words words_of(const state_v1& state);
 Words words_of(const temperature_v1& message);
 Words words_of(const ack_v1& message);
 
+/// What is computed from a message, by name; NaN: not known.
+using Derived = std::vector<std::pair<std::string_view, double>>;
+template <typename Message>
+Derived derived_from(const Message&, std::optional<double>) {
+  return {};
+}
+Derived derived_from(const state_v1& state, std::optional<double> period_s);
+
 /// How many entries of an array field mean something.
 template <typename Message>
 std::size_t used_entries(const Message&, std::string_view, std::size_t size) {
@@ -92,8 +102,9 @@ std::size_t used_entries(const state_v1& state, std::string_view field, std::siz
 
 }  // namespace json
 
+/// `period_s`: of the loop that says it, if it is known.
 template <typename Message>
-std::string message_json(const Message& message) {
+std::string message_json(const Message& message, std::optional<double> period_s = std::nullopt) {
   json::Object object;
   visit_fields(message, [&](const char* name, const auto& value) {
     using Value = std::decay_t<decltype(value)>;
@@ -108,6 +119,7 @@ std::string message_json(const Message& message) {
     }
   });
   for (const auto& [name, words] : json::words_of(message)) object.add(name, words);
+  for (const auto& [name, value] : json::derived_from(message, period_s)) object.add(name, value);
   return std::move(object).end();
 }
 
@@ -129,6 +141,7 @@ std::string message_schema() {
     }
   });
   for (const auto& [name, words] : json::words_of(message)) schema.text(name);
+  for (const auto& [name, value] : json::derived_from(message, std::nullopt)) schema.number(name);
   return std::move(schema).end();
 }
 

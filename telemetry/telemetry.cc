@@ -20,12 +20,14 @@ void Telemetry::run() {
 
 void Telemetry::take(std::string_view channel, std::span<const std::uint8_t> bytes) {
   const auto name = parse_channel(channel);
-  const bool ours = name && visit_message(name->kind, bytes, [&]<typename Message>(const Message& message) {
-                      fleet_.take(*name, message, now_s());
-                      const Topic* topic = topic_of<Message>(std::string(channel));
-                      if (topic != nullptr && server_.is_wanted(topic->id))
-                        server_.publish(topic->id, utime_now(), message_json(message));
-                    });
+  const bool ours =
+      name && visit_message(name->kind, bytes, [&]<typename Message>(const Message& message) {
+        fleet_.take(*name, message, now_s());
+        periods_.take(*name, message);
+        const Topic* topic = topic_of<Message>(std::string(channel));
+        if (topic != nullptr && server_.is_wanted(topic->id))
+          server_.publish(topic->id, utime_now(), message_json(message, periods_.of(name->prefix)));
+      });
   ++(ours ? heard_ : not_ours_);
 }
 
