@@ -16,92 +16,160 @@ namespace {
 constexpr std::size_t kDimensions = 4;  // stiffness, 1 / Jl, damping, viscous friction
 constexpr std::size_t kCorners = std::size_t{1} << kDimensions;
 
-// Bit d of `corner` says which end of dimension d it is at.
-SpringPlant corner_of(const SpringBox& box, std::size_t corner) {
-  const auto end = [corner](std::size_t d, const BoxRange& range) {
-    return (corner >> d & 1U) != 0 ? range.to : range.from;
-  };
-  return {box.motor_inertia_kgm2, end(1, box.link_inertia_kgm2), end(0, box.stiffness_Nm_rad),
-          end(2, box.damping_Nms_rad), end(3, box.viscous_Nms_rad)};
+constexpr double kTiny = 1e-300;
+// A box is cut into at most 2^kMostCuts parts.
+constexpr int kMostCuts = 8;
+
+template <typename Box>
+auto& range_of(Box& box, std::size_t dimension) {
+  switch (dimension) {
+    case 0:
+      return box.stiffness_Nm_rad;
+    case 1:
+      return box.link_inertia_kgm2;
+    case 2:
+      return box.damping_Nms_rad;
+    default:
+      return box.viscous_Nms_rad;
+  }
 }
 
-// From the smallest to the largest in `cells` equal ratios; the ends exactly.
-std::vector<double> borders(double from, double to, int cells) {
-  std::vector<double> result{from};
-  for (int i = 1; i < cells; ++i)
-    result.push_back(from * std::pow(to / from, static_cast<double>(i) / cells));
-  result.push_back(to);
-  return result;
+// Bit d of `corner` says which end of dimension d it is at.
+SpringPlant corner_of(const SpringBox& box, std::size_t corner) {
+  const auto end = [&](std::size_t d) {
+    return (corner >> d & 1U) != 0 ? range_of(box, d).to : range_of(box, d).from;
+  };
+  return {box.motor_inertia_kgm2, end(1), end(0), end(2), end(3)};
+}
+
+bool is_wide(const SpringBox& box, std::size_t dimension) {
+  const BoxRange& range = range_of(box, dimension);
+  return range.from != range.to;
+}
+
+// Of directions without width only one end counts.
+bool is_new(const SpringBox& box, std::size_t corner) {
+  for (std::size_t d = 0; d < kDimensions; ++d)
+    if ((corner >> d & 1U) != 0 && !is_wide(box, d)) return false;
+  return true;
 }
 
 }  // namespace
 
-std::vector<SpringCorner> spring_corners(const SpringBox& box, double period_s) {
-  std::vector<SpringCorner> corners(kCorners);
+SpringCorners spring_corners(const SpringBox& box, double period_s) {
+  SpringCorners result;
   std::array<BoundedMatrix, kCorners> generators;
   ProofMatrix size = ProofMatrix::Zero(kSpringPlantStates + 1, kSpringPlantStates + 1);
   for (std::size_t c = 0; c < kCorners; ++c) {
-    corners[c].plant = corner_of(box, c);
-    generators[c] = spring_generator(corners[c].plant, period_s);
-    corners[c].sampled = spring_exponential(generators[c]);
+    generators[c] = spring_generator(corner_of(box, c), period_s);
     size = size.cwiseMax(generators[c].magnitude());
+    if (!is_new(box, c)) continue;
+    result.corners.push_back({corner_of(box, c), spring_exponential(generators[c])});
   }
-  ProofMatrix error = ProofMatrix::Zero(size.rows(), size.cols());
+  std::array<ProofMatrix, kDimensions> errors;
+  result.interpolation = ProofMatrix::Zero(size.rows(), size.cols());
   for (std::size_t d = 0; d < kDimensions; ++d) {
     ProofMatrix change = ProofMatrix::Zero(size.rows(), size.cols());
     for (std::size_t c = 0; c < kCorners; ++c) {
       if ((c >> d & 1U) != 0) continue;
       change = change.cwiseMax((generators[c | std::size_t{1} << d] - generators[c]).magnitude());
     }
-    error += interpolation_error(size, change);
+    errors[d] = is_wide(box, d) ? interpolation_error(size, change) : result.interpolation * 0.0;
+    result.interpolation += errors[d];
   }
-  for (SpringCorner& corner : corners)
-    corner.sampled.error = BoundedMatrix::kUp * (corner.sampled.error + error);
-  return corners;
+  double largest = 0.0;
+  for (std::size_t d = 0; d < kDimensions; ++d) {
+    const double share = (errors[d].array() / (result.interpolation.array() + kTiny)).sum();
+    if (share <= largest) continue;
+    largest = share;
+    result.widest = d;
+  }
+  return result;
 }
 
-std::vector<SpringBox> spring_cells(const SpringBox& box, int stiffness_cells, int inertia_cells) {
-  const double motor_1_kgm2 = 1.0 / box.motor_inertia_kgm2;
-  const BoxRange& link = box.link_inertia_kgm2;
-  std::vector<double> inertias =
-      borders(motor_1_kgm2 + 1.0 / link.from, motor_1_kgm2 + 1.0 / link.to, inertia_cells);
-  for (double& inertia : inertias) inertia = 1.0 / (inertia - motor_1_kgm2);
-  inertias.front() = link.from;
-  inertias.back() = link.to;
-  const std::vector<double> stiffness =
-      borders(box.stiffness_Nm_rad.from, box.stiffness_Nm_rad.to, stiffness_cells);
-  std::vector<SpringBox> cells;
-  for (std::size_t k = 0; k + 1 < stiffness.size(); ++k) {
-    for (std::size_t j = 0; j + 1 < inertias.size(); ++j) {
-      cells.push_back(box);
-      cells.back().stiffness_Nm_rad = {stiffness[k], stiffness[k + 1]};
-      cells.back().link_inertia_kgm2 = {inertias[j], inertias[j + 1]};
-    }
+namespace {
+
+enum class Outcome { kProved, kLostBetweenCorners, kRefused };
+
+class BoxProof {
+ public:
+  BoxProof(std::span<const GainRow> gains, const SpringLoop& loop, const ProofMatrix& P)
+      : gains_(gains), loop_(loop), P_(P) {
+    const PositiveDefiniteResult positive = test_positive_definite(P, P_.error, states());
+    report_.certified = positive.certain;
+    report_.margin = positive.margin;
+    report_.inequalities = 1;
   }
-  return cells;
-}
+
+  void prove(const SpringBox& box, int cuts) {
+    const SpringCorners corners = spring_corners(box, loop_.period_s);
+    const Outcome outcome = test(corners);
+    if (outcome == Outcome::kProved || !report_.certified) return;
+    if (outcome == Outcome::kRefused || cuts == 0) {
+      report_.certified = false;
+      return;
+    }
+    SpringBox half = box;
+    const BoxRange whole = range_of(box, corners.widest);
+    const double middle = 0.5 * (whole.from + whole.to);
+    range_of(half, corners.widest) = {whole.from, middle};
+    prove(half, cuts - 1);
+    range_of(half, corners.widest) = {middle, whole.to};
+    prove(half, cuts - 1);
+  }
+
+  const SpringReport& report() const { return report_; }
+
+ private:
+  int states() const { return static_cast<int>(P_.value.rows()); }
+
+  PositiveDefiniteResult test(const BoundedMatrix& sampled, const GainRow& gain) {
+    const BoundedMatrix H = spring_loop(sampled, gain, loop_.period_s, loop_.delay_periods);
+    const Bounded by_rate = Bounded(1.0) / (Bounded(loop_.decay_rate) * loop_.decay_rate);
+    const BoundedMatrix fall = P_ - by_rate * (H.transpose() * (P_ * H));
+    ++report_.inequalities;
+    return test_positive_definite(fall.value, fall.error, states());
+  }
+
+  // The margins that count are those of the parts that are proved; of a refusal that of the corner itself.
+  Outcome test(const SpringCorners& box) {
+    SpringReport found = report_;
+    for (const SpringCorner& corner : box.corners) {
+      BoundedMatrix sampled = corner.sampled;
+      sampled.error = BoundedMatrix::kUp * (sampled.error + box.interpolation);
+      for (std::size_t j = 0; j < gains_.size(); ++j) {
+        PositiveDefiniteResult result = test(sampled, gains_[j]);
+        const bool lost = !result.certain;
+        if (lost) result = test(corner.sampled, gains_[j]);
+        if (result.margin < found.margin) {
+          found.margin = result.margin;
+          found.worst = corner.plant;
+          found.worst_gain = static_cast<int>(j);
+        }
+        if (!lost) continue;
+        found.inequalities = report_.inequalities;
+        if (!result.certain) report_ = found;
+        return result.certain ? Outcome::kLostBetweenCorners : Outcome::kRefused;
+      }
+    }
+    found.inequalities = report_.inequalities;
+    report_ = found;
+    return Outcome::kProved;
+  }
+
+  std::span<const GainRow> gains_;
+  SpringLoop loop_;
+  BoundedMatrix P_;
+  SpringReport report_;
+};
+
+}  // namespace
 
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                      const ProofMatrix& P) {
-  const auto states = static_cast<int>(P.rows());
-  const BoundedMatrix lyapunov(P);
-  const Bounded by_rate = Bounded(1.0) / (Bounded(loop.decay_rate) * loop.decay_rate);
-  const PositiveDefiniteResult positive = test_positive_definite(P, lyapunov.error, states);
-  SpringReport report{positive.certain, 1, positive.margin, corner_of(box, 0), 0};
-  for (const SpringCorner& corner : spring_corners(box, loop.period_s)) {
-    for (std::size_t j = 0; j < gains.size(); ++j) {
-      const BoundedMatrix H = spring_loop(corner.sampled, gains[j], loop.period_s, loop.delay_periods);
-      const BoundedMatrix fall = lyapunov - by_rate * (H.transpose() * (lyapunov * H));
-      const PositiveDefiniteResult result = test_positive_definite(fall.value, fall.error, states);
-      report.certified = report.certified && result.certain;
-      ++report.inequalities;
-      if (!(result.margin < report.margin)) continue;
-      report.margin = result.margin;
-      report.worst = corner.plant;
-      report.worst_gain = static_cast<int>(j);
-    }
-  }
-  return report;
+  BoxProof proof(gains, loop, P);
+  if (proof.report().certified) proof.prove(box, kMostCuts);
+  return proof.report();
 }
 
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
@@ -109,6 +177,14 @@ double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const S
   const ProofMatrix H = spring_loop(sampled, gain, loop.period_s, loop.delay_periods).value;
   if (!H.allFinite()) return std::numeric_limits<double>::infinity();
   return Eigen::EigenSolver<ProofMatrix>(H, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+std::string describe(const SpringPlant& plant) {
+  std::ostringstream text;
+  text << std::setprecision(5) << "link " << plant.link_inertia_kgm2 << " kg m2, stiffness "
+       << plant.stiffness_Nm_rad << " N m/rad, damping " << plant.damping_Nms_rad
+       << " N m s/rad, viscous friction " << plant.viscous_Nms_rad << " N m s/rad";
+  return text.str();
 }
 
 std::string describe(const SpringReport& report) {
@@ -119,10 +195,7 @@ std::string describe(const SpringReport& report) {
   } else {
     text << "none (not positive on its diagonal)";
   }
-  text << ", link " << report.worst.link_inertia_kgm2 << " kg m2, stiffness " << std::setprecision(5)
-       << report.worst.stiffness_Nm_rad << " N m/rad, damping " << report.worst.damping_Nms_rad
-       << " N m s/rad, viscous " << report.worst.viscous_Nms_rad << " N m s/rad, gain rule "
-       << report.worst_gain;
+  text << " at " << describe(report.worst) << ", gain rule " << report.worst_gain;
   return text.str();
 }
 

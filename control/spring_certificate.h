@@ -10,7 +10,8 @@
 // Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D and b, so that its exponential is what interpolates those of the
 // box's 16 corners, within E (interpolation_error(), summed over the four). With |E_v| <= E
 //   H = sum_v lambda_v (H_v + E_v),    |H x| <= max_v |(H_v + E_v) x|   in the norm x' P x
-// and every inequality is tested with E added to the errors of H_v. H is affine in the gain, so that the same holds for blends.
+// and every inequality is tested with E added to the errors of H_v. H is affine in the gain, so that the same holds for blends. Where E
+// is what a proof fails on, the box is cut in two, with the same P: E falls by four.
 #pragma once
 
 #include <span>
@@ -42,21 +43,25 @@ struct SpringLoop {
   double decay_rate = 1.0;  ///< r in (0, 1]
 };
 
-/// A corner of a box with its sampled plant, [A B; 0 1]; its error is the box's E and the rounding.
+/// A corner of a box with its sampled plant, [A B; 0 1], and the errors of rounding.
 struct SpringCorner {
   SpringPlant plant;
   BoundedMatrix sampled;
 };
-std::vector<SpringCorner> spring_corners(const SpringBox& box, double period_s);
-
-/// `box` cut into cells of equal ratios of the stiffness and of 1/Jm + 1/Jl: by the former first. Their borders are shared to the bit.
-std::vector<SpringBox> spring_cells(const SpringBox& box, int stiffness_cells, int inertia_cells);
+/// The corners that differ, and what lies between them.
+struct SpringCorners {
+  std::vector<SpringCorner> corners;
+  ProofMatrix interpolation;  ///< E, entry by entry
+  std::size_t widest =
+      0;  ///< the direction with most of it: 0 stiffness, 1 link inertia, 2 damping, 3 viscous friction
+};
+SpringCorners spring_corners(const SpringBox& box, double period_s);
 
 struct SpringReport {
   bool certified = false;
   int inequalities = 0;
   double margin = 0.0;  ///< the least, as PositiveDefiniteResult::margin
-  SpringPlant worst;    ///< the corner that has it
+  SpringPlant worst;    ///< the corner that has it, of the box or of a part
   int worst_gain = 0;
 };
 
@@ -67,7 +72,8 @@ SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const
 /// The largest eigenvalue of the loop, in magnitude, r left out: what no proof can be better than. Not rigorous.
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop);
 
-/// Margin and corner in words.
+/// The link's side, the spring and friction in words; and a margin with its corner.
+std::string describe(const SpringPlant& plant);
 std::string describe(const SpringReport& report);
 
 }  // namespace strainwave

@@ -34,6 +34,20 @@ class DesignProgram : public ::testing::Test {
   std::string output_;
 };
 
+TEST_F(DesignProgram, VerifiesATableOnAJointWithASpring) {
+  const std::string command = "verify " + kData + "tables/total-0.178/c4.json --motor-inertia_kgm2 0.089 ";
+  EXPECT_EQ(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.085..0.093"), 0) << output_;
+  EXPECT_NE(output_.find("with the spring, delay 1: certified"), std::string::npos) << output_;
+  EXPECT_EQ(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.05 --delay 2"), 1) << output_;
+  EXPECT_NE(output_.find("with the spring, delay 2: UNSTABLE"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("c4.json: NOT CERTIFIED"), std::string::npos) << output_;
+  // The table names no gear.
+  EXPECT_NE(run(command + "--load-inertia_kgm2 0.085..0.093"), 0);
+  EXPECT_NE(output_.find("csf-14-50"), std::string::npos) << output_;
+  EXPECT_NE(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.3..0.05"), 0);
+  EXPECT_NE(output_.find("must be FROM..TO, ascending"), std::string::npos) << output_;
+}
+
 TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {
   ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --out " + file("friction.json")), 0) << output_;
   ASSERT_EQ(run("gains --friction " + file("friction.json") + " --out " + file("table.json")), 0) << output_;

@@ -1,0 +1,61 @@
+// Finds what control/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints with a spring. Offline.
+//
+// P is the least in trace of   P - H' P H / r^2 >= W,   every corner and every gain,   W diagonal,
+// in states that are balanced by the corners' own Lyapunov matrices.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "control/spring_certificate.h"
+#include "design/sdp_solver.h"
+
+namespace strainwave {
+
+/// P of one box, verified; nothing when the solver finds none that is.
+std::optional<ProofMatrix> find_spring_lyapunov(std::span<const GainRow> gains, const SpringBox& box,
+                                                const SpringLoop& loop, const SdpOptions& options = {});
+
+/// The corner and gain of `box` with the largest eigenvalue of the loop: above 1 no proof exists. Not rigorous.
+struct WorstCorner {
+  SpringPlant plant;
+  int gain = 0;
+  double radius = 0.0;
+};
+WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop);
+
+enum class SpringOutcome {
+  kCertified,  ///< every cell has its P
+  kUnstable,   ///< `unstable` is
+  kNotFound,   ///< no P for `cell`, and it would be cut too often
+};
+
+struct SpringProof {
+  SpringOutcome outcome = SpringOutcome::kNotFound;
+  int cells = 0;         ///< certified
+  int inequalities = 0;  ///< of those
+  SpringReport worst;    ///< the smallest margin of those
+  WorstCorner unstable;
+  SpringBox cell;
+};
+
+/// Cuts `box` by stiffness and link inertia into cells until each has a P. What is proved is then that every joint of the box is stable
+/// with a stiffness and a link inertia that vary within a cell, and damping and viscous friction that vary within the box. Takes
+/// tenths of a second per cell.
+SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
+                             int most_cells = 300);
+
+/// The box of a table's joint: the gear's slopes, no damping, viscous friction from 0 to the largest of the rules. Throws InputError when
+/// `gear` is none of the catalogue.
+SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear, double motor_inertia_kgm2,
+                     const BoxRange& link_inertia_kgm2);
+
+/// Every gain of both controllers, so that a change-over is a blend like any other.
+std::vector<GainRow> gains_of(const GainTable& table);
+
+/// In words, one line per delay.
+std::string describe(const SpringProof& proof);
+
+}  // namespace strainwave
