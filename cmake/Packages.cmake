@@ -53,7 +53,7 @@ set(CPACK_DEBIAN_SPY_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_SPY_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_SPY_DESCRIPTION "Viewer of Strainwave's messages
  LCM's viewer with the messages of strainwaved decoded, and a plot of
- position, setpoint, error and temperature of a joint.")
+ position, setpoint, error, torque and temperature of a joint.")
 set(CPACK_DEBIAN_SPY_PACKAGE_DEPENDS "default-jre (>= 2:1.17), liblcm-java (>= 1.3.1), libjchart2d-java")
 
 set(CPACK_DEBIAN_LCMTYPES_PACKAGE_NAME libstrainwave-lcmtypes-dev)

@@ -21,7 +21,7 @@ import strainwave.spy.JointPlot;
 
 /**
  * Starts the viewer as strainwave-spy does, in a real X server, beside a running daemon, and uses it with mouse events: every
- * channel must be decoded by our types, and "Plot joint" must draw the joint that moves.
+ * channel must be decoded by our types, and "Plot joint" must draw the joint that moves, all curves above one time.
  *
  * <p>SpyTest PICTURE.png
  */
@@ -50,6 +50,15 @@ final class SpyTest {
 
     await("200 points of every curve",
         () -> Arrays.stream(plot.drawnPoints()).allMatch(points -> points >= 200) ? plot : null);
+    // Labels change with the motion, and the axes follow at the next drawing: nearly always they are aligned.
+    int aligned = 0;
+    for (int look = 0; look < 40; ++look, Thread.sleep(100)) {
+      final int[][][] axes = new int[1][][];
+      SwingUtilities.invokeAndWait(() -> axes[0] = plot.timeAxes_px());
+      if (axes[0].length == 4 && Arrays.stream(axes[0]).allMatch(axis -> Arrays.equals(axis, axes[0][0]))) ++aligned;
+    }
+    System.out.println("time axes aligned at " + aligned + " of 40 looks");
+    if (aligned < 30) System.exit(1);
     // A double click shows the fields of a channel that has no plot.
     final int temperatureRow =
         row(table, Map.entry("SW.elbow.TEMPERATURE", TYPES.get("SW.elbow.TEMPERATURE")));

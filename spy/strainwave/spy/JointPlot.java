@@ -12,6 +12,7 @@ import java.awt.Color;
 import java.awt.Dimension;
 import java.awt.Font;
 import java.awt.GridLayout;
+import java.util.Arrays;
 import java.util.List;
 import javax.swing.BorderFactory;
 import javax.swing.JLabel;
@@ -19,7 +20,7 @@ import javax.swing.JPanel;
 import javax.swing.Timer;
 import strainwave.state_v1;
 
-/** Position and setpoint, error, temperature of one joint over the last half minute. Swing's thread only. */
+/** Position and setpoint, error, torque, temperature of one joint over the last half minute, one instant above the other. Swing's thread only. */
 public final class JointPlot extends JPanel {
   private static final double WINDOW_S = 30.0;
   private static final int REDRAW_EVERY_MS = 50;
@@ -39,7 +40,11 @@ public final class JointPlot extends JPanel {
   private final ITrace2D setpoint = trace("setpoint", new Color(0xf0, 0xa0, 0x90), 5.0f);
   private final ITrace2D position = trace("position", BLUE, 1.5f);
   private final ITrace2D error = trace("setpoint - position", BLUE, 1.5f);
+  /** Wide and pale, as the setpoint: what was asked for below what the drive says. */
+  private final ITrace2D commanded = trace("torque commanded", new Color(0xa8, 0xd0, 0xa0), 5.0f);
+  private final ITrace2D applied = trace("torque applied", new Color(0x2a, 0x70, 0x2a), 1.5f);
   private final ITrace2D temperature = trace("temperature in use", new Color(0xb3, 0x6b, 0x00), 1.5f);
+  private final ITrace2D[] traces = {setpoint, position, error, commanded, applied, temperature};
   private final Chart2D[] all;
   private double begin_s = Double.NaN;
   private long session;
@@ -47,12 +52,13 @@ public final class JointPlot extends JPanel {
   JointPlot(JointFeed feed) {
     super(new BorderLayout());
     this.feed = feed;
-    all = new Chart2D[] {chart("rad", setpoint, position), chart("mrad", error), chart("°C", temperature)};
+    all = new Chart2D[] {chart("rad", setpoint, position), chart("mrad", error), chart("N m", commanded, applied),
+        chart("°C", temperature)};
     line.setFont(line.getFont().deriveFont(Font.BOLD));
     line.setBorder(BorderFactory.createEmptyBorder(4, 8, 4, 8));
     add(line, BorderLayout.NORTH);
     add(charts, BorderLayout.CENTER);
-    setPreferredSize(new Dimension(720, 640));
+    setPreferredSize(new Dimension(720, 760));
     timer.start();
   }
 
@@ -61,9 +67,16 @@ public final class JointPlot extends JPanel {
     feed.close();
   }
 
-  /** For tests: how many points are drawn of setpoint, position, error and temperature. */
+  /** For tests: how many points are drawn of each curve. */
   public int[] drawnPoints() {
-    return new int[] {setpoint.getSize(), position.getSize(), error.getSize(), temperature.getSize()};
+    return Arrays.stream(traces).mapToInt(ITrace2D::getSize).toArray();
+  }
+
+  /** For tests: where each chart's time axis begins, and where it ends, in pixels from the window's left edge. */
+  public int[][] timeAxes_px() {
+    return Arrays.stream(all)
+        .map(chart -> new int[] {chart.getX() + chart.getXChartStart(), chart.getX() + chart.getXChartEnd()})
+        .toArray(int[][]::new);
   }
 
   private static ITrace2D trace(String name, Color color, float width) {
@@ -80,7 +93,10 @@ public final class JointPlot extends JPanel {
     title(chart.getAxisX(), "s");
     title(chart.getAxisY(), unit);
     chart.getAxisY().setPaintGrid(true);
-    charts.add(chart);
+    final JPanel place = new JPanel(new BorderLayout());
+    place.setBackground(chart.getBackground());
+    place.add(chart);
+    charts.add(place);
     return chart;
   }
 
@@ -88,7 +104,18 @@ public final class JointPlot extends JPanel {
     axis.setAxisTitle(new IAxis.AxisTitle(text));
   }
 
+  /** Labels of the other axes are of unlike widths: who has narrow ones is moved to the right. */
+  private void align() {
+    final int widest_px = Arrays.stream(all).mapToInt(Chart2D::getXChartStart).max().orElse(0);
+    for (Chart2D chart : all) {
+      final JPanel place = (JPanel) chart.getParent();
+      final int missing_px = widest_px - chart.getXChartStart();
+      if (place.getInsets().left != missing_px) place.setBorder(BorderFactory.createEmptyBorder(0, missing_px, 0, 0));
+    }
+  }
+
   private void draw() {
+    align();
     final List<JointFeed.Sample> samples = feed.take();
     if (samples.isEmpty()) return;
     for (JointFeed.Sample sample : samples) draw(sample);
@@ -97,7 +124,7 @@ public final class JointPlot extends JPanel {
     for (Chart2D chart : all)
       chart.getAxisX().setRangePolicy(
           new RangePolicyFixedViewport(new Range(Math.max(0.0, now_s - WINDOW_S), Math.max(now_s, 1.0))));
-    line.setText(describe(last.state()));
+    line.setText(describe(last));
   }
 
   private void draw(JointFeed.Sample sample) {
@@ -105,7 +132,7 @@ public final class JointPlot extends JPanel {
     if (Double.isNaN(begin_s)) begin_s = sample.received_s();
     // Another session is another run of the daemon: its curves begin anew.
     if (session != state.session_id) {
-      for (ITrace2D trace : new ITrace2D[] {setpoint, position, error, temperature}) trace.removeAllPoints();
+      for (ITrace2D trace : traces) trace.removeAllPoints();
       begin_s = sample.received_s();
       session = state.session_id;
     }
@@ -113,6 +140,8 @@ public final class JointPlot extends JPanel {
     put(setpoint, time_s, state.setpoint_position_rad);
     put(position, time_s, state.joint_position_rad);
     put(error, time_s, RAD_TO_MRAD * sample.error_rad());
+    put(commanded, time_s, state.torque_commanded_Nm);
+    put(applied, time_s, state.torque_applied_Nm);
     put(temperature, time_s, state.temperature_used_C);
   }
 
@@ -121,11 +150,12 @@ public final class JointPlot extends JPanel {
     if (Double.isFinite(value)) trace.addPoint(time_s, value);
   }
 
-  private static String describe(state_v1 state) {
+  private static String describe(JointFeed.Sample sample) {
+    final state_v1 state = sample.state();
     final String mode = state.mode >= 0 && state.mode < MODES.length ? MODES[state.mode] : "mode " + state.mode;
     final String fault = state.fault == 0 ? "" : ", fault " + state.fault + " (docs/faults.md)";
     return String.format("%s%s   position %+.6f rad   error %+.1e rad   torque %+.3f N m   %.1f °C", mode, fault,
-        state.joint_position_rad, state.setpoint_position_rad - state.joint_position_rad, state.torque_applied_Nm,
+        state.joint_position_rad, sample.error_rad(), state.torque_applied_Nm,
         state.temperature_used_C);
   }
 }
