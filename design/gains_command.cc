@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <memory>
@@ -7,16 +8,21 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "control/gain_table_json.h"
 #include "control/gear_catalogue.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
+#include "design/spring_options.h"
 #include "design/table_report.h"
 
 namespace strainwave {
 
 namespace {
+
+constexpr int kQuarters = 4;  // of a decade of the torque's weight
+constexpr int kSoftest = 4;   // decades: a hundredth of the stiffness that was asked for
 
 // The reference case: the RHS-17-6006 of the source with its weights.
 struct Options {
@@ -41,6 +47,7 @@ struct Options {
   double max_position_rad = 0.0;
   double max_velocity_rad_s = 0.0;
   double max_integral_rad_s = 0.0;
+  SpringOptions spring;
 };
 
 // Now, or SOURCE_DATE_EPOCH for reproducible files. Throws InputError.
@@ -121,6 +128,42 @@ TableRequest make_request(const Options& options, const CLI::App& command) {
   return request;
 }
 
+// The most aggressive gains that are certified on the joint's spring: of a family over the torque's weight, from the one that is asked for
+// on, to a quarter of a decade. Throws InputError with the last refusal when the softest is none.
+GainTable design_on_spring(Controller controller, TableRequest& request, const Options& options) {
+  const SpringRequest spring = spring_request(options.spring, "gains");
+  const double first = options.weights[3];
+  SpringVerdict verdict;
+  const auto try_weight = [&](int quarters) {
+    request.design.weights.torque = first * std::pow(10.0, quarters / 4.0);
+    GainTable table = design_table(controller, request);
+    verdict = judge_on_spring(table, options.gear, spring, true);
+    return table;
+  };
+  GainTable best = try_weight(0);
+  int refused = 0;
+  int certified = 0;
+  while (!verdict.certified) {
+    refused = certified;
+    certified += kQuarters;
+    if (certified > kSoftest * kQuarters)
+      throw InputError("gains: no gains are certified on this spring, down to a torque weight of " +
+                       number_text(request.design.weights.torque) + ": " + verdict.text);
+    best = try_weight(certified);
+  }
+  std::string text = verdict.text;
+  while (certified - refused > 1) {
+    const int middle = (certified + refused) / 2;
+    const GainTable table = try_weight(middle);
+    (verdict.certified ? certified : refused) = middle;
+    if (!verdict.certified) continue;
+    best = table;
+    text = verdict.text;
+  }
+  std::printf("torque weight %g\n%s", best.primary.weights.torque, text.c_str());
+  return best;
+}
+
 // TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
 int gains(const Options& options, const CLI::App& command) {
   TableRequest request = make_request(options, command);
@@ -135,7 +178,8 @@ int gains(const Options& options, const CLI::App& command) {
     request.name = options.name.empty() ? options.joint_model + " " + label : options.name;
     std::filesystem::path path = options.out;
     if (options.controller == "all") path /= "c" + label.substr(1) + ".json";
-    tables.emplace_back(path, design_table(controller, request));
+    tables.emplace_back(path, options.spring.given() ? design_on_spring(controller, request, options)
+                                                     : design_table(controller, request));
   }
   for (const auto& [path, table] : tables) {
     write_gain_table(table, path);
@@ -220,6 +264,7 @@ CommandBody add_gains_command(CLI::App& app, CLI::App*& command) {
       ->capture_default_str();
   add_plant_options(*command, *options);
   add_design_options(*command, *options);
+  add_spring_options(*command, options->spring);
   command->add_option("--name", options->name, "name of the table; default: joint model and controller");
   command
       ->add_option("--out", options->out,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -46,6 +47,22 @@ TEST_F(DesignProgram, VerifiesATableOnAJointWithASpring) {
   EXPECT_NE(output_.find("csf-14-50"), std::string::npos) << output_;
   EXPECT_NE(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.3..0.05"), 0);
   EXPECT_NE(output_.find("must be FROM..TO, ascending"), std::string::npos) << output_;
+}
+
+// With two periods of delay the gains that are asked for are unstable; those a quarter of a decade stiffer than what is written are refused.
+TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
+  const std::string joint =
+      "--motor-inertia_kgm2 0.089 --load-inertia_kgm2 0.1 --damping_Nms_rad 1 --delay 2";
+  const std::string design = "gains --friction " + kData +
+                             "tables/rhs17-6006-friction.json --gear csf-17-50 " +
+                             "--inertia_kgm2 0.189 --out " + file("t.json");
+  ASSERT_EQ(run(design + " " + joint), 0) << output_;
+  EXPECT_NE(output_.find("with the spring, delay 2: certified"), std::string::npos) << output_;
+  const double weight = read_gain_table(file("t.json")).primary.weights.torque;
+  EXPECT_GT(weight, 1.01e-6);
+  const std::string stiffer = std::to_string(1e6 * weight * std::pow(10.0, -0.25));
+  ASSERT_EQ(run(design + " --weights 0.1,1,1e-4," + stiffer + "e-6"), 0) << output_;
+  EXPECT_EQ(run("verify " + file("t.json") + " " + joint), 1) << output_;
 }
 
 TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {

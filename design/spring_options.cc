@@ -1,0 +1,81 @@
+#include "design/spring_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "base/printable.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kLeastInertia_kgm2 = 1e-6;
+
+BoxRange parse_range(const std::string& place, const std::string& key, const std::string& text,
+                     double least) {
+  const std::size_t dots = text.find("..");
+  const double from = parse_number(text.substr(0, dots), place, key);
+  const double to = dots == std::string::npos ? from : parse_number(text.substr(dots + 2), place, key);
+  if (!(from >= least && from <= to))
+    throw InputError(place, key, text, "must be FROM..TO, ascending, from " + number_text(least));
+  return {from, to};
+}
+
+}  // namespace
+
+void add_spring_options(CLI::App& command, SpringOptions& options) {
+  CLI::Option* const load =
+      command.add_option("--load-inertia_kgm2", options.load_inertia_kgm2,
+                         "also on a joint whose gear is a spring, with links of FROM..TO behind it");
+  CLI::Option* const motor = command.add_option("--motor-inertia_kgm2", options.motor_inertia_kgm2,
+                                                "its inertia before the spring, at the joint");
+  load->needs(motor);
+  motor->needs(load);
+  command
+      .add_option("--damping_Nms_rad", options.damping_Nms_rad,
+                  "the spring's damping, FROM..TO or one number")
+      ->needs(load)
+      ->capture_default_str();
+  command
+      .add_option("--delay", options.delay_periods,
+                  "periods between a torque's computation and its effect, FROM..TO or one number")
+      ->needs(load)
+      ->capture_default_str();
+}
+
+SpringRequest spring_request(const SpringOptions& options, const std::string& place) {
+  SpringRequest request;
+  request.motor_inertia_kgm2 = options.motor_inertia_kgm2;
+  if (!(request.motor_inertia_kgm2 >= kLeastInertia_kgm2))
+    throw InputError(place, "--motor-inertia_kgm2", number_text(options.motor_inertia_kgm2),
+                     "must be the inertia on the motor's side of the spring, at the joint");
+  request.link_inertia_kgm2 =
+      parse_range(place, "--load-inertia_kgm2", options.load_inertia_kgm2, kLeastInertia_kgm2);
+  request.damping_Nms_rad = parse_range(place, "--damping_Nms_rad", options.damping_Nms_rad, 0.0);
+  const BoxRange delays = parse_range(place, "--delay", options.delay_periods, 0.0);
+  request.least_delay = static_cast<int>(delays.from);
+  request.most_delay = static_cast<int>(delays.to);
+  if (delays.to > kMaxSpringDelay || delays.from != request.least_delay || delays.to != request.most_delay)
+    throw InputError(place, "--delay", options.delay_periods,
+                     "must be whole periods, at most " + std::to_string(kMaxSpringDelay));
+  return request;
+}
+
+SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request,
+                              bool to_the_first) {
+  SpringBox box = spring_box(table.friction, gear, request.motor_inertia_kgm2, request.link_inertia_kgm2);
+  box.damping_Nms_rad = request.damping_Nms_rad;
+  const std::vector<GainRow> gains = gains_of(table);
+  SpringVerdict verdict;
+  // The longest delay first: it is the hardest.
+  for (int delay = request.most_delay; delay >= request.least_delay; --delay) {
+    const SpringProof proof = prove_spring_box(gains, box, {table.plant.period_s, delay, 1.0});
+    verdict.certified = verdict.certified && proof.outcome == SpringOutcome::kCertified;
+    verdict.text += "with the spring, delay " + std::to_string(delay) + ": " + describe(proof) + "\n";
+    if (to_the_first && !verdict.certified) break;
+  }
+  return verdict;
+}
+
+}  // namespace strainwave

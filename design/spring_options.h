@@ -1,0 +1,45 @@
+// The box of joints with a spring that verify and gains are given on the command line. Offline.
+#pragma once
+
+#include <string>
+
+#include "design/spring_proof.h"
+
+namespace CLI {
+class App;
+}
+
+namespace strainwave {
+
+struct SpringOptions {
+  double motor_inertia_kgm2 = 0.0;
+  std::string load_inertia_kgm2;  ///< "FROM..TO" or one number; empty: no spring is meant
+  std::string damping_Nms_rad = "0";
+  std::string delay_periods = "1";
+
+  bool given() const { return !load_inertia_kgm2.empty(); }
+};
+
+/// --motor-inertia_kgm2, --load-inertia_kgm2, --damping_Nms_rad, --delay.
+void add_spring_options(CLI::App& command, SpringOptions& options);
+
+/// What of a box the options say; stiffness and friction are the gear's and the table's. Throws InputError naming `place`.
+struct SpringRequest {
+  double motor_inertia_kgm2 = 0.0;
+  BoxRange link_inertia_kgm2;
+  BoxRange damping_Nms_rad;
+  int least_delay = 0;
+  int most_delay = 0;
+};
+SpringRequest spring_request(const SpringOptions& options, const std::string& place);
+
+/// One line per delay, each of which has its own proof: a joint has one.
+struct SpringVerdict {
+  bool certified = true;
+  std::string text;
+};
+/// Stops at the first delay without a proof if `to_the_first`.
+SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request,
+                              bool to_the_first);
+
+}  // namespace strainwave
