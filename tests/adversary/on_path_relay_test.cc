@@ -12,8 +12,8 @@ namespace strainwave::testing {
 namespace {
 
 constexpr const char* kInsideUrl = "udpm://239.255.76.67:7668?ttl=0";
-/// In the daemon's own periods: 20 s, when nobody thinks of the order any more.
-constexpr std::int64_t kLong_cycles = 20'000;
+/// Twice as long as an order lives, and much shorter than the daemon could recognise its challenge: it is the age that refuses.
+constexpr std::int64_t kLong_cycles = 2'500;
 
 /// Two LCM networks on two ports, and the only way between them.
 class Relay {

@@ -158,6 +158,23 @@ TEST(JointLoopStreaming, RefuseASampleForACycleThatIsOverOrFarAway) {
   EXPECT_EQ(bench.last_reply().limit, 1.0);
 }
 
+TEST(JointLoopStreaming, AreForgottenByTheNextEnable) {
+  const auto shows_expiry = [](JointBench& bench) {
+    return (bench.state(0).notices & static_cast<std::int32_t>(Notice::kSetpointExpired)) != 0;
+  };
+  JointBench bench({demo_joint()});
+  bench.bring_to_hold(0);
+  ASSERT_EQ(bench.move(0, 0.1, 0.01), Reason::kAccepted);
+  for (int i = 0; i < 500; ++i) bench.step();
+  ASSERT_TRUE(shows_expiry(bench));
+  ASSERT_EQ(bench.order(0, OrderKind::kDisable), Reason::kAccepted);
+  for (int i = 0; i < 200; ++i) bench.step();
+  ASSERT_EQ(bench.order(0, OrderKind::kEnable), Reason::kAccepted);
+  for (int i = 0; i < 200; ++i) bench.step();
+  EXPECT_FALSE(shows_expiry(bench));
+  EXPECT_EQ(bench.move(0, 0.2, 0.01, false), Reason::kStreamEnded);
+}
+
 TEST(JointLoopStreaming, SayThatTheyAskForMoreThanTheJointHas) {
   JointBench bench({demo_joint()});
   bench.bring_to_hold(0);
