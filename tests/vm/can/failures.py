@@ -149,6 +149,19 @@ class Failures(unittest.TestCase):
         self.assertIn('0203h', self.daemon.text())
         self.expect_way_back()
 
+    def test_somebody_who_makes_the_drive_pre_operational_takes_its_torque_and_gives_none(self):
+        self.drive.tell('note-torque on')
+        at_us = now_us()
+        subprocess.run(['cansend', BUS, '000#8003'], check=True)
+        self.expect_fault(at_us, 'read failed', (QUICK_STOP_AFTER + 3) * PERIOD_US + STATE_US)
+        # By SDO, which a pre-operational drive still obeys.
+        off_us = self.drive.find('power SwitchOnDisabled', at_us)
+        self.assertIsNotNone(off_us)
+        self.assertLessEqual(off_us - at_us, (QUICK_STOP_AFTER + 6) * PERIOD_US)
+        self.drive.tell('note-torque off')
+        self.expect_rest(at_us, 400000)
+        self.expect_way_back()
+
     def test_a_flood_of_foreign_frames_is_not_noticed(self):
         self.drive.tell('clear')
         subprocess.run(['cangen', BUS, '-g', '0.05', '-I', '123', '-L', '8', '-n', '4000'], check=True)
