@@ -101,6 +101,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   config.plant.joint.inertia_kgm2 =
       flexible ? section.number("inertia_kgm2", {1e-6, 1e4})
                : section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
+  config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
   read_simulated_effects(section, joint.plant.gear_ratio, config);
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});
   for (FrictionParameters* part :
@@ -110,7 +111,6 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
     part->viscous_Nms_rad *= friction_scale;
   }
   config.plant.substeps = static_cast<int>(section.integer_or("substeps", config.plant.substeps, 1, 1000));
-  config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
   try {
     (void)JointPlant(config.plant);
   } catch (const InputError& error) {

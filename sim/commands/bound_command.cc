@@ -5,7 +5,7 @@
 
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
-#include "sim/studies/link_limit.h"
+#include "sim/studies/physical_limit.h"
 #include "sim/studies/scenarios.h"
 #include "sim/studies/text_table.h"
 #include "sim/studies/time_optimal.h"
@@ -22,10 +22,7 @@ struct Options {
 // What the programme of a flexible joint has besides: the counted sum, and the least settling times.
 void add_flexible_row(TextTable& result, const std::string& reference, const ClosedLoopConfig& config,
                       const std::vector<Contender>& contenders) {
-  const double from_rad = config.plant.initial_position_rad;
-  const LinkLimitConfig motion =
-      link_limit_config(config.plant, config.ambient.at(0.0), config.setpoint_rad.at(0.0) - from_rad,
-                        config.load_torque_Nm.at(0.0));
+  const LinkLimitConfig motion = link_limit_of_run(config);
   const LinkLimit limit = find_link_limit(motion);
   const double scale = std::abs(motion.step_rad / config.setpoint_rad.at(0.0));
   std::vector<std::string> row = {reference, number(1e3 * least_settling_time_s(motion, kCountedError_rad)),
@@ -42,8 +39,11 @@ void add_flexible_row(TextTable& result, const std::string& reference, const Clo
 void add_row(TextTable& result, const std::string& reference, const ClosedLoopConfig& config,
              const std::vector<Contender>& contenders) {
   if (config.plant.effects.transmission) return add_flexible_row(result, reference, config, contenders);
+  require_time_optimal_covers(config.plant);
   const TimeOptimalResult limit = run_time_optimal(config);
-  std::vector<std::string> row = {reference, number(1e3 * limit.first_arrival_s),
+  std::vector<std::string> row = {reference,
+                                  limit.first_arrival_s < 0.0 ? "not in " + number(config.duration_s) + " s"
+                                                              : number(1e3 * limit.first_arrival_s),
                                   number(limit.statistics.pi2), number(limit.statistics.pi1_rad2)};
   for (const Contender& contender : contenders) {
     const ClosedLoopResult closed = run_closed_loop(config, *contender.make(config.plant));

@@ -3,11 +3,12 @@
 #include <iostream>
 #include <memory>
 
+#include "base/input_error.h"
 #include "base/text_file.h"
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
+#include "sim/studies/physical_limit.h"
 #include "sim/studies/text_table.h"
-#include "sim/studies/time_optimal.h"
 
 namespace strainwave {
 
@@ -24,12 +25,12 @@ std::string trace_csv(const std::vector<TracePoint>& trace) {
   std::string text =
       "time_s,setpoint_position_rad,joint_position_rad,joint_velocity_rad_s,wanted_torque_Nm,applied_torque_"
       "Nm,"
-      "joint_temperature_C\n";
+      "joint_temperature_C,link_position_rad\n";
   for (const TracePoint& p : trace) {
     bool first = true;
     for (const double value :
          {p.time_s, p.setpoint_position_rad, p.joint_position_rad, p.joint_velocity_rad_s, p.wanted_torque_Nm,
-          p.applied_torque_Nm, p.joint_temperature_C}) {
+          p.applied_torque_Nm, p.joint_temperature_C, p.link_position_rad}) {
       text += (first ? "" : ",") + number(value, 10);
       first = false;
     }
@@ -38,20 +39,61 @@ std::string trace_csv(const std::vector<TracePoint>& trace) {
   return text;
 }
 
-TextTable statistics_table(const std::string& controller, const LoopStatistics& s) {
+/// One column per side: of a rigid joint there is one.
+TextTable statistics_table(const std::vector<std::string>& names, const std::vector<LoopStatistics>& sides) {
   TextTable table;
-  table.header = {"quantity", controller};
-  const auto add = [&](const char* name, double value) { table.rows.push_back({name, number(value, 6)}); };
-  add("PI1 (rad^2)", s.pi1_rad2);
-  add("PI2", s.pi2);
-  add("final error (rad)", s.final_error_rad);
-  add("largest steady error (rad)", s.steady_error_rad);
-  add("overshoot (rad)", s.overshoot_rad);
-  add("rise time to 90 % (s)", s.rise_time_s);
-  add("settling time to 2 % (s)", s.settling_time_s);
-  add("peak torque (N.m)", s.peak_torque_Nm);
-  add("torque sign changes per s, steady", s.steady_sign_changes_per_s);
+  table.header = {"quantity"};
+  table.header.insert(table.header.end(), names.begin(), names.end());
+  const auto add = [&](const char* name, double LoopStatistics::*value) {
+    table.rows.push_back({name});
+    for (const LoopStatistics& side : sides) table.rows.back().push_back(number(side.*value, 6));
+  };
+  add("PI1 (rad^2)", &LoopStatistics::pi1_rad2);
+  add("PI2", &LoopStatistics::pi2);
+  add("final error (rad)", &LoopStatistics::final_error_rad);
+  add("largest steady error (rad)", &LoopStatistics::steady_error_rad);
+  add("overshoot (rad)", &LoopStatistics::overshoot_rad);
+  add("rise time to 90 % (s)", &LoopStatistics::rise_time_s);
+  add("settling time to 2 % (s)", &LoopStatistics::settling_time_s);
+  add("peak torque (N.m)", &LoopStatistics::peak_torque_Nm);
+  add("torque sign changes per s, steady", &LoopStatistics::steady_sign_changes_per_s);
   return table;
+}
+
+/// Sum |e / r| of the samples with |e| > kCountedError_rad.
+double counted_pi2(const std::vector<TracePoint>& trace) {
+  double sum = 0.0;
+  for (const TracePoint& point : trace) {
+    const double error_rad = point.setpoint_position_rad - point.joint_position_rad;
+    if (std::abs(error_rad) > kCountedError_rad) sum += std::abs(error_rad / point.setpoint_position_rad);
+  }
+  return sum;
+}
+
+/// The limit of the link where there is one, else of the joint. A plant that can do anything has none.
+void print_limit(const ClosedLoopConfig& config, const LoopStatistics& judged, double counted) {
+  if (!std::isfinite(config.plant.motor.peak_torque_Nm)) return;
+  const char* of = config.plant.effects.transmission ? " of the link" : "";
+  try {
+    const PhysicalLimit limit = physical_limit(config);
+    std::cout << "PI2" << of << " over the physical limit of " << number(limit.pi2, 6) << ": "
+              << number(judged.pi2 / limit.pi2, 6) << "\n";
+    if (limit.counted_pi2)
+      std::cout << "counting |e| > " << number(1e6 * kCountedError_rad) << " urad, " << number(counted, 6)
+                << " over " << number(*limit.counted_pi2, 6) << ": "
+                << number(counted / *limit.counted_pi2, 6) << "\n";
+  } catch (const InputError& error) {
+    std::cout << "no physical limit is known of this run: " << error.what() << "\n";
+  }
+}
+
+void print_monitor(const ClosedLoopResult& result) {
+  if (result.fallen_back_s)
+    std::cout << "the joint chattered: the monitor fell back to the plain law at "
+              << number(*result.fallen_back_s) << " s\n";
+  if (result.switched_off_s)
+    std::cout << "it went on: the monitor switched the joint off at " << number(*result.switched_off_s)
+              << " s\n";
 }
 
 void run(const Options& options) {
@@ -59,13 +101,18 @@ void run(const Options& options) {
   const GainTable table = options.table.empty() ? GainTable{} : read_gain_table(options.table);
   const Contender contender = contender_of_kind(options.controller, table);
   const ClosedLoopResult result = run_closed_loop(config, *contender.make(config.plant));
-  TextTable statistics = statistics_table(contender.name, result.statistics);
-  if (std::isfinite(config.plant.motor.peak_torque_Nm)) {
-    const double limit = run_time_optimal(config).statistics.pi2;
-    statistics.rows.push_back({"PI2 of the physical limit", number(limit, 6)});
-    statistics.rows.push_back({"PI2 over the limit", number(result.statistics.pi2 / limit, 6)});
+  const bool flexible = config.plant.effects.transmission.has_value();
+  std::vector<std::string> names = {contender.name};
+  std::vector<LoopStatistics> sides = {result.statistics};
+  const std::vector<TracePoint> link = on_the_link(result.trace);
+  if (flexible) {
+    names = {contender.name + ", motor", contender.name + ", link"};
+    sides.push_back(evaluate(link, config.plant.period_s));
+    if (result.diverged) sides.back().pi1_rad2 = sides.back().pi2 = result.statistics.pi2;
   }
-  std::cout << statistics.markdown();
+  std::cout << statistics_table(names, sides).markdown();
+  print_limit(config, sides.back(), counted_pi2(link));
+  print_monitor(result);
   if (result.diverged) std::cout << "the loop is unstable: the run ended early\n";
   if (options.out.empty()) return;
   write_text_file(options.out, trace_csv(result.trace));

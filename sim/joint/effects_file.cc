@@ -48,13 +48,21 @@ void read_spring(TomlSection section, const Gear* gear, Transmission& transmissi
   section.refuse_unknown_keys();
 }
 
-KinematicError read_kinematic_error(TomlSection section) {
+KinematicError read_kinematic_error(TomlSection section, double gear_ratio) {
   KinematicError error;
   error.amplitude_rad[0] = section.number_or("once_rad", 0.0, {0.0, 0.01});
   error.phase_rad[0] = section.number_or("once_phase_rad", 0.0, kPhase_rad);
   error.amplitude_rad[1] = section.number_or("twice_rad", 0.0, {0.0, 0.01});
   error.phase_rad[1] = section.number_or("twice_phase_rad", 0.0, kPhase_rad);
   section.refuse_unknown_keys();
+  const double steepest = -gear_ratio * error.least_slope();
+  if (steepest >= 1.0)
+    section.fail(
+        error.amplitude_rad[0] >= 2.0 * error.amplitude_rad[1] ? "once_rad" : "twice_rad",
+        "less is allowed: with " + std::to_string(gear_ratio) +
+            " motor turns per joint turn the link would turn back while the motor goes on; once_rad and "
+            "twice_rad below " +
+            std::to_string(1.0 / steepest) + " of what they are do not");
   return error;
 }
 
@@ -79,7 +87,8 @@ void read_transmission(TomlSection& section, bool gear_sets_ratio, JointEffects&
     section.fail("link", "a link needs a gear, or a spring of its own");
   read_spring(section.section_or_empty("spring"), gear, transmission);
   if (section.has("kinematic_error"))
-    transmission.kinematic_error = read_kinematic_error(section.section("kinematic_error"));
+    transmission.kinematic_error =
+        read_kinematic_error(section.section("kinematic_error"), effects.gear_ratio);
   effects.transmission = transmission;
 }
 
@@ -120,7 +129,8 @@ void read_effects(TomlSection& section, bool gear_sets_ratio, JointPlantConfig& 
   gravity.refuse_unknown_keys();
   if (section.has("contact")) {
     TomlSection contact = section.section("contact");
-    effects.contact.position_rad = contact.number("position_rad", {-1e3, 1e3});
+    // The link starts where the motor does, and not inside.
+    effects.contact.position_rad = contact.number("position_rad", {plant.initial_position_rad, 1e3});
     effects.contact.stiffness_Nm_rad = contact.number("stiffness_Nm_rad", kPositive);
     effects.contact.damping_Nms_rad = contact.number_or("damping_Nms_rad", 0.0, kNotNegative);
     contact.refuse_unknown_keys();

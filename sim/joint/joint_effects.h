@@ -2,8 +2,10 @@
 // SI, plain data. Sources: data/gears.csv, docs/flexible-joint.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "control/torsion_spring.h"
@@ -26,6 +28,13 @@ struct KinematicError {
   double slope(double turn_rad) const noexcept {
     return amplitude_rad[0] * std::cos(turn_rad + phase_rad[0]) +
            2.0 * amplitude_rad[1] * std::cos(2.0 * turn_rad + phase_rad[1]);
+  }
+  /// The least slope of a turn, <= 0, to a millionth of itself. With 1 + N slope <= 0 somewhere the gear would turn back.
+  double least_slope() const noexcept {
+    constexpr int kAngles = 4096;
+    double least = 0.0;
+    for (int k = 0; k < kAngles; ++k) least = std::min(least, slope(2.0 * std::numbers::pi * k / kAngles));
+    return least;
   }
 };
 

@@ -39,12 +39,15 @@ void check(const Transmission& gear) {
     require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
 }
 
+// Friction grows with the cold: as cold as this a joint may be run.
+constexpr double kColdest_C = -40.0;
+
 // What the integration of a sub-step bears: its fastest swing turns by at most 1 rad, its fastest decay is at most e^-2.
 void check_substeps(const JointPlantConfig& c) {
   const JointEffects& e = c.effects;
   constexpr double kLargestDecay = 2.0;
   double swing_rad_s = 0.0;
-  double decay_1_s = 0.0;
+  double decay_1_s = c.joint.friction.at(kColdest_C).viscous_Nms_rad / c.joint.inertia_kgm2;
   double link_inertia_kgm2 = c.joint.inertia_kgm2;
   if (e.transmission) {
     link_inertia_kgm2 = e.transmission->link_inertia_kgm2;
@@ -52,8 +55,8 @@ void check_substeps(const JointPlantConfig& c) {
     const double stiffest =
         std::max({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
     swing_rad_s = free_free_frequency_rad_s(c.joint.inertia_kgm2, link_inertia_kgm2, stiffest);
-    decay_1_s = e.transmission->damping_Nms_rad * (1.0 / c.joint.inertia_kgm2 + 1.0 / link_inertia_kgm2) +
-                e.transmission->link_viscous_Nms_rad / link_inertia_kgm2;
+    decay_1_s += e.transmission->damping_Nms_rad * (1.0 / c.joint.inertia_kgm2 + 1.0 / link_inertia_kgm2) +
+                 e.transmission->link_viscous_Nms_rad / link_inertia_kgm2;
   }
   swing_rad_s = std::hypot(swing_rad_s, std::sqrt(e.contact.stiffness_Nm_rad / link_inertia_kgm2));
   decay_1_s += e.contact.damping_Nms_rad / link_inertia_kgm2;
@@ -63,7 +66,7 @@ void check_substeps(const JointPlantConfig& c) {
         "simulated joint", "substeps", std::to_string(c.substeps),
         "at least " + std::to_string(static_cast<long long>(std::min(needed, 1e18))) +
             " are needed for this joint's fastest swing and decay; or take a softer spring or contact, "
-            "less damping, or more inertia");
+            "less damping or viscous friction (counted at -40 degC), or more inertia");
 }
 
 void check(const JointEffects& e) {

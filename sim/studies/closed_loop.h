@@ -76,6 +76,8 @@ struct ClosedLoopResult {
   LoopStatistics statistics;
   std::vector<TracePoint> trace;                   ///< every sample
   MonitorState monitor = MonitorState::kWatching;  ///< of the controller, at the end
+  std::optional<double> fallen_back_s;             ///< when the monitor took over
+  std::optional<double> switched_off_s;            ///< when it gave up
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 

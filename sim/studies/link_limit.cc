@@ -15,7 +15,8 @@ namespace strainwave {
 namespace {
 
 constexpr int kStates = 4;  // motor position and velocity, link position and velocity
-constexpr int kLongestMotion = 20000;
+// Solving takes the square of it and more: half a minute for 400 periods with its settling time.
+constexpr int kLongestMotion = 700;
 using Matrix = Eigen::Matrix<double, kStates + 2, kStates + 2>;
 
 /// exp(A): Taylor series of a scaled matrix, squared back.
@@ -41,7 +42,8 @@ Matrix sampled(const LinkLimitConfig& c, double direction) {
   a(1, 4) = 1.0;
   a(1, 5) = -c.friction.coulomb_Nm;
   a.row(1) /= c.motor_inertia_kgm2;
-  a.block<1, 4>(3, 0) << c.stiffness_Nm_rad, c.damping_Nms_rad, -c.stiffness_Nm_rad, -c.damping_Nms_rad;
+  a.block<1, 4>(3, 0) << c.stiffness_Nm_rad, c.damping_Nms_rad, -c.stiffness_Nm_rad,
+      -c.damping_Nms_rad - c.link_viscous_Nms_rad;
   a(3, 5) = -direction * c.load_torque_Nm;
   a.row(3) /= c.link_inertia_kgm2;
   return exponential(a * c.period_s);
@@ -138,6 +140,15 @@ class Programme {
   std::vector<int> torques_, links_;
 };
 
+/// The speed at which what the motor can do is all spent on friction, the supply and the load; infinite where nothing grows with it.
+double top_speed_rad_s(const LinkLimitConfig& c) {
+  const double viscous_Nms_rad = c.friction.viscous_Nms_rad + c.link_viscous_Nms_rad;
+  const double steady_Nm = c.friction.coulomb_Nm + std::abs(c.load_torque_Nm);
+  return std::min(
+      (c.motor.peak_torque_Nm - steady_Nm) / viscous_Nms_rad,
+      (c.motor.stall_torque_Nm - steady_Nm) / (c.motor.torque_per_speed_Nms_rad + viscous_Nms_rad));
+}
+
 void require_motion(const LinkLimitConfig& c) {
   if (!std::isfinite(c.motor.peak_torque_Nm))
     throw InputError("flexible limit", "peak_torque_Nm", "infinite",
@@ -147,6 +158,12 @@ void require_motion(const LinkLimitConfig& c) {
                      "must exceed static friction and load, or the joint cannot move");
   if (!(std::isfinite(c.step_rad) && c.step_rad != 0.0))
     throw InputError("flexible limit", "step_rad", std::to_string(c.step_rad), "must be finite and not 0");
+  const double farthest_rad = top_speed_rad_s(c) * kLongestMotion * c.period_s;
+  if (std::abs(c.step_rad) > farthest_rad)
+    throw InputError("flexible limit", "step_rad", std::to_string(c.step_rad),
+                     "must be below " + std::to_string(farthest_rad) +
+                         ", which the joint's top speed covers in the " + std::to_string(kLongestMotion) +
+                         " periods that are solved for");
 }
 
 /// Periods that a motion surely takes at most: bang-bang of the total inertia at what friction leaves, one swing of the spring
@@ -158,7 +175,9 @@ int first_guess(const LinkLimitConfig& c) {
   const double swing_s =
       2.0 * std::numbers::pi /
       free_free_frequency_rad_s(c.motor_inertia_kgm2, c.link_inertia_kgm2, c.stiffness_Nm_rad);
-  const double duration_s = 2.0 * std::sqrt(std::abs(c.step_rad) / acceleration) + swing_s;
+  const double duration_s = std::max(2.0 * std::sqrt(std::abs(c.step_rad) / acceleration),
+                                     std::abs(c.step_rad) / top_speed_rad_s(c)) +
+                            swing_s;
   return 5 + static_cast<int>(std::ceil(duration_s / c.period_s));
 }
 
@@ -176,6 +195,7 @@ LinkLimitConfig link_limit_config(const JointPlantConfig& plant, double temperat
                                 (gear.link_inertia_kgm2 + plant.joint.inertia_kgm2);
   if (std::isfinite(transmitted_Nm)) config.stiffness_Nm_rad = gear.spring.secant_Nm_rad(transmitted_Nm);
   config.damping_Nms_rad = gear.damping_Nms_rad;
+  config.link_viscous_Nms_rad = gear.link_viscous_Nms_rad;
   config.friction = plant.joint.friction.at(temperature_C);
   config.motor = plant.motor;
   config.load_torque_Nm = load_torque_Nm;
@@ -188,10 +208,12 @@ LinkLimitConfig link_limit_config(const JointPlantConfig& plant, double temperat
 
 LinkLimit find_link_limit(const LinkLimitConfig& config) {
   require_motion(config);
-  for (int periods = first_guess(config); periods <= kLongestMotion; periods = periods * 3 / 2 + 1) {
+  for (int periods = std::min(first_guess(config), kLongestMotion);;
+       periods = std::min(periods * 3 / 2 + 1, kLongestMotion)) {
     const Programme programme(config, periods);
     const LinearProgram::Solution solution = programme.solve();
-    if (!solution.optimal) continue;
+    if (!solution.optimal && periods < kLongestMotion) continue;
+    if (!solution.optimal) break;
     LinkLimit limit;
     limit.link_position_rad.assign(static_cast<std::size_t>(config.delay_periods) + 1, 0.0);
     limit.torque_Nm.assign(static_cast<std::size_t>(config.delay_periods), 0.0);
@@ -209,8 +231,8 @@ LinkLimit find_link_limit(const LinkLimitConfig& config) {
     }
     return limit;
   }
-  throw InputError("flexible limit: no motion of " + std::to_string(kLongestMotion) +
-                   " periods reaches the setpoint");
+  throw InputError("flexible limit", "step_rad", std::to_string(config.step_rad),
+                   "must be less: no motion of " + std::to_string(kLongestMotion) + " periods reaches it");
 }
 
 double least_settling_time_s(const LinkLimitConfig& config, double band_rad) {

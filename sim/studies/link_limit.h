@@ -19,6 +19,7 @@ struct LinkLimitConfig {
   double link_inertia_kgm2 = 0.0;
   double stiffness_Nm_rad = 0.0;
   double damping_Nms_rad = 0.0;
+  double link_viscous_Nms_rad = 0.0;
   FrictionParameters friction;  ///< of the motor, at the temperature of the motion
   MotorLimits motor;            ///< a finite peak
   double load_torque_Nm = 0.0;  ///< at the link, opposes positive torque
@@ -42,7 +43,7 @@ struct LinkLimit {
 /// Errors below this are two counts of the reference encoder: what a joint at rest may show.
 inline constexpr double kCountedError_rad = 40e-6;
 
-/// Throws InputError when the torque cannot move the joint.
+/// Throws InputError when the torque cannot move the joint, and for a step that takes more periods than are solved for (700).
 LinkLimit find_link_limit(const LinkLimitConfig& config);
 
 /// The least time in s after which the link stays within `band_rad` > 0 of its setpoint, to a period.

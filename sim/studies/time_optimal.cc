@@ -49,8 +49,8 @@ class Move {
     }
   }
 
-  /// The switching instant that ends on the setpoint.
-  double switching_time_s() const {
+  /// The switching instant that ends on the setpoint. A move that is not over within `longest_s` has none: full torque until then.
+  double switching_time_s(double longest_s) const {
     const JointInput start = input(first_, direction_);
     if (!(direction_ * (start.torque_Nm - start.load_torque_Nm) > start.friction.static_Nm))
       throw InputError("time-optimal motion", "peak_torque_Nm",
@@ -61,8 +61,8 @@ class Move {
     };
     double high_s = config_.plant.period_s;
     while (miss_rad(high_s) < 0.0) {
-      high_s *= 2.0;
-      if (high_s > 1e3) throw InputError("time-optimal motion: the setpoint cannot be reached within 1000 s");
+      if (high_s >= longest_s) return longest_s;
+      high_s = std::min(2.0 * high_s, longest_s);
     }
     return find_rising_root(miss_rad, 0.0, high_s, 1e-13 * std::abs(to_rad_ - from_rad_));
   }
@@ -126,8 +126,9 @@ TimeOptimalResult run_time_optimal(const ClosedLoopConfig& config) {
       continue;
     }
     const Move move(config, k, position_rad, setpoint_rad);
-    const Stop stop = move.simulate(move.switching_time_s(), &result.trace);
-    if (k == 0) result.first_arrival_s = stop.duration_s;
+    const double left_s = config.plant.period_s * static_cast<double>(count - k);
+    const Stop stop = move.simulate(move.switching_time_s(left_s), &result.trace);
+    if (k == 0 && stop.duration_s <= left_s) result.first_arrival_s = stop.duration_s;
     if (std::any_of(result.trace.begin() + static_cast<std::ptrdiff_t>(k), result.trace.end(),
                     [&](const TracePoint& point) { return point.setpoint_position_rad != setpoint_rad; }))
       throw InputError(

@@ -13,8 +13,9 @@
 namespace strainwave {
 
 struct TimeOptimalResult {
-  LoopStatistics statistics;      ///< of the samples, as for a controller
-  double first_arrival_s = 0.0;   ///< duration of the first move, from rest to rest
+  LoopStatistics statistics;  ///< of the samples, as for a controller
+  double first_arrival_s =
+      -1.0;  ///< duration of the first move, from rest to rest; -1: it is longer than the run
   std::vector<TracePoint> trace;  ///< every sample
 };
 

@@ -79,6 +79,17 @@ TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
         {"joint.toml:4", "spring.stiffness_1_Nm_rad = -8000"});
   names("[link_encoder]\nfeedback = true", {"link_encoder.counts_per_joint_revolution"});
   names("base = \"flexible\"\n[spring]\nstiffness_3_Nm_rad = 1e8", {"substeps = 10", "at least 48"});
+  names("base = \"flexible\"\n[contact]\nposition_rad = -1\nstiffness_Nm_rad = 100",
+        {"joint.toml:3", "contact.position_rad = -1", "from 0 to"});
+  names("[simulation]\ninitial_position_rad = 2\n[contact]\nposition_rad = 1.5\nstiffness_Nm_rad = 100",
+        {"contact.position_rad = 1.5", "from 2 to"});
+  names("base = \"flexible\"\n[kinematic_error]\nonce_rad = 0.0201", {"once_rad = 0.0201"});
+  names("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.01", {"twice_rad = 0.01", "turn back", "1.0"});
+  EXPECT_EQ(refusal("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.0099"), "accepted");
+  EXPECT_EQ(refusal("base = \"flexible\"\n[kinematic_error]\nonce_rad = 0.0099\ntwice_rad = 0.0066"),
+            "accepted")
+      << "the steepest of one is not that of the other";
+  names("[friction]\nasymptote_viscous_Nms_rad = 2500", {"substeps = 10", "at least 15", "viscous"});
   EXPECT_NE(refusal("[simulation]\nsubsteps = 2.5").find("substeps"), std::string::npos);
   EXPECT_NE(refusal("[joint\n").find("joint.toml:1:"), std::string::npos);
 }

@@ -59,6 +59,20 @@ TEST(TimeOptimal, FollowsEveryStepOfTheStaircaseDownwardsToo) {
   EXPECT_NEAR(run_time_optimal(config).statistics.pi2, upwards, 1e-9 * upwards);
 }
 
+TEST(TimeOptimal, PushesAsLongAsTheRunLastsWhereTheSetpointIsTooFar) {
+  ClosedLoopConfig config;
+  config.plant = torque_limited_plant();
+  config.plant.joint.friction.asymptote.viscous_Nms_rad = 1000.0;
+  config.ambient = TemperatureProfile::constant(20.0);
+  config.setpoint_rad = TimeProfile::constant(1.0, {"setpoint_position_rad"});
+  config.duration_s = 0.5;
+  const TimeOptimalResult result = run_time_optimal(config);
+  EXPECT_LT(result.first_arrival_s, 0.0) << "it has not arrived";
+  ASSERT_EQ(result.trace.size(), 500U);
+  EXPECT_GT(result.statistics.final_error_rad, 0.9);
+  for (const TracePoint& point : result.trace) EXPECT_EQ(point.applied_torque_Nm, kReferencePeakTorque_Nm);
+}
+
 TEST(TimeOptimal, RefusesWhatHasNoAnswer) {
   EXPECT_THROW(run_time_optimal(scenario_config(Scenario::kRamp, 0, ideal_plant())), InputError);
   ClosedLoopConfig weak = scenario_config(Scenario::kRamp, 0, torque_limited_plant());
