@@ -9,6 +9,7 @@
 #include "sim/studies/flexible_figures.h"
 #include "sim/studies/flexible_report.h"
 #include "sim/studies/html_page.h"
+#include "sim/studies/peers/planned_peer.h"
 
 namespace strainwave {
 
@@ -18,6 +19,7 @@ struct Options {
   std::string tables;
   std::string out = "flexible";
   bool full = false;
+  bool peers = false;
   int joints = 1000;
   std::uint64_t seed = 1;
 };
@@ -32,20 +34,36 @@ std::vector<FlexibleRow> run_part(const std::string& name, const std::vector<Fle
   return rows;
 }
 
-std::size_t number_of_the_daemon(const std::vector<Contender>& contenders) {
+std::size_t number_of(const std::string& name, const std::vector<Contender>& contenders) {
   const auto found = std::find_if(contenders.begin(), contenders.end(),
-                                  [](const Contender& contender) { return contender.name == "daemon"; });
+                                  [&](const Contender& contender) { return contender.name == name; });
   return static_cast<std::size_t>(found - contenders.begin());
+}
+
+/// The daemon's controller told of its spring beside what a user would take instead, on the grid alone.
+void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
+  std::vector<Contender> contenders = flexible_contenders(gains, false);
+  const std::size_t told = number_of("daemon told of its spring", contenders);
+  contenders = {contenders[told]};
+  for (Contender& peer : peer_contenders()) contenders.push_back(std::move(peer));
+  const auto grid = run_part("grid", flexible_grid(), contenders);
+  std::filesystem::create_directories(out);
+  write_text_file(out / "peers.csv", price_cells(grid, contenders, 0).csv());
+  for (const TextTable& table :
+       {flexible_summary("The grid", grid, contenders), price_table(grid, contenders, 0)})
+    std::cout << table.markdown() << '\n';
+  std::cout << "written to " << out.string() << "\n";
 }
 
 void run(const Options& options) {
   const std::filesystem::path directory =
       options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
   const FlexibleTables gains = read_flexible_tables(directory);
+  if (options.peers) return run_peers(gains, options.out);
   const std::vector<Contender> contenders = flexible_contenders(gains, options.full);
   std::vector<Contender> first_contenders = contenders;
   first_contenders.push_back(unwatched_contender(gains));
-  const std::size_t daemon = number_of_the_daemon(contenders);
+  const std::size_t daemon = number_of("daemon", contenders);
   const std::filesystem::path out = options.out;
   std::filesystem::create_directories(out);
   const auto begin = std::chrono::steady_clock::now();
@@ -92,6 +110,9 @@ void add_flexible_command(CLI::App& program) {
                       "folder with total-*/c1.json .. c4.json (default: the installed tables)");
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->add_flag("--full", options->full, "every contender, each further effect, and joints at random");
+  command->add_flag(
+      "--peers", options->peers,
+      "the daemon told of its spring against cascade and disturbance observer, on the grid alone");
   command->add_option("--joints", options->joints, "number of random joints, with --full")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

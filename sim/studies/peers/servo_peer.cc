@@ -9,7 +9,7 @@ ServoJoint servo_joint(const JointPlantConfig& plant) {
   ServoJoint joint;
   joint.period_s = plant.period_s;
   joint.delay_periods = plant.delay.periods;
-  joint.inertia_kgm2 = plant.joint.inertia_kgm2;
+  joint.motor_inertia_kgm2 = joint.inertia_kgm2 = plant.joint.inertia_kgm2;
   joint.torque_limit_Nm = plant.motor.peak_torque_Nm;
   joint.resonance_rad_s = std::numeric_limits<double>::infinity();
   if (!plant.effects.transmission) return joint;
@@ -21,7 +21,8 @@ ServoJoint servo_joint(const JointPlantConfig& plant) {
 }
 
 double velocity_bandwidth_rad_s(const ServoJoint& joint) noexcept {
-  return std::min(0.5 / joint.small_times_s(), 0.5 * joint.resonance_rad_s);
+  const double motor_alone_rad_s = joint.motor_inertia_kgm2 / joint.inertia_kgm2 / joint.small_times_s();
+  return std::min({0.5 / joint.small_times_s(), 0.5 * joint.resonance_rad_s, motor_alone_rad_s});
 }
 
 }  // namespace strainwave

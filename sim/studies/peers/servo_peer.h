@@ -14,6 +14,7 @@ namespace strainwave {
 struct ServoJoint {
   double period_s = 0.001;
   double delay_periods = 0.0;
+  double motor_inertia_kgm2 = 0.0;
   double inertia_kgm2 = 0.0;     ///< motor and link together
   double torque_limit_Nm = 0.0;  ///< > 0
   double resonance_rad_s = 0.0;  ///< of motor and link against each other; infinite of a rigid joint
@@ -25,7 +26,8 @@ ServoJoint servo_joint(const JointPlantConfig& plant);
 
 /// Rad/s at which the velocity loop of a drive on this joint crosses unity gain: that of the symmetrical optimum,
 ///   1 / (2 T),  T: the loop's small times
-/// and no more than half of the resonance, beyond which the motor no longer carries its load. Sources: Schroeder (2009), by the
+/// and no more than half of the resonance, beyond which the motor no longer carries its load. There the gain, made for both, acts on the
+/// motor alone and crosses unity again, J / Jm farther up: by 1 / T at most, for a margin. Sources: Schroeder (2009), by the
 /// user's guide of Modelica's DriveControl ("Speed controller": Ti = 4 T, Kp = J / (2 T)); Beckhoff's AX5000 manual ("Adjustment
 /// procedure": a factor of 2 to 3 below the resonance).
 double velocity_bandwidth_rad_s(const ServoJoint& joint) noexcept;

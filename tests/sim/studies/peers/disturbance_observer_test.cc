@@ -39,6 +39,8 @@ TEST(ServoPeer, IsAsFastAsDelayAndResonanceLetIt) {
   EXPECT_DOUBLE_EQ(velocity_bandwidth_rad_s(joint), 250.0) << "a rigid joint: the delay alone";
   joint.resonance_rad_s = 100.0;
   EXPECT_DOUBLE_EQ(velocity_bandwidth_rad_s(joint), 50.0);
+  joint.motor_inertia_kgm2 = 0.05 * joint.inertia_kgm2;
+  EXPECT_DOUBLE_EQ(velocity_bandwidth_rad_s(joint), 25.0) << "a motor of a twentieth of the inertia";
 }
 
 // Without its observer a proportional-derivative controller would hang by load / gain, here 4.6 mrad, and friction.

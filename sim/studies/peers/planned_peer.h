@@ -1,0 +1,36 @@
+// One of the peers on setpoints: a drive plans its motion there itself, a trapezoid of velocity, smoothed by a mean over one period of
+// the resonance, which then does not swing (Singer and Seering 1990). torque_Nm() is real-time safe. Joint side, SI.
+//
+//   acceleration  0.6 of the peak torque over the inertia: the rest is friction's and the feedback's
+//   velocity      where the supply leaves 0.85 of the peak torque
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "control/moving_mean.h"
+#include "sim/studies/contenders.h"
+#include "sim/studies/peers/servo_peer.h"
+
+namespace strainwave {
+
+class PlannedPeer final : public LoopController {
+ public:
+  PlannedPeer(std::unique_ptr<ServoPeer> peer, const JointPlantConfig& plant);
+  double torque_Nm(const LoopSample& sample) noexcept override;
+  void reset() noexcept override { started_ = false; }
+
+ private:
+  std::unique_ptr<ServoPeer> peer_;
+  double period_s_;
+  ReferenceShaper shaper_;
+  MovingMean mean_;
+  double last_rad_ = 0.0;         ///< the plan's position at the last sample ...
+  double before_last_rad_ = 0.0;  ///< ... and at the one before
+  bool started_ = false;
+};
+
+/// What a user would take instead: "cascade", "cascade with feed-forward", "disturbance observer". Each on a plant with a torque limit.
+std::vector<Contender> peer_contenders();
+
+}  // namespace strainwave
