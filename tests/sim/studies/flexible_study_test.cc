@@ -144,19 +144,89 @@ int page_number(const std::string& name, int column) {
   throw std::invalid_argument(name);
 }
 
-TEST(FlexibleStudy, FallsBackAndSwitchesOffInAsManyCellsOfTheGridAsThePageSays) {
+/// What no ratio to the limit tells, of one contender on the whole grid.
+struct GridBehaviour {
+  int fallen_back = 0, switched_off = 0;
+  int still_moving = 0;  ///< cells whose link moves by more than kOscillation_rad over the last quarter
+  std::map<double, double> overshoot_mrad;  ///< the largest, by step
+};
+
+GridBehaviour behaviour_on_the_grid(const Contender& judged) {
   const std::vector<FlexibleCell> grid = flexible_grid();
-  for (const char* name : {"daemon", "daemon told of its spring"}) {
-    std::vector<MonitorState> states(grid.size());
-    const Contender& judged = contender(name);
-    run_in_parallel(grid.size(), [&](std::size_t i) { states[i] = run_cell(grid[i], judged).monitor; });
-    const auto cells = [&](MonitorState state) {
-      return static_cast<int>(std::count(states.begin(), states.end(), state));
-    };
-    // Which side of a limit a cell falls on may differ between compilers.
-    EXPECT_NEAR(cells(MonitorState::kFallenBack), page_number(name, 4), 3) << name;
-    EXPECT_NEAR(cells(MonitorState::kFaultDue), page_number(name, 5), 1) << name;
+  struct Cell {
+    MonitorState monitor = MonitorState::kWatching;
+    double swing_rad = 0.0, overshoot_mrad = 0.0;
+  };
+  std::vector<Cell> cells(grid.size());
+  run_in_parallel(grid.size(), [&](std::size_t i) {
+    const ClosedLoopResult run = run_cell(grid[i], judged);
+    cells[i].monitor = run.monitor;
+    double low = 1e300, high = -1e300;
+    for (const TracePoint& point : run.trace) {
+      cells[i].overshoot_mrad =
+          std::max(cells[i].overshoot_mrad, 1e3 * (point.link_position_rad - grid[i].step_rad));
+      if (point.time_s < 0.75 * grid[i].duration_s) continue;
+      low = std::min(low, point.link_position_rad);
+      high = std::max(high, point.link_position_rad);
+    }
+    cells[i].swing_rad = high - low;
+  });
+  GridBehaviour result;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    result.fallen_back += cells[i].monitor == MonitorState::kFallenBack ? 1 : 0;
+    result.switched_off += cells[i].monitor == MonitorState::kFaultDue ? 1 : 0;
+    result.still_moving += cells[i].swing_rad > kOscillation_rad ? 1 : 0;
+    double& largest = result.overshoot_mrad[grid[i].step_rad];
+    largest = std::max(largest, cells[i].overshoot_mrad);
   }
+  return result;
+}
+
+std::string readme() {
+  std::ifstream file(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "README.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string words = text.str();
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  return words;
+}
+
+/// `count` numbers of README after `words`.
+std::vector<double> readme_numbers(const std::string& words, int count) {
+  const std::string text = readme();
+  const std::size_t found = text.find(words);
+  if (found == std::string::npos) throw std::invalid_argument(words);
+  std::istringstream rest(text.substr(found + words.size()));
+  std::vector<double> numbers(static_cast<std::size_t>(count));
+  for (double& number : numbers) {
+    if (!(rest >> number)) throw std::invalid_argument(words);
+    rest.ignore(1);  // the comma
+  }
+  return numbers;
+}
+
+// Which side of a limit a cell falls on may differ between compilers.
+void expect_behaviour(const std::string& name, const std::string& overshoot_after,
+                      const std::string& moving_after) {
+  const GridBehaviour found = behaviour_on_the_grid(contender(name));
+  EXPECT_NEAR(found.still_moving, readme_numbers(moving_after, 1).front(), 3) << name;
+  if (overshoot_after.empty()) return;
+  EXPECT_NEAR(found.fallen_back, page_number(name, 4), 3) << name;
+  EXPECT_NEAR(found.switched_off, page_number(name, 5), 1) << name;
+  const std::vector<double> said_mrad = readme_numbers(overshoot_after, 4);
+  ASSERT_EQ(found.overshoot_mrad.size(), said_mrad.size());
+  auto said = said_mrad.begin();
+  for (const auto& [step_rad, overshoot_mrad] : found.overshoot_mrad) {
+    EXPECT_NEAR(overshoot_mrad / *said, 1.0, 0.1) << name << ", " << step_rad << " rad";
+    ++said;
+  }
+}
+
+TEST(FlexibleStudy, FindsTheFallbacksOvershootsAndSlowSwingsThatThePagesTellOf) {
+  expect_behaviour("daemon", "largest overshoot of the default's link is ", "an oscillation (default ");
+  expect_behaviour("daemon told of its spring", "at the four steps (told of its spring ",
+                   ", told of its spring ");
+  expect_behaviour("PID", "", "come to rest: in ");
 }
 
 TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
