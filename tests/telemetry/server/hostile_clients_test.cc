@@ -15,6 +15,12 @@
 namespace strainwave::testing {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMemoryIsOurs = false;  // the sanitizer keeps what was freed, and shadows the rest
+#else
+constexpr bool kMemoryIsOurs = true;
+#endif
+
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
@@ -73,7 +79,9 @@ TEST(HostileClient, WhoReadsNothingLosesMessagesAndCostsNoMemory) {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   EXPECT_GE(telemetry.metric("strainwave_telemetry_dropped_messages_total"), 2000.0);
   // Four queues of 2 MiB, and what the allocator keeps between.
-  EXPECT_LT(telemetry.memory_kB() - before_kB, 24 * 1024);
+  if (kMemoryIsOurs) {
+    EXPECT_LT(telemetry.memory_kB() - before_kB, 24 * 1024);
+  }
 }
 
 TEST(HostileClient, SendsHugeFramesAndIsSentAway) {
@@ -84,7 +92,9 @@ TEST(HostileClient, SendsHugeFramesAndIsSentAway) {
     client.send(frame_header(bytes) + std::string(100000, 'x'));
     EXPECT_TRUE(client.is_closed_within(5.0)) << bytes;
   }
-  EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
+  if (kMemoryIsOurs) {
+    EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
+  }
   EXPECT_FALSE(telemetry.metrics().empty());
 }
 
@@ -126,7 +136,9 @@ TEST(HostileClient, AsksWithoutEverReadingTheAnswersAndIsSentAway) {
   int sent = 0;
   while (client.send(questions) && sent < 1000) ++sent;
   EXPECT_LT(sent, 1000) << "a million answers pile up somewhere";
-  EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
+  if (kMemoryIsOurs) {
+    EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
+  }
   EXPECT_FALSE(telemetry.metrics().empty());
 }
 

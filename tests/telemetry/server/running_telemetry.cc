@@ -22,11 +22,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Some bytes; empty: closed, or none for `seconds`.
-std::string read_some(int descriptor, double seconds) {
+std::string read_some(int descriptor, double seconds, std::size_t most = 65536) {
   pollfd ready{descriptor, POLLIN, 0};
   if (::poll(&ready, 1, static_cast<int>(seconds * 1e3)) != 1) return "";
   std::array<char, 65536> bytes{};
-  const ssize_t size = ::read(descriptor, bytes.data(), bytes.size());
+  const ssize_t size = ::read(descriptor, bytes.data(), std::min(most, bytes.size()));
   return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
 }
 
@@ -145,7 +145,14 @@ bool RawClient::become_viewer() const {
       "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: "
       "websocket\r\nSec-WebSocket-Version: 13\r\n"
       "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nSec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n");
-  return read_until("\r\n\r\n").starts_with("HTTP/1.1 101 ");
+  // Byte by byte: what follows the header is the server's first messages.
+  std::string header;
+  while (!header.ends_with("\r\n\r\n")) {
+    const std::string byte = read_some(socket_.get(), 5.0, 1);
+    if (byte.empty()) break;
+    header += byte;
+  }
+  return header.starts_with("HTTP/1.1 101 ");
 }
 
 bool RawClient::send_text(const std::string& text) const {
