@@ -145,7 +145,7 @@ std::vector<TextTable> temperature_tables(const std::vector<TemperatureRow>& row
                                           const std::vector<HundredMoves>& hundred) {
   const auto ways = distinct(rows, &TemperatureRow::way);
   const auto sensors = distinct(rows, &TemperatureRow::sensor);
-  const std::string product = ways.back();
+  const std::string& product = ways.back();
   const auto mean = [&](const std::string& way, double temperature_C) {
     return below_percent(rms_over_none(rows, way, temperature_C));
   };
