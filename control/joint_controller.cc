@@ -60,10 +60,9 @@ LandingConfig landing_config(const JointControllerConfig& config) noexcept {
 LinkMotionConfig link_config(const JointControllerConfig& config) noexcept {
   LinkMotionConfig link;
   link.period_s = config.period_s;
-  link.motor_inertia_kgm2 = config.link->motor_inertia_kgm2;
-  link.link_inertia_kgm2 = config.link->link_inertia_kgm2;
-  link.spring = config.link->spring;
-  link.damping_Nms_rad = config.link->damping_Nms_rad;
+  link.joint = *config.link;
+  link.joint.gravity = config.gravity;
+  link.tolerance_rad = 0.5 * std::max(config.encoder_resolution_rad, kExactRestWindow_rad);
   link.torque_limit_Nm = config.torque_limit_Nm;
   link.delay_periods = config.delay_periods;
   return link;
@@ -83,6 +82,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       motion_(config.motion) {
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
+  assert(config.gravity.torque_Nm == 0.0 || !config.use_observer);
   if (config.link) link_motion_.emplace(link_config(config));
   shaper_.set_limits(config.motion);
   ordered_.set_limits(config.motion);
@@ -107,13 +107,16 @@ void JointController::load(const GainTable& table) noexcept {
   has_table_ = true;
 }
 
-void JointController::start(double position_rad, double velocity_rad_s, double holding_torque_Nm) noexcept {
+void JointController::start(double position_rad, double velocity_rad_s,
+                            std::optional<double> holding_torque_Nm) noexcept {
   motion_ = config_.motion;
   const double fastest = motion_.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
   shaper_.reset(link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad, begin_rad_s);
   ordered_ = shaper_;
-  state_.reset(position_rad, velocity_rad_s, holding_torque_Nm, model_.friction_scale_Nm);
+  const double gravity_Nm = config_.gravity.at(position_rad);
+  state_.reset(position_rad, velocity_rad_s, holding_torque_Nm.value_or(gravity_Nm) - gravity_Nm,
+               model_.friction_scale_Nm);
   rest_detector_.reset();
   primary_.reset();
   fallback_.reset();
@@ -257,7 +260,9 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
 MotionLimits JointController::present_limits(double speed_rad_s) const noexcept {
   const double reserve =
       fallen_back() ? std::max(kFallbackReserve, config_.torque_reserve) : config_.torque_reserve;
-  MotionLimits limits = reachable_limits(motion_, config_.motor, state_.model(), state_.now().disturbance,
+  JointDisturbance disturbance = state_.now().disturbance;
+  disturbance.load_Nm += config_.gravity.at(reference_.position_rad);
+  MotionLimits limits = reachable_limits(motion_, config_.motor, state_.model(), disturbance,
                                          torque_limit_Nm_, reserve, speed_rad_s, config_.period_s);
   if (!linked()) return limits;
   limits.acceleration_rad_s2 *= link_share_;

@@ -21,6 +21,7 @@
 #include "control/joint_model.h"
 #include "control/landing.h"
 #include "control/landing_attempts.h"
+#include "control/link_model.h"
 #include "control/link_motion.h"
 #include "control/motor_limits.h"
 #include "control/reference_shaper.h"
@@ -30,14 +31,6 @@
 #include "control/stream_target.h"
 
 namespace strainwave {
-
-/// The gear's spring between motor and link, where it is told. The encoder is then the motor's, the target the link's.
-struct LinkConfig {
-  double motor_inertia_kgm2 = 0.0;  ///< > 0; with the link's this is the table's inertia
-  double link_inertia_kgm2 = 0.0;   ///< > 0, with the load
-  TorsionSpring spring;
-  double damping_Nms_rad = 0.0;  ///< of the wind-up's speed, >= 0
-};
 
 /// One joint's configuration. Each feature can be switched off;
 /// without any, the plain control law of the table is left.
@@ -65,7 +58,11 @@ struct JointControllerConfig {
   bool use_landing = false;  ///< the last counts by pushes; only with rigid, use_observer and use_rest
   bool use_monitor = true;   ///< without it only to study what it prevents
   /// Motions that do not swing the link; only with use_shaping, without rigid. The observer knows one inertia and is then not used.
-  std::optional<LinkConfig> link;
+  /// The encoder is then the motor's, the target the link's, and both inertias together are the table's. Its gravity is the one below.
+  std::optional<LinkModel> link;
+  /// What gravity makes of link and payload, as far as it is told; only without use_observer, which finds it by itself. Loads
+  /// that are known otherwise come on top.
+  GravityLoad gravity;
 };
 
 /// How the torque comes about.
@@ -100,8 +97,9 @@ class JointController {
 
   /// Begins with nothing remembered, when the drive becomes enabled: comes to rest from `velocity_rad_s` and
   /// holds, at rest `position_rad`. `holding_torque_Nm` is what held the load until now (a joint that a brake
-  /// held: what gravity needs); the first torque at rest continues it.
-  void start(double position_rad, double velocity_rad_s = 0.0, double holding_torque_Nm = 0.0) noexcept;
+  /// held: what gravity needs), by default what gravity needs as far as it is told; the first torque at rest continues it.
+  void start(double position_rad, double velocity_rad_s = 0.0,
+             std::optional<double> holding_torque_Nm = {}) noexcept;
   /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
   /// One setpoint of a stream, which it `begins` or goes on with. Speed as above, and inside `range`. Until set_target(), stop(),
@@ -117,6 +115,14 @@ class JointController {
   void stop() noexcept;
   /// Where the motion ends, as far as the orders say: of a stream its last sample.
   double target_rad() const noexcept { return streamed_ ? sample_position_rad_ : shaper_.target_rad(); }
+
+  /// What the encoder reads once the joint rests at its target: with a link whose weight winds the spring up, not the target itself.
+  double rest_position_rad() const noexcept {
+    return linked() ? link_motion_->motor_rest_rad(shaper_.target_rad()) : shaper_.target_rad();
+  }
+
+  /// What a joint at rest carries, as far as it is known: gravity as it is told, and the load besides.
+  double held_load_Nm() const noexcept;
 
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;

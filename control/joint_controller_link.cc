@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "control/joint_controller.h"
+#include "control/units.h"
 
 namespace strainwave {
 
@@ -27,11 +28,18 @@ void JointController::advance_link(int elapsed_periods) noexcept {
     limit_reference(ordered_, planned_);
     advance_references();
     planned_ = reference_;
-    motor_plan_ = link_motion_->step(planned_);
+    const double speed_rad_s = motor_plan_.acting_velocities_rad_s.back();
+    const double taken_Nm =
+        sign(speed_rad_s) * state_.model().friction_Nm(speed_rad_s) + state_.now().disturbance.load_Nm;
+    const auto available_Nm = [&](double along_rad_s) {
+      return std::min(torque_limit_Nm_, config_.motor.available_Nm(along_rad_s));
+    };
+    motor_plan_ = link_motion_->step(
+        planned_, {-available_Nm(-speed_rad_s) - taken_Nm, available_Nm(speed_rad_s) - taken_Nm}, taken_Nm);
   }
   reference_ = {motor_plan_.position_rad, motor_plan_.velocity_rad_s, motor_plan_.acting_acceleration_rad_s2};
   // A correction begins where the motor stands, and is no order.
-  ordered_reference_ = corrections_ == 0 ? reference_ : Reference{shaper_.target_rad(), 0.0, 0.0};
+  ordered_reference_ = corrections_ == 0 ? reference_ : Reference{rest_position_rad(), 0.0, 0.0};
 }
 
 // A motion to the target begins.
@@ -44,16 +52,16 @@ void JointController::plan_link_motion(double from_rad) noexcept {
 
 // The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
 bool JointController::correct_link(double reading_rad) noexcept {
-  const double distance_rad = std::abs(reading_rad - shaper_.target_rad());
+  const double distance_rad = std::abs(reading_rad - rest_position_rad());
   const double near_rad = kCorrectionCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
   if (state_.still_periods() < kStillPeriods || distance_rad <= near_rad || corrections_ >= kMaxCorrections)
     return false;
   ++corrections_;
   ++replans_;
-  shaper_.restart(reading_rad, 0.0);
-  link_motion_->reset(reading_rad);
+  const double from_rad = link_motion_->reset(reading_rad);
+  shaper_.restart(from_rad, 0.0);
   planned_ = {};
-  plan_link_motion(reading_rad);
+  plan_link_motion(from_rad);
   state_.count_still_anew();
   return true;
 }

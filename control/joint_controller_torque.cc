@@ -62,7 +62,7 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   if (linked() && correct_link(measurement.joint_position_rad)) return enter(MotionPhase::kTracking);
   if (!may_land()) {
     attempts_.wait();
-    const double distance_rad = measurement.joint_position_rad - shaper_.target_rad();
+    const double distance_rad = measurement.joint_position_rad - rest_position_rad();
     const bool resting = rest_detector_.update(distance_rad, state_.now().velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
@@ -86,7 +86,7 @@ void JointController::enter(MotionPhase phase) noexcept {
     attempts_.begin();
   }
   plans_ = 0;
-  hold_torque_Nm_ = state_.now().disturbance.load_Nm + active().integral_torque_Nm();
+  hold_torque_Nm_ = held_load_Nm() + active().integral_torque_Nm();
   phase_ = phase;
 }
 
@@ -110,18 +110,23 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
   return apply(torque_Nm);
 }
 
+double JointController::held_load_Nm() const noexcept {
+  return state_.now().disturbance.load_Nm + config_.gravity.at(state_.now().position_rad);
+}
+
 // Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
 double JointController::planned_torque_Nm() const noexcept {
   if (linked()) {
-    const double speed = motor_plan_.acting_velocity_rad_s;
-    return motor_plan_.inertia_torque_Nm + sign(speed) * state_.model().friction_Nm(speed) +
-           state_.now().disturbance.load_Nm;
+    const auto [begin, middle, end] = motor_plan_.acting_velocities_rad_s;
+    const double friction_Nm = 0.5 * (state_.model().friction_along_Nm(begin, middle) +
+                                      state_.model().friction_along_Nm(middle, end));
+    return motor_plan_.torque_Nm + friction_Nm + state_.now().disturbance.load_Nm;
   }
   const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
   const double friction_Nm =
       std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
   return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
-         state_.now().disturbance.load_Nm;
+         state_.now().disturbance.load_Nm + config_.gravity.at(reference_.position_rad);
 }
 
 ControllerOutput JointController::track() noexcept {
@@ -140,7 +145,7 @@ ControllerOutput JointController::track() noexcept {
                       std::abs(state_.then().position_rad - reference_.position_rad) <= near_rad;
   input.planned = moves || fallen_back() || hunted || linked();
   // At rest a landing holds the load of a rigid joint.
-  const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : state_.now().disturbance.load_Nm;
+  const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : held_load_Nm();
   input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
   if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
   input.torque_limit_Nm = torque_limit_Nm_;
@@ -167,8 +172,8 @@ void JointController::hand_over(ControllerOutput& output) noexcept {
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
   if (!config_.use_monitor) return;
   const bool moves = torque_is_planned();
-  const double needed_Nm = config_.motor.limit_Nm(
-      moves ? planned_torque_Nm() : state_.now().disturbance.load_Nm, state_.then().velocity_rad_s);
+  const double needed_Nm =
+      config_.motor.limit_Nm(moves ? planned_torque_Nm() : held_load_Nm(), state_.then().velocity_rad_s);
   ChatterSample sample;
   sample.torque_Nm = output.torque_Nm;
   sample.planned_torque_Nm = std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);

@@ -40,6 +40,9 @@ struct JointModel {
 
   /// F(|w|) > 0, and Fs for w -> 0.
   double friction_Nm(double velocity_rad_s) const noexcept;
+  /// Mean torque against friction over a time in which the velocity changes evenly from `begin_rad_s` to `end_rad_s`: of its sign
+  /// where it goes on, and of either for as long as it lasts where the joint turns round. 0 at rest.
+  double friction_along_Nm(double begin_rad_s, double end_rad_s) const noexcept;
   /// Constant torque over `period_s`, from `velocity_rad_s`. A joint that stops within the period stays at
   /// rest for what is left of it, or breaks away if the torque is large enough.
   ModelMotion advance(double torque_Nm, const JointDisturbance& disturbance, double velocity_rad_s,

@@ -11,13 +11,18 @@ namespace {
 
 // Two means of one period at least: else the acceleration steps.
 constexpr int kLeastSpread = 2;
+// The model has lost the motion where it is farther off than this share of the wind-up that the torque limit makes; it then gives way
+// by this share a period.
+constexpr double kLostShare = 0.25;
+constexpr double kYield = 0.1;
 
 // sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits.
 double spread_periods(const LinkMotionConfig& c) noexcept {
+  const LinkModel& joint = c.joint;
   const double transmitted_Nm =
-      c.torque_limit_Nm * c.link_inertia_kgm2 / (c.motor_inertia_kgm2 + c.link_inertia_kgm2);
-  const double stiffness = c.spring.secant_Nm_rad(0.5 * transmitted_Nm);
-  const double squared = stiffness * (1.0 / c.motor_inertia_kgm2 + 1.0 / c.link_inertia_kgm2);
+      c.torque_limit_Nm * joint.link_inertia_kgm2 / (joint.motor_inertia_kgm2 + joint.link_inertia_kgm2);
+  const double stiffness = joint.spring.secant_Nm_rad(0.5 * transmitted_Nm);
+  const double squared = stiffness * (1.0 / joint.motor_inertia_kgm2 + 1.0 / joint.link_inertia_kgm2);
   return std::sqrt(8.0 / squared) / c.period_s;
 }
 
@@ -58,15 +63,20 @@ bool LinkMotion::possible(const LinkMotionConfig& config) noexcept {
 
 LinkMotion::LinkMotion(const LinkMotionConfig& config) noexcept
     : config_(config),
-      wind_up_(config.spring),
+      wind_up_(config.joint.spring),
+      gains_(config.joint.regulate(config.torque_limit_Nm, config.period_s)),
       spread_periods_(whole_spread(config)),
       first_(spread_periods_ / 2, config.period_s),
-      second_(spread_periods_ - spread_periods_ / 2, config.period_s) {
+      second_(spread_periods_ - spread_periods_ / 2, config.period_s),
+      lost_rad_(kLostShare * config.joint.spring.angle_rad(config.torque_limit_Nm)) {
   assert(config.delay_periods >= 0 && config.delay_periods <= kMaxLinkDelay);
   reset(0.0);
 }
 
-double LinkMotion::reset(double position_rad, double velocity_rad_s) noexcept {
+double LinkMotion::reset(double motor_position_rad, double velocity_rad_s) noexcept {
+  // Gravity hardly changes over the wind-up that it makes: each round leaves a thousandth of the last one's error.
+  double position_rad = motor_position_rad;
+  for (int round = 0; round < 3; ++round) position_rad -= motor_rest_rad(position_rad) - motor_position_rad;
   const double between_rad = position_rad + second_.lag_s() * velocity_rad_s;
   const double planned_rad = between_rad + first_.lag_s() * velocity_rad_s;
   first_.reset(planned_rad, velocity_rad_s);
@@ -76,45 +86,105 @@ double LinkMotion::reset(double position_rad, double velocity_rad_s) noexcept {
     const double ago_s = static_cast<double>(i + 1) * config_.period_s;
     states_[i] = flat({position_rad - ago_s * velocity_rad_s, velocity_rad_s, 0.0, 0.0});
   }
-  next_ = flat({position_rad, velocity_rad_s, 0.0, 0.0});
+  wanted_ = flat({position_rad, velocity_rad_s, 0.0, 0.0});
+  next_ = wanted_;
   rest_periods_ = velocity_rad_s == 0.0 ? config_.delay_periods + 1 : 0;
   return planned_rad;
 }
 
-LinkMotion::State LinkMotion::flat(const MotionPoint& link) const noexcept {
-  const double transmitted_Nm = config_.link_inertia_kgm2 * link.acceleration_rad_s2;
-  const double speed_rad_s =
-      config_.link_inertia_kgm2 * link.jerk_rad_s3 * wind_up_.compliance_rad_Nm(transmitted_Nm);
-  const double wind_up_rad = wind_up_.angle_rad(transmitted_Nm - config_.damping_Nms_rad * speed_rad_s);
-  return {link.position_rad, link.velocity_rad_s, link.position_rad + wind_up_rad,
+LinkState LinkMotion::flat(const MotionPoint& link) const noexcept {
+  const LinkModel& joint = config_.joint;
+  const double held_Nm = joint.gravity.at(link.position_rad);
+  const double transmitted_Nm = joint.link_inertia_kgm2 * link.acceleration_rad_s2 + held_Nm;
+  const double rate_Nm_s = joint.link_inertia_kgm2 * link.jerk_rad_s3 +
+                           joint.gravity.slope_at(link.position_rad) * link.velocity_rad_s;
+  const double speed_rad_s = rate_Nm_s * wind_up_.compliance_rad_Nm(transmitted_Nm);
+  // The smooth wind-up is for what moves; what is held is the spring's own.
+  const double angle_rad = wind_up_.angle_rad(transmitted_Nm - joint.damping_Nms_rad * speed_rad_s) +
+                           joint.spring.angle_rad(held_Nm) - wind_up_.angle_rad(held_Nm);
+  return {link.position_rad, link.velocity_rad_s, link.position_rad + angle_rad,
           link.velocity_rad_s + speed_rad_s};
 }
 
-// The planned motion's end of the period that begins now is known, and with it the joint's.
-MotorPlan LinkMotion::step(const Reference& planned) noexcept {
+// The model's period, in which the motion wants `wanted_Nm`.
+void LinkMotion::follow(double wanted_Nm, const TorqueRange& possible, double taken_Nm) noexcept {
+  const double asked_Nm =
+      std::clamp(wanted_Nm, -config_.torque_limit_Nm - taken_Nm, config_.torque_limit_Nm - taken_Nm);
+  const double back_Nm = regulated_torque_Nm(gains_, wanted_, states_.front());
+  torque_Nm_ = std::clamp(wanted_Nm + back_Nm, std::min(possible.min_Nm, asked_Nm),
+                          std::max(possible.max_Nm, asked_Nm));
+  exhausted_ = torque_Nm_ != wanted_Nm + back_Nm;
+  const LinkModel::Period period = config_.joint.advance(states_.front(), torque_Nm_, config_.period_s);
+  next_ = period.end;
+  middle_velocity_rad_s_ = period.middle_velocity_rad_s;
+}
+
+// A regulator that has no torque left can swing a spring up for ever. What the torque cannot do is given up: the model gives way to the
+// motion, where it has lost it and wherever nothing but the regulator asks for torque.
+void LinkMotion::yield(bool ended) noexcept {
+  const LinkState off{wanted_.link_position_rad - next_.link_position_rad,
+                      wanted_.link_velocity_rad_s - next_.link_velocity_rad_s,
+                      wanted_.motor_position_rad - next_.motor_position_rad,
+                      wanted_.motor_velocity_rad_s - next_.motor_velocity_rad_s};
+  const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
+  if (!exhausted_ || (!ended && farthest_rad < lost_rad_)) return;
+  next_.link_position_rad += kYield * off.link_position_rad;
+  next_.link_velocity_rad_s += kYield * off.link_velocity_rad_s;
+  next_.motor_position_rad += kYield * off.motor_position_rad;
+  next_.motor_velocity_rad_s += kYield * off.motor_velocity_rad_s;
+}
+
+// The motion has ended: once the model is where that was, it stands still.
+void LinkMotion::settle() noexcept {
+  const double slow_rad_s = 0.5 * config_.tolerance_rad / config_.period_s;
+  const bool there =
+      std::abs(next_.link_position_rad - wanted_.link_position_rad) < config_.tolerance_rad &&
+      std::abs(next_.motor_position_rad - wanted_.motor_position_rad) < config_.tolerance_rad &&
+      std::abs(next_.link_velocity_rad_s) < slow_rad_s && std::abs(next_.motor_velocity_rad_s) < slow_rad_s;
+  if (there) next_ = wanted_;
+}
+
+MotorPlan LinkMotion::plan() noexcept {
   const double h = config_.period_s;
+  const LinkState& begin = states_.front();
+  const auto delay = static_cast<std::size_t>(config_.delay_periods);
+  MotorPlan plan;
+  plan.position_rad = states_[delay].motor_position_rad;
+  plan.velocity_rad_s = (plan.position_rad - states_[delay + 1].motor_position_rad) / h;
+  plan.link_position_rad = states_[delay].link_position_rad;
+  plan.torque_Nm = torque_Nm_;
+  plan.acting_velocities_rad_s = {begin.motor_velocity_rad_s, middle_velocity_rad_s_,
+                                  next_.motor_velocity_rad_s};
+  plan.acting_acceleration_rad_s2 = (next_.motor_velocity_rad_s - begin.motor_velocity_rad_s) / h;
+  const bool rests = begin.motor_velocity_rad_s == 0.0 && next_.motor_velocity_rad_s == 0.0 &&
+                     next_.motor_position_rad == begin.motor_position_rad;
+  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxLinkDelay + 1) : 0;
+  return plan;
+}
+
+// The planned motion's end of the period that begins now is known, and with it the joint's.
+MotorPlan LinkMotion::step(const Reference& planned, const TorqueRange& possible, double taken_Nm) noexcept {
+  const double h = config_.period_s;
+  const LinkModel& joint = config_.joint;
   const MotionPoint end{
       planned.position_rad + h * (planned.velocity_rad_s + 0.5 * h * planned.acceleration_rad_s2),
       planned.velocity_rad_s + h * planned.acceleration_rad_s2, planned.acceleration_rad_s2, 0.0};
   std::copy_backward(states_.begin(), states_.end() - 1, states_.end());
   states_.front() = next_;
-  next_ = flat(second_.step(first_.step(end)));
-  const State& begin = states_.front();
-
-  MotorPlan plan;
-  const auto delay = static_cast<std::size_t>(config_.delay_periods);
-  plan.position_rad = states_[delay].motor_position_rad;
-  plan.velocity_rad_s = (plan.position_rad - states_[delay + 1].motor_position_rad) / h;
-  plan.link_position_rad = states_[delay].link_position_rad;
-  plan.acting_acceleration_rad_s2 = (next_.motor_velocity_rad_s - begin.motor_velocity_rad_s) / h;
-  plan.acting_velocity_rad_s = 0.5 * (next_.motor_velocity_rad_s + begin.motor_velocity_rad_s);
-  plan.inertia_torque_Nm =
-      config_.motor_inertia_kgm2 * plan.acting_acceleration_rad_s2 +
-      config_.link_inertia_kgm2 * (next_.link_velocity_rad_s - begin.link_velocity_rad_s) / h;
-  const bool rests = plan.acting_velocity_rad_s == 0.0 && plan.acting_acceleration_rad_s2 == 0.0 &&
-                     next_.motor_position_rad == begin.motor_position_rad;
-  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxLinkDelay + 1) : 0;
-  return plan;
+  const LinkState wanted_end = flat(second_.step(first_.step(end)));
+  // What of the motion acts in steps moves the joint as far as what is planned: the change of momentum over the period.
+  const double momentum_Nms =
+      joint.motor_inertia_kgm2 * (wanted_end.motor_velocity_rad_s - wanted_.motor_velocity_rad_s) +
+      joint.link_inertia_kgm2 * (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s);
+  const double gravity_Nm =
+      0.5 * (joint.gravity.at(wanted_.link_position_rad) + joint.gravity.at(wanted_end.link_position_rad));
+  const bool ended = wanted_end.motor_velocity_rad_s == 0.0 && wanted_.motor_velocity_rad_s == 0.0 &&
+                     wanted_end.motor_position_rad == wanted_.motor_position_rad;
+  follow(momentum_Nms / h + gravity_Nm, possible, taken_Nm);
+  wanted_ = wanted_end;
+  yield(ended);
+  if (ended) settle();
+  return plan();
 }
 
 }  // namespace strainwave

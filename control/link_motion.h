@@ -1,12 +1,17 @@
 // What the motor must do so that the link behind the gear's spring arrives, and nothing swings: turns the planned motion of a
-// rigid joint into one of the link, and that into the motor's position and torque. Real-time safe, step() included. Joint side, SI.
+// rigid joint into one of the link, and that into the motor's position and torque. Real-time safe, step() included; the constructor
+// is not. Joint side, SI.
 //
 // The planned motion, accelerations in steps, passes through two moving means (control/moving_mean.h) that together last tau. The
 // link's jerk is then continuous, and the link's position is a flat output of the joint:
-//   ts  = Jl thl'' + load                                    the torque that the gear transmits
+//   ts  = Jl thl'' + load(thl)                               the torque that the gear transmits
 //   thm = thl + wind-up(ts - D wind-up')
-//   Tm  = Jm thm'' + Jl thl'' + friction + load
-// Torque over a period is the change of momentum over it, so that what acts in steps moves the joint as far as what is planned.
+//   Tm  = Jm thm'' + Jl thl'' + load(thl)
+//
+// Held over whole periods, and through slopes that change, that torque does not quite make that motion: some tens of microradians, as
+// much as a joint at rest may be off. So a model of the joint (control/link_model.h) makes the motion along with it, regulated
+// towards it without delay or noise, within the torque that there is. What the model does, a joint that is as it was told does
+// as well: its torque is the plan, and where its motor is, is the reference.
 //
 // tau: half-way through a step A of the acceleration the wind-up takes Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl) besides half of
 // the step; both together are the step itself at
@@ -17,9 +22,9 @@
 
 #include <array>
 
+#include "control/link_model.h"
 #include "control/moving_mean.h"
 #include "control/reference_shaper.h"
-#include "control/torsion_spring.h"
 
 namespace strainwave {
 
@@ -27,13 +32,18 @@ namespace strainwave {
 inline constexpr int kMaxLinkDelay = 8;
 
 struct LinkMotionConfig {
-  double period_s = 0.001;          ///< > 0
-  double motor_inertia_kgm2 = 0.0;  ///< > 0
-  double link_inertia_kgm2 = 0.0;   ///< > 0
-  TorsionSpring spring;
-  double damping_Nms_rad = 0.0;  ///< of the wind-up's speed, >= 0
+  double period_s = 0.001;  ///< > 0
+  LinkModel joint;
   double torque_limit_Nm = 0.0;  ///< > 0, of the motor
   int delay_periods = 0;         ///< between a torque's computation and its effect, 0..kMaxLinkDelay
+  /// A motor that is nearer to its place than this is there: half a count.
+  double tolerance_rad = 1e-5;
+};
+
+/// What the motor can give over a period, friction and what else the plan does not know already taken off.
+struct TorqueRange {
+  double min_Nm = 0.0;
+  double max_Nm = 0.0;
 };
 
 /// One period.
@@ -43,9 +53,9 @@ struct MotorPlan {
   double velocity_rad_s = 0.0;
   double link_position_rad = 0.0;
   // Of the period over which the torque of now will act:
-  double inertia_torque_Nm = 0.0;           ///< of motor and link, without friction and load
-  double acting_velocity_rad_s = 0.0;       ///< mean of the motor's
-  double acting_acceleration_rad_s2 = 0.0;  ///< mean of the motor's
+  double torque_Nm = 0.0;                           ///< of motor, link and gravity, without friction
+  std::array<double, 3> acting_velocities_rad_s{};  ///< the motor's at its begin, middle and end
+  double acting_acceleration_rad_s2 = 0.0;          ///< mean of the motor's
 };
 
 /// The wind-up as a smooth function of the torque: the first slope's compliance at zero, the last one's far out, and there the
@@ -69,31 +79,44 @@ class LinkMotion {
   /// Whether the spring is stiff enough for the joint's period and slow enough for its memory: tau within the moving means.
   static bool possible(const LinkMotionConfig& config) noexcept;
 
-  /// Link and motor are there and move alike. Where the planned motion, which is ahead, must go on from.
-  double reset(double position_rad, double velocity_rad_s = 0.0) noexcept;
-  /// The planned motion's next sample, its acceleration that of the period that follows.
-  MotorPlan step(const Reference& planned) noexcept;
+  /// The motor is there, and moves as the link does. Where the planned motion, which is ahead, must go on from.
+  double reset(double motor_position_rad, double velocity_rad_s = 0.0) noexcept;
+  /// The planned motion's next sample, its acceleration that of the period that follows. Where the motion asks for more than
+  /// `possible` leaves, as at a speed that the supply barely reaches, the plan does so, too: up to the torque limit, of which
+  /// `taken_Nm` is gone already.
+  MotorPlan step(const Reference& planned, const TorqueRange& possible, double taken_Nm) noexcept;
 
   /// Whether anything is still to be done: the last plan, or what of it has not acted yet.
   bool moves() const noexcept { return rest_periods_ <= config_.delay_periods; }
+  /// Where the motor rests while the link does so at `link_position_rad`.
+  double motor_rest_rad(double link_position_rad) const noexcept {
+    return link_position_rad + config_.joint.spring.angle_rad(config_.joint.gravity.at(link_position_rad));
+  }
   /// By how much the link's motion lasts longer than the planned one.
   double spread_s() const noexcept { return spread_periods_ * config_.period_s; }
 
  private:
-  struct State {
-    double link_position_rad = 0.0, link_velocity_rad_s = 0.0;
-    double motor_position_rad = 0.0, motor_velocity_rad_s = 0.0;
-  };
-  State flat(const MotionPoint& link) const noexcept;
+  LinkState flat(const MotionPoint& link) const noexcept;
+  void follow(double wanted_Nm, const TorqueRange& possible, double taken_Nm) noexcept;
+  void yield(bool ended) noexcept;
+  void settle() noexcept;
+  MotorPlan plan() noexcept;
 
   LinkMotionConfig config_;
   SmoothWindUp wind_up_;
+  LinkGains gains_;
   int spread_periods_;
   MovingMean first_;
   MovingMean second_;
-  State next_;                                     ///< at the sample to come
-  std::array<State, kMaxLinkDelay + 2> states_{};  ///< newest first: of now, of the last period ...
-  int rest_periods_ = 0;                           ///< since when the plan has rested
+  double lost_rad_;
+  LinkState wanted_;  ///< at the sample to come
+  LinkState next_;    ///< the model, there
+  std::array<LinkState, kMaxLinkDelay + 2>
+      states_{};                        ///< the model's, newest first: of now, of the last period ...
+  double torque_Nm_ = 0.0;              ///< of this period
+  double middle_velocity_rad_s_ = 0.0;  ///< the model's motor, half-way through it
+  bool exhausted_ = false;              ///< the regulator asked for more than there was
+  int rest_periods_ = 0;                ///< since when the plan has rested
 };
 
 }  // namespace strainwave

@@ -12,6 +12,7 @@ namespace {
 
 // A link this light beside the motor follows it: a rigid joint.
 constexpr double kLeastShare = 1e-3;
+constexpr double kTurn_rad = 6.283185307179586;
 
 const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
   const Gear* gear = find_gear(section.text("gear"));
@@ -21,16 +22,30 @@ const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
   return *gear;
 }
 
+// m g l sin(position - zero).
+void read_gravity(TomlSection& section, JointControllerConfig& controller) {
+  if (!section.has("gravity_Nm")) {
+    if (section.has("gravity_zero_rad"))
+      section.fail("gravity_zero_rad", "it is allowed only with gravity_Nm");
+    return;
+  }
+  if (controller.use_observer)
+    section.fail("gravity_Nm", "it is allowed only without the observer, which finds the load by itself");
+  controller.gravity.torque_Nm = section.number("gravity_Nm", {0.0, controller.torque_limit_Nm});
+  controller.gravity.zero_rad = section.number("gravity_zero_rad", {-kTurn_rad, kTurn_rad});
+}
+
 }  // namespace
 
 void read_link(TomlSection& section, PlantIdentity& plant, JointControllerConfig& controller) {
+  read_gravity(section, controller);
   if (!section.has("gear")) {
     if (section.has("load_inertia_kgm2")) section.fail("load_inertia_kgm2", "it is allowed only with a gear");
     return;
   }
   if (controller.rigid) section.fail("gear", "it is allowed only without rigid = true: a gear is a spring");
   if (!controller.use_shaping) section.fail("gear", "it is allowed only with shaping = true");
-  LinkConfig link;
+  LinkModel link;
   const Gear& gear = named_gear(section, plant);
   plant.gear = FixedString<32>(gear.name);
   link.spring = gear.spring;

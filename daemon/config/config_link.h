@@ -1,4 +1,5 @@
-// joint.control.gear and what belongs to it: the spring between motor and link that the controller is told of. Not real-time.
+// joint.control.gear and what belongs to it: the spring between motor and link that the controller is told of, and the link's weight.
+// Not real-time.
 #pragma once
 
 #include "base/toml_section.h"
@@ -7,7 +8,7 @@
 
 namespace strainwave {
 
-/// Reads the gear, if there is one, of a joint whose other control keys have been read. Throws InputError.
+/// Reads the gear and the weight, if there are any, of a joint whose other control keys have been read. Throws InputError.
 void read_link(TomlSection& section, PlantIdentity& plant, JointControllerConfig& controller);
 
 }  // namespace strainwave

@@ -121,7 +121,8 @@ void JointLoop::control(const CycleTime& time) noexcept {
   }
   // While the joint stands at its place the brake holds it, whatever the torque: nothing can be learned from that, and nothing is
   // to be done but to hold the load that is known. The first count that it moves is the control law's.
-  const bool braked = mode_.is(Mode::kReleasing) && reading().joint_position_rad == controller_.target_rad();
+  const bool braked =
+      mode_.is(Mode::kReleasing) && reading().joint_position_rad == controller_.rest_position_rad();
   if (braked) controller_.start(reading().joint_position_rad, 0.0, load_here_Nm());
   JointMeasurement measurement;
   measurement.joint_position_rad = reading().joint_position_rad;
@@ -216,11 +217,12 @@ void JointLoop::take_over(const CycleTime& time) noexcept {
   control(time);
 }
 
-// A joint that is found elsewhere may carry something else.
+// A joint that is found elsewhere may carry something else than gravity as it is told.
 double JointLoop::load_here_Nm() const noexcept {
-  const bool here =
-      !held_.position_rad || std::abs(reading().joint_position_rad - *held_.position_rad) < kSamePlace_rad;
-  return here ? held_.torque_Nm : 0.0;
+  const double position_rad = reading().joint_position_rad;
+  const double gravity_Nm = config_.controller.gravity.at(position_rad);
+  if (!held_.position_rad) return held_.torque_Nm + gravity_Nm;
+  return std::abs(position_rad - *held_.position_rad) < kSamePlace_rad ? held_.torque_Nm : gravity_Nm;
 }
 
 void JointLoop::command_drive(const CycleTime& time) noexcept {
@@ -254,8 +256,7 @@ void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   if (mode_.is(Mode::kStopping)) controller_.stop();
   // At rest: what the joint carries is known now, and something else holds it from here on.
   if (from == Mode::kStopping && mode_.is(Mode::kOff))
-    held_ = {motion_.phase == MotionPhase::kResting ? motion_.output.torque_Nm
-                                                    : motion_.estimate.disturbance.load_Nm,
+    held_ = {motion_.phase == MotionPhase::kResting ? motion_.output.torque_Nm : controller_.held_load_Nm(),
              reading().joint_position_rad};
   if (mode_.is(Mode::kStopping) || !mode_.controlled()) ordered_.end();
 }

@@ -175,10 +175,8 @@ class Equations {
            gear().spring.stiffness_1_Nm_rad * x.lost_motion;
   }
   double position_torque_Nm(const Vector& x) const noexcept {
-    const Gravity& gravity = joint_.effects.gravity;
-    const double pull_Nm =
-        gravity.torque_Nm != 0.0 ? gravity.torque_Nm * std::sin(x.link_position - gravity.zero_rad) : 0.0;
-    return pull_Nm + joint_.effects.contact.torque_Nm(x.link_position, x.link_velocity);
+    return joint_.effects.gravity.at(x.link_position) +
+           joint_.effects.contact.torque_Nm(x.link_position, x.link_velocity);
   }
   double bristle_stiffness_Nm_rad(const FrictionParameters& f) const noexcept {
     return f.static_Nm / joint_.effects.friction.presliding_rad;

@@ -175,7 +175,7 @@ double motor_torque_Nm(const FlexibleJoint& joint, const FlexibleState& state,
 double mechanical_energy_J(const FlexibleJoint& joint, const FlexibleState& state) noexcept {
   const auto square = [](double x) { return x * x; };
   double energy_J = 0.5 * joint.motor.inertia_kgm2 * square(state.motor.velocity_rad_s);
-  const Gravity& gravity = joint.effects.gravity;
+  const GravityLoad& gravity = joint.effects.gravity;
   energy_J += gravity.torque_Nm * (1.0 - std::cos(state.link.position_rad - gravity.zero_rad));
   const Contact& contact = joint.effects.contact;
   energy_J +=

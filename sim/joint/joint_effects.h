@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "control/gravity_load.h"
 #include "control/torsion_spring.h"
 
 namespace strainwave {
@@ -70,12 +71,6 @@ struct DriveEffects {
   double ripple_per_motor_turn = 12.0;  ///< cycles
 };
 
-/// m g l sin(link position - zero), pulling back towards the zero.
-struct Gravity {
-  double torque_Nm = 0.0;  ///< m g l >= 0
-  double zero_rad = 0.0;
-};
-
 /// What the link runs into: a spring and a damper that only push, above a position. A stop is a stiff one.
 struct Contact {
   double position_rad = 0.0;
@@ -95,7 +90,7 @@ struct JointEffects {
   std::optional<Transmission> transmission;
   FrictionEffects friction;
   DriveEffects drive;
-  Gravity gravity;
+  GravityLoad gravity;
   Contact contact;
 
   /// Whether the joint is anything but one rigid inertia with Stribeck friction.

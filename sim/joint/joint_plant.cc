@@ -131,12 +131,10 @@ FlexibleState resting(const JointPlantConfig& c) {
   const Transmission& gear = *c.effects.transmission;
   const double unwound_rad =
       c.initial_position_rad + gear.kinematic_error.value_rad(c.effects.gear_ratio * c.initial_position_rad);
-  const Gravity& gravity = c.effects.gravity;
+  const GravityLoad& gravity = c.effects.gravity;
   state.link.position_rad = unwound_rad;
   for (int i = 0; i < 50; ++i)
-    state.link.position_rad =
-        unwound_rad -
-        gear.spring.angle_rad(gravity.torque_Nm * std::sin(state.link.position_rad - gravity.zero_rad));
+    state.link.position_rad = unwound_rad - gear.spring.angle_rad(gravity.at(state.link.position_rad));
   return state;
 }
 

@@ -45,8 +45,9 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.rigid = features.rigid;
   if (features.link && plant.effects.transmission) {
     const Transmission& gear = *plant.effects.transmission;
-    config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad};
+    config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
   }
+  if (features.gravity) config.gravity = plant.effects.gravity;
   config.use_monitor = features.monitor;
   config.use_landing = features.rigid && features.observer && features.rest;
   return config;

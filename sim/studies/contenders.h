@@ -33,8 +33,9 @@ struct ExtendedFeatures {
   bool observer = true;
   bool shaping = true;
   bool rest = true;
-  bool rigid = true;  ///< declared so: landing, where there is an observer and rest, and new plans
-  bool link = false;  ///< told of the plant's link and spring; only without rigid
+  bool rigid = true;     ///< declared so: landing, where there is an observer and rest, and new plans
+  bool link = false;     ///< told of the plant's link and spring; only without rigid
+  bool gravity = false;  ///< told of the plant's gravity; only without observer
   bool monitor = true;
   MotionLimits motion = kNoMotionLimits;
 };

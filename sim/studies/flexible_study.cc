@@ -172,6 +172,7 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
   const ExtendedFeatures standard = daemon_defaults();
   ExtendedFeatures told = standard;
   told.link = true;
+  told.gravity = true;
   std::vector<Contender> contenders = {pid_contender(), plain("C4", tables.c4, &plain_contender),
                                        daemon("daemon", standard), daemon("daemon told of its spring", told)};
   const auto switched = [&](const std::string& name, bool ExtendedFeatures::*part, bool on) {

@@ -34,6 +34,18 @@ TEST(JointModel, StopsWithinThePeriodAndDoesNotTurnRoundByFrictionAlone) {
   EXPECT_GT(motion.displacement_rad, 0.0);
 }
 
+TEST(JointModel, FrictionAlongAMotionOpposesEitherWayForAsLongAsItLasts) {
+  const JointModel joint = model();
+  EXPECT_EQ(joint.friction_along_Nm(0.0, 0.0), 0.0);
+  EXPECT_EQ(joint.friction_along_Nm(0.3, 0.5), joint.friction_Nm(0.4));
+  EXPECT_EQ(joint.friction_along_Nm(-0.3, -0.5), -joint.friction_Nm(0.4));
+  EXPECT_EQ(joint.friction_along_Nm(0.2, -0.2), 0.0) << "half of the time each way";
+  EXPECT_EQ(joint.friction_along_Nm(0.3, -0.1), -joint.friction_along_Nm(-0.3, 0.1));
+  EXPECT_NEAR(joint.friction_along_Nm(0.3, -0.1),
+              0.75 * joint.friction_Nm(0.15) - 0.25 * joint.friction_Nm(0.05), 1e-12);
+  EXPECT_NEAR(joint.friction_along_Nm(0.3, -1e-12), joint.friction_along_Nm(0.3, 1e-12), 1e-9) << "no jump";
+}
+
 TEST(JointModel, ItsDerivativesAreThoseOfItsMotion) {
   const double step = 1e-6;
   for (const double velocity_rad_s : {-3.0, -0.5, 0.2, 4.0}) {

@@ -26,6 +26,21 @@ TEST_F(LinkConfigTest, WithoutAGearThereIsNoLink) {
   EXPECT_FALSE(read(joint_with("rigid = false")).joints.front().loop.controller.link.has_value());
 }
 
+TEST_F(LinkConfigTest, AWeightIsToldWithOrWithoutAGearAndOnlyWhereNothingElseFindsIt) {
+  const std::string weight = "gravity_Nm = 3.0\ngravity_zero_rad = -0.5";
+  for (const std::string& rest :
+       {std::string(), std::string("\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1")}) {
+    const DaemonConfig config = read(joint_with(weight + rest));
+    EXPECT_EQ(config.joints.front().loop.controller.gravity.torque_Nm, 3.0);
+    EXPECT_EQ(config.joints.front().loop.controller.gravity.zero_rad, -0.5);
+  }
+  expect_mentions(error_of(joint_with("rigid = true\n" + weight)), {"gravity_Nm", "observer"});
+  expect_mentions(error_of(joint_with("gravity_Nm = 3.0")), {"gravity_zero_rad", "missing"});
+  expect_mentions(error_of(joint_with("gravity_zero_rad = 3.0")), {"gravity_zero_rad", "gravity_Nm"});
+  expect_mentions(error_of(joint_with("gravity_Nm = 1e3\ngravity_zero_rad = 0")),
+                  {"gravity_Nm", "1000", "0 to 34"});
+}
+
 TEST_F(LinkConfigTest, RefusesWhatCannotBe) {
   expect_mentions(error_of(joint_with("gear = \"csf-18-50\"\nload_inertia_kgm2 = 0.1")),
                   {"gear", "csf-18-50", "csf-17-50"});

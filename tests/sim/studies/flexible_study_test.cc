@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "control/scheduled_controller.h"
 
 namespace strainwave {
 namespace {
@@ -229,6 +230,50 @@ TEST(FlexibleStudy, FindsTheFallbacksOvershootsAndSlowSwingsThatThePagesTellOf) 
   expect_behaviour("PID", "", "come to rest: in ");
 }
 
+/// A cell whose joint has the friction that the table says.
+FlexibleCell with_friction_known(FlexibleCell cell) {
+  const GainTable& table = FlexibleTables::nearest(tables().c4, 0.089 + cell.link_inertia_kgm2);
+  ScheduledController law(table.primary, table.friction, table.plant);
+  law.set_temperature(cell.temperature_C);
+  for (JointPlantConfig* plant : {&cell.nominal, &cell.plant}) {
+    plant->joint.friction.asymptote = law.friction();
+    plant->joint.friction.amplitude = {};
+  }
+  return cell;
+}
+
+// Link side, motor's encoder, everything known; links of up to three times the motor's inertia, 3 % damping, every stiffness.
+TEST(FlexibleStudy, ReachesTheLimitOfTheLinkWhereFrictionIsKnown) {
+  std::vector<FlexibleCell> cells;
+  for (const FlexibleCell& cell : flexible_grid())
+    if (cell.link_inertia_kgm2 < 0.5 && cell.damping_ratio == 0.03)
+      cells.push_back(with_friction_known(cell));
+  std::map<double, std::vector<double>> over_limit;
+  std::map<double, std::vector<double>> overshoot_rad;
+  for (const FlexibleRow& row :
+       run_flexible(cells, {contender("daemon told of its spring")}, [](std::size_t) {})) {
+    const FlexibleResult& result = row.results.front();
+    over_limit[row.cell.step_rad].push_back(result.link_counted_ratio);
+    overshoot_rad[row.cell.step_rad].push_back(result.overshoot_rad);
+    EXPECT_EQ(result.monitor, MonitorState::kWatching);
+    EXPECT_GT(result.settling_time_s, 0.0);
+  }
+  struct Goal {
+    double step_rad, median, worst, overshoot_median_rad, overshoot_worst_rad;
+  };
+  for (const Goal& goal : {Goal{0.001, 1.15, 2.0, 45e-6, 120e-6}, Goal{0.01, 1.35, 1.8, 60e-6, 300e-6},
+                           Goal{0.1, 1.15, 1.35, 500e-6, 3e-3}, Goal{1.0, 1.08, 1.2, 5e-3, 30e-3}}) {
+    std::vector<double>& ratios = over_limit.at(goal.step_rad);
+    std::vector<double>& overshoots = overshoot_rad.at(goal.step_rad);
+    std::sort(ratios.begin(), ratios.end());
+    std::sort(overshoots.begin(), overshoots.end());
+    EXPECT_LE(ratios[ratios.size() / 2], goal.median) << goal.step_rad;
+    EXPECT_LE(ratios.back(), goal.worst) << goal.step_rad;
+    EXPECT_LE(overshoots[overshoots.size() / 2], goal.overshoot_median_rad) << goal.step_rad;
+    EXPECT_LE(overshoots.back(), goal.overshoot_worst_rad) << goal.step_rad;
+  }
+}
+
 TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
   std::vector<FlexibleCell> cells;
   for (const FlexibleCell& cell : flexible_grid())
@@ -241,7 +286,8 @@ TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
   for (const FlexibleRow& row : rows)
     for (const FlexibleResult& result : row.results) {
       EXPECT_GE(result.link_ratio, 0.99);
-      EXPECT_GE(result.link_counted_ratio, 0.95);
+      // The motion with the least sum of all is not the one with the least above 40 urad, and its motor turns one way only.
+      EXPECT_GE(result.link_counted_ratio, 0.7);
       if (result.oscillates) {
         EXPECT_LT(result.settling_time_s, 0.0) << "what swings has not settled";
       }
