@@ -52,12 +52,17 @@ LoopParts assemble_loop(const DaemonConfig& config) {
   return parts;
 }
 
+ExpectedJoint expected_joint(const JointConfig& joint) {
+  const JointControllerConfig& controller = joint.loop.controller;
+  return {joint.plant, controller.torque_limit_Nm, controller.link, controller.delay_periods};
+}
+
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config) {
   std::vector<JointAdmission> joints;
   for (const JointConfig& joint : config.joints)
-    joints.push_back({joint.name, joint.plant, joint.loop.limits.position_min_rad,
-                      joint.loop.limits.position_max_rad, joint.loop.controller.torque_limit_Nm,
-                      joint.loop.controller.motion.velocity_rad_s, joint.takes_injected_faults});
+    joints.push_back({joint.name, expected_joint(joint), joint.loop.limits.position_min_rad,
+                      joint.loop.limits.position_max_rad, joint.loop.controller.motion.velocity_rad_s,
+                      joint.takes_injected_faults});
   return joints;
 }
 

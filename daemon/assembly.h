@@ -18,6 +18,8 @@ LoopParts assemble_loop(const DaemonConfig& config);
 /// One bus, with every drive on it set up. Throws InputError.
 std::unique_ptr<Fieldbus> assemble_bus(const BusConfig& bus);
 
+/// What a table for `joint` is judged by.
+ExpectedJoint expected_joint(const JointConfig& joint);
 /// What admission must know of each joint.
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config);
 

@@ -4,6 +4,7 @@
 #include "base/protected_file.h"
 #include "control/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
+#include "daemon/assembly.h"
 
 namespace strainwave {
 
@@ -13,8 +14,7 @@ std::optional<InitialTable> read_initial_table(const JointConfig& joint) {
     require_protected(joint.table, writers_allowed(joint));
     InitialTable initial;
     initial.table = read_gain_table(joint.table);
-    const TableVerdict judged =
-        judge_table(initial.table, joint.plant, joint.loop.controller.torque_limit_Nm);
+    const TableVerdict judged = judge_table(initial.table, expected_joint(joint));
     if (judged.reason != Reason::kAccepted)
       throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
     initial.verdict = judged.text;

@@ -20,6 +20,7 @@
 #include "daemon/admission/fair_share.h"
 #include "daemon/admission/ownership.h"
 #include "daemon/admission/sequence_memory.h"
+#include "daemon/admission/table_admission.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/orders.h"
 #include "lcmtypes/vocabulary.h"
@@ -29,10 +30,9 @@ namespace strainwave {
 /// What admission must know of a joint.
 struct JointAdmission {
   std::string name;
-  PlantIdentity plant;
+  ExpectedJoint expected;  ///< by its tables
   double position_min_rad = 0.0;
   double position_max_rad = 0.0;
-  double torque_limit_Nm = 0.0;
   double speed_limit_rad_s = 0.0;
   bool takes_injected_faults = false;  ///< the simulated driver's
 };

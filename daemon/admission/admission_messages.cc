@@ -159,7 +159,7 @@ Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& mes
           message, {table_message->session_id, table_message->challenge, Role::kEngineer, true}, requester))
     return std::move(*verdict);
   auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
-  const TableVerdict judged = judge_table(*table, joints_[joint].plant, joints_[joint].torque_limit_Nm);
+  const TableVerdict judged = judge_table(*table, joints_[joint].expected);
   if (judged.reason != Reason::kAccepted) return refuse(requester, judged.reason, judged.text);
   Verdict verdict = pass(requester, OrderKind::kUseTable, table_message->challenge);
   verdict.text = judged.text;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "control/gain_table.h"
+#include "control/link_model.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -14,9 +16,17 @@ struct TableVerdict {
   std::string text;  ///< why, with the numbers; when accepted, the certificate's smallest margin
 };
 
-/// Judges `table` for a joint that is `expected` (its own inertia, ratio, period) and delivers at most
-/// `torque_limit_Nm`, which holds where it is below the table's. The certificate is recomputed here for the joint's own plant, never taken on trust.
-TableVerdict judge_table(const GainTable& table, const PlantIdentity& expected, double torque_limit_Nm);
+/// The joint that tables are judged for.
+struct ExpectedJoint {
+  PlantIdentity plant;            ///< its own inertia, ratio, period
+  double torque_limit_Nm = 0.0;   ///< that it delivers; holds where it is below the table's
+  std::optional<LinkModel> link;  ///< its spring, where it is told of it
+  int delay_periods = 0;          ///< between a torque's computation and its effect, 0..kMaxSpringDelay
+};
+
+/// Judges `table` for a joint that is `expected`. The certificate is recomputed here for the joint's own plant, never taken on trust. It is
+/// of a rigid joint; on one with a spring gains under which the link swings up are refused, on any of the slopes.
+TableVerdict judge_table(const GainTable& table, const ExpectedJoint& expected);
 
 /// A short name for the table's content, never 0: the same bits give the same number.
 std::int64_t table_digest(const GainTable& table);

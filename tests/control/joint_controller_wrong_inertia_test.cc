@@ -83,7 +83,7 @@ JointControllerConfig config_for(const Case& c) {
   if (c.told_of_spring) {
     const double link_kgm2 = c.factor * (kMotor_kgm2 + c.link_kgm2) - kMotor_kgm2;
     config.link = {
-        kMotor_kgm2, link_kgm2, {8100.0, 3.9, 11000.0, 12.0, 13000.0}, damping_Nms_rad(link_kgm2, 0.03)};
+        kMotor_kgm2, link_kgm2, {8100.0, 3.9, 11000.0, 12.0, 13000.0}, damping_Nms_rad(link_kgm2, 0.03), {}};
   }
   return config;
 }

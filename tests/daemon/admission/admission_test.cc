@@ -18,7 +18,7 @@ constexpr std::int64_t kChallenge = 815;
 class AdmissionTest : public ::testing::Test {
  protected:
   AdmissionTest()
-      : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}, {"wrist", {}, -2.0, 2.0, 34.0, 6.0}},
+      : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 6.0}, {"wrist", {}, -2.0, 2.0, 6.0}},
                    {{}, /*unsigned_allowed=*/true}) {
     admission_.advance(0, kChallenge);
   }

@@ -78,7 +78,7 @@ class PendingOrdersTest : public ::testing::Test {
 
   std::unique_ptr<OutboundMemory> memory_ = std::make_unique<OutboundMemory>();
   RealtimeLoop loop_{LoopConfig{}, one_joint(), memory_->states};
-  Admission admission_{"SW", 1, {{"elbow", {}, -1.0, 1.0, 34.0, 6.0}}, {{}, true}};
+  Admission admission_{"SW", 1, {{"elbow", {}, -1.0, 1.0, 6.0}}, {{}, true}};
   Answers answers_{"SW", 1, {"elbow"}, memory_->messages};
   PendingOrders orders_{loop_, admission_, answers_};
   std::int64_t now_ns_ = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "control/gain_table_json.h"
+#include "control/gear_catalogue.h"
 
 namespace strainwave {
 namespace {
@@ -13,7 +14,7 @@ class TableAdmission : public ::testing::Test {
   PlantIdentity joint_ = table_.plant;
   double torque_limit_Nm_ = table_.torque_limit_Nm;
 
-  Reason judge() const { return judge_table(table_, joint_, torque_limit_Nm_).reason; }
+  Reason judge() const { return judge_table(table_, {joint_, torque_limit_Nm_, {}, 1}).reason; }
 };
 
 TEST_F(TableAdmission, AcceptsTheTableForItsOwnJoint) {
@@ -41,7 +42,7 @@ TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosModelsAndGears) {
 
 TEST_F(TableAdmission, SaysWhichOfTwoTorqueLimitsHoldsAndWhereTheJointCannotMoveWithIt) {
   const auto text = [&](double torque_limit_Nm) {
-    const TableVerdict verdict = judge_table(table_, joint_, torque_limit_Nm);
+    const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm, {}, 1});
     EXPECT_EQ(verdict.reason, Reason::kAccepted) << torque_limit_Nm;
     return verdict.text;
   };
@@ -81,7 +82,7 @@ TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
     rule.friction.static_Nm *= 1000.0;
     rule.friction.coulomb_Nm *= 1000.0;
   }
-  const TableVerdict verdict = judge_table(table_, joint_, torque_limit_Nm_);
+  const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, 1});
   EXPECT_EQ(verdict.reason, Reason::kTableDefect);
   EXPECT_NE(verdict.text.find("static_Nm"), std::string::npos) << verdict.text;
 }
@@ -92,6 +93,37 @@ TEST_F(TableAdmission, TheDigestNamesTheContent) {
   EXPECT_EQ(table_digest(table_), digest);
   table_.primary.F[3][0] *= 1.0 + 1e-15;
   EXPECT_NE(table_digest(table_), digest);
+}
+
+class TableAdmissionOnASpring : public ::testing::Test {
+ protected:
+  /// A table of the study on its joint with the gear csf-17-50.
+  static TableVerdict judge(const std::string& total, double link_kgm2, int delay_periods) {
+    const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/" + total + "/c4.json");
+    const LinkModel link{
+        table.plant.inertia_kgm2 - link_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
+    return judge_table(table, {table.plant, table.torque_limit_Nm, link, delay_periods});
+  }
+};
+
+TEST_F(TableAdmissionOnASpring, AcceptsWhatDoesNotSwingTheLinkUpAndSaysThatNothingMoreIsProved) {
+  for (const auto& [total, link] : {std::pair{"total-0.119", 0.03}, std::pair{"total-0.178", 0.089},
+                                    std::pair{"total-0.356", 0.267}, std::pair{"total-1.089", 1.0}}) {
+    const TableVerdict verdict = judge(total, link, 1);
+    EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
+    EXPECT_NE(verdict.text.find("verify says what is proved of the spring"), std::string::npos)
+        << verdict.text;
+  }
+}
+
+TEST_F(TableAdmissionOnASpring, RefusesGainsUnderWhichTheLinkSwingsUpWithTheConfiguredDelay) {
+  for (const auto& [total, link] : {std::pair{"total-0.178", 0.089}, std::pair{"total-0.356", 0.267}}) {
+    const TableVerdict verdict = judge(total, link, 2);
+    EXPECT_EQ(verdict.reason, Reason::kTableNotCertified) << verdict.text;
+    EXPECT_NE(verdict.text.find("eigenvalue 1.0"), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("delay_periods = 2"), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("stiffness 13000"), std::string::npos) << verdict.text;
+  }
 }
 
 }  // namespace
