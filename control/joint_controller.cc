@@ -154,12 +154,15 @@ void JointController::new_target() noexcept {
 
 void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
   limit_speed(speed_limit_rad_s);
+  // An order that is repeated begins nothing anew: what did not come off is not tried again.
+  const int corrections = streamed_ || position_rad != shaper_.target_rad() ? 0 : corrections_;
   streamed_ = false;
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   ordered_.set_target(position_rad);
   plans_ = 0;
   new_target();
+  corrections_ = corrections;
   if (link_motion_) plan_link_motion(reference_.position_rad);
 }
 

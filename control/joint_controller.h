@@ -189,11 +189,13 @@ class JointController {
   JointModel model_;  ///< the table's, at this temperature
   Reference reference_;
   Reference ordered_reference_;
-  Reference planned_;        ///< with a link: of a rigid joint, from which the link's motion is made
-  MotorPlan motor_plan_;     ///< with a link
-  double link_share_ = 1.0;  ///< of the acceleration that a rigid joint could have
-  int corrections_ = 0;      ///< with a link: small motions to the same target, from rest
-  MotionLimits motion_;      ///< the configuration's, and this order's speed
+  Reference planned_;                ///< with a link: of a rigid joint, from which the link's motion is made
+  MotorPlan motor_plan_;             ///< with a link
+  double link_share_ = 1.0;          ///< of the acceleration that a rigid joint could have
+  int corrections_ = 0;              ///< with a link: small motions to the same target, from rest
+  int corrections_in_vain_ = 0;      ///< of those, that brought nothing
+  double corrected_from_rad_ = 0.0;  ///< how far off the last began
+  MotionLimits motion_;              ///< the configuration's, and this order's speed
   PositionRange stream_range_;
   double sample_position_rad_ = 0.0;  ///< of the stream's last
   double torque_limit_Nm_ = 0.0;

@@ -19,6 +19,10 @@ constexpr int kStillPeriods = 3;
 constexpr double kCorrectionCounts = 1.2;
 // Each is at rest before the next begins, so that nothing can swing itself up; what so many do not bring, none will.
 constexpr int kMaxCorrections = 20;
+// One that leaves more than this share of the distance was in vain: load or friction are not what they are taken for, and the next would
+// do no better. After so many of an order the rest is the integral's.
+constexpr double kInVain = 0.7;
+constexpr int kMaxInVain = 3;
 
 }  // namespace
 
@@ -56,6 +60,13 @@ bool JointController::correct_link(double reading_rad) noexcept {
   const double near_rad = kCorrectionCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
   if (state_.still_periods() < kStillPeriods || distance_rad <= near_rad || corrections_ >= kMaxCorrections)
     return false;
+  const bool in_vain = corrections_ > 0 && distance_rad > kInVain * corrected_from_rad_;
+  corrections_in_vain_ = corrections_ == 0 ? 0 : corrections_in_vain_ + (in_vain ? 1 : 0);
+  if (corrections_in_vain_ >= kMaxInVain) {
+    corrections_ = kMaxCorrections;
+    return false;
+  }
+  corrected_from_rad_ = distance_rad;
   ++corrections_;
   ++replans_;
   const double from_rad = link_motion_->reset(reading_rad);

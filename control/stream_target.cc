@@ -34,6 +34,10 @@ Slope slope_at_newest(double newer, double newer_s, double older, double older_s
 
 // Multiple of a limit that a motion may need: one that needs more is a new place.
 constexpr double kReach = 2.0;
+// A velocity may differ from that of the positions by these shares of the limit and of itself, for what arrivals do to times, and by what
+// the acceleration makes of it meanwhile.
+constexpr double kDoubtOfLimit = 0.15;
+constexpr double kDoubtOfItself = 0.5;
 }  // namespace
 
 void StreamTarget::begin(double position_rad, double velocity_rad_s) noexcept {
@@ -48,8 +52,24 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s) noexcept {
   ended_ = false;
 }
 
-void StreamTarget::take(const StreamSample& sample, const Reach& reach) noexcept {
+// Whether the velocity that it gives is not that of its positions: in degrees, of another sign, or left over. Followed, it would take the
+// joint away from every position that was sent.
+bool StreamTarget::contradicts_itself(const Knot& knot) const noexcept {
+  const Knot* last = before(knot.at);
+  if (last == nullptr) return false;
+  const double since_s = seconds(knot.at - last->at);
+  const double mean_rad_s = (knot.position_rad - last->position_rad) / since_s;
+  const double doubt_rad_s = kDoubtOfLimit * reach_.velocity_rad_s +
+                             kDoubtOfItself * std::min(std::abs(knot.velocity_rad_s), std::abs(mean_rad_s));
+  const double changed_rad_s = reach_.acceleration_rad_s2 * since_s;
+  const double between_rad_s = 0.5 * (knot.sent_rad_s + last->sent_rad_s);
+  return std::abs(knot.velocity_rad_s - mean_rad_s) > doubt_rad_s + changed_rad_s ||
+         std::abs(between_rad_s - mean_rad_s) > doubt_rad_s + 0.5 * changed_rad_s;
+}
+
+void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   reach_ = reach;
+  StreamSample sample = sent;
   Knot knot{now_, sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2};
   const double last_arrival = arrival_;
   if (sample.in_periods > 0) {
@@ -61,6 +81,8 @@ void StreamTarget::take(const StreamSample& sample, const Reach& reach) noexcept
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
+  knot.sent_rad_s = sample.velocity_rad_s;
+  if (sample.derivatives > 0 && contradicts_itself(knot)) sample.derivatives = 0;
   estimate_derivatives(sample, knot);
   remember(knot);
   if (sample.in_periods > 0) return queue(knot);

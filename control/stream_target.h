@@ -10,6 +10,7 @@
 //                       consecutive ones where they lie farther apart:
 //                         d01 + (t0 - t1) (d01 - d12) / (t0 - t2),  dij = (pi - pj) / (ti - tj)
 //                       and the motion lags one interval. Accelerations that are not given by velocities, likewise
+//   contradiction       a velocity that is not that of the positions is not used; the positions are
 //   no new sample       the motion goes on as it was for three intervals, 0.2 s at most, and then has ended: the
 //                       joint is to come to rest. A target that stands still stays where it is
 //   out of reach        a knot that needs more than twice the limit of speed, or positions that need more than twice
@@ -69,6 +70,7 @@ class StreamTarget {
     double velocity_rad_s = 0.0;
     double acceleration_rad_s2 = 0.0;
     double jerk_rad_s3 = 0.0;  ///< as three samples show it
+    double sent_rad_s = 0.0;   ///< the velocity that came with it, believed or not
   };
   struct State {
     double position_rad = 0.0;
@@ -76,6 +78,7 @@ class StreamTarget {
     double acceleration_rad_s2 = 0.0;
   };
   double seconds(double periods) const noexcept { return periods * period_s_; }
+  bool contradicts_itself(const Knot& knot) const noexcept;
   void clock_in() noexcept;
   void remember(const Knot& knot) noexcept;
   const Knot* before(double period) const noexcept;

@@ -1,6 +1,7 @@
 // record: every message of a prefix to an LCM event log.
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/link/event_log_writer.h"
 #include "client/link/output_file.h"
@@ -55,7 +56,7 @@ void record_into(Log& log, Client& client, const Output& output, const RecordArg
   wait_for_end(client, log, Deadline(arguments.duration_s.value_or(kNoEnd_s)));
   log.finish();
   for (const auto& [channel, count] : log.counts())
-    say(output, fmt::format("{}: {} messages in {}", channel, count, arguments.file.string()),
+    say(output, fmt::format("{}: {} messages in {}", printable(channel), count, arguments.file.string()),
         {{"channel", channel}, {"messages", std::int64_t{count}}, {"file", arguments.file.string()}});
 }
 

@@ -79,8 +79,13 @@ class Sender {
   /// A number for a stream of setpoints that no other stream of this sender has.
   std::int64_t new_stream() noexcept { return next_sequence(utime_now()); }
 
-  /// The next order's sequence is above `sequence`: another program of this key was ahead.
-  void rise_above(std::int64_t sequence) noexcept { sequence_ = std::max(sequence_, sequence); }
+  /// Sequences rise with the clock, in microseconds; nothing that a daemon answers comes near this.
+  static constexpr std::int64_t kLargestSequence = std::int64_t{1} << 62;
+  /// The next order's sequence is above `sequence`: another program of this key was ahead. What leaves no room above it is no daemon's
+  /// answer.
+  void rise_above(std::int64_t sequence) noexcept {
+    if (sequence < kLargestSequence) sequence_ = std::max(sequence_, sequence);
+  }
 
  private:
   /// Rises over everything that is sent, and with the clock over all programs of one key.

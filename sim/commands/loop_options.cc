@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "sim/commands/commands.h"
 #include "sim/joint/plant_file.h"
 
@@ -31,6 +32,10 @@ void add_loop_options(CLI::App& command, LoopOptions& options) {
 }
 
 ClosedLoopConfig loop_config(const LoopOptions& options) {
+  constexpr double kLongest_s = 1e5;  // what of it is kept fits into memory
+  if (!(options.duration_s > 0.0 && options.duration_s <= kLongest_s))
+    throw InputError("--duration_s = " + number_text(options.duration_s) +
+                     ": a number above 0, at most 100000, is allowed");
   ClosedLoopConfig config;
   config.plant = plant_named(options.plant);
   config.setpoint_rad = TimeProfile::parse(options.reference_rad, {"setpoint_position_rad", -1e5, 1e5});

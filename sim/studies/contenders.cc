@@ -35,6 +35,9 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.period_s = plant.period_s;
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
   config.delay_periods = static_cast<int>(std::lround(plant.delay.periods));
+  if (config.delay_periods > kMaxControlDelay)
+    throw InputError("plant", "drive.delay_periods", std::to_string(plant.delay.periods),
+                     "the daemon's controller allows 0 to " + std::to_string(kMaxControlDelay));
   config.torque_limit_Nm = table.torque_limit_Nm;
   config.motor = plant.motor;
   config.motor.peak_torque_Nm = config.torque_limit_Nm;

@@ -164,6 +164,44 @@ TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections
   EXPECT_LE(std::abs(standing_rad - 0.01), kBand_rad);
 }
 
+TEST(JointControllerWithLink, GivesUpCorrectionsThatDoNotHelpAlsoWhenTheOrderIsRepeated) {
+  // A weight that it is not told of: every motion ends where the last one did.
+  for (const double weight_Nm : {1.0, 2.0, 3.0, 5.0}) {
+    JointPlantConfig plant = plant_with(0.089);
+    const JointPlantConfig told = plant;
+    plant.effects.gravity = {weight_Nm, -0.5};
+    Loop loop(plant, told, 20.0);
+    int corrections = 0;
+    for (int k = 0; k < 6000; ++k) {
+      if (k % 100 == 0) loop.controller().set_target(0.1);
+      const int replans = loop.step().replans;
+      if (k >= 3000) {
+        EXPECT_LE(replans - corrections, 0) << weight_Nm << " N.m, period " << k;
+      }
+      corrections = replans;
+    }
+    EXPECT_LE(corrections, 20) << weight_Nm;
+  }
+}
+
+TEST(JointControllerWithLink, ComesToRestAfterASlowMoveWhateverTheFriction) {
+  for (const double friction : {0.7, 1.0, 1.3})
+    for (const double speed_rad_s : {0.003, 0.01}) {
+      JointPlantConfig plant = plant_with(0.089);
+      const JointPlantConfig told = plant;
+      for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude})
+        *part = {friction * part->static_Nm, friction * part->coulomb_Nm, friction * part->viscous_Nms_rad};
+      Loop loop(plant, told, -10.0);
+      loop.controller().set_target(0.02, speed_rad_s);
+      const int arrival = static_cast<int>(0.02 / speed_rad_s * 1000.0) + 200;
+      for (int k = 0; k < arrival + 2000; ++k) loop.step();
+      const int corrections = loop.step().replans;
+      for (int k = 0; k < 1000; ++k) loop.step();
+      EXPECT_EQ(loop.step().replans, corrections) << friction << " " << speed_rad_s;
+      EXPECT_LE(corrections, 10) << friction << " " << speed_rad_s;
+    }
+}
+
 TEST(JointControllerWithLink, AWeightThatItIsToldOfNeitherSagsNorHoldsTheLinkBesideItsTarget) {
   for (const double link : {0.03, 0.267})
     for (const double target : {0.001, 0.1, 1.0}) {

@@ -221,6 +221,45 @@ TEST(StreamTarget, IsNeverBeyondTheStepsOfAPositionStream) {
 }
 
 // Whatever is sent, at whatever times.
+// A sender's mistakes: velocities in degrees, of the other sign, left over, alternating.
+TEST(StreamTarget, NeverLeavesThePositionsWhoseVelocitiesAreWrong) {
+  struct Mistake {
+    const char* name;
+    std::function<StreamSample(double t_s, int k)> sample;
+  };
+  const auto standing = [](double velocity_rad_s) { return StreamSample{1.0, velocity_rad_s, 0.0, 1}; };
+  const auto scaled = [](double t_s, double factor) {
+    StreamSample sample = sine(t_s, 1);
+    sample.velocity_rad_s *= factor;
+    return sample;
+  };
+  const std::vector<Mistake> mistakes = {
+      {"left over", [&](double, int) { return standing(4.0); }},
+      {"alternating", [&](double, int k) { return standing(k % 2 == 0 ? 4.0 : -4.0); }},
+      {"degrees", [&](double t_s, int) { return scaled(t_s, 57.3); }},
+      {"other sign", [&](double t_s, int) { return scaled(t_s, -5.0); }}};
+  for (const Mistake& mistake : mistakes)
+    for (const int rate_Hz : {20, 50, 100, 250, 500}) {
+      Following following;
+      const double begin_rad = mistake.sample(0.0, 0).position_rad;
+      following.begin(begin_rad);
+      const int every = 1000 / rate_Hz;
+      double farthest_rad = 0.0;
+      double lowest_rad = begin_rad, highest_rad = begin_rad;
+      for (int k = 0; k < 6000; ++k) {
+        if (k % every == 0) {
+          const StreamSample sample = mistake.sample(k * kPeriod_s, k / every);
+          lowest_rad = std::min(lowest_rad, sample.position_rad);
+          highest_rad = std::max(highest_rad, sample.position_rad);
+          following.take(sample);
+        }
+        const double position_rad = following.step().position_rad;
+        farthest_rad = std::max({farthest_rad, lowest_rad - position_rad, position_rad - highest_rad});
+      }
+      EXPECT_LE(farthest_rad, rate_Hz < 50 ? 1.0 : 0.3) << mistake.name << " at " << rate_Hz << " Hz";
+    }
+}
+
 TEST(ReferenceShaper, KeepsAllLimitsWhileItFollowsAnything) {
   std::mt19937 random(5);
   const auto uniform = [&](double low, double high) {

@@ -7,6 +7,10 @@ import time
 from .key import read_secret_key
 
 
+# Sequences rise with the clock, in microseconds; nothing that a daemon answers comes near this.
+LARGEST_SEQUENCE = 2**62
+
+
 def identity(name):
     """62 bits of `name`, never 0: FNV-1a, as strainwavectl has it."""
     value = 0xCBF29CE484222325
@@ -41,9 +45,10 @@ class Sender:
             return self._sequence
 
     def rise_above(self, sequence):
-        """Another program of this key was ahead."""
+        """Another program of this key was ahead. What leaves no room above it is no daemon's answer."""
         with self._lock:
-            self._sequence = max(self._sequence, sequence)
+            if sequence < LARGEST_SEQUENCE:
+                self._sequence = max(self._sequence, sequence)
 
     def seal(self, channel, message, state):
         """Completes `message` for the daemon of `state` (None: for whichever, a stop) and returns its bytes."""

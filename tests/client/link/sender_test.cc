@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
@@ -61,6 +62,14 @@ TEST(Sender, RisesAboveWhatAnotherProgramOfItsKeyHasSent) {
   const std::int64_t ahead = sender.seal("a", command_v1{}, {1, 2}).sequence + 1'000'000'000;
   sender.rise_above(ahead);
   EXPECT_EQ(sender.seal("a", command_v1{}, {1, 2}).sequence, ahead + 1);
+}
+
+TEST(Sender, IsNotTakenToTheEndOfItsNumbersByAForgedAnswer) {
+  Sender sender(5);
+  sender.rise_above(std::numeric_limits<std::int64_t>::max());
+  const std::int64_t first = sender.seal("a", command_v1{}, {1, 2}).sequence;
+  EXPECT_GT(first, 0);
+  EXPECT_LT(first, Sender::kLargestSequence);
 }
 
 }  // namespace
