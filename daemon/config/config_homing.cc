@@ -46,6 +46,11 @@ void read_homing(TomlSection section, const HomingInputs& available, JointConfig
   const JointLimits& limits = joint.loop.limits;
   const double speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
   homing.target = target_of(section, available);
+  if (homing.target != HomingTarget::kNone && joint.loop.controller.gravity.torque_Nm != 0.0)
+    section.fail(
+        "to",
+        "nothing to look for is allowed with joint.control.gravity_Nm: the weight is held from the first "
+        "torque on, where positions must already be the joint's");
   if (available.counts_from_switch_on && homing.target == HomingTarget::kNone)
     section.fail(
         "to", "a place to look for is needed: this joint's encoder is incremental and forgets its position");

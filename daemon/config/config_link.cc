@@ -1,6 +1,7 @@
 #include "daemon/config/config_link.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/printable.h"
@@ -12,7 +13,7 @@ namespace {
 
 // A link this light beside the motor follows it: a rigid joint.
 constexpr double kLeastShare = 1e-3;
-constexpr double kTurn_rad = 6.283185307179586;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
   const Gear* gear = find_gear(section.text("gear"));

@@ -41,6 +41,14 @@ TEST_F(LinkConfigTest, AWeightIsToldWithOrWithoutAGearAndOnlyWhereNothingElseFin
                   {"gravity_Nm", "1000", "0 to 34"});
 }
 
+// The controller counts as the drive does; homing moves what comes from outside, and not the weight.
+TEST_F(LinkConfigTest, AWeightIsRefusedWherePositionsAreFoundByHoming) {
+  const std::string homing = "\n[joint.homing]\nto = \"positive_stop\"\nstop_torque_Nm = 3.0\n";
+  EXPECT_NO_THROW(read(joint_with("rigid = false") + homing));
+  expect_mentions(error_of(joint_with("gravity_Nm = 3.0\ngravity_zero_rad = -0.5") + homing),
+                  {"homing.to", "positive_stop", "gravity_Nm"});
+}
+
 TEST_F(LinkConfigTest, RefusesWhatCannotBe) {
   expect_mentions(error_of(joint_with("gear = \"csf-18-50\"\nload_inertia_kgm2 = 0.1")),
                   {"gear", "csf-18-50", "csf-17-50"});
