@@ -8,9 +8,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <system_error>
-
-#include "base/input_error.h"
 
 namespace strainwave {
 
@@ -19,8 +18,8 @@ namespace {
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void fail(int error) {
-  throw InputError("gnuplot cannot be run (" + std::generic_category().message(error) +
-                   "): it is needed to draw; install the package gnuplot-nox");
+  throw std::runtime_error("gnuplot cannot be run (" + std::generic_category().message(error) +
+                           "): it is needed to draw; install the package gnuplot-nox");
 }
 
 File temporary_file() {
@@ -63,7 +62,7 @@ void run_gnuplot(const std::string& script) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw InputError("gnuplot failed: " + content(said.get()));
+    throw std::runtime_error("gnuplot failed: " + content(said.get()));
 }
 
 std::string gnuplot_quoted(const std::string& text) {

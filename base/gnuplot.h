@@ -5,7 +5,7 @@
 
 namespace strainwave {
 
-/// Runs gnuplot on `script` and waits for it. Throws InputError: gnuplot cannot be run (and which package has it), or refuses
+/// Runs gnuplot on `script` and waits for it. Throws std::runtime_error: gnuplot cannot be run (and which package has it), or refuses
 /// the script, with what it said.
 void run_gnuplot(const std::string& script);
 

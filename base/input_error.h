@@ -1,20 +1,22 @@
-// The one exception for bad input at start-up or offline: configuration, tables, catalogues. Never in the
-// loop.
+// The one exception for bad input at start-up or offline: configuration, tables, catalogues. Never in the loop.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
+#include "base/printable.h"
+
 namespace strainwave {
 
-/// Says what was wrong, where, what is allowed and what to do; what() is the whole sentence for the user.
+/// Says what was wrong, where, what is allowed and what to do; what() is the whole sentence for the user. It may quote what a file,
+/// a device or a name says: whatever commands a terminal in it is shown as question marks, line by line.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  explicit InputError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
   /// "<where>: <key> = <value>: <allowed>".
   InputError(const std::string& where, const std::string& key, const std::string& value,
              const std::string& allowed)
-      : std::runtime_error(where + ": " + key + " = " + value + ": " + allowed) {}
+      : InputError(where + ": " + key + " = " + printable(value) + ": " + allowed) {}
 };
 
 }  // namespace strainwave

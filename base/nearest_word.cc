@@ -22,8 +22,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-bool is_without_unit(std::string_view shorter, std::string_view longer) {
-  return longer.size() > shorter.size() && longer.starts_with(shorter) && longer[shorter.size()] == '_';
+bool is_begin_of(std::string_view shorter, std::string_view longer) {
+  return longer.size() > shorter.size() && longer.starts_with(shorter) &&
+         (longer[shorter.size()] == '_' || longer[shorter.size()] == '-');
 }
 
 }  // namespace
@@ -32,8 +33,8 @@ const std::string* nearest_word(std::string_view typed, const std::vector<std::s
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
   for (const std::string& word : known) {
-    // A forgotten unit is the likeliest slip.
-    if (!typed.empty() && (is_without_unit(typed, word) || is_without_unit(word, typed))) return &word;
+    // A forgotten unit, or last word, is the likeliest slip.
+    if (!typed.empty() && (is_begin_of(typed, word) || is_begin_of(word, typed))) return &word;
     const std::size_t distance = edit_distance(typed, word);
     if (distance >= least || distance >= std::max(typed.size(), word.size())) continue;
     least = distance;

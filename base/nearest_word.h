@@ -7,7 +7,7 @@
 
 namespace strainwave {
 
-/// The word of `known` that `typed` most likely was to be: the same without its unit ("speed" for "speed_rad_s"), or few slips
+/// The word of `known` that `typed` most likely was to be: the same without its unit or last words ("speed" for "speed-limit_rad_s"), or few slips
 /// of the pen away (one for three letters, two at least). Null when none is.
 const std::string* nearest_word(std::string_view typed, const std::vector<std::string>& known);
 

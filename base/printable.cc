@@ -38,33 +38,53 @@ struct Span {
 };
 
 // C0, DEL and C1; what breaks lines, is invisible or turns the direction of writing (Unicode's categories Cc, Zl, Zp and Cf, as far as
-// they show nothing).
+// they show nothing, and the fillers of Hangul).
 bool commands_a_terminal(std::uint32_t code) {
-  constexpr std::array<Span, 9> kHidden{{{0x00, 0x1F},
-                                         {0x7F, 0x9F},
-                                         {0xAD, 0xAD},
-                                         {0x61C, 0x61C},
-                                         {0x200B, 0x200F},
-                                         {0x2028, 0x202E},
-                                         {0x2060, 0x206F},
-                                         {0xFEFF, 0xFEFF},
-                                         {0xE0000, 0xE007F}}};
+  constexpr std::array<Span, 12> kHidden{{{0x00, 0x1F},
+                                          {0x7F, 0x9F},
+                                          {0xAD, 0xAD},
+                                          {0x61C, 0x61C},
+                                          {0x115F, 0x1160},
+                                          {0x200B, 0x200F},
+                                          {0x2028, 0x202E},
+                                          {0x2060, 0x206F},
+                                          {0x3164, 0x3164},
+                                          {0xFEFF, 0xFEFF},
+                                          {0xFFA0, 0xFFA0},
+                                          {0xE0000, 0xE007F}}};
   return std::any_of(kHidden.begin(), kHidden.end(),
                      [code](const Span& span) { return code >= span.first && code <= span.last; });
+}
+
+std::string made_safe(std::string_view text, bool keep_lines) {
+  std::string safe;
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const bool shown = character.bytes > 0 &&
+                       (!commands_a_terminal(character.code) || (keep_lines && character.code == '\n'));
+    safe += shown ? text.substr(0, character.bytes) : "?";
+    text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
+  }
+  return safe;
 }
 
 }  // namespace
 
 std::string printable(std::string_view text) {
-  text = text.substr(0, text.find('\0'));
-  std::string safe;
-  while (!text.empty()) {
-    const Character character = first_character(text);
-    const bool shown = character.bytes > 0 && !commands_a_terminal(character.code);
-    safe += shown ? text.substr(0, character.bytes) : "?";
-    text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
+  return made_safe(text.substr(0, text.find('\0')), false);
+}
+
+std::string printable_lines(std::string_view text) {
+  return made_safe(text, true);
+}
+
+std::string printable_paragraph(std::string_view text) {
+  std::string indented;
+  for (const char letter : printable_lines(text)) {
+    indented += letter;
+    if (letter == '\n') indented += "  ";
   }
-  return safe;
+  return indented;
 }
 
 std::string number_text(double value) {

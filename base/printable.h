@@ -11,6 +11,13 @@ namespace strainwave {
 /// UTF-8 is a question mark.
 std::string printable(std::string_view text);
 
+/// The same of each line of `text`: line feeds stay, and zero bytes become question marks.
+std::string printable_lines(std::string_view text);
+
+/// The same as what a program says of itself: every line but the first is indented, so that no text that was given to it can pass for
+/// a line of its own.
+std::string printable_paragraph(std::string_view text);
+
 /// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.
 std::string number_text(double value);
 

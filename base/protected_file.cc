@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <list>
 #include <string>
+#include <system_error>
 
 #include "base/input_error.h"
 
@@ -10,11 +12,26 @@ namespace strainwave {
 
 namespace {
 
-std::optional<std::string> find_exposure(const std::filesystem::path& path, const struct stat& status,
-                                         Writers allowed) {
-  if (status.st_uid != 0 && status.st_uid != ::geteuid())
-    return path.string() + ": is owned by user " + std::to_string(status.st_uid) +
-           ": root or the user that runs strainwaved must own it";
+namespace fs = std::filesystem;
+
+/// As many links as the kernel follows.
+constexpr int kMaxLinks = 40;
+
+/// Whose / is: root's, which in a user namespace that does not know root looks like nobody's.
+uid_t owner_of_root() {
+  constexpr uid_t kUnknown = 65534;
+  struct stat status {};
+  return ::stat("/", &status) == 0 && status.st_uid == kUnknown ? kUnknown : 0;
+}
+
+std::optional<std::string> find_third_owner(const fs::path& path, const struct stat& status) {
+  if (status.st_uid == 0 || status.st_uid == ::geteuid()) return std::nullopt;
+  return path.string() + ": is owned by user " + std::to_string(status.st_uid) +
+         ": root or the user that runs strainwaved must own it";
+}
+
+std::optional<std::string> exposure_of(const fs::path& path, const struct stat& status, Writers allowed) {
+  if (auto owner = find_third_owner(path, status)) return owner;
   if (S_ISDIR(status.st_mode) && (status.st_mode & S_ISVTX) != 0) return std::nullopt;
   if ((status.st_mode & S_IWOTH) != 0)
     return path.string() + ": everyone may write it: chmod o-w " + path.string();
@@ -23,14 +40,51 @@ std::optional<std::string> find_exposure(const std::filesystem::path& path, cons
   return std::nullopt;
 }
 
+/// The way from / to a file, link by link: every folder and every link that decides where it leads.
+class Way {
+ public:
+  explicit Way(const fs::path& path) { walk(fs::absolute(path)); }
+
+  std::optional<std::string> find_exposure(Writers allowed) {
+    for (int links = 0; !left_.empty();) {
+      const fs::path next = left_.front() == ".." ? here_.parent_path() : here_ / left_.front();
+      left_.pop_front();
+      struct stat status {};
+      if (::lstat(next.c_str(), &status) != 0) return std::nullopt;
+      if (!S_ISREG(status.st_mode) && status.st_uid == root_) status.st_uid = 0;
+      if (S_ISLNK(status.st_mode)) {
+        if (auto owner = find_third_owner(next, status)) return owner;
+        std::error_code gone;
+        const fs::path target = fs::read_symlink(next, gone);
+        if (gone || ++links > kMaxLinks) return std::nullopt;
+        walk(target);
+        continue;
+      }
+      if (auto exposure = exposure_of(next, status, allowed)) return exposure;
+      here_ = next;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// `path` comes before what is left, and begins at / if it is absolute.
+  void walk(const fs::path& path) {
+    std::list<fs::path> names;
+    for (const fs::path& name : path)
+      if (!name.empty() && name != ".") names.push_back(name);
+    if (path.is_absolute()) here_.clear();
+    left_.splice(left_.begin(), names);
+  }
+
+  uid_t root_ = owner_of_root();
+  fs::path here_;
+  std::list<fs::path> left_;
+};
+
 }  // namespace
 
 std::optional<std::string> find_exposure(const std::filesystem::path& path, Writers allowed) {
-  struct stat status {};
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (::stat(folder.c_str(), &status) == 0)
-    if (auto exposure = find_exposure(folder, status, allowed)) return exposure;
-  return ::stat(path.c_str(), &status) == 0 ? find_exposure(path, status, allowed) : std::nullopt;
+  return Way(path).find_exposure(allowed);
 }
 
 void require_protected(const std::filesystem::path& path, Writers allowed) {
@@ -38,7 +92,7 @@ void require_protected(const std::filesystem::path& path, Writers allowed) {
 }
 
 void require_protected(const std::filesystem::path& path, const struct stat& status, Writers allowed) {
-  if (const auto exposure = find_exposure(path, status, allowed)) throw InputError(*exposure);
+  if (const auto exposure = exposure_of(path, status, allowed)) throw InputError(*exposure);
 }
 
 }  // namespace strainwave

@@ -4,21 +4,32 @@
 
 #include "base/input_error.h"
 #include "base/nearest_word.h"
+#include "base/printable.h"
 
 namespace strainwave {
 
 using nlohmann::ordered_json;
 
+namespace {
+
+/// Beyond it whoever walks through a document runs out of stack.
+constexpr int kDeepest = 32;
+
+}  // namespace
+
 ordered_json parse_strict_json(std::string_view text, const std::string& source) {
   // nlohmann keeps the last of repeated keys without a word; the events of its parser show every one.
   std::vector<std::set<std::string>> open_objects;
-  const auto refuse_repeated_keys = [&](int, ordered_json::parse_event_t event, ordered_json& parsed) {
+  const auto refuse_repeated_keys = [&](int depth, ordered_json::parse_event_t event, ordered_json& parsed) {
+    if (depth > kDeepest)
+      throw InputError(source + ": lists and objects lie in each other more than " +
+                       std::to_string(kDeepest) + " deep: no file of ours does");
     if (event == ordered_json::parse_event_t::object_start) open_objects.emplace_back();
     if (event == ordered_json::parse_event_t::object_end) open_objects.pop_back();
     if (event == ordered_json::parse_event_t::key) {
       const auto& key = parsed.get_ref<const std::string&>();
       if (!open_objects.back().insert(key).second)
-        throw InputError(source + ": key \"" + key + "\" occurs twice");
+        throw InputError(source + ": key \"" + printable(key) + "\" occurs twice");
     }
     return true;
   };
@@ -40,7 +51,7 @@ bool StrictObject::has(const std::string& key) const {
 }
 
 std::string StrictObject::where(const std::string& key) const {
-  return source_ + ": " + (path_.empty() ? "" : path_ + ".") + key;
+  return source_ + ": " + (path_.empty() ? "" : path_ + ".") + printable(key);
 }
 
 void StrictObject::complain(const std::string& key, const std::string& allowed) const {
@@ -53,8 +64,9 @@ const ordered_json& StrictObject::get(const std::string& key) {
     for (const auto& [name, value] : value_->items())
       if (!read_.contains(name)) others.push_back(name);
     const std::string* nearest = nearest_word(key, others);
-    throw InputError(where(key) + ": is missing" +
-                     (nearest != nullptr ? "; there is " + *nearest + ": is that what was meant?" : ""));
+    throw InputError(
+        where(key) + ": is missing" +
+        (nearest != nullptr ? "; there is " + printable(*nearest) + ": is that what was meant?" : ""));
   }
   read_.insert(key);
   return value_->at(key);

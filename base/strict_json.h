@@ -1,8 +1,8 @@
 // Strict reading of JSON, shared by the files of this project. Not real-time. Every complaint is an
-// InputError that names the source, the key and what is allowed; repeated, unknown and missing keys are
-// errors.
+// InputError that names the source, the key and what is allowed; repeated, unknown and missing keys are errors.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace strainwave {
+
+/// The longest name, path or sentence in a file of ours, where nothing shorter is said.
+inline constexpr std::size_t kMaxTextBytes = 4096;
 
 /// Parses `text`; malformed JSON and repeated keys are errors. `source` is named in messages.
 nlohmann::ordered_json parse_strict_json(std::string_view text, const std::string& source);

@@ -9,13 +9,14 @@
 #include "base/nearest_word.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "base/toml_nesting.h"
 
 namespace strainwave {
 
 namespace {
 
 std::string value_text(const toml::node& node) {
-  if (const auto* text = node.as_string()) return "\"" + text->get() + "\"";
+  if (const auto* text = node.as_string()) return "\"" + printable(text->get()) + "\"";
   if (const auto* number = node.as_floating_point()) return number_text(number->get());
   if (const auto* whole = node.as_integer()) return std::to_string(whole->get());
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
@@ -66,7 +67,7 @@ struct TomlSection::Reader {
     const std::string* nearest = nearest_word(key, others);
     if (nearest == nullptr) return "";
     const auto line = section.table_->table->get(*nearest)->source().begin.line;
-    return "; line " + std::to_string(line) + " has " + *nearest + ": is that what was meant?";
+    return "; line " + std::to_string(line) + " has " + printable(*nearest) + ": is that what was meant?";
   }
 
   static double checked(const TomlSection& section, std::string_view key, const toml::node& node,
@@ -83,12 +84,13 @@ TomlSection::TomlSection(std::shared_ptr<const Table> table, std::string file, s
     : table_(std::move(table)), file_(std::move(file)), path_(std::move(path)) {}
 
 TomlSection TomlSection::parse(std::string_view text, const std::string& file) {
+  refuse_deep_nesting(text, file);
   try {
     const auto document = std::make_shared<Document>(Document{toml::parse(text, file), {}});
     return {std::make_shared<const Table>(Table{document, &document->root}), file, ""};
   } catch (const toml::parse_error& error) {
     throw InputError(file + ":" + std::to_string(error.source().begin.line) +
-                     ": not valid TOML: " + std::string(error.description()));
+                     ": not valid TOML: " + printable(error.description()));
   }
 }
 
@@ -109,7 +111,8 @@ std::string TomlSection::place(std::string_view key) const {
   const unsigned line = node != nullptr ? static_cast<unsigned>(node->source().begin.line) : table_->line();
   // A table that stands nowhere has no line.
   const std::string where = line > 0 ? file_ + ":" + std::to_string(line) : file_;
-  return where + ": " + full_name(key) + (node == nullptr ? " is missing" : " = " + value_text(*node));
+  return where + ": " + printable(full_name(key)) +
+         (node == nullptr ? " is missing" : " = " + value_text(*node));
 }
 
 void TomlSection::fail(std::string_view key, const std::string& allowed) const {

@@ -16,6 +16,8 @@ struct Range {
   double min;
   double max;
 };
+/// Of a quantity that is above zero and has no other bounds.
+inline constexpr Range kPositive{1e-9, 1e9};
 
 /// One table of a file. Messages name it by its path ("joint[0].limits"). All methods throw InputError that names the file,
 /// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead.

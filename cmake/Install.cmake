@@ -33,24 +33,27 @@ install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/s
 install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
 install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
 
-# strainwave_install_manual(COMPONENT PROGRAM...): man pages and completion, which the target "manual" makes.
+# strainwave_install_manual(COMPONENT PROGRAM.SECTION...): man pages and completion, which the target "manual" makes.
 function(strainwave_install_manual component)
   set(folder "${CMAKE_BINARY_DIR}/man")
-  foreach(program IN LISTS ARGN)
-    install(FILES "${folder}/${program}.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+  foreach(page IN LISTS ARGN)
+    cmake_path(GET page STEM program)
+    cmake_path(GET page EXTENSION section)
+    string(REPLACE "." "man" section_folder "${section}")
+    install(FILES "${folder}/${page}.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/${section_folder} COMPONENT ${component})
     install(FILES "${folder}/${program}.bash" RENAME ${program}
             DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT ${component})
     install(FILES "${folder}/_${program}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/vendor-completions COMPONENT ${component})
   endforeach()
 endfunction()
-strainwave_install_manual(daemon strainwaved strainwavectl strainwave-telemetry)
+strainwave_install_manual(daemon strainwaved.8 strainwavectl.1 strainwave-telemetry.8)
 
 # Package strainwave-design: what needs no robot.
 install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
-strainwave_install_manual(design strainwave-sim)
+strainwave_install_manual(design strainwave-sim.1)
 if(STRAINWAVE_BUILD_DESIGN)
   install(TARGETS strainwave-design DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
-  strainwave_install_manual(design strainwave-design)
+  strainwave_install_manual(design strainwave-design.1)
 endif()
 install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT design)
 
@@ -58,6 +61,7 @@ install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT
 if(STRAINWAVE_BUILD_SPY)
   install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave-spy COMPONENT spy)
   install(PROGRAMS spy/strainwave-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT spy)
+  install(FILES "${CMAKE_BINARY_DIR}/man/strainwave-spy.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT spy)
 endif()
 
 # Package libstrainwave-lcmtypes-dev.
@@ -65,9 +69,24 @@ install(FILES ${STRAINWAVE_LCM_SOURCES} DESTINATION ${CMAKE_INSTALL_DATADIR}/lcm
 install(TARGETS strainwave-lcmtypes DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lcmtypes)
 install(DIRECTORY "${STRAINWAVE_LCM_GENERATED_DIR}/strainwave" "${STRAINWAVE_LCM_GENERATED_DIR}/c/strainwave"
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT lcmtypes FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+# Where a .pc file finds its prefix, from where it is itself: another prefix needs no other file.
+file(RELATIVE_PATH up_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(packaging/strainwave-lcmtypes.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
         COMPONENT lcmtypes)
+
+# Package libstrainwave-client-dev: find_package(strainwave-client), target strainwave::client, or pkg-config.
+install(TARGETS strainwave-client EXPORT strainwave-client DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
+install(EXPORT strainwave-client NAMESPACE strainwave:: FILE strainwave-client-config.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
+include(CMakePackageConfigHelpers)
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake"
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
+install(DIRECTORY "${STRAINWAVE_CLIENT_HEADERS}" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT client)
+configure_file(packaging/strainwave-client.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" @ONLY)
+install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT client)
 
 # Package python3-strainwave: our modules and lcm-gen's types.
 install(DIRECTORY "${STRAINWAVE_PYTHON_PACKAGE}" DESTINATION lib/python3/dist-packages COMPONENT python
@@ -85,7 +104,7 @@ strainwave_compressed(packaging/changelog changelog.Debian.gz)
 set(changelogs "${CMAKE_BINARY_DIR}/packaging/changelog.gz" "${CMAKE_BINARY_DIR}/packaging/changelog.Debian.gz")
 add_custom_target(strainwave_changelogs ALL DEPENDS ${changelogs})
 foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmtypes:libstrainwave-lcmtypes-dev
-        python:python3-strainwave)
+        client:libstrainwave-client-dev python:python3-strainwave)
   string(REPLACE ":" ";" pair "${pair}")
   list(GET pair 0 component)
   list(GET pair 1 package)
@@ -98,8 +117,8 @@ foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmty
 endforeach()
 
 # What the packages hold; scripts/package builds it without the tests.
-add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-telemetry strainwave-sim strainwave-lcmtypes strainwave_python
-                  manual strainwave_changelogs)
+add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-telemetry strainwave-sim strainwave-lcmtypes
+                  strainwave-client strainwave_python manual strainwave_changelogs)
 if(STRAINWAVE_BUILD_DESIGN)
   add_dependencies(products strainwave-design)
 endif()

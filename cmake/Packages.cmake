@@ -10,7 +10,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL daemon lcmtypes python)
+set(CPACK_COMPONENTS_ALL daemon lcmtypes client python)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 # Of the packaging, while the version stays.
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
@@ -62,6 +62,17 @@ set(CPACK_COMPONENT_LCMTYPES_DESCRIPTION "Strainwave's LCM messages for other pr
  The message types of strainwaved: their definitions, headers for C and C++,
  and a static library for C. Those for Python are in python3-strainwave.")
 set(CPACK_DEBIAN_LCMTYPES_PACKAGE_DEPENDS "liblcm-dev (>= 1.3.1)")
+
+set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME libstrainwave-client-dev)
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_CLIENT_DESCRIPTION "Strain-wave joints from C++
+ Moves and watches joints of strainwaved: orders are signed, acknowledged and
+ repeated, setpoints come as a stream, states have names and units. A static
+ library with its headers, for CMake and pkg-config.")
+# lcm.pc asks for glib, which liblcm-dev does not bring.
+set(CPACK_DEBIAN_CLIENT_PACKAGE_DEPENDS
+  "libstrainwave-lcmtypes-dev (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), libfmt-dev, libglib2.0-dev, liblcm-dev (>= 1.3.1), libsodium-dev")
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS strainwave)
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-strainwave)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -46,13 +46,14 @@ struct BoundedMatrix {
   static constexpr double kUp = 1.0 + 128.0 * bounded_detail::kHalfUlp;
 };
 
+// Entry by entry: Eigen's products in blocks are for larger matrices, and cost seconds in every file that multiplies.
 inline BoundedMatrix operator*(const BoundedMatrix& a, const BoundedMatrix& b) {
   const ProofMatrix size_a = a.value.cwiseAbs();
   const ProofMatrix size_b = b.value.cwiseAbs();
   const double rounding = static_cast<double>(a.value.cols() + 1) * bounded_detail::kHalfUlp;
-  const ProofMatrix inherited =
-      size_a * (b.error + rounding * size_b) + a.error * ProofMatrix(size_b + b.error);
-  return BoundedMatrix::from(a.value * b.value,
+  const ProofMatrix inherited = size_a.lazyProduct(ProofMatrix(b.error + rounding * size_b)) +
+                                a.error.lazyProduct(ProofMatrix(size_b + b.error));
+  return BoundedMatrix::from(a.value.lazyProduct(b.value),
                              (BoundedMatrix::kUp * inherited).array() +
                                  static_cast<double>(a.value.cols()) * bounded_detail::kUnderflow);
 }

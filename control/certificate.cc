@@ -12,7 +12,7 @@ namespace strainwave {
 namespace {
 
 using BoundedVector = std::array<Bounded, kMaxStates>;
-using BoundedMatrix = std::array<BoundedVector, kMaxStates>;
+using BoundedSquare = std::array<BoundedVector, kMaxStates>;
 
 // Only the leading n x n block counts. Controllers without an integrator are moved up and left by one state.
 struct Problem {
@@ -23,7 +23,7 @@ struct Problem {
   Bounded squared_rate = 1.0;
   BoundedVector state_weights{};
   std::array<BoundedVector, kMaxRules> F{};
-  std::array<BoundedMatrix, kMaxRules> P{};
+  std::array<BoundedSquare, kMaxRules> P{};
 };
 
 bool fits(const FeedbackGains& gains, std::size_t plant_rules) noexcept {
@@ -61,9 +61,9 @@ Problem make_problem(const FeedbackGains& gains) noexcept {
 }
 
 // A + B F.
-BoundedMatrix closed_loop(const Problem& problem, const BoundedDynamics& plant,
+BoundedSquare closed_loop(const Problem& problem, const BoundedDynamics& plant,
                           const BoundedVector& F) noexcept {
-  BoundedMatrix H{};
+  BoundedSquare H{};
   for (std::size_t a = 0; a < problem.n; ++a) {
     for (std::size_t b = 0; b < problem.n; ++b) {
       H[a][b] = plant.A[problem.first + a][problem.first + b] + plant.B[problem.first + a] * F[b];
@@ -73,9 +73,9 @@ BoundedMatrix closed_loop(const Problem& problem, const BoundedDynamics& plant,
 }
 
 // H' P H.
-BoundedMatrix congruence(const BoundedMatrix& H, const BoundedMatrix& P, std::size_t n) noexcept {
-  BoundedMatrix PH{};
-  BoundedMatrix result{};
+BoundedSquare congruence(const BoundedSquare& H, const BoundedSquare& P, std::size_t n) noexcept {
+  BoundedSquare PH{};
+  BoundedSquare result{};
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = 0; b < n; ++b) {
       for (std::size_t k = 0; k < n; ++k) PH[a][b] = PH[a][b] + P[a][k] * H[k][b];
@@ -89,7 +89,7 @@ BoundedMatrix congruence(const BoundedMatrix& H, const BoundedMatrix& P, std::si
   return result;
 }
 
-PositiveDefiniteResult test(const Problem& problem, const BoundedMatrix& matrix) noexcept {
+PositiveDefiniteResult test(const Problem& problem, const BoundedSquare& matrix) noexcept {
   StateMatrix value = StateMatrix::Zero();
   StateMatrix error = StateMatrix::Zero();
   for (std::size_t a = 0; a < problem.n; ++a) {
@@ -102,8 +102,8 @@ PositiveDefiniteResult test(const Problem& problem, const BoundedMatrix& matrix)
 }
 
 // P_j, less the stage cost W + F_j' R F_j if it counts.
-BoundedMatrix allowance(const Problem& problem, std::size_t j, bool with_cost) noexcept {
-  BoundedMatrix left = problem.P[j];
+BoundedSquare allowance(const Problem& problem, std::size_t j, bool with_cost) noexcept {
+  BoundedSquare left = problem.P[j];
   if (!with_cost) return left;
   for (std::size_t a = 0; a < problem.n; ++a) {
     left[a][a] = left[a][a] - problem.state_weights[a];
@@ -114,10 +114,10 @@ BoundedMatrix allowance(const Problem& problem, std::size_t j, bool with_cost) n
 }
 
 // allowed - copies H' P_l H / r^2 > 0.
-PositiveDefiniteResult test_step(const Problem& problem, const BoundedMatrix& allowed, double copies,
-                                 const BoundedMatrix& H, std::size_t l) noexcept {
-  const BoundedMatrix next = congruence(H, problem.P[l], problem.n);
-  BoundedMatrix difference{};
+PositiveDefiniteResult test_step(const Problem& problem, const BoundedSquare& allowed, double copies,
+                                 const BoundedSquare& H, std::size_t l) noexcept {
+  const BoundedSquare next = congruence(H, problem.P[l], problem.n);
+  BoundedSquare difference{};
   for (std::size_t a = 0; a < problem.n; ++a) {
     for (std::size_t b = 0; b < problem.n; ++b)
       difference[a][b] = allowed[a][b] - copies * next[a][b] / problem.squared_rate;
@@ -138,8 +138,8 @@ void keep_worst(CertificateReport& report, const PositiveDefiniteResult& result,
 void test_rule(const Problem& problem, const BoundedDynamics& plant, std::size_t i, std::size_t j,
                CertificateReport& report) noexcept {
   const bool own = problem.rules == 1 || i == j;
-  const BoundedMatrix H = closed_loop(problem, plant, problem.F[j]);
-  const BoundedMatrix allowed = allowance(problem, j, own);
+  const BoundedSquare H = closed_loop(problem, plant, problem.F[j]);
+  const BoundedSquare allowed = allowance(problem, j, own);
   PositiveDefiniteResult& worst = report.worst_next[i][j];
   worst = {true, std::numeric_limits<double>::infinity()};
   for (std::size_t l = 0; l < problem.rules; ++l) {
@@ -154,10 +154,10 @@ void test_rule(const Problem& problem, const BoundedDynamics& plant, std::size_t
 
 void test_crossed(const Problem& problem, std::span<const BoundedDynamics> plant, std::size_t j,
                   std::size_t k, CertificateReport& report) noexcept {
-  BoundedMatrix H = closed_loop(problem, plant[j], problem.F[k]);
-  const BoundedMatrix mirrored = closed_loop(problem, plant[k], problem.F[j]);
-  BoundedMatrix allowed = allowance(problem, j, true);
-  const BoundedMatrix other = allowance(problem, k, true);
+  BoundedSquare H = closed_loop(problem, plant[j], problem.F[k]);
+  const BoundedSquare mirrored = closed_loop(problem, plant[k], problem.F[j]);
+  BoundedSquare allowed = allowance(problem, j, true);
+  const BoundedSquare other = allowance(problem, k, true);
   for (std::size_t a = 0; a < problem.n; ++a) {
     for (std::size_t b = 0; b < problem.n; ++b) {
       H[a][b] = Bounded(0.5) * (H[a][b] + mirrored[a][b]);

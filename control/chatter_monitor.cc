@@ -11,9 +11,13 @@ namespace {
 // Shares of static friction. The law compensates 1.1 of it in either direction: a strong reversal is twice
 // that. Less than half of it moves no joint that rests.
 constexpr double kStrongShare = 2.5;
+// A law that compensates none has no such reversals: one is then as strong as what moves the joint whichever way.
+constexpr double kBareShare = 1.2;
 constexpr double kWeakShare = 0.5;
 // A reading may flicker by a count or two: the torque that this makes is noise.
 constexpr double kNoiseSteps = 4.0;
+// As noise passes at most this share of the torque limit, on either side: gains that make more of a few counts shake the joint.
+constexpr double kMostNoise = 0.25;
 // A strain-wave joint on its spring swings at 28 to 86 Hz (catalogue stiffness, load up to three times the
 // rotor): 56 to 172 reversals a second. Four of them in 50 ms reach the limit, and so do 40 a second in the
 // long run; a move has three, a push from outside two.
@@ -38,10 +42,17 @@ constexpr double kRestLimit = 60.0;
 constexpr double kUnsettled_s = 2.0;
 constexpr double kUnsettledLeak_s = 5.0;
 constexpr double kUnsettledLimit = 40.0;
-// After the fallback: what still counts as chatter, and how long it may last. With the time to notice it no chatter lasts longer
-// than some third of a second; on a long move it may begin only where the reference brakes.
+// Several times its own friction swings the catalogue's joint over its place and back 20 to 40 times a second, by milliradians. Two of that
+// in 50 ms reach the limit; whoever pushes a joint out and lets it go makes one.
+constexpr double kSwingLimit = 1.55;
+// Distrust. With load and friction 30 % off, spring 25 %, delay by one, feedback asks for 0.14 of the limit up to 0.1 rad, and for 0.4 to
+// 0.5 in motions of 1 rad on links of up to three times the motor.
+constexpr double kDistrust_s = 0.05;
+constexpr double kDistrustLimit = 0.5;
+// After the fallback: what still counts as chatter, and how long it may last, half of it with the law's own gains. With the time to
+// notice it no chatter lasts longer than some third of a second; on a long move it may begin only where the reference brakes.
 constexpr double kGoesOn = 0.6;  // share of the limits
-constexpr double kPatience_s = 0.25;
+constexpr double kPatience_s = 0.2;
 
 }  // namespace
 
@@ -49,14 +60,21 @@ ChatterMonitor::ChatterMonitor(double period_s) noexcept
     : period_s_(period_s),
       leak_(std::exp(-period_s / kLeak_s)),
       rest_leak_(std::exp(-period_s / kRestLeak_s)),
-      unsettled_leak_(std::exp(-period_s / kUnsettledLeak_s)) {}
+      unsettled_leak_(std::exp(-period_s / kUnsettledLeak_s)),
+      forget_(std::exp(-period_s / kDistrust_s)) {}
 
 void ChatterMonitor::reset() noexcept {
   level_ = 0.0;
   turned_level_ = 0.0;
   rest_level_ = 0.0;
   unsettled_level_ = 0.0;
+  swing_level_ = 0.0;
+  ordered_low_Nm_ = 0.0;
+  ordered_high_Nm_ = 0.0;
+  distrust_ = 0.0;
   chatter_s_ = 0.0;
+  goes_on_ = false;
+  drives_itself_ = false;
   rest_s_ = 0.0;
   strong_ = {};
   torque_ = {};
@@ -73,26 +91,38 @@ bool ChatterMonitor::Side::reversed(double torque_Nm, double threshold_Nm) noexc
   return std::exchange(sign, now) == -now;
 }
 
+// The leak brings both ends back to where the torque is.
+void ChatterMonitor::follow_orders(const ChatterSample& sample) noexcept {
+  const double now_Nm = sample.ordered_torque_Nm;
+  ordered_high_Nm_ = std::max(now_Nm, now_Nm + leak_ * (ordered_high_Nm_ - now_Nm));
+  ordered_low_Nm_ = std::min(now_Nm, now_Nm + leak_ * (ordered_low_Nm_ - now_Nm));
+}
+
 void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   surprised_ = surprised_ || sample.surprised;
   surprised_at_rest_ = surprised_at_rest_ || sample.surprised;
   rest_s_ = sample.reference_rests ? rest_s_ + period_s_ * sample.elapsed_periods : 0.0;
   const auto beyond_Nm = [&](double share) {
-    return sample.doubt_Nm +
-           std::max(share * sample.static_friction_Nm, kNoiseSteps * sample.feedback_step_Nm);
+    const double noise_Nm =
+        std::min(kNoiseSteps * sample.feedback_step_Nm, kMostNoise * sample.torque_limit_Nm);
+    return sample.doubt_Nm + std::max(share * sample.static_friction_Nm, noise_Nm);
   };
+  const double strong_share = sample.compensates_friction ? kStrongShare : kBareShare;
   const double excess_Nm = sample.torque_Nm - sample.planned_torque_Nm;
   // At rest the law's compensation of friction is part of it: that is told from chatter as any other excess.
-  const double turned_Nm = beyond_Nm(sample.reference_rests ? kStrongShare : kTurnedShare);
-  if (torque_.reversed(sample.torque_Nm, turned_Nm) && !sample.landing) turned_level_ += 1.0;
+  const double turned_Nm = beyond_Nm(sample.reference_rests ? strong_share : kTurnedShare);
+  const double explained_Nm = 0.5 * (ordered_high_Nm_ - ordered_low_Nm_);
+  if (torque_.reversed(sample.torque_Nm, explained_Nm + turned_Nm) && !sample.landing) turned_level_ += 1.0;
   if (plan_.reversed(sample.planned_torque_Nm, turned_Nm)) turned_level_ -= 1.0;
-  if (strong_.reversed(excess_Nm, beyond_Nm(kStrongShare))) {
+  if (strong_.reversed(excess_Nm, explained_Nm + beyond_Nm(strong_share))) {
     if (!sample.landing)
       level_ += 1.0;
     else if (surprised_)
       level_ += kLandingWeight;
     surprised_ = false;
   }
+  if (sample.swung_over && sample.compensates_friction && !sample.landing && rest_s_ >= kSettled_s)
+    swing_level_ += 1.0;
   const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare));
   if (!weak) return;
   if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += 1.0;
@@ -112,16 +142,31 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
     turned_level_ *= leak_;
     rest_level_ *= rest_leak_;
     unsettled_level_ *= unsettled_leak_;
+    swing_level_ *= leak_;
+    follow_orders(sample);
+    const double share = sample.torque_limit_Nm > 0.0
+                             ? std::min(1.0, std::abs(sample.innovation_Nm) / sample.torque_limit_Nm)
+                             : 0.0;
+    distrust_ += (1.0 - forget_) * (share - distrust_);
   }
   count(sample);
   if (state_ == MonitorState::kWatching) {
-    if (!any_level_reaches(1.0)) return state_;
+    const bool drives_itself = swing_level_ >= kSwingLimit;
+    if (!any_level_reaches(1.0) && distrust_ < kDistrustLimit && !drives_itself) return state_;
     reset();
+    drives_itself_ = drives_itself;
     state_ = MonitorState::kFallenBack;
     return state_;
   }
   const double elapsed_s = period_s_ * sample.elapsed_periods;
-  chatter_s_ = any_level_reaches(kGoesOn) ? chatter_s_ + elapsed_s : std::max(0.0, chatter_s_ - elapsed_s);
+  chatter_s_ = any_level_reaches(kGoesOn)
+                   ? chatter_s_ + elapsed_s
+                   : std::max(goes_on_ ? 0.5 * kPatience_s : 0.0, chatter_s_ - elapsed_s);
+  if (chatter_s_ >= 0.5 * kPatience_s && !goes_on_) {
+    // From here on the gains are softer, and what counts is what those make.
+    goes_on_ = true;
+    level_ = turned_level_ = rest_level_ = unsettled_level_ = 0.0;
+  }
   if (chatter_s_ >= kPatience_s) state_ = MonitorState::kFaultDue;
   return state_;
 }

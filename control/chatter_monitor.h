@@ -14,6 +14,15 @@
 //   Watching ----- too many -------------------------> FallenBack   the plain certified law takes over
 //   FallenBack --- reversals go on for long enough --> FaultDue     the joint must be switched off
 //
+// A joint that follows a model of its spring is fed back what it differs from that. Where this asks for half of the torque limit, in the
+// mean over some 50 ms, the joint is not the model's: it falls back as well.
+//
+// A stream that swings the joint to and fro swings what it carries, too, and the law answers that. So strong reversals, and those of the whole
+// torque, count from beyond half of what the stream's own torque has swung lately: what its orders explain.
+//
+// A joint that swings about its place while friction is compensated towards it, long after the reference has come to rest, is driven by that: more
+// is compensated than it has. Its swings count in a level of their own, and three sides on end are enough.
+//
 // Single pushes of a landing reverse by design: one counts only when the encoder has contradicted the model
 // since the one before, and then a third.
 #pragma once
@@ -28,8 +37,18 @@ struct ChatterSample {
   double planned_torque_Nm = 0.0;   ///< what the planned motion and the load need of it; beyond it is excess
   double static_friction_Nm = 0.0;  ///< of the table, at this temperature
   double doubt_Nm = 0.0;  ///< added to every threshold where the plan rests on a spring and a load as told
+  double ordered_torque_Nm =
+      0.0;  ///< what a stream orders of inertia and told load: its swings are those of a spring, too, that nobody told of
   double feedback_step_Nm = 0.0;  ///< what the least change that the encoder can show makes of the torque
+  double torque_limit_Nm =
+      0.0;  ///< > 0: beyond a quarter of it on either side nothing is noise, whatever the encoder shows
+  /// The law compensates friction by itself, towards the target from either side.
+  bool compensates_friction = true;
+  /// Torque that the feedback asks for, where a model of the joint is followed: as large as the model is wrong. Else 0.
+  double innovation_Nm = 0.0;
   bool reference_rests = false;
+  /// The joint has come over to the other side of where it is to rest, by more than a push for the last counts leaves.
+  bool swung_over = false;
   bool landing = false;
   bool surprised = false;  ///< the encoder's reading contradicted the model
   int elapsed_periods = 1;
@@ -43,6 +62,12 @@ class ChatterMonitor {
   void reset() noexcept;
   MonitorState step(const ChatterSample& sample) noexcept;
   MonitorState state() const noexcept { return state_; }
+  /// Mean of the innovation over some 50 ms, as a share of the torque limit: how far the model that is followed is in doubt.
+  double distrust() const noexcept { return distrust_; }
+  /// Why it fell back: friction that is compensated at rest drives the joint, for it is more than the joint has.
+  bool drives_itself() const noexcept { return drives_itself_; }
+  /// After the fallback: chatter has gone on for half of the time that it may.
+  bool goes_on() const noexcept { return goes_on_; }
 
  private:
   /// The side on which a torque last was, beyond a threshold.
@@ -51,6 +76,7 @@ class ChatterMonitor {
     bool reversed(double torque_Nm, double threshold_Nm) noexcept;
   };
   void count(const ChatterSample& sample) noexcept;
+  void follow_orders(const ChatterSample& sample) noexcept;
   /// `share` of its limit.
   bool any_level_reaches(double share) const noexcept;
 
@@ -58,16 +84,23 @@ class ChatterMonitor {
   double leak_;            ///< of the level over a period
   double rest_leak_;       ///< of the level at rest
   double unsettled_leak_;  ///< of the level at a long rest
+  double forget_;          ///< of the distrust over a period
   double level_ = 0.0;
   double turned_level_ = 0.0;  ///< reversals of the whole torque, less the plan's
   double rest_level_ = 0.0;
   double unsettled_level_ = 0.0;
+  double swing_level_ = 0.0;
+  double ordered_low_Nm_ = 0.0;  ///< between these the orders have swung lately
+  double ordered_high_Nm_ = 0.0;
+  double distrust_ = 0.0;
   double chatter_s_ = 0.0;  ///< since the fallback
   double rest_s_ = 0.0;     ///< since when the reference rests
   Side strong_;
   Side torque_;  ///< of the whole torque
   Side plan_;    ///< of what the plan needs of it
   Side weak_;
+  bool goes_on_ = false;
+  bool drives_itself_ = false;
   bool surprised_ = false;          ///< since the last strong reversal
   bool surprised_at_rest_ = false;  ///< since the last weak one
   MonitorState state_ = MonitorState::kWatching;

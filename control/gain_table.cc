@@ -1,3 +1,4 @@
+// Above 300 lines: the structural check of every field of a table, which is one list.
 #include "control/gain_table.h"
 
 #include <cmath>
@@ -32,6 +33,8 @@ constexpr double kMaxVelocity_rad_s = 1e6;
 constexpr double kMaxGain = 1e9;
 constexpr double kMaxWeight = 1e12;
 constexpr double kMaxLyapunov = 1e15;
+constexpr double kMinBoxValue = 1e-9;
+constexpr double kMaxStiffness_Nm_rad = 1e9;
 constexpr double kMinTemperature_C = -273.15;
 constexpr double kMaxTemperature_C = 1000.0;
 constexpr double kIdentityTolerance = 1e-9;
@@ -76,10 +79,6 @@ class Inspector {
   std::optional<std::string> found_;
 };
 
-bool nearly_equal(double a, double b) {
-  return std::abs(a - b) <= kIdentityTolerance * std::abs(b);
-}
-
 void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
   inspector.text("plant.joint_model", plant.joint_model, false);
   inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMaxInertia_kgm2);
@@ -90,8 +89,77 @@ void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
   const Gear* gear = find_gear(plant.gear.view());
   const std::string said = "plant.gear = " + std::string(plant.gear.view());
   inspector.require(gear != nullptr, said + ": must be empty or one of " + gear_names());
-  inspector.require(gear == nullptr || nearly_equal(plant.gear_ratio, gear->ratio),
+  inspector.require(gear == nullptr || is_same_number(plant.gear_ratio, gear->ratio),
                     said + ": must be a gear of plant.gear_ratio = " + number(plant.gear_ratio));
+}
+
+void inspect_range(Inspector& inspector, const std::string& key, const BoxRange& range, double least,
+                   double most) {
+  inspector.in_range(key + "[0]", range.from, least, most);
+  inspector.in_range(key + "[1]", range.to, range.from, most);
+}
+
+void inspect_cell(Inspector& inspector, const CertifiedBox& box, const BoxCell& cell,
+                  const std::string& key) {
+  inspector.in_range(key + "delay_periods", cell.delay_periods, box.least_delay, box.most_delay);
+  inspect_range(inspector, key + "stiffness_Nm_rad", cell.stiffness_Nm_rad, kMinBoxValue,
+                kMaxStiffness_Nm_rad);
+  inspect_range(inspector, key + "link_inertia_kgm2", cell.link_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
+  if (!inspector.ok()) return;
+  for (std::size_t i = 0; i < kCellEntries; ++i) {
+    const std::string entry = key + "P[" + std::to_string(i) + "]";
+    inspector.in_range(entry, cell.P[i], -kMaxLyapunov, kMaxLyapunov);
+    inspector.require(i < cell_entries(cell.delay_periods) || cell.P[i] == 0.0,
+                      entry + ": must be 0 beyond the matrix");
+  }
+}
+
+bool is_zero(const BoxRange& range) {
+  return range.from == 0.0 && range.to == 0.0;
+}
+
+void inspect_cells(Inspector& inspector, const CertifiedBox& box) {
+  for (std::size_t i = 0; inspector.ok() && i < box.cells.size(); ++i) {
+    const BoxCell& cell = box.cells[i];
+    const std::string key = "box.cells[" + std::to_string(i) + "].";
+    if (i < static_cast<std::size_t>(box.cell_count)) {
+      inspect_cell(inspector, box, cell, key);
+      continue;
+    }
+    const bool zero = cell.delay_periods == 0 && is_zero(cell.stiffness_Nm_rad) &&
+                      is_zero(cell.link_inertia_kgm2) && cell.P == decltype(cell.P){};
+    inspector.require(zero, key + ": must be 0 beyond cell_count");
+  }
+}
+
+void inspect_box(Inspector& inspector, const GainTable& table) {
+  const CertifiedBox& box = table.box;
+  const auto side = static_cast<std::int32_t>(box.encoder_side);
+  inspector.require(side == 0 || side == 1,
+                    "box.encoder_side = " + std::to_string(side) + ": must be 0 (motor) or 1 (link)");
+  inspector.in_range("box.cell_count", box.cell_count, 0, kMaxBoxCells);
+  inspector.in_range("box.delay_periods[0]", box.least_delay, 0, kMaxBoxDelay);
+  inspector.in_range("box.delay_periods[1]", box.most_delay, box.least_delay, kMaxBoxDelay);
+  if (!inspector.ok()) return;
+  if (box.rigid()) {
+    inspector.require(box.motor_inertia_kgm2 == 0.0 && is_zero(box.link_inertia_kgm2) &&
+                          is_zero(box.stiffness_Nm_rad) && is_zero(box.damping_Nms_rad) &&
+                          box.most_delay == 0,
+                      "box: a rigid one, without cells, must say nothing of a spring");
+  } else {
+    inspector.require(
+        box.encoder_side == EncoderSide::kMotor,
+        "box.encoder_side = link: must be motor where the joint has a spring: no gains with the spring "
+        "before the encoder are certified");
+    inspector.require(!table.plant.gear.view().empty(),
+                      "plant.gear: must be named where the joint has a spring");
+    inspector.in_range("box.motor_inertia_kgm2", box.motor_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
+    inspect_range(inspector, "box.link_inertia_kgm2", box.link_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
+    inspect_range(inspector, "box.stiffness_Nm_rad", box.stiffness_Nm_rad, kMinBoxValue,
+                  kMaxStiffness_Nm_rad);
+    inspect_range(inspector, "box.damping_Nms_rad", box.damping_Nms_rad, 0.0, kMaxViscous_Nms_rad);
+  }
+  inspect_cells(inspector, box);
 }
 
 // Friction is fed forward beside the certified feedback: it must be friction, and less than the motor can give.
@@ -196,6 +264,7 @@ std::optional<std::string> find_defect(const GainTable& table) {
                                                           std::to_string(kGainTableFormat));
   inspector.text("name", table.name, false);
   inspect_plant(inspector, table.plant);
+  inspect_box(inspector, table);
   inspector.positive("torque_limit_Nm", table.torque_limit_Nm, kMaxTorque_Nm);
   inspect_friction(inspector, table.friction, table.torque_limit_Nm);
   const int plant_rules = 1 + table.friction.rule_count;
@@ -215,7 +284,12 @@ std::optional<std::string> find_defect(const GainTable& table) {
   return inspector.defect();
 }
 
-std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected) {
+bool is_same_number(double a, double b) noexcept {
+  return std::abs(a - b) <= kIdentityTolerance * std::abs(b);
+}
+
+std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected,
+                                                  InertiaCheck inertia) {
   const PlantIdentity& plant = table.plant;
   const auto differs = [](const std::string& key, double value, double wanted) {
     return "plant." + key + " = " + number(value) + ": this joint has " + number(wanted);
@@ -229,13 +303,13 @@ std::optional<std::string> find_identity_mismatch(const GainTable& table, const 
     return "plant.gear = " + std::string(plant.gear.view()) + ": this joint has a " +
            std::string(expected.gear.view());
   }
-  if (!nearly_equal(plant.inertia_kgm2, expected.inertia_kgm2)) {
+  if (inertia == InertiaCheck::kSame && !is_same_number(plant.inertia_kgm2, expected.inertia_kgm2)) {
     return differs("inertia_kgm2", plant.inertia_kgm2, expected.inertia_kgm2);
   }
-  if (!nearly_equal(plant.gear_ratio, expected.gear_ratio)) {
+  if (!is_same_number(plant.gear_ratio, expected.gear_ratio)) {
     return differs("gear_ratio", plant.gear_ratio, expected.gear_ratio);
   }
-  if (!nearly_equal(plant.period_s, expected.period_s))
+  if (!is_same_number(plant.period_s, expected.period_s))
     return differs("period_s", plant.period_s, expected.period_s);
   return std::nullopt;
 }

@@ -1,6 +1,5 @@
 // The gain table: everything that the loop needs to control one kind of joint, and what proves it. A plain
-// struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see
-// docs/theory.md.
+// struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see docs/theory.md.
 //
 // State of the error dynamics, in this order:
 //
@@ -18,6 +17,7 @@
 #include <string>
 
 #include "base/fixed_string.h"
+#include "control/certified_box.h"
 #include "control/fuzzy_friction.h"
 
 namespace strainwave {
@@ -25,7 +25,7 @@ namespace strainwave {
 inline constexpr int kMaxStates = 3;
 /// The zero-velocity rule and one high-velocity rule per temperature rule.
 inline constexpr int kMaxRules = 1 + kMaxTemperatureRules;
-inline constexpr int kGainTableFormat = 3;
+inline constexpr int kGainTableFormat = 4;
 
 using StateVector = Eigen::Vector3d;
 using StateMatrix = Eigen::Matrix3d;
@@ -85,12 +85,12 @@ struct Provenance {
   FixedString<64> note;
 };
 
-/// One table: the controller in use and the temperature-free one that replaces it when temperature is not
-/// known.
+/// One table: the controller in use and the temperature-free one that replaces it when temperature is not known.
 struct GainTable {
   std::int32_t format = kGainTableFormat;
   FixedString<48> name;
-  PlantIdentity plant;
+  PlantIdentity plant;  ///< the one inertia that the gains are designed for
+  CertifiedBox box;     ///< the joints with a spring that they are certified on besides
   FuzzyFriction friction;
   double torque_limit_Nm = 0.0;  ///< symmetric, joint side; the joint's own limit applies as well
   FeedbackGains primary;         ///< C4 (or C2, C1)
@@ -103,8 +103,15 @@ struct GainTable {
 /// Not real-time.
 std::optional<std::string> find_defect(const GainTable& table);
 
-/// Why `table` is not for the joint that `expected` describes (model, inertia and ratio to 1e-9, period; the gear where both name
-/// one), or nothing.
-std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected);
+/// Whether two of a joint's numbers are one, however they were written and read: |a - b| <= 1e-9 |b|. False with NaN.
+bool is_same_number(double a, double b) noexcept;
+
+/// Whether the joint's inertia must be the one that the table is designed for, or may be any that its box holds.
+enum class InertiaCheck { kSame, kOfTheBox };
+
+/// Why `table` is not for the joint that `expected` describes (model; ratio, period and, if asked for, inertia, each as
+/// is_same_number() has it; the gear where both name one), or nothing.
+std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected,
+                                                  InertiaCheck inertia = InertiaCheck::kSame);
 
 }  // namespace strainwave

@@ -1,7 +1,9 @@
 #include "control/gain_table_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "base/input_error.h"
 #include "base/strict_json.h"
@@ -52,6 +54,87 @@ ordered_json provenance_to_json(const Provenance& provenance) {
           {"tool", provenance.tool.view()},
           {"friction_sha256", provenance.friction_sha256.view()},
           {"note", provenance.note.view()}};
+}
+
+constexpr const char* kRigidName = "rigid";
+constexpr const char* kSpringName = "spring";
+
+ordered_json range_to_json(const BoxRange& range) {
+  return {range.from, range.to};
+}
+
+ordered_json box_to_json(const CertifiedBox& box) {
+  if (box.rigid()) return {{"joint", kRigidName}, {"encoder_side", to_text(box.encoder_side)}};
+  ordered_json cells = ordered_json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i) {
+    const BoxCell& cell = box.cells[i];
+    const auto P = std::span(cell.P).first(cell_entries(cell.delay_periods));
+    cells.push_back({{"delay_periods", cell.delay_periods},
+                     {"stiffness_Nm_rad", range_to_json(cell.stiffness_Nm_rad)},
+                     {"link_inertia_kgm2", range_to_json(cell.link_inertia_kgm2)},
+                     {"P", std::vector<double>(P.begin(), P.end())}});
+  }
+  return {{"joint", kSpringName},
+          {"encoder_side", to_text(box.encoder_side)},
+          {"motor_inertia_kgm2", box.motor_inertia_kgm2},
+          {"link_inertia_kgm2", range_to_json(box.link_inertia_kgm2)},
+          {"stiffness_Nm_rad", range_to_json(box.stiffness_Nm_rad)},
+          {"damping_Nms_rad", range_to_json(box.damping_Nms_rad)},
+          {"delay_periods", {box.least_delay, box.most_delay}},
+          {"cells", std::move(cells)}};
+}
+
+/// One of two names.
+bool is_first(StrictObject& object, const std::string& key, const std::string& first,
+              const std::string& second) {
+  const std::string value = object.text(key, 32);
+  if (value != first && value != second)
+    throw InputError(object.where(key) + " = " + value + ": must be " + first + " or " + second);
+  return value == first;
+}
+
+BoxRange range_from_json(StrictObject& object, const std::string& key) {
+  const std::vector<double> ends = object.numbers(key, 2);
+  return {ends[0], ends[1]};
+}
+
+std::int32_t delay_from_number(const StrictObject& object, double value) {
+  if (value >= 0.0 && value <= kMaxBoxDelay && value == std::floor(value))
+    return static_cast<std::int32_t>(value);
+  throw InputError(object.where("delay_periods") + ": must be whole periods from 0 to " +
+                   std::to_string(kMaxBoxDelay));
+}
+
+BoxCell cell_from_json(StrictObject& object) {
+  BoxCell cell;
+  cell.delay_periods = delay_from_number(object, object.number("delay_periods"));
+  cell.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
+  cell.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
+  std::ranges::copy(object.numbers("P", cell_entries(cell.delay_periods)), cell.P.begin());
+  object.finish();
+  return cell;
+}
+
+CertifiedBox box_from_json(StrictObject object) {
+  CertifiedBox box;
+  const bool rigid = is_first(object, "joint", kRigidName, kSpringName);
+  const bool motor =
+      is_first(object, "encoder_side", to_text(EncoderSide::kMotor), to_text(EncoderSide::kLink));
+  box.encoder_side = motor ? EncoderSide::kMotor : EncoderSide::kLink;
+  if (!rigid) {
+    box.motor_inertia_kgm2 = object.number("motor_inertia_kgm2");
+    box.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
+    box.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
+    box.damping_Nms_rad = range_from_json(object, "damping_Nms_rad");
+    const BoxRange delays = range_from_json(object, "delay_periods");
+    box.least_delay = delay_from_number(object, delays.from);
+    box.most_delay = delay_from_number(object, delays.to);
+    std::vector<StrictObject> cells = object.objects("cells", 1, kMaxBoxCells);
+    box.cell_count = static_cast<std::int32_t>(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) box.cells[i] = cell_from_json(cells[i]);
+  }
+  object.finish();
+  return box;
 }
 
 template <std::size_t N>
@@ -120,6 +203,7 @@ std::string to_json(const GainTable& table) {
   const ordered_json document = {{"format", table.format},
                                  {"name", table.name.view()},
                                  {"plant", plant_to_json(table.plant)},
+                                 {"box", box_to_json(table.box)},
                                  {"friction", fuzzy_friction_to_json(table.friction)},
                                  {"torque_limit_Nm", table.torque_limit_Nm},
                                  {"primary", gains_to_json(table.primary)},
@@ -144,6 +228,7 @@ GainTable gain_table_from_json(std::string_view text, const std::string& source)
   }
   table.name = text_field<48>(object, "name");
   table.plant = plant_from_json(object.object("plant"));
+  table.box = box_from_json(object.object("box"));
   table.friction = fuzzy_friction_from_json(object.object("friction"));
   table.torque_limit_Nm = object.number("torque_limit_Nm");
   table.primary = gains_from_json(object.object("primary"));

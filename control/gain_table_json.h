@@ -1,5 +1,4 @@
-// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Not
-// real-time.
+// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Not real-time.
 #pragma once
 
 #include <filesystem>

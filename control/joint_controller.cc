@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "control/units.h"
 
@@ -17,9 +18,8 @@ constexpr double kStribeckExponent = 2.0;
 constexpr double kOnStream_rad = 2e-6;
 // A joint without friction has none to estimate; what is estimated needs a scale all the same.
 constexpr double kLeastFrictionShare = 1e-4;  // of the torque limit
-// Share of the torque that the reference leaves to a joint that has fallen back: half of what drove it into
-// chatter.
-constexpr double kFallbackReserve = 0.5;
+// Share of its gains that a law keeps which chatters on by itself. Softer ones are not certified; the certified ones shake the joint.
+constexpr double kSoftShare = 0.25;
 
 double least_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   double least_Nm = friction.rules.front().friction.static_Nm;
@@ -28,8 +28,7 @@ double least_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   return least_Nm;
 }
 
-// Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two
-// readings.
+// Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two readings.
 double largest_gain_Nm_rad(const GainTable& table, double period_s, bool smooth_velocity) noexcept {
   double largest = 0.0;
   for (int rule = 0; rule < table.primary.rule_count; ++rule) {
@@ -45,6 +44,7 @@ StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexc
   estimator.observer.period_s = config.period_s;
   estimator.observer.encoder_resolution_rad = config.encoder_resolution_rad;
   estimator.observer.edge_deviation_counts = config.encoder_deviation_counts;
+  estimator.observer.sampling_deviation_s = config.sampling_deviation_s;
   estimator.delay_periods = config.delay_periods;
   return estimator;
 }
@@ -55,6 +55,12 @@ LandingConfig landing_config(const JointControllerConfig& config) noexcept {
   landing.encoder_resolution_rad = config.encoder_resolution_rad;
   landing.delay_periods = config.delay_periods;
   return landing;
+}
+
+// What the reference may do, so that its jerk can be kept.
+MotionLimits motion_limits(const JointControllerConfig& config) noexcept {
+  if (!config.jerk_limit_rad_s3) return config.motion;
+  return JerkLimit::possible(config.motion, *config.jerk_limit_rad_s3, config.period_s);
 }
 
 LinkMotionConfig link_config(const JointControllerConfig& config) noexcept {
@@ -74,18 +80,23 @@ JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
       shaper_(config.period_s),
       ordered_(config.period_s),
-      stream_(config.period_s),
+      stream_(config.period_s, config.stream_bridge_s),
       state_(estimator_config(config)),
       landing_(landing_config(config)),
       monitor_(config.period_s),
       rest_detector_(config.encoder_resolution_rad),
-      motion_(config.motion) {
+      motion_(motion_limits(config)) {
+  config_.motion = motion_;
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
   assert(config.gravity.torque_Nm == 0.0 || !config.use_observer);
   if (config.link) link_motion_.emplace(link_config(config));
-  shaper_.set_limits(config.motion);
-  ordered_.set_limits(config.motion);
+  if (config.use_shaping && config.jerk_limit_rad_s3) {
+    jerk_limit_.emplace(motion_, *config.jerk_limit_rad_s3, config.period_s);
+    ordered_jerk_ = jerk_limit_;
+  }
+  shaper_.set_limits(motion_);
+  ordered_.set_limits(motion_);
 }
 
 void JointController::load(const GainTable& table) noexcept {
@@ -104,6 +115,7 @@ void JointController::load(const GainTable& table) noexcept {
   model_.friction_scale_Nm =
       std::max(least_static_friction_Nm(table.friction), kLeastFrictionShare * torque_limit_Nm_);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
+  if (std::exchange(soft_, false)) soften(true);
   has_table_ = true;
 }
 
@@ -112,12 +124,15 @@ void JointController::start(double position_rad, double velocity_rad_s,
   motion_ = config_.motion;
   const double fastest = motion_.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
-  shaper_.reset(link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad, begin_rad_s);
+  const double planned_rad = link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad;
+  shaper_.reset(jerk_limit_ ? jerk_limit_->reset(planned_rad, begin_rad_s) : planned_rad, begin_rad_s);
   ordered_ = shaper_;
+  ordered_jerk_ = jerk_limit_;
   const double gravity_Nm = config_.gravity.at(position_rad);
   state_.reset(position_rad, velocity_rad_s, holding_torque_Nm.value_or(gravity_Nm) - gravity_Nm,
                model_.friction_scale_Nm);
   rest_detector_.reset();
+  soften(false);
   primary_.reset();
   fallback_.reset();
   reference_ = {position_rad, begin_rad_s, 0.0};
@@ -126,6 +141,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   motor_plan_ = {};
   link_share_ = 1.0;
   corrections_ = 0;
+  most_distrust_ = 0.0;
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
   plans_ = 0;
@@ -138,6 +154,8 @@ void JointController::start(double position_rad, double velocity_rad_s,
   outgoing_.reset();
   replan_ = false;
   streamed_ = false;
+  told_load_ = {};
+  shown_load_Nm_ = state_.now().disturbance.load_Nm;
 }
 
 void JointController::limit_speed(double speed_limit_rad_s) noexcept {
@@ -147,6 +165,7 @@ void JointController::limit_speed(double speed_limit_rad_s) noexcept {
 
 void JointController::new_target() noexcept {
   corrections_ = 0;
+  most_distrust_ = 0.0;
   link_share_ = 1.0;
   attempts_.new_target();
   enter(MotionPhase::kTracking);
@@ -167,12 +186,14 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
 }
 
 void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
-                             const PositionRange& range) noexcept {
+                             const PositionRange& range, OnTime on_time) noexcept {
   limit_speed(speed_limit_rad_s);
   stream_range_ = range;
   if (!streamed_ || begins) {
-    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s());
+    const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
+    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_s / config_.period_s);
     plans_ = 0;
+    confined_ = ordered_confined_ = 0;
   }
   streamed_ = true;
   sample_position_rad_ = sample.position_rad;
@@ -184,29 +205,55 @@ void JointController::stop() noexcept {
   streamed_ = false;
   shaper_.stop();
   ordered_ = shaper_;
+  ordered_jerk_ = jerk_limit_;
+}
+
+double JointController::stream_lead_s() const noexcept {
+  if (!config_.use_shaping) return 0.0;
+  const double delay_s = config_.delay_periods * config_.period_s;
+  const double jerk_s = jerk_limit_ ? jerk_limit_->lag_s() : 0.0;
+  return delay_s + jerk_s + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
+}
+
+// The plan goes on from there.
+void JointController::begin_plan(double position_rad, double velocity_rad_s) noexcept {
+  shaper_.restart(jerk_limit_ ? jerk_limit_->reset(position_rad, velocity_rad_s) : position_rad,
+                  velocity_rad_s);
+}
+
+bool JointController::plan_rests() const noexcept {
+  return shaper_.at_target() && (!jerk_limit_ || jerk_limit_->rests());
 }
 
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!has_table_) return {};
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   choose_gains(measurement);
-  state_.step(measurement, model_, observing() ? EstimateSource::kObserver : EstimateSource::kReadings);
-  advance_reference(elapsed_periods);
-  choose_phase(measurement);
+  state_.step(measurement, loaded_model(),
+              observing() ? EstimateSource::kObserver : EstimateSource::kReadings);
+  if (yields())
+    go_on_yielding(elapsed_periods);
+  else if (!goes_on_anew(measurement))
+    advance_reference(elapsed_periods);
+  if (!yields()) choose_phase(measurement);
   ControllerOutput output = compute_torque(measurement);
   hand_over(output);
-  state_.remember(config_.motor.limit_Nm(output.torque_Nm, state_.then().velocity_rad_s));
+  // What is told of the load is not estimated.
+  state_.remember(config_.motor.limit_Nm(output.torque_Nm, state_.then().velocity_rad_s) -
+                  told_load_.torque_Nm);
   watch(output, elapsed_periods);
+  weigh(output, elapsed_periods);
   JointStep result;
   result.output = output;
   result.reference = reference_;
   result.ordered_reference = ordered_reference_;
   result.joint_velocity_rad_s = state_.then().velocity_rad_s;
   result.gains_in_use = gains_in_use_;
-  result.at_target = shaper_.at_target() && !(linked() && link_motion_->moves());
+  result.at_target = plan_rests() && !(linked() && link_motion_->moves());
   result.off_stream = streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
   result.phase = phase_;
   result.estimate = state_.now();
+  result.load_Nm = shown_load_Nm_;
   result.replans = replans_;
   result.monitor = monitor_.state();
   return result;
@@ -227,74 +274,25 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
   temperature_C_ = measurement.temperature_C;
 }
 
+// Both controllers' gains, and with them what a count makes, down or back up again.
+void JointController::soften(bool soft) noexcept {
+  if (soft == soft_) return;
+  soft_ = soft;
+  const double share = soft ? kSoftShare : 1.0 / kSoftShare;
+  for (ScheduledController* controller : {&primary_, &fallback_}) controller->soften(share);
+  count_torque_Nm_ *= share;
+  difference_torque_Nm_ *= share;
+}
+
 // What the next torque is to continue.
 void JointController::keep_outgoing() noexcept {
   if (gains_in_use_ != GainsInUse::kNone && !outgoing_) outgoing_ = active();
 }
 
-void JointController::advance_reference(int elapsed_periods) noexcept {
-  if (linked()) return advance_link(elapsed_periods);
-  if (!config_.use_shaping) {
-    if (streamed_) {
-      shaper_.set_target(stream_.step().next_position_rad);
-      ordered_.set_target(shaper_.target_rad());
-    }
-    shaper_.jump();
-    ordered_.jump();
-    reference_ = {shaper_.target_rad(), 0.0, 0.0};
-    ordered_reference_ = reference_;
-    return;
-  }
-  for (int period = 0; period < elapsed_periods; ++period) {
-    // The last of them begins anew, if one has to: it is where the joint is now.
-    if (replan_ && period == elapsed_periods - 1) {
-      const double fastest = config_.motion.velocity_rad_s;
-      shaper_.restart(state_.then().position_rad,
-                      std::clamp(state_.then().velocity_rad_s, -fastest, fastest));
-      ++replans_;
-      replan_ = false;
-    }
-    limit_reference(shaper_, reference_);
-    limit_reference(ordered_, ordered_reference_);
-    advance_references();
-  }
-}
-
-MotionLimits JointController::present_limits(double speed_rad_s) const noexcept {
-  const double reserve =
-      fallen_back() ? std::max(kFallbackReserve, config_.torque_reserve) : config_.torque_reserve;
-  JointDisturbance disturbance = state_.now().disturbance;
-  disturbance.load_Nm += config_.gravity.at(reference_.position_rad);
-  MotionLimits limits = reachable_limits(motion_, config_.motor, state_.model(), disturbance,
-                                         torque_limit_Nm_, reserve, speed_rad_s, config_.period_s);
-  if (!linked()) return limits;
-  limits.acceleration_rad_s2 *= link_share_;
-  limits.deceleration_rad_s2 *= link_share_;
-  return limits;
-}
-
-// What the joint can do at the speed that the reference has reached.
-void JointController::limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept {
-  shaper.set_limits(
-      present_limits(std::abs(last.velocity_rad_s + config_.period_s * last.acceleration_rad_s2)));
-}
-
-void JointController::advance_references() noexcept {
-  if (!streamed_) {
-    reference_ = shaper_.step();
-    ordered_reference_ = ordered_.step();
-    return;
-  }
-  const double last_target_rad = shaper_.target_rad();
-  const MovingTarget target = stream_.step();
-  reference_ = shaper_.follow(target, stream_range_);
-  ordered_reference_ = ordered_.follow(target, stream_range_);
-  if (shaper_.target_rad() != last_target_rad) new_target();
-  if (stream_.ended()) {
-    streamed_ = false;
-    shaper_.stop();
-    ordered_.stop();
-  }
+JointModel JointController::loaded_model() const noexcept {
+  JointModel model = model_;
+  model.inertia_kgm2 += told_load_.inertia_kgm2;
+  return model;
 }
 
 }  // namespace strainwave

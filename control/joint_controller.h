@@ -1,5 +1,6 @@
 // Everything that one joint needs each period, in one object that the daemon and the simulator both run.
-// Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Joint side, SI.
+// Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Only the constructor is not: where the link hangs
+// on a spring it solves for a regulator (control/link_model.h). Joint side, SI.
 //
 //   measurement -> gains in use -> estimate, carried to when the torque will act -> reference -> torque
 //
@@ -7,10 +8,15 @@
 //              where the link hangs on a spring: the motor's, so that the link arrives (control/link_motion.h)
 //   landing    the last counts, by pushes (control/landing.h)
 //   resting    the torque that holds the load, nothing else
+//   yielding   likewise, wherever the joint goes, until what pushed it has let go or it stands
+//
+// What a stream tells of its load is added to the plan, and to the inertia that is reckoned with; what is estimated is the load
+// besides. Once the stream is over it is left to the feedback, slowly and only while the feedback works.
 //
 // Above the certified law stand observer, landing and new plans; a monitor (control/chatter_monitor.h) watches
 // them. A joint that chatters falls back to the law alone, without a torque step: velocity from two readings,
-// a slower reference, no push that looks for a count, until the next start().
+// a slower reference, no push that looks for a count, until the next start(). Where that does not end it, the law goes on with a quarter
+// of its gains, before the joint must be switched off.
 #pragma once
 
 #include <optional>
@@ -18,6 +24,7 @@
 #include "control/chatter_monitor.h"
 #include "control/gain_table.h"
 #include "control/gains_in_use.h"
+#include "control/jerk_limit.h"
 #include "control/joint_model.h"
 #include "control/landing.h"
 #include "control/landing_attempts.h"
@@ -38,11 +45,17 @@ struct JointControllerConfig {
   double period_s = 0.001;                 ///< > 0, the table's
   double encoder_resolution_rad = 0.0;     ///< position of one count at the joint; 0: exact
   double encoder_deviation_counts = 0.02;  ///< how evenly its edges lie, noise included, standard deviation
+  /// How evenly positions are sampled, >= 0, standard deviation.
+  double sampling_deviation_s = 0.0;
   /// Periods between a torque's computation and its effect, 0..kMaxControlDelay.
   int delay_periods = 0;
   double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
   MotorLimits motor;
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
+  /// Of the reference, > 0; with use_shaping. Where it is so low that kMaxMeanPeriods do not suffice, accelerations are lower, too.
+  std::optional<double> jerk_limit_rad_s3;
+  /// How long a stream whose samples do not come goes on as it was; at least two of its intervals, at most 0.2 s.
+  double stream_bridge_s = 0.05;
   /// Share of the torque that the reference leaves to the feedback, in [0, 1).
   double torque_reserve = 0.02;
 
@@ -66,7 +79,7 @@ struct JointControllerConfig {
 };
 
 /// How the torque comes about.
-enum class MotionPhase : int { kTracking = 0, kLanding = 1, kResting = 2 };
+enum class MotionPhase : int { kTracking = 0, kLanding = 1, kResting = 2, kYielding = 3 };
 
 /// One period's result.
 struct JointStep {
@@ -82,12 +95,18 @@ struct JointStep {
   bool off_stream = false;
   MotionPhase phase = MotionPhase::kTracking;
   JointEstimate estimate;  ///< of this sample
-  int replans = 0;         ///< since start(): how often `reference` began anew from where the joint was
+  /// That shows, besides gravity and what a stream tells: the observer's, or what the feedback has asked for besides the load that is known.
+  double load_Nm = 0.0;
+  int replans = 0;  ///< since start(): how often `reference` began anew from where the joint was
   MonitorState monitor = MonitorState::kWatching;
 };
 
+/// What is where a stream is at a sample's time: the joint, or the plan, which the joint follows stream_lead_s() later.
+enum class OnTime { kJoint, kPlan };
+
 class JointController {
  public:
+  /// Not real-time safe: some milliseconds where there is a link.
   explicit JointController(const JointControllerConfig& config) noexcept;
 
   /// Takes `table`, which must be certified for this joint and period. While running the change makes no
@@ -104,15 +123,17 @@ class JointController {
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
   /// One setpoint of a stream, which it `begins` or goes on with. Speed as above, and inside `range`. Until set_target(), stop(),
   /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
-  void follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
-              const PositionRange& range) noexcept;
-  /// By how much the joint is later than a stream that comes with its velocities: what who streams sends earlier.
-  double stream_lag_s() const noexcept {
-    const double delay_s = config_.delay_periods * config_.period_s;
-    return linked() ? delay_s + 0.5 * link_motion_->spread_s() : delay_s;
-  }
+  void follow(const StreamSample& sample, bool begins, double speed_limit_rad_s, const PositionRange& range,
+              OnTime on_time = OnTime::kJoint) noexcept;
+  /// With OnTime::kJoint the joint is where a stream is because the controller is so much ahead of it: a sample that comes later than
+  /// this before its time is carried forward.
+  double stream_lead_s() const noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept;
+  /// Lets go: until what pushes the joint has let go of it or it stands, the torque is what holds `load_Nm`, gravity and what a stream tells
+  /// of. Then it decelerates to rest and holds. A load of no more than `let_go_Nm` besides has let go.
+  void yield(double load_Nm, double let_go_Nm) noexcept;
+  bool yields() const noexcept { return phase_ == MotionPhase::kYielding; }
   /// Where the motion ends, as far as the orders say: of a stream its last sample.
   double target_rad() const noexcept { return streamed_ ? sample_position_rad_ : shaper_.target_rad(); }
 
@@ -135,26 +156,37 @@ class JointController {
   void choose_gains(const JointMeasurement& measurement) noexcept;
   void keep_outgoing() noexcept;
   void advance_reference(int elapsed_periods) noexcept;
+  bool goes_on_anew(const JointMeasurement& measurement) noexcept;
+  void go_on_from_here() noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;
+  void go_on_yielding(int elapsed_periods) noexcept;
+  void weigh(const ControllerOutput& output, int elapsed_periods) noexcept;
   ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
   void hand_over(ControllerOutput& output) noexcept;
+  double handed_over_Nm(double beyond_Nm) const noexcept;
+  void soften(bool soft) noexcept;
   void watch(const ControllerOutput& output, int elapsed_periods) noexcept;
 
-  void limit_reference(ReferenceShaper& shaper, const Reference& last) const noexcept;
+  void limit_reference(ReferenceShaper& shaper) const noexcept;
   void advance_references() noexcept;
+  bool plan_rests() const noexcept;
+  void begin_plan(double position_rad, double velocity_rad_s) noexcept;
+  JointModel loaded_model() const noexcept;
+  void forget_told_load(int elapsed_periods) noexcept;
   void limit_speed(double speed_limit_rad_s) noexcept;
   void new_target() noexcept;
   MotionLimits present_limits(double speed_rad_s) const noexcept;
   void advance_link(int elapsed_periods) noexcept;
   void plan_link_motion(double from_rad) noexcept;
   bool correct_link(double reading_rad) noexcept;
-  void leave_link() noexcept;
   bool torque_is_planned() const noexcept;
 
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
   double planned_torque_Nm() const noexcept;
+  bool swings_over(double off_rad, double near_rad) noexcept;
   bool reference_moves() const noexcept;
+  double estimated_load_Nm() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
   /// Its pushes are planned for the usual delay.
@@ -174,7 +206,9 @@ class JointController {
 
   JointControllerConfig config_;
   ReferenceShaper shaper_;
-  ReferenceShaper ordered_;  ///< the same orders, never restarted
+  ReferenceShaper ordered_;                ///< the same orders, never restarted
+  std::optional<JerkLimit> jerk_limit_;    ///< of what shaper_ plans
+  std::optional<JerkLimit> ordered_jerk_;  ///< of what ordered_ does
   StreamTarget stream_;
   std::optional<LinkMotion> link_motion_;
   StateEstimator state_;
@@ -195,26 +229,40 @@ class JointController {
   int corrections_ = 0;              ///< with a link: small motions to the same target, from rest
   int corrections_in_vain_ = 0;      ///< of those, that brought nothing
   double corrected_from_rad_ = 0.0;  ///< how far off the last began
-  MotionLimits motion_;              ///< the configuration's, and this order's speed
+  int off_periods_ = 0;         ///< with a link: at rest, that the reading has been off the target on end
+  int rest_periods_ = 0;        ///< with a link: since the motion has ended
+  double stands_at_rad_ = 0.0;  ///< the reading soon after that
+  double most_distrust_ = 0.0;  ///< of the monitor, since the order
+  MotionLimits motion_;         ///< the configuration's, and this order's speed
   PositionRange stream_range_;
   double sample_position_rad_ = 0.0;  ///< of the stream's last
   double torque_limit_Nm_ = 0.0;
-  std::optional<double> temperature_C_;  ///< the last that was known
-  double hold_torque_Nm_ = 0.0;
+  std::optional<double> temperature_C_;       ///< the last that was known
+  double hold_torque_Nm_ = 0.0;               ///< besides told_load_
   double count_torque_Nm_ = 0.0;              ///< that a count makes by its position
   double difference_torque_Nm_ = 0.0;         ///< and as a velocity from one reading to the next as well
   std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
+  ToldLoad told_load_;                        ///< by the stream, and what is left of it since
+  double shown_load_Nm_ = 0.0;                ///< JointStep's
+  double yield_load_Nm_ = 0.0;                ///< that yield() holds ...
+  double let_go_Nm_ = 0.0;                    ///< ... until no more shows besides
+  int yielding_periods_ = 0;                  ///< that the joint has stood, or been let go
   double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
   double reference_rest_s_ = 0.0;             ///< since when it rests, while tracking
   double zero_velocity_weight_ = 1.0;         ///< alpha_0 at rest
   int replans_ = 0;                           ///< since start()
   int plans_ = 0;                             ///< new ones since the target or the phase changed
   int away_periods_ = 0;                      ///< that a resting joint has been off its target
+  int side_ = 0;        ///< of the reference, on which the joint was last, beyond the last counts
+  bool swung_ = false;  ///< over to the other, in this period
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool has_table_ = false;
   bool replan_ = false;    ///< the reference begins anew from where the joint is
   bool streamed_ = false;  ///< the reference follows stream_
+  StreamTarget::Confinement confined_ = 0;
+  StreamTarget::Confinement ordered_confined_ = 0;
+  bool soft_ = false;  ///< after the fallback, where chatter went on: with softer gains
 };
 
 }  // namespace strainwave

@@ -1,4 +1,5 @@
-// What JointController does where the link hangs on the gear's spring: the motor's reference, and the last counts.
+// What JointController does where the link hangs on the gear's spring: the motor's reference, and the last counts; and how a motion
+// goes on from where the joint is.
 #include <algorithm>
 #include <cmath>
 
@@ -17,24 +18,35 @@ constexpr double kShortMotionShare = 2.0 / 3.0;
 constexpr int kStillPeriods = 3;
 // Farther from the target than this a joint at rest moves once more. One count is what its encoder cannot tell.
 constexpr double kCorrectionCounts = 1.2;
+// A count may flicker: what may be off by no more than one beside it has to be so for this time on end.
+constexpr double kFlickerCounts = 2.2;
+constexpr double kFlicker_s = 0.02;
+// A motor that has come to rest stands soon. A reading that moves by more than a flicker so long after the motion is of a link that swings
+// behind it, or of a motor that the integral moves: neither is corrected from rest.
+constexpr double kStands_s = 0.1;
+// Feedback that has asked for this share of the torque limit (control/chatter_monitor.h) means a joint that is not the model's: then
+// small motions by that model do not help.
+constexpr double kTrusted = 0.2;
 // Each is at rest before the next begins, so that nothing can swing itself up; what so many do not bring, none will.
 constexpr int kMaxCorrections = 20;
 // One that leaves more than this share of the distance was in vain: load or friction are not what they are taken for, and the next would
 // do no better. After so many of an order the rest is the integral's.
 constexpr double kInVain = 0.7;
 constexpr int kMaxInVain = 3;
+constexpr int kStandsPeriodsLimit = 1 << 20;  // the count ends here
 
 }  // namespace
 
 void JointController::advance_link(int elapsed_periods) noexcept {
   for (int period = 0; period < elapsed_periods; ++period) {
-    limit_reference(shaper_, planned_);
-    limit_reference(ordered_, planned_);
+    limit_reference(shaper_);
+    limit_reference(ordered_);
     advance_references();
     planned_ = reference_;
     const double speed_rad_s = motor_plan_.acting_velocities_rad_s.back();
-    const double taken_Nm =
-        sign(speed_rad_s) * state_.model().friction_Nm(speed_rad_s) + state_.now().disturbance.load_Nm;
+    const double taken_Nm = sign(speed_rad_s) * state_.model().friction_Nm(speed_rad_s) +
+                            state_.now().disturbance.load_Nm + told_load_.torque_Nm +
+                            told_load_.inertia_kgm2 * motor_plan_.acting_acceleration_rad_s2;
     const auto available_Nm = [&](double along_rad_s) {
       return std::min(torque_limit_Nm_, config_.motor.available_Nm(along_rad_s));
     };
@@ -57,9 +69,18 @@ void JointController::plan_link_motion(double from_rad) noexcept {
 // The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
 bool JointController::correct_link(double reading_rad) noexcept {
   const double distance_rad = std::abs(reading_rad - rest_position_rad());
-  const double near_rad = kCorrectionCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  if (state_.still_periods() < kStillPeriods || distance_rad <= near_rad || corrections_ >= kMaxCorrections)
-    return false;
+  const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  rest_periods_ = std::min(rest_periods_ + 1, kStandsPeriodsLimit);
+  if (rest_periods_ * config_.period_s <= kStands_s) {
+    stands_at_rad_ = reading_rad;
+  } else if (std::abs(reading_rad - stands_at_rad_) > kFlickerCounts * count_rad) {
+    corrections_ = kMaxCorrections;
+  }
+  off_periods_ = distance_rad > kCorrectionCounts * count_rad ? off_periods_ + 1 : 0;
+  const bool may_flicker =
+      distance_rad <= kFlickerCounts * count_rad && off_periods_ * config_.period_s < kFlicker_s;
+  if (off_periods_ == 0 || may_flicker || state_.still_periods() < kStillPeriods) return false;
+  if (corrections_ >= kMaxCorrections || most_distrust_ > kTrusted) return false;
   const bool in_vain = corrections_ > 0 && distance_rad > kInVain * corrected_from_rad_;
   corrections_in_vain_ = corrections_ == 0 ? 0 : corrections_in_vain_ + (in_vain ? 1 : 0);
   if (corrections_in_vain_ >= kMaxInVain) {
@@ -70,21 +91,34 @@ bool JointController::correct_link(double reading_rad) noexcept {
   ++corrections_;
   ++replans_;
   const double from_rad = link_motion_->reset(reading_rad);
-  shaper_.restart(from_rad, 0.0);
+  begin_plan(from_rad, 0.0);
   planned_ = {};
   plan_link_motion(from_rad);
   state_.count_still_anew();
   return true;
 }
 
-// The law alone goes on from where the motor is.
-void JointController::leave_link() noexcept {
+// The motion that was under way, from where the joint is: the law alone cannot follow a link's plan, and nobody can one that went on
+// while the loop was away for long.
+void JointController::go_on_from_here() noexcept {
   const double fastest = config_.motion.velocity_rad_s;
+  const double position_rad = state_.now().position_rad;
   const double velocity_rad_s = std::clamp(state_.now().velocity_rad_s, -fastest, fastest);
-  shaper_.restart(state_.now().position_rad, velocity_rad_s);
-  ordered_ = shaper_;
-  reference_ = {state_.now().position_rad, velocity_rad_s, 0.0};
+  reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
+  begin_plan(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad, velocity_rad_s);
+  ordered_ = shaper_;
+  ordered_jerk_ = jerk_limit_;
+  planned_ = {0.0, velocity_rad_s, 0.0};
+  motor_plan_ = {};
+  replan_ = false;
+}
+
+// A motion after a stall over which nobody knows what the joint did.
+bool JointController::goes_on_anew(const JointMeasurement& measurement) noexcept {
+  const bool lost = measurement.elapsed_periods > kMaxElapsedPeriods && reference_moves();
+  if (lost) go_on_from_here();
+  return lost;
 }
 
 // Whether the torque is that of a motion.

@@ -2,6 +2,7 @@
 // motion, its torque, and the watch over both.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "control/joint_controller.h"
 #include "control/units.h"
@@ -23,6 +24,8 @@ constexpr int kPlanLimit = 50;
 // Time in which the fallback leaves the torque that it begins with: some swings of a spring, so that it is no
 // step, and no more, so that it does not move the joint.
 constexpr double kHandover_s = 0.01;
+// Share of Coulomb friction that moves no joint, whatever its friction is taken for.
+constexpr double kIdleShare = 0.5;
 // On a joint that is not declared rigid friction is compensated towards the target for so long after the
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
@@ -36,8 +39,8 @@ constexpr int kLeavePeriods = 3;
 }  // namespace
 
 bool JointController::reference_moves() const noexcept {
-  if (linked()) return !shaper_.at_target() || link_motion_->moves();
-  return !shaper_.at_target() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+  if (linked()) return !plan_rests() || link_motion_->moves();
+  return !plan_rests() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
 }
 
 double JointController::distance_to_target_rad() const noexcept {
@@ -77,7 +80,11 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
 }
 
 void JointController::enter(MotionPhase phase) noexcept {
-  if (phase == MotionPhase::kTracking && reference_moves()) rest_detector_.reset();
+  if (phase == MotionPhase::kTracking && reference_moves()) {
+    rest_detector_.reset();
+    off_periods_ = 0;
+    rest_periods_ = 0;
+  }
   if (phase == phase_) return;
   // What the integral knew of load and friction, the observer knows.
   if (phase_ == MotionPhase::kLanding) active().reset();
@@ -86,7 +93,7 @@ void JointController::enter(MotionPhase phase) noexcept {
     attempts_.begin();
   }
   plans_ = 0;
-  hold_torque_Nm_ = held_load_Nm() + active().integral_torque_Nm();
+  hold_torque_Nm_ = estimated_load_Nm() + active().integral_torque_Nm();
   phase_ = phase;
 }
 
@@ -99,7 +106,9 @@ void JointController::ask_for_new_plan() noexcept {
 ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
   if (phase_ == MotionPhase::kTracking) return track();
   outgoing_.reset();
-  if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_);
+  if (phase_ == MotionPhase::kYielding)
+    return apply(yield_load_Nm_ + config_.gravity.at(state_.now().position_rad) + told_load_.torque_Nm);
+  if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_ + told_load_.torque_Nm);
   const double torque_Nm =
       landing_.step(state_.now(), state_.then(), measurement.joint_position_rad, state_.model());
   attempts_.spend_period();
@@ -107,11 +116,15 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
     attempts_.landed();
     enter(MotionPhase::kResting);
   }
-  return apply(torque_Nm);
+  return apply(torque_Nm + told_load_.torque_Nm);
+}
+
+double JointController::estimated_load_Nm() const noexcept {
+  return state_.now().disturbance.load_Nm + config_.gravity.at(state_.now().position_rad);
 }
 
 double JointController::held_load_Nm() const noexcept {
-  return state_.now().disturbance.load_Nm + config_.gravity.at(state_.now().position_rad);
+  return estimated_load_Nm() + told_load_.torque_Nm;
 }
 
 // Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
@@ -120,13 +133,24 @@ double JointController::planned_torque_Nm() const noexcept {
     const auto [begin, middle, end] = motor_plan_.acting_velocities_rad_s;
     const double friction_Nm = 0.5 * (state_.model().friction_along_Nm(begin, middle) +
                                       state_.model().friction_along_Nm(middle, end));
-    return motor_plan_.torque_Nm + friction_Nm + state_.now().disturbance.load_Nm;
+    return motor_plan_.torque_Nm + friction_Nm + state_.now().disturbance.load_Nm + told_load_.torque_Nm +
+           told_load_.inertia_kgm2 * motor_plan_.acting_acceleration_rad_s2;
   }
   const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
+  // Of friction that turned out to be more than the joint has, nothing is believed.
   const double friction_Nm =
-      std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
+      monitor_.drives_itself()
+          ? 0.0
+          : std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
   return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
-         state_.now().disturbance.load_Nm + config_.gravity.at(reference_.position_rad);
+         state_.now().disturbance.load_Nm + config_.gravity.at(reference_.position_rad) +
+         told_load_.torque_Nm;
+}
+
+bool JointController::swings_over(double off_rad, double near_rad) noexcept {
+  if (std::abs(off_rad) <= near_rad) return false;
+  const int side = off_rad > 0.0 ? 1 : -1;
+  return std::exchange(side_, side) == -side;
 }
 
 ControllerOutput JointController::track() noexcept {
@@ -136,16 +160,16 @@ ControllerOutput JointController::track() noexcept {
   input.setpoint_position_rad = reference_.position_rad;
   input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
   // Static friction pushed towards the target from either side hunts for the last counts, and a spring turns that
-  // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the
-  // integral.
+  // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the integral.
   const bool moves = torque_is_planned();
   reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
   const double near_rad = kHuntingCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s &&
-                      std::abs(state_.then().position_rad - reference_.position_rad) <= near_rad;
+  const double off_rad = state_.then().position_rad - reference_.position_rad;
+  const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
+  swung_ = swings_over(off_rad, near_rad);
   input.planned = moves || fallen_back() || hunted || linked();
   // At rest a landing holds the load of a rigid joint.
-  const double at_rest_Nm = config_.rigid && !fallen_back() ? 0.0 : held_load_Nm();
+  const double at_rest_Nm = config_.rigid && !fallen_back() ? told_load_.torque_Nm : held_load_Nm();
   input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
   if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
   input.torque_limit_Nm = torque_limit_Nm_;
@@ -155,15 +179,23 @@ ControllerOutput JointController::track() noexcept {
   outgoing_.reset();
   const ControllerOutput output = active().step(input);
 
-  const double behind_rad = std::abs(state_.then().position_rad - reference_.position_rad);
-  if (observing() && output.saturated && behind_rad > kReplanPushes * landing_reach_rad()) ask_for_new_plan();
+  if (observing() && output.saturated && std::abs(off_rad) > kReplanPushes * landing_reach_rad())
+    ask_for_new_plan();
   return output;
+}
+
+// Of the torque beyond the law's. A correction begins with what breaks the joint away from rest: on a joint with less friction than told
+// that would throw it, so no more of it is left than cannot move the joint.
+double JointController::handed_over_Nm(double beyond_Nm) const noexcept {
+  if (corrections_ == 0) return beyond_Nm;
+  const double idle_Nm = kIdleShare * model_.friction.coulomb_Nm;
+  return std::clamp(beyond_Nm, -idle_Nm, idle_Nm);
 }
 
 // The fallback begins with the torque that was applied last, and leaves it for the law's own.
 void JointController::hand_over(ControllerOutput& output) noexcept {
   if (!fallen_back()) return;
-  if (fallback_torque_Nm_) handover_Nm_ = *fallback_torque_Nm_ - output.torque_Nm;
+  if (fallback_torque_Nm_) handover_Nm_ = handed_over_Nm(*fallback_torque_Nm_ - output.torque_Nm);
   fallback_torque_Nm_.reset();
   output.torque_Nm = std::clamp(output.torque_Nm + handover_Nm_, -torque_limit_Nm_, torque_limit_Nm_);
   handover_Nm_ *= 1.0 - std::min(1.0, config_.period_s / kHandover_s);
@@ -178,16 +210,29 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.torque_Nm = output.torque_Nm;
   sample.planned_torque_Nm = std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   sample.doubt_Nm = linked() && moves ? kSpringDoubt * torque_limit_Nm_ : 0.0;
+  if (streamed_ && !config_.rigid && !linked())
+    sample.ordered_torque_Nm =
+        state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + told_load_.torque_Nm;
   sample.static_friction_Nm = model_.friction.static_Nm;
   sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
+  sample.torque_limit_Nm = torque_limit_Nm_;
+  sample.compensates_friction = !linked() && !fallen_back();
+  if (linked()) sample.innovation_Nm = output.feedback_torque_Nm;
   sample.reference_rests = !moves;
+  sample.swung_over = std::exchange(swung_, false);
   sample.landing = phase_ == MotionPhase::kLanding;
   sample.surprised = state_.now().surprised;
   sample.elapsed_periods = elapsed_periods;
   const bool watched = !fallen_back();
-  if (monitor_.step(sample) == MonitorState::kWatching || !watched) return;
-  fallback_torque_Nm_ = output.torque_Nm;
-  if (link_motion_) leave_link();
+  const MonitorState state = monitor_.step(sample);
+  most_distrust_ = std::max(most_distrust_, monitor_.distrust());
+  if (watched && state != MonitorState::kWatching) {
+    fallback_torque_Nm_ = output.torque_Nm;
+    if (link_motion_) go_on_from_here();
+  } else if (!watched && monitor_.goes_on() && !soft_) {
+    fallback_torque_Nm_ = output.torque_Nm;
+    soften(true);
+  }
 }
 
 // A torque that no gain has part in.

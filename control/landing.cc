@@ -11,7 +11,7 @@ namespace {
 
 // Least friction that is believed, as a share of the model's:
 // an estimate gone wrong must not turn friction round.
-constexpr double kLeastFriction = 0.2;
+constexpr double kLeastFrictionLeft = 0.2;
 // Share of static friction that may act against a joint
 // which will stop within the period: it must stay stopped.
 constexpr double kSafeReverse = 0.5;
@@ -39,7 +39,7 @@ double landing_torque_Nm(const JointModel& model, const JointDisturbance& distur
   if (direction == 0.0) return disturbance.load_Nm;
   const auto friction = [&](double speed) {
     const double model_Nm = model.friction_Nm(speed);
-    return std::max(kLeastFriction * model_Nm, model_Nm + disturbance.friction_offset_Nm);
+    return std::max(kLeastFrictionLeft * model_Nm, model_Nm + disturbance.friction_offset_Nm);
   };
   const double speed = std::abs(velocity_rad_s);
   const double distance = direction * distance_rad;
@@ -69,6 +69,7 @@ double landing_torque_Nm(const JointModel& model, const JointDisturbance& distur
 void Landing::begin(double target_rad) noexcept {
   target_rad_ = target_rad;
   aim_rad_ = target_rad;
+  push_ = Push::kNone;
   still_samples_ = 0;
   push_samples_ = 0;
   slides_ = 0;
@@ -81,7 +82,7 @@ void Landing::choose_push(const JointEstimate& then, double reading_rad, const J
   aim_rad_ = target_rad_;
   push_samples_ = 1;
   const double count_rad = config_.encoder_resolution_rad;
-  if (count_rad == 0.0) return;
+  if (count_rad == 0.0 || told_late()) return;
   const double edge_rad =
       reading_rad + (std::floor((target_rad_ - reading_rad) / count_rad) + 0.5) * count_rad;
   if (then.friction_deviation_Nm > kFrictionCertainty * model.friction_scale_Nm && slides_ < kSlideLimit) {
@@ -97,18 +98,41 @@ void Landing::choose_push(const JointEstimate& then, double reading_rad, const J
   }
 }
 
+double Landing::push_as_planned(const JointModel& model) noexcept {
+  const int samples = std::max(1, push_samples_--);
+  const double torque_Nm = landing_torque_Nm(model, plan_.disturbance, plan_.velocity_rad_s,
+                                             aim_rad_ - plan_.position_rad, config_.period_s, samples);
+  const ModelMotion motion =
+      model.advance(torque_Nm, plan_.disturbance, plan_.velocity_rad_s, config_.period_s);
+  plan_.position_rad += motion.displacement_rad;
+  plan_.velocity_rad_s = motion.velocity_rad_s;
+  push_ = motion.velocity_rad_s != 0.0 ? Push::kUnderWay : Push::kOver;
+  return torque_Nm;
+}
+
+double Landing::tolerance_rad(const JointEstimate& then) const noexcept {
+  const double exact_rad = std::max(kExactTolerance_rad, 0.5 * then.position_deviation_rad);
+  return told_late() ? std::max(exact_rad, config_.encoder_resolution_rad) : exact_rad;
+}
+
 double Landing::step(const JointEstimate& now, const JointEstimate& then, double reading_rad,
                      const JointModel& model) noexcept {
   if (resting_) return then.disturbance.load_Nm;
+  if (push_ == Push::kUnderWay) return push_as_planned(model);
   const bool still = then.velocity_rad_s == 0.0 && then.position_rad == now.position_rad;
   still_samples_ = still ? still_samples_ + 1 : 0;
   if (then.velocity_rad_s == 0.0) {
     // Until the encoder has shown where the last push ended, nothing is decided.
     if (still_samples_ <= config_.delay_periods) return then.disturbance.load_Nm;
     choose_push(then, reading_rad, model);
-    const double tolerance_rad = std::max(kExactTolerance_rad, 0.5 * then.position_deviation_rad);
-    resting_ = aim_rad_ == target_rad_ && std::abs(aim_rad_ - then.position_rad) <= tolerance_rad;
+    resting_ = aim_rad_ == target_rad_ && std::abs(aim_rad_ - then.position_rad) <= tolerance_rad(then);
     if (resting_) return then.disturbance.load_Nm;
+  } else if (push_ == Push::kOver) {
+    return then.disturbance.load_Nm;
+  }
+  if (told_late()) {
+    plan_ = then;
+    return push_as_planned(model);
   }
   const int samples = std::max(1, push_samples_--);
   return landing_torque_Nm(model, then.disturbance, then.velocity_rad_s, aim_rad_ - then.position_rad,

@@ -2,14 +2,16 @@
 // more exactly than feedback on counts could: one period's push and one period's braking end where they are
 // meant to. Real-time safe.
 //
-// Within a count the encoder is silent, but its edges are not. Three kinds of push, each only while it is
-// needed:
+// Within a count the encoder is silent, but its edges are not. Three kinds of push, each only while it is needed:
 //   slides   across the edge nearest to the target, as slow as friction is known:
 //            when the edge comes tells friction
 //   probes   onto the edge, as it is believed to lie:
 //            the count tells on which side it really is, which halves the doubt
 //   the last push, from there to the target
 // Then the joint rests: the torque is what holds the load, constant, and nothing hunts.
+//
+// With more than one torque under way a push is over before the encoder tells of it. Then each is planned to its end by the model and
+// not answered on the way, nothing is looked for, and the joint rests within a count.
 #pragma once
 
 #include "control/joint_model.h"
@@ -44,11 +46,17 @@ class Landing {
   bool resting() const noexcept { return resting_; }
 
  private:
+  enum class Push { kNone, kUnderWay, kOver };
+  bool told_late() const noexcept { return config_.delay_periods > 1; }
+  double push_as_planned(const JointModel& model) noexcept;
+  double tolerance_rad(const JointEstimate& then) const noexcept;
   void choose_push(const JointEstimate& then, double reading_rad, const JointModel& model) noexcept;
 
   LandingConfig config_;
   double target_rad_ = 0.0;
   double aim_rad_ = 0.0;
+  JointEstimate plan_;  ///< where a push that is not answered has brought the joint, by the model
+  Push push_ = Push::kNone;
   int still_samples_ = 0;
   int push_samples_ = 0;
   int slides_ = 0;

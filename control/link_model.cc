@@ -28,13 +28,6 @@ constexpr double kSpeedShare = 1.0 / 18.0;
 // The iteration has converged long before.
 constexpr int kIterations = 2000;
 
-LinkState moved(const LinkState& from, const LinkState& slope, double time_s) noexcept {
-  return {from.link_position_rad + time_s * slope.link_position_rad,
-          from.link_velocity_rad_s + time_s * slope.link_velocity_rad_s,
-          from.motor_position_rad + time_s * slope.motor_position_rad,
-          from.motor_velocity_rad_s + time_s * slope.motor_velocity_rad_s};
-}
-
 struct Sampled {
   Matrix A;
   Vector B;
@@ -58,17 +51,21 @@ Sampled sample(LinkModel joint, double period_s) noexcept {
   return sampled;
 }
 
-// Angular frequency at which motor and link swing against each other.
-double swing_rad_s(const LinkModel& joint, double stiffness_Nm_rad) noexcept {
-  return std::sqrt(stiffness_Nm_rad * (1.0 / joint.motor_inertia_kgm2 + 1.0 / joint.link_inertia_kgm2));
-}
-
 int steps_in(const LinkModel& joint, double period_s) noexcept {
-  const double swing = swing_rad_s(joint, joint.spring.stiffness_3_Nm_rad);
-  return std::clamp(static_cast<int>(std::ceil(period_s * swing / kStep_rad)), kFewestSteps, kMostSteps);
+  const double swing_rad_s = free_free_frequency_rad_s(joint.motor_inertia_kgm2, joint.link_inertia_kgm2,
+                                                       joint.spring.stiffness_3_Nm_rad);
+  return std::clamp(static_cast<int>(std::ceil(period_s * swing_rad_s / kStep_rad)), kFewestSteps,
+                    kMostSteps);
 }
 
 }  // namespace
+
+LinkState moved(const LinkState& from, const LinkState& by, double share) noexcept {
+  return {from.link_position_rad + share * by.link_position_rad,
+          from.link_velocity_rad_s + share * by.link_velocity_rad_s,
+          from.motor_position_rad + share * by.motor_position_rad,
+          from.motor_velocity_rad_s + share * by.motor_velocity_rad_s};
+}
 
 LinkModel::Period LinkModel::advance(const LinkState& from, double torque_Nm,
                                      double period_s) const noexcept {
@@ -99,7 +96,8 @@ LinkGains LinkModel::regulate(double torque_limit_Nm, double period_s) const noe
   const auto [A, B] = sample(*this, period_s);
   const double torque_Nm = kTorqueShare * torque_limit_Nm;
   const double wind_up_rad = torque_Nm / spring.stiffness_2_Nm_rad;
-  const double speed_rad_s = wind_up_rad * swing_rad_s(*this, spring.stiffness_2_Nm_rad);
+  const double speed_rad_s = wind_up_rad * free_free_frequency_rad_s(motor_inertia_kgm2, link_inertia_kgm2,
+                                                                     spring.stiffness_2_Nm_rad);
   const auto weight = [](double scale) { return 1.0 / (scale * scale); };
   const Matrix Q = Vector(weight(kLinkShare * wind_up_rad), weight(kSpeedShare * speed_rad_s),
                           weight(kMotorShare * wind_up_rad), weight(kSpeedShare * speed_rad_s))

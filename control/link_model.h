@@ -16,6 +16,9 @@ struct LinkState {
   double motor_position_rad = 0.0, motor_velocity_rad_s = 0.0;
 };
 
+/// `from` and `share` times `by`, which may be a slope in time or the way to another state.
+LinkState moved(const LinkState& from, const LinkState& by, double share) noexcept;
+
 /// N.m for each error of a LinkState.
 struct LinkGains {
   double link_position = 0.0, link_velocity = 0.0, motor_position = 0.0, motor_velocity = 0.0;

@@ -22,8 +22,9 @@ double spread_periods(const LinkMotionConfig& c) noexcept {
   const double transmitted_Nm =
       c.torque_limit_Nm * joint.link_inertia_kgm2 / (joint.motor_inertia_kgm2 + joint.link_inertia_kgm2);
   const double stiffness = joint.spring.secant_Nm_rad(0.5 * transmitted_Nm);
-  const double squared = stiffness * (1.0 / joint.motor_inertia_kgm2 + 1.0 / joint.link_inertia_kgm2);
-  return std::sqrt(8.0 / squared) / c.period_s;
+  const double swing_rad_s =
+      free_free_frequency_rad_s(joint.motor_inertia_kgm2, joint.link_inertia_kgm2, stiffness);
+  return std::sqrt(8.0) / swing_rad_s / c.period_s;
 }
 
 int whole_spread(const LinkMotionConfig& config) noexcept {
@@ -122,16 +123,10 @@ void LinkMotion::follow(double wanted_Nm, const TorqueRange& possible, double ta
 // A regulator that has no torque left can swing a spring up for ever. What the torque cannot do is given up: the model gives way to the
 // motion, where it has lost it and wherever nothing but the regulator asks for torque.
 void LinkMotion::yield(bool ended) noexcept {
-  const LinkState off{wanted_.link_position_rad - next_.link_position_rad,
-                      wanted_.link_velocity_rad_s - next_.link_velocity_rad_s,
-                      wanted_.motor_position_rad - next_.motor_position_rad,
-                      wanted_.motor_velocity_rad_s - next_.motor_velocity_rad_s};
+  const LinkState off = moved(wanted_, next_, -1.0);
   const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
   if (!exhausted_ || (!ended && farthest_rad < lost_rad_)) return;
-  next_.link_position_rad += kYield * off.link_position_rad;
-  next_.link_velocity_rad_s += kYield * off.link_velocity_rad_s;
-  next_.motor_position_rad += kYield * off.motor_position_rad;
-  next_.motor_velocity_rad_s += kYield * off.motor_velocity_rad_s;
+  next_ = moved(next_, off, kYield);
 }
 
 // The motion has ended: once the model is where that was, it stands still.

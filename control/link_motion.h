@@ -1,6 +1,6 @@
 // What the motor must do so that the link behind the gear's spring arrives, and nothing swings: turns the planned motion of a
 // rigid joint into one of the link, and that into the motor's position and torque. Real-time safe, step() included; the constructor
-// is not. Joint side, SI.
+// is not: it solves for a regulator. Joint side, SI.
 //
 // The planned motion, accelerations in steps, passes through two moving means (control/moving_mean.h) that together last tau. The
 // link's jerk is then continuous, and the link's position is a flat output of the joint:
@@ -74,6 +74,7 @@ class SmoothWindUp {
 
 class LinkMotion {
  public:
+  /// Not real-time safe.
   explicit LinkMotion(const LinkMotionConfig& config) noexcept;
 
   /// Whether the spring is stiff enough for the joint's period and slow enough for its memory: tau within the moving means.

@@ -7,7 +7,7 @@ namespace strainwave {
 namespace {
 // Acceleration that a reference always has, as a share of
 // what the torque limit gives without friction and load.
-constexpr double kLeastShare = 0.02;
+constexpr double kLeastAccelerating = 0.02;
 }  // namespace
 
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
@@ -28,8 +28,19 @@ MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& mot
   // Viscous friction helps as well, but not until the end.
   const double deceleration = (limit_Nm + coulomb_Nm - load_Nm) / model.inertia_kgm2;
 
-  const double least = kLeastShare * limit_Nm / model.inertia_kgm2;
-  return {motion.velocity_rad_s, std::min(motion.acceleration_rad_s2, std::max(least, acceleration)),
+  // Where losses take all of the torque, less the reserve, the reference stops accelerating, trickle or not: it does not run ahead of the
+  // joint, and what brakes it brakes the joint.
+  const double least_Nm = kLeastAccelerating * limit_Nm;
+  const auto fastest = [&](double torque_Nm, double loss_Nms_rad) {
+    return std::max(least_Nm, torque_Nm - coulomb_Nm - load_Nm) / loss_Nms_rad;
+  };
+  const double velocity = std::min(fastest(limit_Nm, model.friction.viscous_Nms_rad),
+                                   fastest(usable * motor.stall_torque_Nm,
+                                           model.friction.viscous_Nms_rad + motor.torque_per_speed_Nms_rad));
+
+  const double least = least_Nm / model.inertia_kgm2;
+  return {std::min(motion.velocity_rad_s, velocity),
+          std::min(motion.acceleration_rad_s2, std::max(least, acceleration)),
           std::min(motion.deceleration_rad_s2, std::max(least, deceleration))};
 }
 

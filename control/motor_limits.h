@@ -1,5 +1,4 @@
-// What motor, supply and friction leave for motion. Joint side, SI. Real-time safe. Source:
-// data/rhs17_datasheet.csv.
+// What motor, supply and friction leave for motion. Joint side, SI. Real-time safe. Source: data/rhs17_datasheet.csv.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "control/positive_definite.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +15,11 @@ constexpr double kHalfUlp = 0.5 * std::numeric_limits<double>::epsilon();
 // of ours.
 constexpr double kLargestEntry = 0x1p400;
 constexpr double kSmallestDiagonal = 0x1p-400;
+
+// Each sweep squares what is left beside the diagonal: a handful does.
+constexpr int kMostSweeps = 30;
+// Beside a diagonal near 1: less than its rounding.
+constexpr double kNegligible = 0x1p-6 * kHalfUlp;
 
 struct Balanced {
   ProofMatrix matrix;
@@ -75,8 +79,43 @@ bool cholesky_succeeds(const ProofMatrix& matrix, int size) noexcept {
   return true;
 }
 
-double smallest_eigenvalue(const ProofMatrix& matrix) noexcept {
-  return Eigen::SelfAdjointEigenSolver<ProofMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+// The rotation that makes (p, q) zero.
+void rotate(ProofMatrix& matrix, int p, int q) noexcept {
+  const double beside = matrix(p, q);
+  const double cotangent = (matrix(q, q) - matrix(p, p)) / (2.0 * beside);  // of twice the angle
+  const double tangent =
+      std::copysign(1.0, cotangent) / (std::abs(cotangent) + std::sqrt(1.0 + cotangent * cotangent));
+  const double c = 1.0 / std::sqrt(1.0 + tangent * tangent);
+  const double s = tangent * c;
+  matrix(p, p) -= tangent * beside;
+  matrix(q, q) += tangent * beside;
+  matrix(p, q) = matrix(q, p) = 0.0;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i == p || i == q) continue;
+    const double at_p = matrix(i, p);
+    const double at_q = matrix(i, q);
+    matrix(i, p) = matrix(p, i) = c * at_p - s * at_q;
+    matrix(i, q) = matrix(q, i) = s * at_p + c * at_q;
+  }
+}
+
+// Jacobi's cyclic method. Compiling Eigen's solver takes longer than the rest of the proofs. Source: Golub and Van Loan, "Matrix
+// Computations", section 8.5.
+double smallest_eigenvalue(ProofMatrix matrix, int size) noexcept {
+  bool diagonal = false;
+  for (int sweep = 0; !diagonal && sweep < kMostSweeps; ++sweep) {
+    diagonal = true;
+    for (int p = 0; p < size; ++p) {
+      for (int q = p + 1; q < size; ++q) {
+        if (std::abs(matrix(p, q)) <= kNegligible) continue;
+        diagonal = false;
+        rotate(matrix, p, q);
+      }
+    }
+  }
+  double smallest = matrix(0, 0);
+  for (int i = 1; i < size; ++i) smallest = std::min(smallest, matrix(i, i));
+  return smallest;
 }
 
 }  // namespace
@@ -91,15 +130,14 @@ PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const P
   for (int i = 0; i < size; ++i) trace += balanced.matrix(i, i);
   // When Cholesky succeeds, the matrix it was given is no further than gamma_k/(1 - gamma_k) * trace, k = n + 1
   // (about k half ulps of the trace), from one that is positive definite (Rump, 2006). 4 k also covers the
-  // rounding of the shift and of this line; the balanced entries are near 1, so that underflow is far below
-  // it.
+  // rounding of the shift and of this line; the balanced entries are near 1, so that underflow is far below it.
   const double shift = (1.0 + 64.0 * kHalfUlp) * balanced.error_norm + 4.0 * (size + 1) * kHalfUlp * trace;
   ProofMatrix shifted = balanced.matrix;
   for (int i = 0; i < size; ++i) shifted(i, i) -= shift;
   if (!shifted.allFinite()) return result;
 
   result.certain = cholesky_succeeds(shifted, size);
-  const double estimate = smallest_eigenvalue(balanced.matrix) - shift;
+  const double estimate = smallest_eigenvalue(balanced.matrix, size) - shift;
   // The estimate has its own rounding; Cholesky decides the sign.
   result.margin =
       result.certain ? std::max(estimate, std::numeric_limits<double>::min()) : std::min(estimate, 0.0);

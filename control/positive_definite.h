@@ -2,8 +2,7 @@
 // entrywise error of the argument is positive definite, rounding included. Real-time safe.
 //
 // The matrix is balanced by a diagonal congruence with powers of two (exact), shifted down by a bound on all
-// rounding errors, and factored by Cholesky. Source: Rump, "Verification of positive definiteness", BIT 46
-// (2006).
+// rounding errors, and factored by Cholesky. Source: Rump, "Verification of positive definiteness", BIT 46 (2006).
 #pragma once
 
 #include <Eigen/Core>

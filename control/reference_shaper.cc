@@ -14,7 +14,7 @@ constexpr double kRelativeRounding = 1e-9;
 // What thousands of samples may add up to; far below any encoder's count.
 constexpr double kPositionRounding_rad = 1e-12;
 // What a target that accelerates leaves at least of the limits, to come up with it.
-constexpr double kLeastShare = 0.2;
+constexpr double kLeastLeft = 0.2;
 }  // namespace
 
 void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept {
@@ -104,7 +104,7 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
   set_target(target.next_position_rad);
   if (target.rests()) return step();
   const double own_rad_s2 = std::abs(target.next_velocity_rad_s - target.velocity_rad_s) / period_s_;
-  const auto left = [own_rad_s2](double limit) { return std::max(kLeastShare * limit, limit - own_rad_s2); };
+  const auto left = [own_rad_s2](double limit) { return std::max(kLeastLeft * limit, limit - own_rad_s2); };
   const MotionLimits relative{limits_.velocity_rad_s, left(limits_.acceleration_rad_s2),
                               left(limits_.deceleration_rad_s2)};
   // From where the target, were its motion the mean of its two velocities, would reach its end exactly.

@@ -76,6 +76,8 @@ class ScheduledController {
 
   /// Forgets the integral.
   void reset() noexcept;
+  /// From now on the gains are `share` > 0 times what they were; what the integral holds is the same torque.
+  void soften(double share) noexcept;
 
   /// Chooses the integral so that step(input) would give `torque_Nm` (unless it saturates): the change-over
   /// from another controller makes no torque step. Without an integrator it does nothing.

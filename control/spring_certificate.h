@@ -14,6 +14,7 @@
 // is what a proof fails on, the box is cut in two, with the same P: E falls by four.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,11 +22,6 @@
 #include "control/spring_plant.h"
 
 namespace strainwave {
-
-struct BoxRange {
-  double from = 0.0;
-  double to = 0.0;  ///< >= from
-};
 
 /// The joints that are meant.
 struct SpringBox {
@@ -65,12 +61,23 @@ struct SpringReport {
   int worst_gain = 0;
 };
 
-/// P: kSpringLoopStates + delay rows and columns. At least one gain.
+/// P: kSpringLoopStates + delay rows and columns. At least one gain. Not certified is what needs more than `most_inequalities`.
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
-                     const ProofMatrix& P);
+                     const ProofMatrix& P, int most_inequalities = std::numeric_limits<int>::max());
 
 /// The largest eigenvalue of the loop, in magnitude, r left out: what no proof can be better than. Not rigorous.
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop);
+
+/// The corner and gain of `box` with the largest eigenvalue of the loop: above 1 no proof exists. Not rigorous.
+struct WorstCorner {
+  SpringPlant plant;
+  int gain = 0;
+  double radius = 0.0;
+};
+WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop);
+
+/// Every gain of both controllers, so that a change-over is a blend like any other.
+std::vector<GainRow> gains_of(const GainTable& table);
 
 /// The link's side, the spring and friction in words; and a margin with its corner.
 std::string describe(const SpringPlant& plant);

@@ -20,6 +20,7 @@
 #include <array>
 
 #include "control/bounded_matrix.h"
+#include "control/certified_box.h"
 #include "control/gain_table.h"
 
 namespace strainwave {
@@ -33,9 +34,8 @@ struct SpringPlant {
   double viscous_Nms_rad = 0.0;     ///< b >= 0
 };
 
-/// States of the plant; of the loop kSpringLoopStates + d.
+/// States of the plant; of the loop kSpringLoopStates (certified_box.h) + d.
 inline constexpr int kSpringPlantStates = 4;
-inline constexpr int kSpringLoopStates = 6;
 inline constexpr int kMaxSpringDelay = kMaxProofStates - kSpringLoopStates;
 
 /// h [Ac Bc; 0 0], 5 x 5, each entry rounded a few times.

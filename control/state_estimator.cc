@@ -30,10 +30,11 @@ void StateEstimator::reset(double position_rad, double velocity_rad_s, double lo
 
 void StateEstimator::step(const JointMeasurement& measurement, const JointModel& model,
                           EstimateSource source) noexcept {
+  if (measurement.elapsed_periods > kMaxElapsedPeriods && !first_) begin_anew(measurement, model);
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   // Before the first period nothing has acted yet.
-  let_torque_act(first_ ? 0 : elapsed_periods,
-                 std::clamp(measurement.late_periods, 0, kMaxControlDelay - config_.delay_periods), model,
+  const int most_late = kMaxControlDelay - config_.delay_periods;
+  let_torque_act(first_ ? 0 : elapsed_periods, std::clamp(measurement.late_periods, 0, most_late), model,
                  source);
   first_ = false;
   const double position_rad = measurement.joint_position_rad;
@@ -41,13 +42,28 @@ void StateEstimator::step(const JointMeasurement& measurement, const JointModel&
                        ? std::min(still_periods_ + elapsed_periods, kMaxElapsedPeriods)
                        : 0;
   adapted_ = model;
+  JointMeasurement believed = measurement;
+  believed.has_position = measurement.has_position && measurement.late_periods <= most_late;
   if (source == EstimateSource::kObserver)
-    observe(measurement);
+    observe(believed);
   else
-    read(measurement, elapsed_periods);
+    read(measurement);
   previous_position_rad_ = position_rad;
   then_ = now_;
   if (source == EstimateSource::kObserver) look_ahead();
+}
+
+// What is left is what two readings tell.
+void StateEstimator::begin_anew(const JointMeasurement& measurement, const JointModel& model) noexcept {
+  const double position_rad = measurement.joint_position_rad;
+  const double velocity_rad_s = mean_velocity_rad_s(measurement);
+  observer_.reset(position_rad, model.friction_scale_Nm, velocity_rad_s, usual_load_Nm_);
+  first_ = true;
+}
+
+double StateEstimator::mean_velocity_rad_s(const JointMeasurement& measurement) const noexcept {
+  return (measurement.joint_position_rad - previous_position_rad_) /
+         (std::max(1, measurement.elapsed_periods) * config_.observer.period_s);
 }
 
 void StateEstimator::remember(double torque_Nm) noexcept {
@@ -75,19 +91,18 @@ void StateEstimator::let_torque_act(int periods, int late_periods, const JointMo
 void StateEstimator::observe(const JointMeasurement& measurement) noexcept {
   if (measurement.has_velocity && config_.observer.encoder_resolution_rad == 0.0)
     observer_.correct(measurement.joint_position_rad, measurement.joint_velocity_rad_s);
-  else
+  else if (measurement.has_position)
     observer_.correct(measurement.joint_position_rad);
   now_ = observer_.estimate();
   adapted_.inertia_kgm2 *= now_.inertia_ratio;
   usual_load_Nm_ += (now_.disturbance.load_Nm - usual_load_Nm_) * config_.observer.period_s / kUsualLoad_s;
 }
 
-void StateEstimator::read(const JointMeasurement& measurement, int elapsed_periods) noexcept {
+void StateEstimator::read(const JointMeasurement& measurement) noexcept {
   now_ = {};
   now_.position_rad = measurement.joint_position_rad;
-  now_.velocity_rad_s = measurement.has_velocity ? measurement.joint_velocity_rad_s
-                                                 : (measurement.joint_position_rad - previous_position_rad_) /
-                                                       (elapsed_periods * config_.observer.period_s);
+  now_.velocity_rad_s =
+      measurement.has_velocity ? measurement.joint_velocity_rad_s : mean_velocity_rad_s(measurement);
   now_.disturbance.load_Nm = usual_load_Nm_;
 }
 

@@ -15,21 +15,24 @@
 namespace strainwave {
 
 inline constexpr int kMaxControlDelay = 8;
-/// A longer stall is a fault of the loop; what the joint did over it, no model knows.
-inline constexpr int kMaxElapsedPeriods = 50;
+/// What the joint did over a longer stall, no model knows: the estimate begins anew with the two readings around it. By default a longer
+/// one is a fault of the loop at 1 kHz.
+inline constexpr int kMaxElapsedPeriods = 20;
 
 /// One period's measurements.
 struct JointMeasurement {
   double joint_position_rad = 0.0;
   double joint_velocity_rad_s = 0.0;  ///< used only when has_velocity
   double temperature_C = 0.0;         ///< used only when temperature_valid
+  /// Else the position is not a reading but where the joint must be by now: nothing to learn from.
+  bool has_position = true;
   bool has_velocity = false;
   bool temperature_valid = false;
   /// Periods since the last step(), >= 1; more when the loop left some out. Over those the last torque stayed
-  /// applied and the reference went on. More than kMaxElapsedPeriods count as that many.
+  /// applied and the reference went on. After more than kMaxElapsedPeriods both begin anew from where the joint is.
   int elapsed_periods = 1;
   /// >= 0: the position was sampled so many periods before delay_periods has it. More than kMaxControlDelay in all count as
-  /// that many.
+  /// that many, and the observer learns nothing from it.
   int late_periods = 0;
 };
 
@@ -69,7 +72,9 @@ class StateEstimator {
  private:
   void let_torque_act(int periods, int late_periods, const JointModel& model, EstimateSource source) noexcept;
   void observe(const JointMeasurement& measurement) noexcept;
-  void read(const JointMeasurement& measurement, int elapsed_periods) noexcept;
+  void read(const JointMeasurement& measurement) noexcept;
+  void begin_anew(const JointMeasurement& measurement, const JointModel& model) noexcept;
+  double mean_velocity_rad_s(const JointMeasurement& measurement) const noexcept;
   void look_ahead() noexcept;
   double torque_before_Nm(int periods) const noexcept {
     return torques_Nm_[static_cast<std::size_t>(periods)];

@@ -4,15 +4,25 @@
 //   knot (t, p, v, a)   every sample becomes one: the motion leads from where it is now to it by a quintic
 //                       (Hermite), so that position, velocity and acceleration have no step, whatever arrives
 //   time of a knot      its own, if the sample has one; else the smoothed instant of its arrival (a phase-locked
-//                       loop over the arrivals), carried forward by one interval, 20 ms at least, so that what a
-//                       network does to arrivals makes no jerks
+//                       loop over the arrivals). Who follows is later than the target by a known time, by which the target
+//                       is ahead of the samples. A knot for which too little time is left is carried forward to one interval
+//                       from now, 20 ms at least, so that what a network does to arrivals makes no jerks
 //   velocity            the sample's own, and the motion has no lag; else from three positions 10 ms apart, or
 //                       consecutive ones where they lie farther apart:
 //                         d01 + (t0 - t1) (d01 - d12) / (t0 - t2),  dij = (pi - pj) / (ti - tj)
 //                       and the motion lags one interval. Accelerations that are not given by velocities, likewise
-//   contradiction       a velocity that is not that of the positions is not used; the positions are
-//   no new sample       the motion goes on as it was for three intervals, 0.2 s at most, and then has ended: the
-//                       joint is to come to rest. A target that stands still stays where it is
+//   contradiction       a velocity that is not that of the positions is not used; the positions are. Likewise an acceleration that is
+//                       farther than the limit from that of the velocities. And what is carried
+//                       forward is no farther from the line through the last two samples than the limit of acceleration
+//                       could take it: A t (t + T) / 2, T between the two
+//   load                along a straight line from knot to knot; without a sample's time it is there an interval after the sample. After
+//                       the last it stays
+//   no new sample       the motion goes on as it was for `bridge_s`, two intervals at least, 0.2 s at most, and then has
+//                       ended: the joint is to come to rest. A target that stands still stays where it is
+//   confined            who follows at speed v and could not come to rest before it is farther out than the last samples and what
+//                       their speed V takes since the last of them is led to rest there until it has turned:
+//                         V (now - t) + V T / 2 + max(V^2, w (2 v - w)) / 2A,  w the target's speed
+//                       What is always late, near the limits, would else be driven farther with each swing
 //   out of reach        a knot that needs more than twice the limit of speed, or positions that need more than twice
 //                       that of acceleration, are a new place, not a motion: the target is there, at rest, and
 //                       whoever follows goes there as fast as the joint may
@@ -23,6 +33,13 @@
 
 namespace strainwave {
 
+/// What who streams knows of the load and the joint does not: a torque to add to the planned one, and an inertia that is carried
+/// besides the joint's own.
+struct ToldLoad {
+  double torque_Nm = 0.0;
+  double inertia_kgm2 = 0.0;  ///< >= 0
+};
+
 /// One setpoint of a stream. All finite.
 struct StreamSample {
   double position_rad = 0.0;
@@ -31,6 +48,7 @@ struct StreamSample {
   int derivatives = 0;               ///< how many of the position's are given: 0, 1 or 2
   /// Periods from now to the instant that it is for, > 0; 0: none is given.
   std::int64_t in_periods = 0;
+  ToldLoad load{};
 };
 
 /// Target of a period: at its begin and at its end.
@@ -39,13 +57,14 @@ struct MovingTarget {
   double velocity_rad_s = 0.0;
   double next_position_rad = 0.0;
   double next_velocity_rad_s = 0.0;
+  ToldLoad load{};
   bool rests() const noexcept { return velocity_rad_s == 0.0 && next_velocity_rad_s == 0.0; }
 };
 
 class StreamTarget {
  public:
-  /// `period_s` > 0.
-  explicit StreamTarget(double period_s) noexcept : period_s_(period_s) {}
+  /// `period_s` > 0; `bridge_s` >= 0.
+  StreamTarget(double period_s, double bridge_s) noexcept : period_s_(period_s), bridge_s_(bridge_s) {}
 
   /// What who follows can do; a motion that needs much more is none. All > 0.
   struct Reach {
@@ -53,57 +72,93 @@ class StreamTarget {
     double acceleration_rad_s2 = 1.0;
   };
 
-  /// A stream begins where the joint is to be now.
-  void begin(double position_rad, double velocity_rad_s) noexcept;
+  /// A stream begins where the joint is to be now; from now on the target is ahead of its samples' times by `lead_periods` >= 0.
+  void begin(double position_rad, double velocity_rad_s, double lead_periods) noexcept;
   void take(const StreamSample& sample, const Reach& reach) noexcept;
   /// The target of the period that begins now; time goes on by one period.
   MovingTarget step() noexcept;
+  /// Which way a follower of the target is confined: 1 up, -1 down, 0 not.
+  using Confinement = int;
+  /// `target`, the one of this period, for a follower that is at this place with this velocity.
+  MovingTarget confined(const MovingTarget& target, double position_rad, double velocity_rad_s,
+                        Confinement& way) const noexcept;
   /// The samples have stopped coming while the target moved. Until the next begin().
   bool ended() const noexcept { return ended_; }
 
  private:
   static constexpr std::size_t kKnots = 32;  ///< that may lie in the future
   static constexpr std::size_t kPast = 24;   ///< samples that velocities are estimated from
+  /// Multiple of a limit that a motion may need: one that needs more is a new place.
+  static constexpr double kReach = 2.0;
   struct Knot {
     double at = 0.0;  ///< period
     double position_rad = 0.0;
     double velocity_rad_s = 0.0;
     double acceleration_rad_s2 = 0.0;
     double jerk_rad_s3 = 0.0;  ///< as three samples show it
-    double sent_rad_s = 0.0;   ///< the velocity that came with it, believed or not
+    ToldLoad load{};
+    double sent_rad_s = 0.0;  ///< the velocity that came with it, believed or not
+    bool carried = false;     ///< forward: not what was sent
+    bool rests() const noexcept { return velocity_rad_s == 0.0 && acceleration_rad_s2 == 0.0; }
   };
   struct State {
     double position_rad = 0.0;
     double velocity_rad_s = 0.0;
     double acceleration_rad_s2 = 0.0;
   };
+  /// The samples that a new one's motion is judged by; null: there is none.
+  struct Before {
+    const Knot* last = nullptr;
+    const Knot* first = nullptr;  ///< before `last`
+  };
+  /// Where the last samples are.
+  struct Hull {
+    double low_rad = 0.0;
+    double high_rad = 0.0;
+    double fastest_rad_s = 0.0;  ///< >= 0
+  };
+  ToldLoad load_at(double period) const noexcept;
   double seconds(double periods) const noexcept { return periods * period_s_; }
-  bool contradicts_itself(const Knot& knot) const noexcept;
+  double expected_interval() const noexcept;
+  bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
   void clock_in() noexcept;
   void remember(const Knot& knot) noexcept;
-  const Knot* before(double period) const noexcept;
-  void estimate_derivatives(const StreamSample& sample, Knot& knot) noexcept;
-  Knot carried_forward(const StreamSample& sample, const Knot& knot, double since_last) const noexcept;
-  void queue(const Knot& knot) noexcept;
-  void derive_from_positions(const Knot& last, const Knot* first, Knot& knot) noexcept;
+  const Knot* sample_before(double period) const noexcept;
+  void estimate_derivatives(const StreamSample& sample, const Before& before, Knot& knot) noexcept;
+  Knot carried_forward(const StreamSample& sample, const Knot& knot, double ahead) const noexcept;
+  double least_ahead(double since_last) const noexcept;
+  void queue(const StreamSample& sample, const Knot& knot) noexcept;
+  double present() const noexcept { return now_ - lead_; }
+  void derive_from_positions(const Before& before, Knot& knot) noexcept;
   void lead_to(const Knot& knot) noexcept;
+  void lead_load_to(const Knot& knot) noexcept;
   State at(double period) noexcept;
   State between(double period) const noexcept;
   State beyond(double period) noexcept;
 
   double period_s_;
-  double now_ = 0.0;  ///< periods since begin()
-  State state_;       ///< now
-  Knot from_;         ///< the quintic's begin ...
-  Knot to_;           ///< ... and end
+  double bridge_s_;
+  double lead_ = 0.0;  ///< periods
+  double now_ = 0.0;   ///< periods since begin(), and the lead
+  State state_;        ///< now
+  ToldLoad load_;      ///< now
+  ToldLoad load_from_;
+  ToldLoad load_to_;
+  double load_from_at_ = 0.0;  ///< periods, as now_; so the next
+  double load_to_at_ = 0.0;
+  Knot from_;  ///< the quintic's begin ...
+  Knot to_;    ///< ... and end
   Reach reach_;
   std::array<Knot, kKnots> waiting_{};  ///< knots after to_, by time
   std::size_t waiting_count_ = 0;
+  double mean_rad_s_ = 0.0;         ///< from the last sample but one to the last
+  double mean_s_ = 0.0;             ///< the time between them; 0: there is but one
   double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come
   double arrival_ = 0.0;            ///< of the last sample, smoothed
   int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
+  Hull hull_;  ///< of past_
   bool ended_ = false;
 };
 

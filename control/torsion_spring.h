@@ -61,4 +61,17 @@ struct TorsionSpring {
   double secant_Nm_rad(double torque_Nm) const noexcept { return torque_Nm / angle_rad(torque_Nm); }
 };
 
+/// Angular frequency in rad/s at which motor and link swing against each other on a spring of `stiffness_Nm_rad`.
+inline double free_free_frequency_rad_s(double motor_inertia_kgm2, double link_inertia_kgm2,
+                                        double stiffness_Nm_rad) noexcept {
+  return std::sqrt(stiffness_Nm_rad * (1.0 / motor_inertia_kgm2 + 1.0 / link_inertia_kgm2));
+}
+
+/// The damper that gives this swinging, on the first slope, the share `ratio` of critical damping.
+inline double structural_damping_Nms_rad(double motor_inertia_kgm2, double link_inertia_kgm2,
+                                         double stiffness_Nm_rad, double ratio) noexcept {
+  return 2.0 * ratio * stiffness_Nm_rad /
+         free_free_frequency_rad_s(motor_inertia_kgm2, link_inertia_kgm2, stiffness_Nm_rad);
+}
+
 }  // namespace strainwave

@@ -1,5 +1,6 @@
 #include "control/ts_plant.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace strainwave {
@@ -71,6 +72,13 @@ int plant_rule_count(const FuzzyFriction& friction) noexcept {
 
 double plant_rule_viscous_Nms_rad(const FuzzyFriction& friction, int rule) noexcept {
   return rule == 0 ? 0.0 : friction.rules[static_cast<std::size_t>(rule - 1)].friction.viscous_Nms_rad;
+}
+
+double largest_viscous_Nms_rad(const FuzzyFriction& friction) noexcept {
+  double largest = 0.0;
+  for (int rule = 0; rule < plant_rule_count(friction); ++rule)
+    largest = std::max(largest, plant_rule_viscous_Nms_rad(friction, rule));
+  return largest;
 }
 
 }  // namespace strainwave

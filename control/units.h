@@ -13,8 +13,10 @@
 
 namespace strainwave {
 
+/// One revolution.
+inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 /// rad/s for one RPM.
-inline constexpr double kRadPerSecondPerRpm = 2.0 * std::numbers::pi / 60.0;
+inline constexpr double kRadPerSecondPerRpm = kTurn_rad / 60.0;
 /// N.m for one N.cm.
 inline constexpr double kNmPerNcm = 0.01;
 

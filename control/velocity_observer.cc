@@ -73,6 +73,7 @@ void VelocityObserver::reset(double position_rad, double friction_scale_Nm, doub
   covariance_(kInertia, kInertia) = square(kInertiaUncertainty);
   reading_rad_ = position_rad;
   moved_rad_ = 0.0;
+  periods_ = 0;
   static_friction_Nm_ = 0.0;
   surprised_ = false;
 }
@@ -85,10 +86,12 @@ void VelocityObserver::predict(double torque_Nm, const JointModel& model) noexce
   JointModel adapted = model;
   adapted.inertia_kgm2 *= inertia_ratio();
   inertia_kgm2_ = adapted.inertia_kgm2;
+  surprised_ = false;
 
   const ModelMotion motion =
       adapted.advance(torque_Nm, {state_(kFriction), state_(kLoad)}, state_(kVelocity), config_.period_s);
   moved_rad_ += motion.displacement_rad;
+  ++periods_;
   if (!motion.moved) return;
   Covariance transition = Covariance::Identity();
   // Slow starts and stops say more about friction than about inertia: they are not let near it.
@@ -165,12 +168,13 @@ void VelocityObserver::bound_parameters() noexcept {
   state_(kInertia) = std::clamp(state_(kInertia), kLeastInertia, kMostInertia);
 }
 
-// Something that the model does not know pushed the joint: its velocity may be anything that explains the
+// Something that the model does not know pushed the joint since the last reading: its velocity may be anything that explains the
 // distance, and a load may have come, of a size that would have moved it so far.
 void VelocityObserver::admit_surprise(double distance_rad) noexcept {
-  const double velocity = distance_rad / config_.period_s;
+  const double since_s = std::max(1, periods_) * config_.period_s;
+  const double velocity = distance_rad / since_s;
   const double load_Nm =
-      std::min(2.0 * inertia_kgm2_ * velocity / config_.period_s, kSurpriseLoad * static_friction_Nm_);
+      std::min(2.0 * inertia_kgm2_ * velocity / since_s, kSurpriseLoad * static_friction_Nm_);
   const double correlation = 0.5;
   covariance_(kPosition, kPosition) += square(distance_rad);
   covariance_(kVelocity, kVelocity) += square(velocity);
@@ -180,10 +184,28 @@ void VelocityObserver::admit_surprise(double distance_rad) noexcept {
   add_covariance(kVelocity, kLoad, -correlation * velocity * load_Nm);
 }
 
+// How far off its edges a reading may be: by the encoder, and by what the joint moves until it is really sampled.
+double VelocityObserver::reading_variance() const noexcept {
+  return square(config_.edge_deviation_counts * config_.encoder_resolution_rad) +
+         square(config_.sampling_deviation_s * state_(kVelocity));
+}
+
+// A reading that is off by more than its edges are apart is worth no more than its middle.
+void VelocityObserver::weigh(double position_rad) noexcept {
+  const double off_rad = position_rad - state_(kPosition);
+  const double variance = reading_variance() + square(config_.encoder_resolution_rad) / 12.0;
+  if (std::abs(off_rad) > kSurprise * std::sqrt(covariance_(kPosition, kPosition) + variance)) {
+    surprised_ = true;
+    admit_surprise(std::abs(off_rad));
+  }
+  const double share = covariance_(kPosition, kPosition) / (covariance_(kPosition, kPosition) + variance);
+  condition(kPosition, share * off_rad, 1.0 - share);
+}
+
 // Keeps the part of the distribution on one side (+1: above, -1: below) of an edge.
 void VelocityObserver::truncate(double edge_rad, double side) noexcept {
   const double inside_rad = side * (state_(kPosition) - edge_rad);
-  const double edge_variance = square(config_.edge_deviation_counts * config_.encoder_resolution_rad);
+  const double edge_variance = reading_variance();
   double deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
   if (inside_rad > kCertain * deviation) return;
   if (inside_rad < -kSurprise * deviation) {
@@ -207,10 +229,15 @@ void VelocityObserver::correct(double position_rad) noexcept {
   }
   // An edge is news when it bounds tighter than the last reading's edge, carried along with the motion.
   const double tighter_rad = position_rad - reading_rad_ - moved_rad_;
-  if (tighter_rad > 0.0) truncate(position_rad - half_rad, 1.0);
-  if (tighter_rad < 0.0) truncate(position_rad + half_rad, -1.0);
+  if (reading_variance() > square(half_rad))
+    weigh(position_rad);
+  else if (tighter_rad > 0.0)
+    truncate(position_rad - half_rad, 1.0);
+  else if (tighter_rad < 0.0)
+    truncate(position_rad + half_rad, -1.0);
   reading_rad_ = position_rad;
   moved_rad_ = 0.0;
+  periods_ = 0;
 }
 
 void VelocityObserver::correct(double position_rad, double velocity_rad_s) noexcept {
@@ -223,6 +250,7 @@ void VelocityObserver::correct(double position_rad, double velocity_rad_s) noexc
   covariance_.leftCols<2>().setZero();
   reading_rad_ = position_rad;
   moved_rad_ = 0.0;
+  periods_ = 0;
 }
 
 JointEstimate VelocityObserver::estimate() const noexcept {

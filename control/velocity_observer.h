@@ -19,6 +19,7 @@ struct VelocityObserverConfig {
   double period_s = 0.001;              ///< > 0
   double encoder_resolution_rad = 0.0;  ///< position of one count; 0: exact
   double edge_deviation_counts = 0.02;  ///< how evenly the encoder's edges lie
+  double sampling_deviation_s = 0.0;    ///< >= 0: of the instants at which positions are sampled
 };
 
 /// The estimate at a sample.
@@ -58,7 +59,9 @@ class VelocityObserver {
 
   void drift(double end_velocity_rad_s, const JointModel& model) noexcept;
   void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
+  double reading_variance() const noexcept;
   void truncate(double edge_rad, double side) noexcept;
+  void weigh(double position_rad) noexcept;
   void admit_surprise(double distance_rad) noexcept;
   void bound_parameters() noexcept;
   void add_covariance(int a, int b, double value) noexcept;
@@ -69,6 +72,7 @@ class VelocityObserver {
   Covariance covariance_ = Covariance::Zero();
   double reading_rad_ = 0.0;
   double moved_rad_ = 0.0;  ///< predicted since that reading
+  int periods_ = 0;         ///< the same
   double inertia_kgm2_ = 1.0;
   double static_friction_Nm_ = 0.0;  ///< of the last model
   bool surprised_ = false;           ///< by the last reading

@@ -54,15 +54,23 @@ LoopParts assemble_loop(const DaemonConfig& config) {
 
 ExpectedJoint expected_joint(const JointConfig& joint) {
   const JointControllerConfig& controller = joint.loop.controller;
-  return {joint.plant, controller.torque_limit_Nm, controller.link, controller.delay_periods};
+  return {joint.plant, controller.torque_limit_Nm, controller.link, controller.delay_periods,
+          joint.encoder_side};
 }
 
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config) {
   std::vector<JointAdmission> joints;
-  for (const JointConfig& joint : config.joints)
-    joints.push_back({joint.name, expected_joint(joint), joint.loop.limits.position_min_rad,
-                      joint.loop.limits.position_max_rad, joint.loop.controller.motion.velocity_rad_s,
-                      joint.takes_injected_faults});
+  for (const JointConfig& joint : config.joints) {
+    const JointControllerConfig& controller = joint.loop.controller;
+    const JointLimits& limits = joint.loop.limits;
+    joints.push_back({joint.name, expected_joint(joint), limits.position_min_rad, limits.position_max_rad,
+                      controller.motion.velocity_rad_s, joint.takes_injected_faults,
+                      PathLimits{{limits.position_min_rad, limits.position_max_rad},
+                                 controller.motion,
+                                 controller.torque_limit_Nm,
+                                 joint.plant.inertia_kgm2,
+                                 joint.plant.period_s}});
+  }
   return joints;
 }
 

@@ -1,5 +1,5 @@
-// Makes what a configuration names: buses, drives with their joints' settings, and what admission must know of a joint. Not
-// real-time.
+// Makes what a configuration names: buses, drives with their joints' settings, and what admission must know of
+// a joint. Not real-time.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace strainwave {
 
-/// The buses, and of each joint the drive, its settings and its flight recorder, all in the configuration's order. Throws
-/// InputError.
+/// The buses, and of each joint the drive, its settings and its flight recorder, all in the
+/// configuration's order. Throws InputError.
 LoopParts assemble_loop(const DaemonConfig& config);
 
 /// One bus, with every drive on it set up. Throws InputError.

@@ -1,5 +1,4 @@
-// The drives of a configuration, before the loop: whose they are, and whether start-up would accept them. Not
-// real-time.
+// The drives of a configuration, before the loop: whose they are, and whether start-up would accept them. Not real-time.
 #pragma once
 
 #include <functional>

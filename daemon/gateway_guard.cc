@@ -4,10 +4,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 
-#include "base/input_error.h"
 #include "daemon/realtime/periodic_clock.h"
 
 namespace strainwave {
@@ -42,10 +42,10 @@ void GatewayGuard::start() {
   while (inbound_.ready.load(std::memory_order_acquire) == 0) {
     const std::int64_t now_ns = monotonic_now_ns();
     if (const auto end = process_.take_end(now_ns))
-      throw InputError(
+      throw std::runtime_error(
           "the gateway ended with " + *end +
           (process_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
-    if (now_ns > deadline_ns) throw InputError("the gateway did not become ready in 5 s");
+    if (now_ns > deadline_ns) throw std::runtime_error("the gateway did not become ready in 5 s");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   spdlog::info("gateway: {}, ready after {} ms", user_,

@@ -19,7 +19,7 @@ class GatewayGuard {
   GatewayGuard(const DaemonConfig& config, GatewayProcess::Descriptors descriptors,
                const InboundMemory& inbound);
 
-  /// Starts the gateway and waits until it is ready. Throws InputError when it ends or is not ready in time.
+  /// Starts the gateway and waits until it is ready. Throws std::runtime_error when it ends or is not ready in time.
   void start();
   /// One look, every turn. A gateway that has ended is started again if `wanted`.
   void watch(bool wanted, std::int64_t now_ns);

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/gain_table.h"
 #include "daemon/config/config.h"
@@ -12,7 +13,8 @@ namespace strainwave {
 
 struct InitialTable {
   GainTable table;
-  std::string verdict;  ///< the certificate's smallest margin, and which torque limit holds
+  std::string verdict;              ///< the certificate's smallest margin, and which torque limit holds
+  std::vector<std::string> doubts;  ///< about the joint's limits with this table
 };
 
 /// Nothing when the configuration names none. Throws InputError that names where it does: a file that cannot be read, is no table,

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "base/manual/command_line.h"
+#include "base/printable.h"
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "daemon/log.h"
@@ -40,7 +41,17 @@ int main(int argc, char** argv) {
   app.add_option(
       "--gateway-socket", gateway_socket,
       "let the service manager start the gateway, as a user of its own, by a connection to this socket");
-  strainwave::configure_program(app, "strainwaved");
+  strainwave::configure_program(
+      app,
+      {.program = "strainwaved",
+       .section = 8,
+       .files = {{"/etc/strainwave/strainwaved.toml", "the service's configuration"},
+                 {"/etc/strainwave/authorized_keys", "public keys of those who may order"},
+                 {"/var/lib/strainwave/", "flight records"},
+                 {"/usr/share/doc/strainwave/config/reference.toml", "every key of a configuration"}},
+       .examples = {{"strainwaved --config strainwaved.toml --check", "whether it would start, and why not"},
+                    {"strainwaved --config strainwaved.toml", "run, until a signal ends it in order"}},
+       .see_also = {"strainwavectl(1)", "strainwave-telemetry(8)", "strainwave-design(1)"}});
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
@@ -49,8 +60,8 @@ int main(int argc, char** argv) {
     config.gateway_socket = gateway_socket;
     if (check_only) {
       strainwave::check_start(config, std::cout);
-      std::cout << config_path << ": sound, " << config.joints.size() << " joint(s), prefix " << config.prefix
-                << '\n';
+      std::cout << strainwave::printable(config_path) << ": sound, " << config.joints.size()
+                << " joint(s), prefix " << config.prefix << '\n';
       return strainwave::ExitStatus::kDone;
     }
     if (check_lines) return as_status(strainwave::check_lines(config, std::cout));

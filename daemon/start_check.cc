@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/initial_table.h"
 #include "lcmtypes/multicast_check.h"
@@ -15,10 +16,13 @@ namespace {
 
 void check_tables(const DaemonConfig& config, std::ostream& out) {
   for (const JointConfig& joint : config.joints) {
-    if (const auto initial = read_initial_table(joint))
-      out << joint.name << ": table '" << initial->table.name.view() << "': " << initial->verdict << '\n';
-    else
+    const auto initial = read_initial_table(joint);
+    if (!initial) {
       out << joint.name << ": no table: it can be enabled once one is loaded\n";
+      continue;
+    }
+    for (const std::string& doubt : initial->doubts) out << "warning: " << doubt << '\n';
+    out << joint.name << ": table '" << initial->table.name.view() << "': " << initial->verdict << '\n';
   }
 }
 
@@ -27,7 +31,7 @@ void check_gateway(const DaemonConfig& config, std::ostream& out) {
     throw InputError(program.string() + ": the daemon's gateway is missing: install it again");
   // No matter of the configuration: the service has the route made before it starts.
   if (const auto problem = find_multicast_problem(config.lcm_url))
-    out << "warning: daemon.lcm_url = \"" << config.lcm_url << "\": " << *problem
+    out << "warning: daemon.lcm_url = \"" << printable(config.lcm_url) << "\": " << *problem
         << "\nThe service does this by itself (strainwave-multicast.service).\n";
 }
 
@@ -39,7 +43,8 @@ bool has_driver(const DaemonConfig& config, std::string_view driver) {
 }  // namespace
 
 void check_start(const DaemonConfig& config, std::ostream& out) {
-  for (const std::string& warning : config.warnings) out << "warning: " << warning << '\n';
+  for (const std::string& warning : config.warnings)
+    out << "warning: " << printable_paragraph(warning) << '\n';
   check_tables(config, out);
   check_gateway(config, out);
   out << "not checked:";

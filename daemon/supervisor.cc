@@ -10,10 +10,14 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
+#include "daemon/admission/verdict.h"
 #include "daemon/assembly.h"
 #include "daemon/drive_check.h"
 #include "daemon/initial_table.h"
 #include "daemon/realtime/realtime_setup.h"
+#include "lcmtypes/channels.h"
+#include "lcmtypes/fingerprints.h"
+#include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 
@@ -41,7 +45,9 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
 
 // The drive's own reason behind a fault, if there is one.
 std::string drive_words(const JointConfig& joint, const LoopEvent& event) {
-  if (event.drive_error == 0 || joint.drive_error_text == nullptr) return "";
+  if (event.drive_error == 0 || joint.drive_error_text == nullptr ||
+      event.fault == Fault::kImplausibleReading)
+    return "";
   return ": " + joint.drive_error_text(event.fault, event.drive_error);
 }
 
@@ -118,6 +124,7 @@ void Supervisor::load_initial_tables() {
     if (!initial) continue;
     spdlog::info("{}: table {} from {}, {}", joint.name, initial->table.name.view(), joint.table.string(),
                  initial->verdict);
+    for (const std::string& doubt : initial->doubts) spdlog::warn("{}", doubt);
     if (!orders_.load_first_table(i, initial->table))
       throw InputError(joint.table.string() + ": cannot be loaded for joint " + joint.name);
   }
@@ -128,6 +135,7 @@ void Supervisor::run() {
   // The gateway first: a process started by a real-time one would inherit too much.
   gateway_.start();
   flight_records_.start();
+  orders_.start();
   log_buses();
   publish_challenge();  // the first state has one
   loop_.start();
@@ -224,7 +232,7 @@ void Supervisor::take_events() {
     if (event.to == Mode::kFaulted) {
       const std::string_view key = configuration_key(event.fault);
       spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
-                    to_text(event.fault),
+                    fault_words(event.fault, event.drive_error),
                     drive_words(config_.joints[static_cast<std::size_t>(event.joint)], event),
                     key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
     } else
@@ -277,9 +285,12 @@ void Supervisor::log_refusal(const Verdict& verdict, std::int64_t now_ns) {
   std::int64_t suppressed = 0;
   if (!refusal_log_.allow(now_ns, suppressed)) return;
   if (suppressed > 0) spdlog::warn("{} more refused messages were not logged", suppressed);
-  if (verdict.kind == Verdict::Kind::kDiscard)
-    spdlog::warn("message on {} discarded: {}", incoming_->channel.view(), to_text(verdict.reason));
-  else
+  if (verdict.kind == Verdict::Kind::kDiscard) {
+    const auto name = parse_channel(incoming_->channel.view());
+    const bool other = name && is_of_another_version(name->kind, payload(*incoming_));
+    spdlog::warn("message {}on {} discarded: {}", other ? "of another version " : "",
+                 incoming_->channel.view(), to_text(verdict.reason));
+  } else
     spdlog::warn("{}: refused: {}: {}", config_.joints[verdict.requester.joint].name, to_text(verdict.reason),
                  verdict.text);
 }

@@ -1,8 +1,8 @@
-// The subcommands of strainwave-design. Each adds itself to the command line and returns what to run when it
-// was chosen. Offline.
+// The subcommands of strainwave-design. Each adds itself to the program and leaves in `chosen` what is to be done when it is
+// given; that throws InputError. Offline.
 #pragma once
 
-#include <functional>
+#include "base/manual/command_line.h"
 
 namespace CLI {
 class App;
@@ -10,12 +10,9 @@ class App;
 
 namespace strainwave {
 
-/// Returns the exit status; throws InputError.
-using CommandBody = std::function<int()>;
-
-CommandBody add_fit_command(CLI::App& app, CLI::App*& command);
-CommandBody add_gains_command(CLI::App& app, CLI::App*& command);
-CommandBody add_verify_command(CLI::App& app, CLI::App*& command);
-CommandBody add_show_command(CLI::App& app, CLI::App*& command);
+void add_fit_command(CLI::App& program, CommandBody& chosen);
+void add_gains_command(CLI::App& program, CommandBody& chosen);
+void add_verify_command(CLI::App& program, CommandBody& chosen);
+void add_show_command(CLI::App& program, CommandBody& chosen);
 
 }  // namespace strainwave

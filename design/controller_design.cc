@@ -276,6 +276,7 @@ GainTable design_table(Controller primary, const TableRequest& request) {
   table.plant = request.design.plant;
   table.friction = request.design.friction;
   table.torque_limit_Nm = request.torque_limit_Nm;
+  table.box.encoder_side = request.encoder_side;
   table.provenance.created_utc = std::string_view(request.created_utc);
   table.provenance.tool = std::string_view("strainwave-design " STRAINWAVE_VERSION);
   table.provenance.friction_sha256 = std::string_view(request.friction_sha256);

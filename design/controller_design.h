@@ -45,8 +45,7 @@ struct DesignRequest {
   std::optional<double> max_integral_rad_s;
 };
 
-/// Corners of the box |x_i| <= half_width_i. Both signs of a corner have the same cost: half of them are
-/// enough.
+/// Corners of the box |x_i| <= half_width_i. Both signs of a corner have the same cost: half of them are enough.
 std::vector<StateVector> box_vertices(const StateVector& half_width);
 
 /// Throws InputError naming the field: what no design can satisfy or is not finite.
@@ -76,6 +75,7 @@ struct TableRequest {
   DesignRequest design;
   std::string name;
   double torque_limit_Nm = 0.0;
+  EncoderSide encoder_side = EncoderSide::kMotor;
   std::string friction_sha256;
   std::string created_utc;
 };

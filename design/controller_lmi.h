@@ -16,8 +16,7 @@
 // The paper's unknowns are these Q, G, M divided by lambda, with lambda in the first inequality and 1 in the
 // others. Its bounds are then mu^2 lambda and gamma^2 lambda, and a limit in N.m needs a search over mu. In
 // the unknowns above lambda and the limits enter linearly: the limit in N.m is itself an LMI, and one solve
-// gives what the search converges to. W and R are factored so that their inverses, 1e4 and 1e6, do not
-// appear.
+// gives what the search converges to. W and R are factored so that their inverses, 1e4 and 1e6, do not appear.
 //
 // A temperature-free controller has one F, G, Q for every rule. With `mistaken_share` the third inequality is also
 // asked for plant rules i != j under gain j, with W and R times that share: a wrong temperature.

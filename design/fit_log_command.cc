@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "design/friction_file.h"
 #include "design/friction_fit.h"
@@ -43,8 +44,8 @@ Measurements read_logs(const FitLogOptions& options, const FrictionFile& prior) 
   for (const std::string& file : options.logs) {
     const FrictionLog log = read_friction_log(file, options.joint);
     if (std::abs(log.gear_ratio - prior.gear_ratio) > 1e-9 * prior.gear_ratio)
-      throw InputError(file, "gear_ratio", std::to_string(log.gear_ratio),
-                       "the prior is for ratio " + std::to_string(prior.gear_ratio));
+      throw InputError(file, "gear_ratio", number_text(log.gear_ratio),
+                       "the prior is for ratio " + number_text(prior.gear_ratio));
     if (!model.empty() && log.joint_model != model)
       throw InputError(file, "joint_model", log.joint_model,
                        "the other logs are of " + model + ": fit each joint by itself");
@@ -72,12 +73,12 @@ double pooled_noise_Nm(const std::vector<FrictionRegression>& measured) {
 }
 
 std::vector<FrictionRegression> regress(const Measurements& all, const StribeckShape& shape,
-                                        double confidence) {
+                                        double confidence, double torque_uncertainty) {
   std::vector<FrictionRegression> measured;
   std::printf("measured, with %.0f %% confidence:\n  %8s %6s %19s %19s %19s\n", 100.0 * confidence, "degC",
               "points", "static_Nm", "coulomb_Nm", "viscous_Nms_rad");
   for (const auto& group : group_by_temperature(all.points, kGap_C)) {
-    measured.push_back(regress_friction(group, shape, confidence));
+    measured.push_back(regress_friction(group, shape, confidence, torque_uncertainty));
     const FrictionRegression& fit = measured.back();
     std::printf("  %8.1f %6d %9.4f +- %6.4f %9.4f +- %6.4f %9.4f +- %6.4f\n", fit.temperature_C, fit.points,
                 fit.static_Nm.value, fit.static_Nm.half_width, fit.coulomb_Nm.value,
@@ -92,8 +93,7 @@ std::vector<double> judged_speeds(const std::vector<SteadyPoint>& points) {
   return {slow.speed_rad_s, std::sqrt(slow.speed_rad_s * fast.speed_rad_s), fast.speed_rad_s};
 }
 
-/// Prints the merged friction over the range of temperatures and returns those where it is not known well
-/// enough.
+/// Prints the merged friction over the range of temperatures and returns those where it is not known well enough.
 std::vector<double> judge(const FrictionUpdate& update, const FuzzyFriction& prior,
                           const std::vector<double>& speeds, double quantile, double wanted) {
   std::vector<double> missing_C;
@@ -127,7 +127,7 @@ void report_missing(const std::vector<double>& missing_C, double wanted) {
 
 void check(const FitLogOptions& options) {
   const auto require = [](bool good, const char* key, double value, const std::string& allowed) {
-    if (!good) throw InputError("fit", key, std::to_string(value), allowed);
+    if (!good) throw InputError("fit", key, number_text(value), allowed);
   };
   const UpdateWeights& weights = options.weights;
   require(weights.common > 0.0, "prior-common", weights.common, "must be above 0");
@@ -141,7 +141,7 @@ void check(const FitLogOptions& options) {
 
 }  // namespace
 
-int fit_logs(const FitLogOptions& options) {
+ExitStatus fit_logs(const FitLogOptions& options) {
   check(options);
   const std::string prior_text = read_text_file(options.prior);
   const FrictionFile prior = friction_file_from_json(prior_text, options.prior);
@@ -152,7 +152,8 @@ int fit_logs(const FitLogOptions& options) {
       prior.exponential ? prior.exponential->stribeck : source_stribeck_shape(prior.gear_ratio);
 
   const Measurements all = read_logs(options, prior);
-  const std::vector<FrictionRegression> measured = regress(all, shape, options.confidence);
+  const std::vector<FrictionRegression> measured =
+      regress(all, shape, options.confidence, options.weights.torque_uncertainty);
   const double noise_Nm = pooled_noise_Nm(measured);
   const FrictionUpdate update(rules, shape, all.points, noise_Nm, options.weights);
   std::printf(
@@ -183,7 +184,7 @@ int fit_logs(const FitLogOptions& options) {
   write_text_file(options.out, to_json(file));
   std::printf("%s: written; next: strainwave-design gains --friction %s --out TABLE.json\n",
               options.out.c_str(), options.out.c_str());
-  return 0;
+  return ExitStatus::kDone;
 }
 
 }  // namespace strainwave

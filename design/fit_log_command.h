@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exit_status.h"
 #include "design/friction_update.h"
 
 namespace strainwave {
@@ -20,6 +21,6 @@ struct FitLogOptions {
 };
 
 /// The exit status; throws InputError.
-int fit_logs(const FitLogOptions& options);
+ExitStatus fit_logs(const FitLogOptions& options);
 
 }  // namespace strainwave

@@ -1,10 +1,12 @@
 #include "design/friction_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/strict_json.h"
 #include "base/text_file.h"
 #include "control/fuzzy_friction_json.h"
@@ -21,7 +23,6 @@ namespace {
 // Temperatures of the source's catalogue, Zhao (2006), Table 1.
 constexpr double kSourceTemperatureMin_C = -10.0;
 constexpr double kSourceTemperatureMax_C = 40.0;
-constexpr std::size_t kMaxTextBytes = 4096;
 
 ordered_json parameters_to_json(const FrictionParameters& parameters) {
   return {{"static_Nm", parameters.static_Nm},
@@ -110,24 +111,28 @@ ExponentialFriction exponential_from_json(StrictObject object) {
 }
 
 FuzzyFriction rules_from_csv(const CsvTable& csv, double gear_ratio, GearSide side) {
-  if (csv.rows.size() > kMaxTemperatureRules) {
-    throw InputError(csv.source + ": has " + std::to_string(csv.rows.size()) + " rules, at most " +
-                     std::to_string(kMaxTemperatureRules) + " are possible");
-  }
   // A joint-side table is a motor-side one with ratio 1.
   const double ratio = side == GearSide::kMotor ? gear_ratio : 1.0;
-  FuzzyFit fit;
-  const auto count = static_cast<Eigen::Index>(csv.rows.size());
-  fit.center_C.resize(count);
-  fit.width_C.resize(count);
-  fit.consequents.resize(count, 3);
   const std::vector<std::string> columns{"center_C", "width_C", "static_Ncm", "coulomb_Ncm",
                                          "viscous_Ncm_per_rpm"};
+  if (std::ranges::find(csv.columns, "temperature_C") != csv.columns.end())
+    throw InputError(
+        csv.source +
+        ": is a catalogue over temperature, not fuzzy rules: strainwave-design fit makes those of it");
   std::vector<std::size_t> index;
   index.reserve(columns.size());
   for (const std::string& column : columns) index.push_back(csv.column(column));
   if (csv.columns.size() != columns.size())
     throw InputError(csv.source + ": has columns besides those of fuzzy rules");
+  if (csv.rows.size() > kMaxTemperatureRules) {
+    throw InputError(csv.source + ": has " + std::to_string(csv.rows.size()) + " rules, at most " +
+                     std::to_string(kMaxTemperatureRules) + " are possible");
+  }
+  FuzzyFit fit;
+  const auto count = static_cast<Eigen::Index>(csv.rows.size());
+  fit.center_C.resize(count);
+  fit.width_C.resize(count);
+  fit.consequents.resize(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& row = csv.rows[static_cast<std::size_t>(i)];
     fit.center_C(i) = row[index[0]];
@@ -163,6 +168,9 @@ std::string to_json(const FrictionFile& file) {
 FrictionFile friction_file_from_json(const std::string& text, const std::string& source) {
   const ordered_json document = parse_strict_json(text, source);
   StrictObject object(document, source);
+  if (object.has("primary"))
+    throw InputError(source +
+                     ": holds gains, not fitted friction: give the file that strainwave-design fit wrote");
   const long long format = object.integer("format");
   if (format != kFrictionFileFormat) {
     throw InputError(source, "format", std::to_string(format),
@@ -194,9 +202,8 @@ FrictionRules read_friction_rules(const std::filesystem::path& path, double gear
   const FrictionFile file = friction_file_from_json(text, source);
   if (!file.fuzzy) throw InputError(source + ": has no fuzzy rules: fit with --model fuzzy or both");
   if (std::abs(file.gear_ratio - gear_ratio) > 1e-9 * gear_ratio) {
-    throw InputError(
-        source, "gear_ratio", std::to_string(file.gear_ratio),
-        "the gains are asked for ratio " + std::to_string(gear_ratio) + "; use the same in both");
+    throw InputError(source, "gear_ratio", number_text(file.gear_ratio),
+                     "the gains are asked for ratio " + number_text(gear_ratio) + "; use the same in both");
   }
   return {file.fuzzy->friction, sha256_hex(text)};
 }

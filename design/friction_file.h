@@ -27,8 +27,7 @@ struct FitRecord {
   std::int64_t evaluations = 0;  ///< of the cost
   std::string stopped;           ///< why
   std::vector<double> best_by_generation;
-  /// Per temperature: temperature_C, then the data minus the fit of static, Coulomb (N.cm) and viscous
-  /// (N.cm/RPM).
+  /// Per temperature: temperature_C, then the data minus the fit of static, Coulomb (N.cm) and viscous (N.cm/RPM).
   std::vector<std::vector<double>> residuals;
 };
 

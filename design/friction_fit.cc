@@ -12,19 +12,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Normalised memberships, n x m; in the log domain, so that nothing becomes 0/0 far from every centre.
-Eigen::MatrixXd normalised_memberships(const Eigen::VectorXd& temperature_C, const Eigen::VectorXd& center_C,
-                                       const Eigen::VectorXd& width_C) {
-  Eigen::MatrixXd Phi(temperature_C.size(), center_C.size());
-  for (Index i = 0; i < center_C.size(); ++i) {
-    Phi.col(i) = -((temperature_C.array() - center_C(i)) / width_C(i)).square();
-  }
-  Phi.colwise() -= Eigen::VectorXd(Phi.rowwise().maxCoeff());
-  Phi = Phi.array().exp();
-  Phi.array().colwise() /= Eigen::ArrayXd(Phi.rowwise().sum());
-  return Phi;
-}
-
 // Phi = softmax of a = -((T - c)/s)^2 along each row, so that d(Phi C)_k / d a_kj = Phi_kj (C_j - (Phi C)_k).
 void differentiate(const FitProblem& problem, const LinearFit& linear, const Eigen::MatrixXd& Phi,
                    const std::vector<Index>& order, FuzzyFit& fit) {
@@ -57,6 +44,18 @@ FrictionParameters joint_parameters(const Eigen::RowVector3d& motor, double gear
 }
 
 }  // namespace
+
+Eigen::MatrixXd normalised_memberships(const Eigen::VectorXd& temperature_C, const Eigen::VectorXd& center_C,
+                                       const Eigen::VectorXd& width_C) {
+  Eigen::MatrixXd Phi(temperature_C.size(), center_C.size());
+  for (Index i = 0; i < center_C.size(); ++i) {
+    Phi.col(i) = -((temperature_C.array() - center_C(i)) / width_C(i)).square();
+  }
+  Phi.colwise() -= Eigen::VectorXd(Phi.rowwise().maxCoeff());
+  Phi = Phi.array().exp();
+  Phi.array().colwise() /= Eigen::ArrayXd(Phi.rowwise().sum());
+  return Phi;
+}
 
 ExponentialFit fit_exponential_at(const FitProblem& problem, double decay_C) {
   const Eigen::VectorXd& T = problem.targets.temperature_C;
@@ -162,8 +161,7 @@ FuzzyFriction to_joint_side(const FuzzyFit& fit, double gear_ratio, double tempe
   FuzzyFriction friction;
   friction.rule_count = static_cast<std::int32_t>(fit.center_C.size());
   for (Index i = 0; i < fit.center_C.size(); ++i) {
-    // Rules may meet in one centre; a table wants them ascending, and one unit in the last place changes
-    // nothing.
+    // Rules may meet in one centre; a table wants them ascending, and one unit in the last place changes nothing.
     double center_C = fit.center_C(i);
     if (i > 0)
       center_C =

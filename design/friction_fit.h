@@ -40,6 +40,10 @@ struct FitProblem {
   bool physical = true;  ///< parameters non-negative and not increasing with temperature
 };
 
+/// Normalised memberships, n x m, of temperatures in rules; in the log domain, so that nothing becomes 0/0 far from every centre.
+Eigen::MatrixXd normalised_memberships(const Eigen::VectorXd& temperature_C, const Eigen::VectorXd& center_C,
+                                       const Eigen::VectorXd& width_C);
+
 /// The best p0, p1 for a given decay_C > 0.
 ExponentialFit fit_exponential_at(const FitProblem& problem, double decay_C);
 /// The best decay_C in [low, high] as well: a scan, then golden section around the best of it.
@@ -64,8 +68,7 @@ Eigen::MatrixX3d predict(const FuzzyFit& fit, const Eigen::VectorXd& temperature
 
 /// To the joint side, SI.
 ExponentialTemperatureLaw to_joint_side(const ExponentialFit& fit, double gear_ratio);
-/// With the source's velocity memberships, given at the motor side in RPM; [min, max] is the range of the
-/// data.
+/// With the source's velocity memberships, given at the motor side in RPM; [min, max] is the range of the data.
 FuzzyFriction to_joint_side(const FuzzyFit& fit, double gear_ratio, double temperature_min_C,
                             double temperature_max_C);
 VelocityMemberships source_velocity_memberships(double gear_ratio);

@@ -2,8 +2,12 @@
 // intervals. Joint side, SI. Offline.
 //
 //   F(w) = (Fs - Fc) s(w) + Fc + Fv w,   s(w) = exp(-(w/ws)^delta) known:   linear in (Fs - Fc, Fc, Fv)
-//   least squares; s^2 = residuals' squares / (n - 3); covariance s^2 (X'X)^-1; interval by Student's t with
-//   n - 3
+//   least squares; noise^2 = residuals' squares / (n - 3)
+//   var_i = noise^2 + (torque_uncertainty F_i)^2 + ripple_i^2,   W = diag(1 / var_i)
+//   weighted least squares; covariance (X'WX)^-1; interval by Student's t with n - 3
+//
+// The residuals alone do not say how far static friction is known: often a single slow point determines it, which the
+// fit then meets exactly. What that point may be off by stands in var_i.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,6 +20,10 @@ namespace strainwave {
 
 /// Row of the model at one speed: factors of (Fs - Fc, Fc, Fv).
 Eigen::RowVector3d friction_row(const StribeckShape& shape, double speed_rad_s);
+
+/// By how much the mean torque of a run may differ from the friction at its mean speed because the speed ripples,
+/// 1/2 |s''(w)| (Fs - Fc) deviation^2, in N.m.
+double ripple_Nm(const StribeckShape& shape, double static_less_coulomb_Nm, const SteadyPoint& point);
 
 /// A value and the half width of its interval.
 struct Interval {
@@ -31,11 +39,12 @@ struct FrictionRegression {
   int degrees_of_freedom = 0;
 };
 
-/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. Throws InputError
-/// when they do not determine the three parameters, saying which speeds are missing.
+/// Points of about one temperature; at least kLeastRegressionPoints of different speeds. `torque_uncertainty` >= 0: standard
+/// deviation of a torque, relative. Throws InputError when they do not determine the three parameters, saying which
+/// speeds are missing.
 inline constexpr int kLeastRegressionPoints = 4;
 FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, const StribeckShape& shape,
-                                    double confidence);
+                                    double confidence, double torque_uncertainty);
 
 /// The points in groups of one temperature each: sorted, a gap of more than `gap_C` begins a new group.
 std::vector<std::vector<SteadyPoint>> group_by_temperature(std::vector<SteadyPoint> points, double gap_C);

@@ -75,8 +75,7 @@ Eigen::MatrixXd prior_covariance(const FuzzyFriction& prior, const Eigen::Vector
   return P;
 }
 
-/// c = U d with d >= 0 is the set of physical parameters: sums from the warm end for those that fall with
-/// temperature.
+/// c = U d with d >= 0 is the set of physical parameters: sums from the warm end for those that fall with temperature.
 Eigen::MatrixXd physical_basis(Index m) {
   Eigen::MatrixXd U = Eigen::MatrixXd::Identity(3 * m, 3 * m);
   for (Index kind = 1; kind < 3; ++kind)
@@ -111,7 +110,9 @@ FrictionUpdate::FrictionUpdate(const FuzzyFriction& prior, const StribeckShape& 
   for (const SteadyPoint& point : points) {
     const Eigen::RowVectorXd a = row(point.temperature_C, point.speed_rad_s);
     const double relative_Nm = weights.torque_uncertainty * point.friction_Nm;
-    const double weight = 1.0 / (noise_Nm * noise_Nm + relative_Nm * relative_Nm);
+    const FrictionParameters known = prior.blend(prior.weights(point.temperature_C));
+    const double speed_Nm = ripple_Nm(shape, known.static_Nm - known.coulomb_Nm, point);
+    const double weight = 1.0 / (noise_Nm * noise_Nm + relative_Nm * relative_Nm + speed_Nm * speed_Nm);
     H += weight * a.transpose() * a;
     g += weight * point.friction_Nm * a.transpose();
   }

@@ -8,7 +8,7 @@
 //                 over temperature may differ" by `own`; Q is such that over the rules' range of temperature
 //                 the blended parameter deviates by 1 in units of itself, on the average. (A rule by itself
 //                 means nothing: rules overlap.)
-//   measurements  F = a(T, w)' c + e,  e ~ N(0, noise^2 + (torque_uncertainty F)^2)
+//   measurements  F = a(T, w)' c + e,  e ~ N(0, noise^2 + (torque_uncertainty F)^2 + ripple^2)
 //   posterior     minimises (c - c0)' P0^-1 (c - c0) + sum (F - a'c)^2 / var(e)  subject to  Fs >= Fc >= 0,
 //   Fv >= 0, Fc and
 //                 Fv not rising with temperature;  covariance (P0^-1 + sum a a' / var(e))^-1, constraints not

@@ -9,6 +9,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
+#include "control/box_certificate.h"
 #include "control/gain_table_json.h"
 #include "control/gear_catalogue.h"
 #include "design/commands.h"
@@ -25,7 +26,7 @@ constexpr int kQuarters = 4;  // of a decade of the torque's weight
 constexpr int kSoftest = 4;   // decades: a hundredth of the stiffness that was asked for
 
 // The reference case: the RHS-17-6006 of the source with its weights.
-struct Options {
+struct GainsOptions {
   std::string friction;
   std::string rules_side = "joint";
   std::string out;
@@ -47,6 +48,7 @@ struct Options {
   double max_position_rad = 0.0;
   double max_velocity_rad_s = 0.0;
   double max_integral_rad_s = 0.0;
+  std::string encoder_side = "motor";
   SpringOptions spring;
 };
 
@@ -80,16 +82,16 @@ std::vector<std::string> gear_list() {
 }
 
 /// As given, else the gear's. Throws InputError when a gear has another ratio than the one given.
-double ratio_of(const Options& options, const CLI::App& command) {
+double ratio_of(const GainsOptions& options, const CLI::App& command) {
   const Gear* const gear = find_gear(options.gear);
   if (gear == nullptr) return options.gear_ratio;
   if (command.count("--gear-ratio") > 0 && options.gear_ratio != gear->ratio)
-    throw InputError("gains", "--gear-ratio", std::to_string(options.gear_ratio),
-                     "must be that of " + gear->name + ", " + std::to_string(gear->ratio) + ", or left out");
+    throw InputError("gains", "--gear-ratio", number_text(options.gear_ratio),
+                     "must be that of " + gear->name + ", " + number_text(gear->ratio) + ", or left out");
   return gear->ratio;
 }
 
-std::vector<StateVector> initial_states(const Options& options) {
+std::vector<StateVector> initial_states(const GainsOptions& options) {
   if (options.x0_box.empty()) return {StateVector::Map(options.x0.data())};
   for (const double half_width : options.x0_box) {
     if (!(half_width >= 0.0)) throw InputError("gains: x0-box: half widths must not be negative");
@@ -97,7 +99,7 @@ std::vector<StateVector> initial_states(const Options& options) {
   return box_vertices(StateVector::Map(options.x0_box.data()));
 }
 
-TableRequest make_request(const Options& options, const CLI::App& command) {
+TableRequest make_request(const GainsOptions& options, const CLI::App& command) {
   const auto given = [&command](const char* name, double value) {
     return command.count(name) > 0 ? std::optional<double>(value) : std::nullopt;
   };
@@ -117,6 +119,7 @@ TableRequest make_request(const Options& options, const CLI::App& command) {
   design.max_position_rad = given("--max-position_rad", options.max_position_rad);
   design.max_velocity_rad_s = given("--max-velocity_rad_s", options.max_velocity_rad_s);
   design.max_integral_rad_s = given("--max-integral_rad_s", options.max_integral_rad_s);
+  request.encoder_side = options.encoder_side == "link" ? EncoderSide::kLink : EncoderSide::kMotor;
   request.torque_limit_Nm = options.torque_limit_Nm;
   request.created_utc = utc_now();
   check_request(design);
@@ -130,14 +133,22 @@ TableRequest make_request(const Options& options, const CLI::App& command) {
 
 // The most aggressive gains that are certified on the joint's spring: of a family over the torque's weight, from the one that is asked for
 // on, to a quarter of a decade. Throws InputError with the last refusal when the softest is none.
-GainTable design_on_spring(Controller controller, TableRequest& request, const Options& options) {
+GainTable design_on_spring(Controller controller, TableRequest& request, const GainsOptions& options) {
   const SpringRequest spring = spring_request(options.spring, "gains");
+  if (spring.most_delay > kMaxBoxDelay)
+    throw InputError("gains", "--delay", options.spring.delay_periods,
+                     "must be at most " + std::to_string(kMaxBoxDelay) + " in a table");
+  if (options.encoder_side == "link")
+    throw InputError(
+        "gains", "--encoder-side", options.encoder_side,
+        "must be motor with --load-inertia_kgm2: no gains with the spring before the encoder are certified");
   const double first = options.weights[3];
   SpringVerdict verdict;
   const auto try_weight = [&](int quarters) {
     request.design.weights.torque = first * std::pow(10.0, quarters / 4.0);
     GainTable table = design_table(controller, request);
-    verdict = judge_on_spring(table, options.gear, spring, true);
+    verdict = box_on_spring(table, options.gear, spring);
+    if (verdict.certified) table.box = verdict.box;
     return table;
   };
   GainTable best = try_weight(0);
@@ -161,11 +172,14 @@ GainTable design_on_spring(Controller controller, TableRequest& request, const O
     text = verdict.text;
   }
   std::printf("torque weight %g\n%s", best.primary.weights.torque, text.c_str());
+  const BoxReport report = certify_box(best);
+  if (!report.certified) throw InputError("gains: the box's cells do not prove it: " + report.text);
+  std::printf("the table's box: %s\n", describe(best.box).c_str());
   return best;
 }
 
 // TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
-int gains(const Options& options, const CLI::App& command) {
+ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
   TableRequest request = make_request(options, command);
   std::vector<Controller> wanted;
   for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
@@ -191,10 +205,10 @@ int gains(const Options& options, const CLI::App& command) {
                     : "designed by forward Euler, for reproducing the source only",
                 table.primary.cost_bound);
   }
-  return 0;
+  return ExitStatus::kDone;
 }
 
-void add_plant_options(CLI::App& command, Options& options) {
+void add_plant_options(CLI::App& command, GainsOptions& options) {
   command.add_option("--joint-model", options.joint_model, "identity of the joint; the daemon compares it")
       ->capture_default_str();
   command.add_option("--inertia_kgm2", options.inertia_kgm2, "inertia at the joint side")
@@ -213,11 +227,17 @@ void add_plant_options(CLI::App& command, Options& options) {
                   "table for chapter 6, which the daemon refuses")
       ->check(CLI::IsMember({"euler", "zoh"}))
       ->capture_default_str();
+  command
+      .add_option(
+          "--encoder-side", options.encoder_side,
+          "where the joint's position is measured; the daemon compares it; link: of a rigid joint only")
+      ->check(CLI::IsMember({"motor", "link"}))
+      ->capture_default_str();
   command.add_option("--torque-limit_Nm", options.torque_limit_Nm, "largest torque at the joint side")
       ->capture_default_str();
 }
 
-void add_design_options(CLI::App& command, Options& options) {
+void add_design_options(CLI::App& command, GainsOptions& options) {
   command.add_option("--weights", options.weights, "cost: integral,position,velocity,torque")
       ->delimiter(',')
       ->expected(4)
@@ -251,10 +271,10 @@ void add_design_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
-CommandBody add_gains_command(CLI::App& app, CLI::App*& command) {
-  command =
-      app.add_subcommand("gains", "Design certified gains; the defaults are the RHS-17-6006 of the source");
-  const auto options = std::make_shared<Options>();
+void add_gains_command(CLI::App& program, CommandBody& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "gains", "Design certified gains; the defaults are the RHS-17-6006 of the source");
+  const auto options = std::make_shared<GainsOptions>();
   command->add_option("--friction", options->friction, "fuzzy rules: JSON from fit, or CSV")->required();
   command->add_option("--rules-side", options->rules_side, "side of the gear that a rules CSV is stated at")
       ->check(CLI::IsMember({"joint", "motor"}))
@@ -270,7 +290,8 @@ CommandBody add_gains_command(CLI::App& app, CLI::App*& command) {
       ->add_option("--out", options->out,
                    "table to write; with --controller all the folder for c1.json .. c4.json")
       ->required();
-  return [options, command] { return gains(*options, *command); };
+  command->callback(
+      [&chosen, options, command] { chosen = [options, command] { return gains(*options, *command); }; });
 }
 
 }  // namespace strainwave

@@ -8,7 +8,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t kMaxTextBytes = 4096;
 constexpr std::size_t kMaxTemperatures = 1000;
 
 ordered_json to_json(const FrictionRegression& fit) {

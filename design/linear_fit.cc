@@ -6,10 +6,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kRidge = 1e-12;
+constexpr double kFitRidge = 1e-12;
 
-// vec(D) is scaled by the root of the metric's diagonal, so that the parameters' different units do not
-// matter.
+// vec(D) is scaled by the root of the metric's diagonal, so that the parameters' different units do not matter.
 Eigen::Vector3d units_of(const Eigen::Matrix3d& metric) {
   return metric.diagonal().cwiseSqrt();
 }
@@ -29,7 +28,7 @@ LinearFit::LinearFit(const FitTargets& targets, const Eigen::Matrix3d& metric, c
     for (Index i = 1; i < m; ++i) basis_.col(i) += basis_.col(i - 1);
   }
   gram_ = basis_.transpose().lazyProduct(basis_);
-  gram_.diagonal().array() += kRidge * gram_.trace();
+  gram_.diagonal().array() += kFitRidge * gram_.trace();
   gram_factor_.compute(gram_);
   const Eigen::MatrixX3d right = basis_.transpose().lazyProduct(targets.parameters);
   // Without active constraints the metric cancels: with the same functions for every parameter, three

@@ -21,8 +21,7 @@ enum class LinearConstraint {
 /// minimise over C: metric_cost(parameters - Phi C). Phi: n x m, m <= 16. A relative ridge of 1e-12 keeps
 /// functions that coincide apart; it does not move a well-posed fit.
 ///
-/// "Whitened": multiplied by L from the right, metric = L L', so that the cost is half a plain sum of
-/// squares.
+/// "Whitened": multiplied by L from the right, metric = L L', so that the cost is half a plain sum of squares.
 class LinearFit {
  public:
   LinearFit(const FitTargets& targets, const Eigen::Matrix3d& metric, const Eigen::MatrixXd& Phi,
@@ -35,8 +34,7 @@ class LinearFit {
 
   /// Derivative of the cost over parameters p of Phi, and Gauss-Newton's approximation of the second one.
   /// Column k of `change` is d(Phi)/d p_k C L, n x 3 stacked by columns. C's own change does not count in the
-  /// first: C is optimal (envelope theorem), also where constraints are active. It is projected out of the
-  /// second.
+  /// first: C is optimal (envelope theorem), also where constraints are active. It is projected out of the second.
   Eigen::VectorXd gradient(const Eigen::MatrixXd& change) const;
   Eigen::MatrixXd curvature(const Eigen::MatrixXd& change) const;
 

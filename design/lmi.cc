@@ -32,27 +32,6 @@ Eigen::MatrixXd AffineMatrix::at(const Eigen::VectorXd& unknowns) const {
   return value;
 }
 
-AffineMatrix operator+(AffineMatrix a, const AffineMatrix& b) {
-  assert(a.rows() == b.rows() && a.cols() == b.cols());
-  a.constant_ += b.constant_;
-  for (const auto& [unknown, coefficient] : b.coefficients_) a.add_term(unknown, coefficient);
-  return a;
-}
-
-AffineMatrix operator*(double factor, AffineMatrix a) {
-  a.constant_ *= factor;
-  for (auto& [unknown, coefficient] : a.coefficients_) coefficient *= factor;
-  return a;
-}
-
-AffineMatrix operator*(const Eigen::MatrixXd& left, const AffineMatrix& a) {
-  assert(left.cols() == a.rows());
-  AffineMatrix result(Eigen::MatrixXd(left.lazyProduct(a.constant_)));
-  for (const auto& [unknown, coefficient] : a.coefficients_)
-    result.add_term(unknown, left.lazyProduct(coefficient));
-  return result;
-}
-
 AffineMatrix symmetric_blocks(const std::vector<std::vector<AffineMatrix>>& lower) {
   Eigen::Index size = 0;
   for (const auto& row : lower) size += row.back().rows();

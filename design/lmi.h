@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cassert>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,10 +38,26 @@ class AffineMatrix {
   /// The value at `unknowns`.
   Eigen::MatrixXd at(const Eigen::VectorXd& unknowns) const;
 
-  friend AffineMatrix operator+(AffineMatrix a, const AffineMatrix& b);
+  // Defined here, so that they are found for this class only: every MatrixXd would convert.
+  friend AffineMatrix operator+(AffineMatrix a, const AffineMatrix& b) {
+    assert(a.rows() == b.rows() && a.cols() == b.cols());
+    a.constant_ += b.constant_;
+    for (const auto& [unknown, coefficient] : b.coefficients_) a.add_term(unknown, coefficient);
+    return a;
+  }
   friend AffineMatrix operator-(const AffineMatrix& a, const AffineMatrix& b) { return a + -1.0 * b; }
-  friend AffineMatrix operator*(double factor, AffineMatrix a);
-  friend AffineMatrix operator*(const Eigen::MatrixXd& left, const AffineMatrix& a);
+  friend AffineMatrix operator*(double factor, AffineMatrix a) {
+    a.constant_ *= factor;
+    for (auto& [unknown, coefficient] : a.coefficients_) coefficient *= factor;
+    return a;
+  }
+  friend AffineMatrix operator*(const Eigen::MatrixXd& left, const AffineMatrix& a) {
+    assert(left.cols() == a.rows());
+    AffineMatrix result(Eigen::MatrixXd(left.lazyProduct(a.constant_)));
+    for (const auto& [unknown, coefficient] : a.coefficients_)
+      result.add_term(unknown, left.lazyProduct(coefficient));
+    return result;
+  }
 
  private:
   Eigen::MatrixXd constant_;

@@ -31,8 +31,7 @@ SmallVector solve_free(const SmallMatrix& H, const SmallVector& g, const FreeUnk
   return x;
 }
 
-// Walks from x towards `target` until the first free unknown reaches zero, and holds it there. True when it
-// arrives.
+// Walks from x towards `target` until the first free unknown reaches zero, and holds it there. True when it arrives.
 bool walk(SmallVector& x, const SmallVector& target, const FreeUnknowns& free, Flags& is_free) {
   double step = 1.0;
   Index blocking = -1;
@@ -76,8 +75,7 @@ SmallMatrix free_part(const SmallMatrix& H, const FreeUnknowns& free) {
 
 NonnegativeSolution solve_nonnegative(const SmallMatrix& H, const SmallVector& g) {
   const Index n = g.size();
-  // Most fits of ours hold few unknowns at zero: begin with those free that are positive without the
-  // constraint.
+  // Most fits of ours hold few unknowns at zero: begin with those free that are positive without the constraint.
   const SmallVector unconstrained = solve_free(H, g, all_free(n));
   Flags is_free{};
   for (Index i = 0; i < n; ++i) is_free[static_cast<std::size_t>(i)] = unconstrained(i) > 0.0;

@@ -62,20 +62,55 @@ SpringRequest spring_request(const SpringOptions& options, const std::string& pl
   return request;
 }
 
-SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request,
-                              bool to_the_first) {
+namespace {
+
+constexpr int kMostCells = 300;
+
+void add_cells(CertifiedBox& box, const SpringProof& proof, int delay_periods) {
+  for (const ProvedCell& proved : proof.cells) {
+    BoxCell& cell = box.cells.at(static_cast<std::size_t>(box.cell_count++));
+    cell = {delay_periods, proved.box.stiffness_Nm_rad, proved.box.link_inertia_kgm2, {}};
+    std::size_t entry = 0;
+    for (Eigen::Index i = 0; i < proved.P.rows(); ++i)
+      for (Eigen::Index j = i; j < proved.P.cols(); ++j) cell.P.at(entry++) = proved.P(i, j);
+  }
+}
+
+// The longest delay first: it is the hardest.
+SpringVerdict judge(const GainTable& table, const std::string& gear, const SpringRequest& request,
+                    bool for_a_table) {
   SpringBox box = spring_box(table.friction, gear, request.motor_inertia_kgm2, request.link_inertia_kgm2);
   box.damping_Nms_rad = request.damping_Nms_rad;
   const std::vector<GainRow> gains = gains_of(table);
   SpringVerdict verdict;
-  // The longest delay first: it is the hardest.
+  verdict.box = {EncoderSide::kMotor,
+                 box.motor_inertia_kgm2,
+                 box.link_inertia_kgm2,
+                 box.stiffness_Nm_rad,
+                 box.damping_Nms_rad,
+                 request.least_delay,
+                 request.most_delay,
+                 0,
+                 {}};
   for (int delay = request.most_delay; delay >= request.least_delay; --delay) {
-    const SpringProof proof = prove_spring_box(gains, box, {table.plant.period_s, delay, 1.0});
+    const int room = for_a_table ? kMaxBoxCells - verdict.box.cell_count : kMostCells;
+    const SpringProof proof = prove_spring_box(gains, box, {table.plant.period_s, delay, 1.0}, room);
     verdict.certified = verdict.certified && proof.outcome == SpringOutcome::kCertified;
     verdict.text += "with the spring, delay " + std::to_string(delay) + ": " + describe(proof) + "\n";
-    if (to_the_first && !verdict.certified) break;
+    if (for_a_table && !verdict.certified) break;
+    if (for_a_table) add_cells(verdict.box, proof, delay);
   }
   return verdict;
+}
+
+}  // namespace
+
+SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request) {
+  return judge(table, gear, request, false);
+}
+
+SpringVerdict box_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request) {
+  return judge(table, gear, request, true);
 }
 
 }  // namespace strainwave

@@ -37,9 +37,12 @@ SpringRequest spring_request(const SpringOptions& options, const std::string& pl
 struct SpringVerdict {
   bool certified = true;
   std::string text;
+  CertifiedBox box;  ///< for the table, where all are certified
 };
-/// Stops at the first delay without a proof if `to_the_first`.
-SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request,
-                              bool to_the_first);
+SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request);
+
+/// The same for a table that is to be written: at most kMaxBoxCells cells and kMaxBoxDelay periods, and no delay after the
+/// first without a proof.
+SpringVerdict box_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request);
 
 }  // namespace strainwave

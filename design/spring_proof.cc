@@ -91,17 +91,6 @@ std::optional<ProofMatrix> find_spring_lyapunov(std::span<const GainRow> gains, 
   return symmetric;
 }
 
-WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop) {
-  WorstCorner worst;
-  for (const SpringCorner& corner : spring_corners(box, loop.period_s).corners) {
-    for (std::size_t j = 0; j < gains.size(); ++j) {
-      const double radius = spring_loop_radius(corner.plant, gains[j], loop);
-      if (radius > worst.radius) worst = {corner.plant, static_cast<int>(j), radius};
-    }
-  }
-  return worst;
-}
-
 namespace {
 
 SpringPlant corner_plant(const SpringBox& box, bool upper) {
@@ -135,6 +124,7 @@ bool cut(const SpringBox& box, std::array<SpringBox, 2>& halves) {
 SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                              int most_cells) {
   SpringProof proof;
+  proof.most_cells = most_cells;
   proof.worst.margin = std::numeric_limits<double>::infinity();
   std::vector<SpringBox> open{box};
   while (!open.empty()) {
@@ -147,13 +137,13 @@ SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& bo
     }
     if (const std::optional<ProofMatrix> P = find_spring_lyapunov(gains, proof.cell, loop)) {
       const SpringReport report = certify(gains, proof.cell, loop, *P);
-      ++proof.cells;
+      proof.cells.push_back({proof.cell, *P});
       proof.inequalities += report.inequalities;
       if (report.margin < proof.worst.margin) proof.worst = report;
       continue;
     }
     std::array<SpringBox, 2> halves;
-    if (proof.cells + static_cast<int>(open.size()) + 2 > most_cells || !cut(proof.cell, halves))
+    if (static_cast<int>(proof.cells.size() + open.size()) + 2 > most_cells || !cut(proof.cell, halves))
       return proof;
     open.insert(open.end(), halves.begin(), halves.end());
   }
@@ -171,23 +161,15 @@ SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear, dou
       std::min({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
   box.stiffness_Nm_rad.to =
       std::max({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
-  for (int rule = 0; rule < plant_rule_count(friction); ++rule)
-    box.viscous_Nms_rad.to = std::max(box.viscous_Nms_rad.to, plant_rule_viscous_Nms_rad(friction, rule));
+  box.viscous_Nms_rad.to = largest_viscous_Nms_rad(friction);
   return box;
-}
-
-std::vector<GainRow> gains_of(const GainTable& table) {
-  std::vector<GainRow> gains;
-  for (const FeedbackGains* controller : {&table.primary, &table.fallback})
-    for (int rule = 0; rule < controller->rule_count; ++rule) gains.push_back(controller->gain(rule));
-  return gains;
 }
 
 std::string describe(const SpringProof& proof) {
   std::ostringstream text;
   switch (proof.outcome) {
     case SpringOutcome::kCertified:
-      text << "certified, " << proof.cells << (proof.cells == 1 ? " cell, " : " cells, ")
+      text << "certified, " << proof.cells.size() << (proof.cells.size() == 1 ? " cell, " : " cells, ")
            << proof.inequalities << " inequalities; smallest margin " << describe(proof.worst);
       break;
     case SpringOutcome::kUnstable:
@@ -195,7 +177,8 @@ std::string describe(const SpringProof& proof) {
            << describe(proof.unstable.plant) << ", gain rule " << proof.unstable.gain;
       break;
     case SpringOutcome::kNotFound:
-      text << "NOT CERTIFIED: no proof found from " << describe(corner_plant(proof.cell, false)) << " to "
+      text << "NOT CERTIFIED: no proof found with at most " << proof.most_cells
+           << " cells; the cutting ended from " << describe(corner_plant(proof.cell, false)) << " to "
            << describe(corner_plant(proof.cell, true));
       break;
   }

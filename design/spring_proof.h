@@ -18,27 +18,26 @@ namespace strainwave {
 std::optional<ProofMatrix> find_spring_lyapunov(std::span<const GainRow> gains, const SpringBox& box,
                                                 const SpringLoop& loop, const SdpOptions& options = {});
 
-/// The corner and gain of `box` with the largest eigenvalue of the loop: above 1 no proof exists. Not rigorous.
-struct WorstCorner {
-  SpringPlant plant;
-  int gain = 0;
-  double radius = 0.0;
-};
-WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop);
-
 enum class SpringOutcome {
   kCertified,  ///< every cell has its P
   kUnstable,   ///< `unstable` is
-  kNotFound,   ///< no P for `cell`, and it would be cut too often
+  kNotFound,  ///< no P for `cell`, and it would be cut into more than `most_cells`, or below what a cut is worth
+};
+
+/// With the P that proves it.
+struct ProvedCell {
+  SpringBox box;
+  ProofMatrix P;
 };
 
 struct SpringProof {
   SpringOutcome outcome = SpringOutcome::kNotFound;
-  int cells = 0;         ///< certified
+  std::vector<ProvedCell> cells;
   int inequalities = 0;  ///< of those
   SpringReport worst;    ///< the smallest margin of those
   WorstCorner unstable;
   SpringBox cell;
+  int most_cells = 0;
 };
 
 /// Cuts `box` by stiffness and link inertia into cells until each has a P. What is proved is then that every joint of the box is stable
@@ -51,9 +50,6 @@ SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& bo
 /// `gear` is none of the catalogue.
 SpringBox spring_box(const FuzzyFriction& friction, const std::string& gear, double motor_inertia_kgm2,
                      const BoxRange& link_inertia_kgm2);
-
-/// Every gain of both controllers, so that a change-over is a blend like any other.
-std::vector<GainRow> gains_of(const GainTable& table);
 
 /// In words, one line per delay.
 std::string describe(const SpringProof& proof);

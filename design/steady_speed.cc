@@ -130,7 +130,8 @@ std::optional<SteadyPoint> pair_of(Run there, Run back, const SteadyCriteria& cr
   const double forward_Nm = speed > 0.0 ? first.torque_Nm : second.torque_Nm;
   const double backward_Nm = speed > 0.0 ? second.torque_Nm : first.torque_Nm;
   return SteadyPoint{0.5 * (first.temperature_C + second.temperature_C), std::abs(speed),
-                     0.5 * (forward_Nm - backward_Nm), 0.5 * (forward_Nm + backward_Nm)};
+                     0.5 * (forward_Nm - backward_Nm), 0.5 * (forward_Nm + backward_Nm),
+                     std::max(velocity_deviation_rad_s(there), velocity_deviation_rad_s(back))};
 }
 
 }  // namespace

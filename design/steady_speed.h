@@ -41,6 +41,7 @@ struct SteadyPoint {
   double speed_rad_s = 0.0;  ///< > 0
   double friction_Nm = 0.0;
   double load_Nm = 0.0;
+  double speed_deviation_rad_s = 0.0;  ///< standard deviation of the speed about its mean, of the worse run
 };
 
 struct SteadyPoints {

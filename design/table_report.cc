@@ -5,6 +5,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "control/box_certificate.h"
+
 namespace strainwave {
 
 namespace {
@@ -78,6 +80,10 @@ std::string description(const GainTable& table) {
   text += format("  for joint %s: inertia %g kg m^2 at the joint, ratio %g, period %g s\n",
                  str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s);
   if (!plant.gear.view().empty()) text += "  gear " + str(plant.gear) + "\n";
+  text += "  certified for: " + describe(table.box) + "\n";
+  if (!table.box.rigid())
+    text += format("  (%d cells; the state feedback, not observer, planned motion or fed forward friction)\n",
+                   table.box.cell_count);
   text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
                  table.friction.temperature_min_C, table.friction.temperature_max_C);
   text += "\nfriction rules (joint side)\n";

@@ -8,8 +8,7 @@
 
 namespace strainwave {
 
-/// The margins as a table, rows: rule of the plant, columns: rule of the controller, each the worst over the next
-/// rule.
+/// The margins as a table, rows: rule of the plant, columns: rule of the controller, each the worst over the next rule.
 std::string margins_text(const FeedbackGains& gains, const CertificateReport& report);
 
 /// What the table is for, its rules, gains, and where it came from.

@@ -5,6 +5,7 @@
 
 #include "base/durations.h"
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave {
@@ -13,7 +14,7 @@ namespace {
 
 double checked_not_negative(double value, const char* key) {
   if (!(std::isfinite(value) && value >= 0.0))
-    throw InputError("simulated actuator", key, std::to_string(value), "must be finite and >= 0");
+    throw InputError("simulated actuator", key, number_text(value), "must be finite and >= 0");
   return value;
 }
 

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/unique_fd.h"
 
 namespace strainwave {
@@ -48,7 +49,7 @@ UniqueFd open_file(const std::filesystem::path& path) {
 
 void check(const TemperatureFileConfig& config) {
   const auto require = [&](bool good, const char* key, double value, const char* allowed) {
-    if (!good) throw InputError("thermometer", key, std::to_string(value), allowed);
+    if (!good) throw InputError("thermometer", key, number_text(value), allowed);
   };
   require(std::isfinite(config.scale_C) && config.scale_C != 0.0, "scale_C", config.scale_C,
           "must be finite and not 0");

@@ -16,6 +16,7 @@ inline constexpr std::string_view kTiming = "TIMING";
 inline constexpr std::string_view kSetpoint = "SETPOINT";
 inline constexpr std::string_view kCommand = "COMMAND";
 inline constexpr std::string_view kTable = "TABLE";
+inline constexpr std::string_view kPath = "PATH";
 inline constexpr std::string_view kInject = "INJECT";
 inline constexpr std::string_view kAck = "ACK";
 }  // namespace channel_kind

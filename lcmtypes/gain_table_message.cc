@@ -41,6 +41,30 @@ void visit_friction(const Copy& copy, Friction& friction, Message& message) {
   copy(friction.temperature_max_C, message.temperature_max_C);
 }
 
+template <typename Copy, typename Range, typename Pair>
+void visit_range(const Copy& copy, Range& range, Pair& pair) {
+  copy(range.from, pair[0]);
+  copy(range.to, pair[1]);
+}
+
+template <typename Copy, typename Box, typename Message>
+void visit_box(const Copy& copy, Box& box, Message& message) {
+  copy(box.encoder_side, message.encoder_side);
+  copy(box.motor_inertia_kgm2, message.box_motor_inertia_kgm2);
+  visit_range(copy, box.link_inertia_kgm2, message.box_link_inertia_kgm2);
+  visit_range(copy, box.stiffness_Nm_rad, message.box_stiffness_Nm_rad);
+  visit_range(copy, box.damping_Nms_rad, message.box_damping_Nms_rad);
+  copy(box.least_delay, message.box_delay_periods[0]);
+  copy(box.most_delay, message.box_delay_periods[1]);
+  copy(box.cell_count, message.box_cell_count);
+  for (std::size_t i = 0; i < box.cells.size(); ++i) {
+    copy(box.cells[i].delay_periods, message.box_cells[i].delay_periods);
+    visit_range(copy, box.cells[i].stiffness_Nm_rad, message.box_cells[i].stiffness_Nm_rad);
+    visit_range(copy, box.cells[i].link_inertia_kgm2, message.box_cells[i].link_inertia_kgm2);
+    copy(box.cells[i].P, message.box_cells[i].P);
+  }
+}
+
 template <typename Copy, typename Table, typename Message>
 void visit_table(const Copy& copy, Table& table, Message& message) {
   copy(table.format, message.format);
@@ -50,6 +74,7 @@ void visit_table(const Copy& copy, Table& table, Message& message) {
   copy(table.plant.inertia_kgm2, message.inertia_kgm2);
   copy(table.plant.gear_ratio, message.gear_ratio);
   copy(table.plant.period_s, message.period_s);
+  visit_box(copy, table.box, message);
   visit_friction(copy, table.friction, message);
   copy(table.torque_limit_Nm, message.torque_limit_Nm);
   visit_gains(copy, table.primary, message.primary);
@@ -79,13 +104,13 @@ struct MessageToTable {
 
 }  // namespace
 
-gain_table_v1 to_message(const GainTable& table) {
-  gain_table_v1 message{};
+gain_table_v2 to_message(const GainTable& table) {
+  gain_table_v2 message{};
   visit_table(TableToMessage{}, table, message);
   return message;
 }
 
-GainTable to_gain_table(const gain_table_v1& message) {
+GainTable to_gain_table(const gain_table_v2& message) {
   GainTable table;
   visit_table(MessageToTable{}, table, message);
   return table;

@@ -102,6 +102,8 @@ void visit_fields(const setpoint_v2& message, Visit&& visit) {
   visit("position_rad", message.position_rad);
   visit("velocity_rad_s", message.velocity_rad_s);
   visit("acceleration_rad_s2", message.acceleration_rad_s2);
+  visit("torque_Nm", message.torque_Nm);
+  visit("load_inertia_kgm2", message.load_inertia_kgm2);
   visit("at_cycle", message.at_cycle);
   visit("derivatives", message.derivatives);
   visit("valid_for_s", message.valid_for_s);

@@ -131,17 +131,16 @@ std::optional<MulticastAddress> parse_udpm_url(std::string_view lcm_url) {
 std::optional<std::string> find_udpm_defect(std::string_view lcm_url) {
   const std::optional<MulticastAddress> address = parse_udpm_url(lcm_url);
   if (!address)
-    return "'" + std::string(lcm_url) +
-           "' is not of the kind udpm://GROUP:PORT?ttl=N; the usual URL is udpm://239.255.76.67:7667?ttl=0";
+    return "'" + std::string(lcm_url) + "' is not of the kind udpm://GROUP:PORT?ttl=N; the usual URL is " +
+           kUsualLcmUrl;
   in_addr group{};
   if (::inet_pton(AF_INET, address->group.c_str(), &group) != 1 || !IN_MULTICAST(ntohl(group.s_addr))) {
     return "'" + address->group +
-           "' is not an IPv4 multicast group (224.0.0.0 to 239.255.255.255); the usual URL is "
-           "udpm://239.255.76.67:7667?ttl=0";
+           "' is not an IPv4 multicast group (224.0.0.0 to 239.255.255.255); the usual URL is " +
+           kUsualLcmUrl;
   }
   if (address->port < 1 || address->port > 65535) {
-    return std::string(
-        "the port must be a number from 1 to 65535; the usual URL is udpm://239.255.76.67:7667?ttl=0");
+    return std::string("the port must be a number from 1 to 65535; the usual URL is ") + kUsualLcmUrl;
   }
   for (const std::string_view option : options_of(lcm_url))
     if (auto defect = find_option_defect(option)) return defect;

@@ -9,6 +9,9 @@
 
 namespace strainwave {
 
+/// Where daemon and programs meet unless they are told otherwise: LCM's own group, on this machine alone.
+inline constexpr char kUsualLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
+
 /// Group and port of an LCM URL "udpm://GROUP:PORT?..."; LCM's own defaults for what is left out. Nothing for
 /// another kind of URL. The group is text as the URL has it.
 struct MulticastAddress {

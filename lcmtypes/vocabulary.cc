@@ -109,6 +109,10 @@ std::string_view to_text(Notice notice) noexcept {
       return "off the stream";
     case Notice::kPositionLate:
       return "position late";
+    case Notice::kOffTarget:
+      return "off target";
+    case Notice::kLoadHigh:
+      return "load high";
   }
   return "unknown";
 }
@@ -202,6 +206,10 @@ std::string_view to_text(Action action) noexcept {
       return "take-over";
     case Action::kRelease:
       return "release";
+    case Action::kPause:
+      return "pause";
+    case Action::kResume:
+      return "resume";
   }
   return "unknown";
 }
@@ -311,6 +319,10 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.limits";
     case Notice::kPositionLate:
       return "joint.can.delay_periods";
+    case Notice::kOffTarget:
+      return "joint.supervision.rest_tolerance_rad";
+    case Notice::kLoadHigh:
+      return "joint.limits.load_notice_Nm";
   }
   return "";
 }

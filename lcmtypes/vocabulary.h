@@ -66,6 +66,8 @@ enum class Notice : std::int32_t {
   kPlainLaw = 1 << 8,
   kOffStream = 1 << 9,
   kPositionLate = 1 << 10,
+  kOffTarget = 1 << 11,
+  kLoadHigh = 1 << 12,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).
@@ -114,7 +116,9 @@ enum class Action : std::int32_t {
   kRevertTable = 5,
   kHome = 6,
   kTakeOver = 7,
-  kRelease = 8
+  kRelease = 8,
+  kPause = 9,
+  kResume = 10
 };
 
 /// state_v1.temperature_status

@@ -1,44 +1,38 @@
-# Draws what the demo recorded. Variables: record (CSV of strainwavectl export), picture (PNG to write).
-set datafile separator ","
-set datafile columnheaders
+# Draws what the demo recorded: each move of both joints, from its first cycle. Variables: folder (of the demo's .dat files: ms since
+# the order, share of the way, |error| in microradians), picture (PNG to write).
+set encoding utf8
 set terminal pngcairo size 1200,1300 font "sans,11" linewidth 1.5
 set output picture
-stats record using "utime" nooutput
-start = STATS_min
-time_s(dummy) = (column("utime") - start) * 1e-6
-# At least 1: a logarithmic axis cannot show 0.
-at_least_1(x) = x > 1 ? x : 1
-error_urad(dummy) = at_least_1(abs(column("joint_position_rad") - column("setpoint_position_rad")) * 1e6)
+aware = "#1f5fa8"
+blind = "#b3262e"
+way = "0.001 0.01 0.1 1"
+shown_ms = "150 150 250 600"
+at_least(least, x) = x > least ? x : least
 
-set multiplot layout 4,1 title "A strain-wave joint tracks setpoints while its surroundings warm up" font ",14" \
-  margins 0.09,0.97,0.05,0.94 spacing 0.0,0.035
+set multiplot layout 4,2 title "One joint at -8 °C behind a gear's spring, twice: what its link does" font ",14" \
+  margins 0.08,0.97,0.06,0.92 spacing 0.1,0.055
 set grid
-set key top left
-set format x ""
-set xrange [0:*]
-
-set ylabel "joint position, rad"
-set logscale y
-set yrange [1e-4:3]
-plot record using (time_s(0)):(column("setpoint_position_rad")) with lines lw 3 lc rgb "#bbbbbb" title "setpoint", \
-     record using (time_s(0)):(column("joint_position_rad")) with lines lc rgb "#1f5fa8" title "position"
-unset logscale y
-
-set ylabel "|error|, urad"
-set logscale y
-set yrange [1:1e4]
-plot record using (time_s(0)):(error_urad(0)) with lines lc rgb "#b3262e" title "|position - setpoint|", \
-     2 * pi / 320000 * 1e6 with lines dashtype 2 lc rgb "#888888" title "one encoder count"
-unset logscale y
-
-set ylabel "temperature, degC"
-set yrange [-15:50]
-plot record using (time_s(0)):(column("temperature_used_C")) with lines lc rgb "#d07a00" title "as the gains are scheduled by"
-
-set ylabel "torque, N.m"
-set xlabel "time, s"
-set format x "%g"
-set yrange [*:*]
-plot record using (time_s(0)):(column("torque_commanded_Nm")) with lines lc rgb "#1f5fa8" title "commanded", \
-     record using (time_s(0)):(column("torque_feedforward_Nm")) with lines lc rgb "#3a8f3a" title "friction and inertia feed-forward"
+set xlabel "time since the order, ms" offset 0,0.5
+do for [i = 1:4] {
+  set xrange [0:word(shown_ms, i)]
+  set yrange [-0.1:1.8]
+  if (i == 1) { set key top left } else { unset key }
+  set title "move by ".word(way, i)." rad" offset 0,-0.6
+  set ylabel "link, share of the way"
+  plot 1 with lines lc rgb "#bbbbbb" lw 2 title "target", \
+       sprintf("%s/blind%d.dat", folder, i) using 1:2 with lines lc rgb blind title "temperature not known", \
+       sprintf("%s/aware%d.dat", folder, i) using 1:2 with lines lc rgb aware title "temperature known"
+  set xrange [0:2500]
+  set yrange [1:3e6]
+  set logscale y
+  set format y "10^{%L}"
+  if (i == 1) { set key top right } else { unset key }
+  set title "its distance from the target" offset 0,-0.6
+  set ylabel "|error|, µrad"
+  plot 2 * pi / 320000 * 1e6 with lines dashtype 2 lc rgb "#888888" title "one count of the encoder", \
+       sprintf("%s/blind%d.dat", folder, i) using 1:(at_least(1, $3)) with lines lc rgb blind notitle, \
+       sprintf("%s/aware%d.dat", folder, i) using 1:(at_least(1, $3)) with lines lc rgb aware notitle
+  unset logscale y
+  set format y "%g"
+}
 unset multiplot

@@ -7,7 +7,7 @@ blue = "#4477aa"
 red = "#ee6677"
 green = "#228833"
 file(name) = folder."/".name.".csv"
-error_mrad(scale) = (column("joint_position_rad") - column("setpoint_position_rad")) * scale
+error_mrad(scale) = (column("setpoint_position_rad") - column("joint_position_rad")) * scale
 
 set multiplot layout 3,1
 set grid
@@ -15,11 +15,11 @@ set key right bottom
 set ylabel "joint position, rad"
 set xrange [0:0.2]
 set title "Torque weight: the law alone, 0.1 rad at 20 °C" font ",13"
-plot file("torque-1e-7") using "time_s":"joint_position_rad" with lines lc rgb green title "1e-7", \
-  file("torque-1e-6") using "time_s":"joint_position_rad" with lines lc rgb blue title "1e-6", \
-  file("torque-1e-5") using "time_s":"joint_position_rad" with lines lc rgb red title "1e-5"
+plot file("torque-1e-7") using "time_s":"joint_position_rad" with lines lc rgb green title "torque weight 1e-7", \
+  file("torque-1e-6") using "time_s":"joint_position_rad" with lines lc rgb blue title "torque weight 1e-6", \
+  file("torque-1e-5") using "time_s":"joint_position_rad" with lines lc rgb red title "torque weight 1e-5"
 
-set ylabel "error, mrad"
+set ylabel "error (setpoint - position), mrad"
 set yrange [-0.3:0.3]
 set xrange [0:0.4]
 set key right top
@@ -27,10 +27,9 @@ set title "What the daemon adds: end of the same move with an encoder of 320000 
 plot file("law-alone") using "time_s":(error_mrad(1e3)) with lines lc rgb red title "law alone", \
   file("as-the-daemon") using "time_s":(error_mrad(1e3)) with lines lc rgb blue title "with observer, shaping, landing and rest"
 
-set ylabel "error, mrad"
-set yrange [-10:1]
+set ylabel "error (setpoint - position), mrad"
+set yrange [-1:10]
 set xrange [0:3]
-set key right bottom
 set xlabel "time, s"
 set title "0.01 rad at -10 °C: end of the move" font ",13"
 plot file("cold-pid") using "time_s":(error_mrad(1e3)) with lines lc rgb red title "PID of the source", \

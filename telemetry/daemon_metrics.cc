@@ -20,36 +20,31 @@ struct DaemonMetric {
   double (*value)(const timing_v1& timing);
 };
 
-template <typename Number>
-double real(Number number) {
-  return static_cast<double>(number);
-}
-
 constexpr double kSecondsPerNanosecond = 1e-9;
-constexpr auto kGauge = MetricType::kGauge;
-constexpr auto kCounter = MetricType::kCounter;
 
 constexpr std::array kDaemonMetrics{
-    DaemonMetric{"strainwave_cycles_total", kCounter, "Periods of the loop.",
+    DaemonMetric{"strainwave_cycles_total", MetricType::kCounter, "Periods of the loop.",
                  [](const timing_v1& t) { return real(t.cycles); }},
-    DaemonMetric{"strainwave_overruns_total", kCounter,
+    DaemonMetric{"strainwave_overruns_total", MetricType::kCounter,
                  "Periods left out, since the one before took too long.",
                  [](const timing_v1& t) { return real(t.overruns); }},
-    DaemonMetric{"strainwave_page_faults_total", kCounter, "Page faults of the loop's thread.",
+    DaemonMetric{"strainwave_page_faults_total", MetricType::kCounter, "Page faults of the loop's thread.",
                  [](const timing_v1& t) { return real(t.page_faults); }},
-    DaemonMetric{"strainwave_state_records_dropped_total", kCounter,
+    DaemonMetric{"strainwave_state_records_dropped_total", MetricType::kCounter,
                  "States that the gateway was too slow to publish.",
                  [](const timing_v1& t) { return real(t.state_records_dropped); }},
-    DaemonMetric{"strainwave_period_seconds", kGauge, "Period of the loop.",
+    DaemonMetric{"strainwave_period_seconds", MetricType::kGauge, "Period of the loop.",
                  [](const timing_v1& t) { return t.period_s; }},
-    DaemonMetric{"strainwave_real_time", kGauge,
+    DaemonMetric{"strainwave_real_time", MetricType::kGauge,
                  "1: real-time scheduling with locked memory; 0: refused by the system.",
                  [](const timing_v1& t) { return real(t.real_time); }},
-    DaemonMetric{"strainwave_joints", kGauge, "Joints of the daemon.",
+    DaemonMetric{"strainwave_joints", MetricType::kGauge, "Joints of the daemon.",
                  [](const timing_v1& t) { return real(t.joint_count); }},
-    DaemonMetric{"strainwave_wakeup_latency_max_seconds", kGauge, "Latest wake-up since the start.",
+    DaemonMetric{"strainwave_wakeup_latency_max_seconds", MetricType::kGauge,
+                 "Latest wake-up since the start.",
                  [](const timing_v1& t) { return kSecondsPerNanosecond * real(t.wakeup_latency_max_ns); }},
-    DaemonMetric{"strainwave_execution_time_max_seconds", kGauge, "Longest work of a period since the start.",
+    DaemonMetric{"strainwave_execution_time_max_seconds", MetricType::kGauge,
+                 "Longest work of a period since the start.",
                  [](const timing_v1& t) { return kSecondsPerNanosecond * real(t.execution_time_max_ns); }},
 };
 
@@ -72,14 +67,13 @@ void expose_histogram(Exposition& page, std::string_view prefix, std::span<const
 }
 
 void expose_histograms(Exposition& page, const Fleet::Daemons& daemons) {
-  constexpr auto kHistogram = MetricType::kHistogram;
-  page.family("strainwave_wakeup_latency_seconds", kHistogram, "How late the loop woke up.");
+  page.family("strainwave_wakeup_latency_seconds", MetricType::kHistogram, "How late the loop woke up.");
   for (const auto& [prefix, daemon] : daemons)
     expose_histogram(page, prefix, daemon.timing.wakeup_latency_count);
-  page.family("strainwave_execution_time_seconds", kHistogram, "Work of a period.");
+  page.family("strainwave_execution_time_seconds", MetricType::kHistogram, "Work of a period.");
   for (const auto& [prefix, daemon] : daemons)
     expose_histogram(page, prefix, daemon.timing.execution_time_count);
-  page.family("strainwave_position_delay_seconds", kHistogram,
+  page.family("strainwave_position_delay_seconds", MetricType::kHistogram,
               "From a position's sampling until it came; of drives that let it be measured.");
   for (const auto& [prefix, daemon] : daemons)
     if (daemon.timing.position_delay_max_ns > 0)

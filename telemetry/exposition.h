@@ -12,6 +12,12 @@ namespace strainwave {
 /// Names and values; these are names of ours and words of the vocabulary, and need no escapes.
 using MetricLabels = std::vector<std::pair<std::string_view, std::string_view>>;
 
+/// Of a count or another field of a message.
+template <typename Number>
+constexpr double real(Number number) {
+  return static_cast<double>(number);
+}
+
 enum class MetricType { kGauge, kCounter, kHistogram };
 
 class Exposition {

@@ -36,37 +36,46 @@ void JointRecord::take(const state_v1& latest, double now_s) {
   friction_excess_Nm.take(direction * state.torque_feedback_Nm, now_s);
 }
 
-void Fleet::take(const ChannelName& name, const state_v1& message, double now_s) {
+void Fleet::take(const ChannelName& name, const state_v1& message, double now_s, const LcmSource& from) {
   const JointName joint(name.prefix, name.joint);
-  if (!joints_.contains(joint) && joints_.size() >= kMaxJoints) {
-    forget_silent(now_s);
-    if (joints_.size() >= kMaxJoints) return;
-  }
+  if (const auto lost = joint_places_.take(joint, from, now_s)) joints_.erase(*lost);
   joints_[joint].take(message, now_s);
 }
 
-void Fleet::take(const ChannelName& name, const limits_v1& message, double) {
+void Fleet::take(const ChannelName& name, const limits_v1& message, double, const LcmSource&) {
   const auto found = joints_.find({name.prefix, name.joint});
   if (found != joints_.end()) found->second.limits = message;
 }
 
-void Fleet::take(const ChannelName& name, const temperature_v1& message, double) {
+void Fleet::take(const ChannelName& name, const temperature_v1& message, double, const LcmSource&) {
   const auto found = joints_.find({name.prefix, name.joint});
   if (found != joints_.end()) found->second.temperature = message;
 }
 
-void Fleet::take(const ChannelName& name, const timing_v1& message, double now_s) {
+void Fleet::take(const ChannelName& name, const timing_v1& message, double now_s, const LcmSource& from) {
   if (!name.joint.empty()) return;
-  if (!daemons_.contains(name.prefix) && daemons_.size() >= kMaxDaemons) {
-    forget_silent(now_s);
-    if (daemons_.size() >= kMaxDaemons) return;
-  }
+  if (const auto lost = daemon_places_.take(name.prefix, from, now_s)) daemons_.erase(*lost);
   daemons_[name.prefix] = {message, now_s};
 }
 
+namespace {
+
+template <typename Records, typename Places, typename HeardAt>
+void forget(Records& records, Places& places, double before_s, const HeardAt& heard_s) {
+  std::erase_if(records, [&](const auto& entry) {
+    const bool silent = heard_s(entry.second) < before_s;
+    if (silent) places.leave(entry.first);
+    return silent;
+  });
+}
+
+}  // namespace
+
 void Fleet::forget_silent(double now_s) {
-  std::erase_if(joints_, [&](const auto& entry) { return now_s - entry.second.state_heard_s > kSilent_s; });
-  std::erase_if(daemons_, [&](const auto& entry) { return now_s - entry.second.timing_heard_s > kSilent_s; });
+  const double before_s = now_s - kSilent_s;
+  forget(joints_, joint_places_, before_s, [](const JointRecord& joint) { return joint.state_heard_s; });
+  forget(daemons_, daemon_places_, before_s,
+         [](const DaemonRecord& daemon) { return daemon.timing_heard_s; });
 }
 
 }  // namespace strainwave

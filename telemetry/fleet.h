@@ -1,5 +1,5 @@
 // What was heard of every daemon and joint, for their metrics: the latest messages, and what happened since the last minute. Bytes from the
-// network are hostile: the number of names is bounded, and who falls silent is forgotten. Not real-time.
+// network are hostile: the number of names is bounded and shared by those who are heard, and who falls silent is forgotten. Not real-time.
 //
 // The metrics are what operators' alerts and plots are made from: their names are a table in joint_metrics.cc and daemon_metrics.cc, and in
 // docs/telemetry.md, which a test compares.
@@ -18,6 +18,7 @@
 #include "lcmtypes/channels.h"
 #include "telemetry/exposition.h"
 #include "telemetry/sliding_window.h"
+#include "transport/fair_places.h"
 
 namespace strainwave {
 
@@ -52,13 +53,13 @@ class Fleet {
   using Joints = std::map<JointName, JointRecord>;
   using Daemons = std::map<std::string, DaemonRecord>;
 
-  /// One message from the channel `name`. A joint is known by its states; without any, its other messages say nothing.
-  void take(const ChannelName& name, const state_v1& message, double now_s);
-  void take(const ChannelName& name, const limits_v1& message, double now_s);
-  void take(const ChannelName& name, const temperature_v1& message, double now_s);
-  void take(const ChannelName& name, const timing_v1& message, double now_s);
+  /// One message from the channel `name`, sent by `from`. A joint is known by its states; without any, its other messages say nothing.
+  void take(const ChannelName& name, const state_v1& message, double now_s, const LcmSource& from = {});
+  void take(const ChannelName& name, const limits_v1& message, double now_s, const LcmSource& from = {});
+  void take(const ChannelName& name, const temperature_v1& message, double now_s, const LcmSource& from = {});
+  void take(const ChannelName& name, const timing_v1& message, double now_s, const LcmSource& from = {});
   template <typename Other>
-  void take(const ChannelName&, const Other&, double) {}
+  void take(const ChannelName&, const Other&, double, const LcmSource& = {}) {}
 
   /// Forgets who is silent.
   void forget_silent(double now_s);
@@ -68,6 +69,8 @@ class Fleet {
  private:
   Joints joints_;
   Daemons daemons_;
+  FairPlaces<JointName> joint_places_{kMaxJoints};
+  FairPlaces<std::string> daemon_places_{kMaxDaemons};
 };
 
 /// Write their metrics.

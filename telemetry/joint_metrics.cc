@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 
 #include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/vocabulary.h"
@@ -21,11 +22,6 @@ struct JointMetric {
   Value (*value)(const JointRecord& joint, double now_s);  ///< nothing: not known of this joint
 };
 
-template <typename Number>
-double real(Number number) {
-  return static_cast<double>(number);
-}
-
 Value of_limits(const JointRecord& joint, double limits_v1::*field) {
   return joint.limits ? Value((*joint.limits).*field) : std::nullopt;
 }
@@ -35,52 +31,58 @@ Value measured_C(const JointRecord& joint, double) {
   return joint.temperature->temperature_measured_C;
 }
 
-constexpr auto kGauge = MetricType::kGauge;
-constexpr auto kCounter = MetricType::kCounter;
+Value used_C(const JointRecord& joint, double) {
+  if (std::isnan(joint.state.temperature_used_C)) return std::nullopt;
+  return joint.state.temperature_used_C;
+}
+
 using Joint = JointRecord;
 
 constexpr std::array kJointMetrics{
     JointMetric{
-        "strainwave_joint_mode", kGauge,
+        "strainwave_joint_mode", MetricType::kGauge,
         "Mode: 0 off, 1 starting, 2 holding, 3 tracking, 4 stopping, 5 faulted, 6 homing, 7 releasing.",
         [](const Joint& j, double) { return Value(real(j.state.mode)); }},
-    JointMetric{"strainwave_joint_faults_total", kCounter, "Faults latched since the daemon started.",
+    JointMetric{"strainwave_joint_faults_total", MetricType::kCounter,
+                "Faults latched since the daemon started.",
                 [](const Joint& j, double) { return Value(real(j.state.faults_total)); }},
-    JointMetric{"strainwave_joint_position_radians", kGauge, "Position of the joint.",
+    JointMetric{"strainwave_joint_position_radians", MetricType::kGauge, "Position of the joint.",
                 [](const Joint& j, double) { return Value(j.state.joint_position_rad); }},
-    JointMetric{"strainwave_joint_setpoint_radians", kGauge, "Position that the controller tracks.",
+    JointMetric{"strainwave_joint_setpoint_radians", MetricType::kGauge,
+                "Position that the controller tracks.",
                 [](const Joint& j, double) { return Value(j.state.setpoint_position_rad); }},
-    JointMetric{"strainwave_joint_velocity_radians_per_second", kGauge, "Velocity of the joint.",
+    JointMetric{"strainwave_joint_velocity_radians_per_second", MetricType::kGauge, "Velocity of the joint.",
                 [](const Joint& j, double) { return Value(j.state.joint_velocity_rad_s); }},
-    JointMetric{"strainwave_joint_tracking_error_peak_radians", kGauge,
+    JointMetric{"strainwave_joint_tracking_error_peak_radians", MetricType::kGauge,
                 "Largest amount of setpoint minus position, for the same instant, in the last minute.",
                 [](const Joint& j, double now_s) {
                   return j.limits ? Value(j.tracking_error_rad.amount(now_s)) : std::nullopt;
                 }},
-    JointMetric{"strainwave_joint_following_error_limit_radians", kGauge,
+    JointMetric{"strainwave_joint_following_error_limit_radians", MetricType::kGauge,
                 "Tracking error that is a fault; 0: none is.",
                 [](const Joint& j, double) { return of_limits(j, &limits_v1::following_error_rad); }},
-    JointMetric{"strainwave_joint_torque_newton_meters", kGauge, "Torque commanded, after all limits.",
+    JointMetric{"strainwave_joint_torque_newton_meters", MetricType::kGauge,
+                "Torque commanded, after all limits.",
                 [](const Joint& j, double) { return Value(j.state.torque_commanded_Nm); }},
-    JointMetric{"strainwave_joint_torque_peak_newton_meters", kGauge,
+    JointMetric{"strainwave_joint_torque_peak_newton_meters", MetricType::kGauge,
                 "Largest amount of the torque commanded in the last minute.",
                 [](const Joint& j, double now_s) { return Value(j.torque_Nm.amount(now_s)); }},
-    JointMetric{"strainwave_joint_torque_limit_newton_meters", kGauge, "Torque limit.",
+    JointMetric{"strainwave_joint_torque_limit_newton_meters", MetricType::kGauge, "Torque limit.",
                 [](const Joint& j, double) { return of_limits(j, &limits_v1::torque_limit_Nm); }},
-    JointMetric{"strainwave_joint_temperature_celsius", kGauge, "Temperature last measured.", measured_C},
-    JointMetric{"strainwave_joint_temperature_used_celsius", kGauge,
-                "Temperature that the gains are scheduled by.",
-                [](const Joint& j, double) { return Value(j.state.temperature_used_C); }},
-    JointMetric{"strainwave_joint_temperature_valid", kGauge,
+    JointMetric{"strainwave_joint_temperature_celsius", MetricType::kGauge, "Temperature last measured.",
+                measured_C},
+    JointMetric{"strainwave_joint_temperature_used_celsius", MetricType::kGauge,
+                "Temperature that the gains are scheduled by.", used_C},
+    JointMetric{"strainwave_joint_temperature_valid", MetricType::kGauge,
                 "1: the temperature is plausible and fresh; 0: it is not.",
                 [](const Joint& j, double) {
                   return Value(real(j.state.temperature_status ==
                                     static_cast<std::int32_t>(TemperatureStatus::kValid)));
                 }},
-    JointMetric{"strainwave_joint_friction_modelled_newton_meters", kGauge,
+    JointMetric{"strainwave_joint_friction_modelled_newton_meters", MetricType::kGauge,
                 "Mean feed-forward torque along the motion, of what moved in the last minute.",
                 [](const Joint& j, double now_s) { return j.friction_modelled_Nm.mean(now_s); }},
-    JointMetric{"strainwave_joint_friction_excess_newton_meters", kGauge,
+    JointMetric{"strainwave_joint_friction_excess_newton_meters", MetricType::kGauge,
                 "Mean feedback torque along the motion, of what moved in the last minute: friction that the "
                 "model lacks.",
                 [](const Joint& j, double now_s) { return j.friction_excess_Nm.mean(now_s); }},
@@ -88,14 +90,14 @@ constexpr std::array kJointMetrics{
 
 /// What is there only while it lasts: a fault, and each notice, by its name.
 void expose_words(Exposition& page, const Fleet::Joints& joints) {
-  page.family("strainwave_joint_fault", kGauge, "1 while the fault is latched.");
+  page.family("strainwave_joint_fault", MetricType::kGauge, "1 while the fault is latched.");
   for (const auto& [name, joint] : joints)
     if (joint.state.fault != 0)
       page.sample({{"prefix", name.first},
                    {"joint", name.second},
                    {"fault", to_text(static_cast<Fault>(joint.state.fault))}},
                   1.0);
-  page.family("strainwave_joint_notice", kGauge, "1 while the notice stands.");
+  page.family("strainwave_joint_notice", MetricType::kGauge, "1 while the notice stands.");
   for (const auto& [name, joint] : joints) {
     for (auto left = static_cast<std::uint32_t>(joint.state.notices); left != 0; left &= left - 1) {
       const std::string_view word = to_text(static_cast<Notice>(1U << std::countr_zero(left)));

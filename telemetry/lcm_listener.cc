@@ -26,7 +26,7 @@ LcmListener::LcmListener(const std::string& lcm_url)
 
 void LcmListener::receive(const Take& take) {
   const auto take_datagram = [&](const LcmSource& from, std::span<const std::uint8_t> datagram) {
-    if (const auto message = reassembly_.take(from, datagram)) take(message->channel, message->bytes);
+    if (const auto message = reassembly_.take(from, datagram)) take(from, message->channel, message->bytes);
   };
   for (int batch = 0; batch < kBatchesAtOnce; ++batch)
     if (socket_.receive(take_datagram) < LcmSocket::kBatch) return;

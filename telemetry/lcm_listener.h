@@ -14,7 +14,8 @@ namespace strainwave {
 
 class LcmListener {
  public:
-  using Take = std::function<void(std::string_view channel, std::span<const std::uint8_t> bytes)>;
+  using Take = std::function<void(const LcmSource& from, std::string_view channel,
+                                  std::span<const std::uint8_t> bytes)>;
 
   /// Joins the network of `lcm_url`. Throws InputError for a URL that is none, std::runtime_error when the network is not there.
   explicit LcmListener(const std::string& lcm_url);

@@ -4,12 +4,13 @@
 
 #include "base/input_error.h"
 #include "base/manual/command_line.h"
+#include "lcmtypes/multicast_check.h"
 #include "telemetry/telemetry.h"
 
 namespace {
 
 struct Options {
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string lcm_url = strainwave::kUsualLcmUrl;
   std::string listen = "127.0.0.1:8765";
   std::string token_file;
   std::vector<std::string> origins{"https://app.foxglove.dev", "file://"};
@@ -54,7 +55,16 @@ strainwave::ExitStatus serve(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App program(
       "Serves what is said on LCM to Foxglove (WebSocket) and Prometheus (metrics). It only listens.");
-  strainwave::configure_program(program, "strainwave-telemetry");
+  strainwave::configure_program(
+      program,
+      {.program = "strainwave-telemetry",
+       .section = 8,
+       .files = {{"/usr/share/doc/strainwave/docs/telemetry.md",
+                  "what to do in Foxglove and Prometheus, with a layout and alerts beside it"}},
+       .examples = {{"strainwave-telemetry", "serve this machine: ws://127.0.0.1:8765 and /metrics there"},
+                    {"strainwave-telemetry --listen 0.0.0.0:8765 --token-file /etc/strainwave/token",
+                     "serve others, who show the token"}},
+       .see_also = {"strainwaved(8)", "strainwavectl(1)"}});
   Options options;
   define(program, options);
   return strainwave::run_program(program, argc, argv, [&] { return serve(options); });

@@ -13,30 +13,30 @@ Telemetry::Telemetry(const std::string& lcm_url, const ListenAddress& address, A
 
 void Telemetry::run() {
   server_.run(listener_.descriptor(), [this] {
-    listener_.receive(
-        [this](std::string_view channel, std::span<const std::uint8_t> bytes) { take(channel, bytes); });
+    listener_.receive([this](const LcmSource& from, std::string_view channel,
+                             std::span<const std::uint8_t> bytes) { take(from, channel, bytes); });
   });
 }
 
-void Telemetry::take(std::string_view channel, std::span<const std::uint8_t> bytes) {
+void Telemetry::take(const LcmSource& from, std::string_view channel, std::span<const std::uint8_t> bytes) {
   const auto name = parse_channel(channel);
   const bool ours =
       name && visit_message(name->kind, bytes, [&]<typename Message>(const Message& message) {
-        fleet_.take(*name, message, now_s());
+        fleet_.take(*name, message, now_s(), from);
         periods_.take(*name, message);
-        const Topic* topic = topic_of<Message>(std::string(channel));
-        if (topic != nullptr && server_.is_wanted(topic->id))
+        const Topic* topic = topic_of<Message>(std::string(channel), from);
+        if (server_.is_wanted(topic->id))
           server_.publish(topic->id, utime_now(), message_json(message, periods_.of(name->prefix)));
       });
   ++(ours ? heard_ : not_ours_);
 }
 
 template <typename Message>
-const Topic* Telemetry::topic_of(const std::string& channel) {
+const Topic* Telemetry::topic_of(const std::string& channel, const LcmSource& from) {
   if (const Topic* known = topics_.find(channel, now_s())) return known;
-  const Topic* topic = topics_.add(channel, schema_name<Message>(), message_schema<Message>(), now_s());
+  const Topic* topic = topics_.add(channel, schema_name<Message>(), message_schema<Message>(), now_s(), from);
   if (topics_.given_up()) server_.remove_topic(*topics_.given_up());
-  if (topic != nullptr) server_.add_topic(*topic);
+  server_.add_topic(*topic);
   return topic;
 }
 

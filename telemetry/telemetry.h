@@ -24,9 +24,9 @@ class Telemetry {
   void run();
 
  private:
-  void take(std::string_view channel, std::span<const std::uint8_t> bytes);
+  void take(const LcmSource& from, std::string_view channel, std::span<const std::uint8_t> bytes);
   template <typename Message>
-  const Topic* topic_of(const std::string& channel);
+  const Topic* topic_of(const std::string& channel, const LcmSource& from);
   std::string metrics();
   double now_s() const;
 

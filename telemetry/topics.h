@@ -1,5 +1,5 @@
-// The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: who makes up names pushes out what has been
-// silent, never what is spoken on. Not real-time.
+// The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: who makes up names pushes out his own
+// (transport/fair_places.h). Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "transport/fair_places.h"
 
 namespace strainwave {
 
@@ -20,14 +22,11 @@ struct Topic {
 class Topics {
  public:
   static constexpr std::size_t kMax = 1024;
-  /// A topic that has been silent as long may be given up for a new one.
-  static constexpr double kSilent_s = 60.0;
-
   /// The topic `name`, or null when it is not known.
   const Topic* find(const std::string& name, double now_s);
-  /// Adds a topic that find() does not know. Null: there is no room, and every topic is in use.
+  /// Adds a topic that find() does not know, heard from `from`.
   const Topic* add(const std::string& name, const std::string& schema_name, const std::string& schema,
-                   double now_s);
+                   double now_s, const LcmSource& from = {});
   /// The one that the last add() gave up for it.
   std::optional<std::uint32_t> given_up() const noexcept { return given_up_; }
 
@@ -35,17 +34,14 @@ class Topics {
   std::size_t size() const noexcept { return topics_.size(); }
   template <typename Visit>
   void visit(Visit&& visit) const {
-    for (const auto& [name, entry] : topics_) visit(entry.topic);
+    for (const auto& [name, topic] : topics_) visit(topic);
   }
 
  private:
-  struct Entry {
-    Topic topic;
-    double heard_s = 0.0;
-  };
-  bool make_room(double now_s);
+  void give_up(const std::string& name);
 
-  std::map<std::string, Entry> topics_;
+  std::map<std::string, Topic> topics_;
+  FairPlaces<std::string> places_{kMax};
   std::map<std::uint32_t, std::string> names_;
   std::uint32_t next_id_ = 1;
   std::optional<std::uint32_t> given_up_;

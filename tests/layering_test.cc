@@ -46,6 +46,10 @@ TEST(Layering, HoldsInTheWholeTree) {
   EXPECT_TRUE(defects.empty()) << list.str();
 }
 
+TEST(Layering, AllowsNothingThatNobodyUses) {
+  EXPECT_EQ(rules().find_unused(STRAINWAVE_SOURCE_DIR), std::vector<std::string>{});
+}
+
 TEST(Layering, IsReadFromThePage) {
   EXPECT_GE(rules().row_count(), 25U);
 }

@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::uint32_t kUdpHeaderBytes = 8;
 constexpr std::uint32_t kLoopbackInterface = 1;  // in every network of Linux
-/// For some hundred of the largest messages; the system may allow less.
-constexpr int kQueueBytes = 1 << 20;
 
 template <typename Value>
 void set(int descriptor, int level, int option, const Value& value, const char* what) {
@@ -27,7 +25,7 @@ void set(int descriptor, int level, int option, const Value& value, const char* 
 
 }  // namespace
 
-LcmSocket::LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes)
+LcmSocket::LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes, int queue_bytes)
     : descriptor_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
       largest_bytes_(largest_datagram_bytes),
       buffers_(kBatch * largest_datagram_bytes),
@@ -36,7 +34,7 @@ LcmSocket::LcmSocket(const MulticastAddress& address, std::size_t largest_datagr
       headers_(kBatch) {
   if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "making a socket");
   try {
-    join(address);
+    join(address, queue_bytes);
   } catch (...) {
     ::close(descriptor_);
     throw;
@@ -53,7 +51,7 @@ LcmSocket::~LcmSocket() {
   ::close(descriptor_);
 }
 
-void LcmSocket::join(const MulticastAddress& address) {
+void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
   sockaddr_in group{};
   group.sin_family = AF_INET;
   group.sin_port = htons(static_cast<std::uint16_t>(address.port));
@@ -63,7 +61,7 @@ void LcmSocket::join(const MulticastAddress& address) {
   // Viewers and clients on this machine listen at the same port.
   set(descriptor_, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
   set(descriptor_, IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing this group alone");
-  ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &kQueueBytes, sizeof kQueueBytes);
+  ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &queue_bytes, sizeof queue_bytes);
   // To the group, not to any address: the kernel then keeps unicast away.
   if (::bind(descriptor_, static_cast<sockaddr*>(static_cast<void*>(&group)), sizeof group) != 0)
     throw std::system_error(errno, std::generic_category(), "binding to the group");

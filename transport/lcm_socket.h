@@ -19,10 +19,13 @@ namespace strainwave {
 class LcmSocket {
  public:
   static constexpr std::size_t kBatch = 32;
+  /// Of the system's queue before it, for some hundred of the largest messages.
+  static constexpr int kQueueBytes = 1 << 20;
 
   /// Joins the group. With a ttl of 0 nothing from another machine is heard, even where the route leads to a real
-  /// interface. Throws std::system_error.
-  LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes);
+  /// interface. `queue_bytes`: room for what comes while nobody receives; the system may allow less. Throws std::system_error.
+  LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes,
+            int queue_bytes = kQueueBytes);
   ~LcmSocket();
   LcmSocket(const LcmSocket&) = delete;
   LcmSocket& operator=(const LcmSocket&) = delete;
@@ -32,7 +35,7 @@ class LcmSocket {
   std::size_t receive(const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take);
 
  private:
-  void join(const MulticastAddress& address);
+  void join(const MulticastAddress& address, int queue_bytes);
   void filter(bool this_machine_only);
 
   int descriptor_;

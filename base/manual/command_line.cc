@@ -1,25 +1,25 @@
 #include "base/manual/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include <algorithm>
 #include <iostream>
 
 #include "base/input_error.h"
-#include "base/manual/manual.h"
 #include "base/nearest_word.h"
+#include "base/printable.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr const char* kExitStatuses =
-    "Exit status:\n"
-    "  0  done\n"
-    "  1  tried, and refused or not reached; the reason is printed\n"
-    "  2  what was given makes no sense: the command line, or a file\n"
-    "  3  no answer: no daemon, no such joint, no acknowledgement in time, no LCM on this PC\n"
-    "  130  interrupted while waiting\n";
+std::string exit_status_footer() {
+  std::string text = "Exit status:\n";
+  for (const auto& [number, meaning] : exit_statuses())
+    text.append("  ").append(number).append("  ").append(meaning).append("\n");
+  return text;
+}
 
 /// The command that was chosen, down to the innermost.
 const CLI::App& innermost(const CLI::App& app) {
@@ -106,11 +106,11 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
 
 }  // namespace
 
-void configure_program(CLI::App& app, const std::string& program) {
-  app.name(program);
-  app.set_version_flag("--version", program + " " + STRAINWAVE_VERSION);
-  add_manual_option(app, program);
-  app.footer(kExitStatuses);
+void configure_program(CLI::App& app, const Manual& manual) {
+  app.name(manual.program);
+  app.set_version_flag("--version", manual.program + " " + STRAINWAVE_VERSION);
+  add_manual_option(app, manual);
+  app.footer(exit_status_footer());
 }
 
 std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::string> words, std::ostream& out,
@@ -125,14 +125,15 @@ std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::str
       app.exit(error, out, err);
       return ExitStatus::kDone;
     }
-    err << app.get_name() << ": " << explain(app, error, words) << "; see " << app.get_name() << " --help\n";
+    err << app.get_name() << ": " << printable_paragraph(explain(app, error, words)) << "; see "
+        << app.get_name() << " --help\n";
     return ExitStatus::kUsage;
   }
 }
 
-int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitStatus()>& action) {
+int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action) {
   const auto fail = [&](ExitStatus status, const std::string& why) {
-    std::cerr << app.get_name() << ": " << why << '\n';
+    std::cerr << app.get_name() << ": " << printable_paragraph(why) << '\n';
     return static_cast<int>(status);
   };
   try {
@@ -140,6 +141,8 @@ int run_program(CLI::App& app, int argc, const char* const* argv, const std::fun
       return static_cast<int>(*status);
     return static_cast<int>(action());
   } catch (const InputError& error) {
+    return fail(ExitStatus::kUsage, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
     return fail(ExitStatus::kUsage, error.what());
   } catch (const std::exception& error) {
     return fail(ExitStatus::kNoAnswer, error.what());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/exit_status.h"
+#include "base/manual/manual.h"
 
 namespace CLI {
 class App;
@@ -17,14 +18,18 @@ class App;
 namespace strainwave {
 
 /// Gives `app` its name, --version, the hidden --manual, and the exit statuses below its help. `app` must outlive the parse.
-void configure_program(CLI::App& app, const std::string& program);
+void configure_program(CLI::App& app, const Manual& manual);
 
 /// Parses the words after the program's name ("-.5" counts as "-0.5"). Nothing: go on. Otherwise the program ends: help and
 /// version on `out`, or on `err` one line "program: what was given, what is allowed, the nearest right word".
 std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::string> words, std::ostream& out,
                                              std::ostream& err);
 
-/// Parses, then calls `action` and says on `err` why it threw: InputError is kUsage, anything else kNoAnswer.
-int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitStatus()>& action);
+/// What a subcommand does. The parser leaves it with the program when the subcommand is given; nothing runs inside the parser.
+using CommandBody = std::function<ExitStatus()>;
+
+/// Parses, then calls `action` and says on `err` why it threw: InputError and a file that cannot be had are kUsage, anything else
+/// kNoAnswer.
+int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action);
 
 }  // namespace strainwave

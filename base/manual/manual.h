@@ -1,8 +1,10 @@
-// Man pages and shell completion of a program, from the command line that it defines: one source, so that
+// Man pages and shell completion of a program, from the command line that it defines and what it says of itself: one source, so that
 // they cannot drift. Not real-time.
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -10,14 +12,29 @@ class App;
 
 namespace strainwave {
 
-/// The page in section 1 (roff), the completion of bash, that of zsh. `program` is the name on the command
-/// line.
-std::string man_page(const CLI::App& app, const std::string& program);
-std::string bash_completion(const CLI::App& app, const std::string& program);
-std::string zsh_completion(const CLI::App& app, const std::string& program);
+/// What the command line does not say. Each is a list of what it is about, and a sentence without a full stop.
+struct Manual {
+  using Entries = std::vector<std::pair<std::string, std::string>>;
+
+  std::string program = {};  ///< its name on the command line
+  int section = 1;           ///< 8: a daemon
+  Entries files = {};
+  Entries examples = {};  ///< command, what it does
+  std::vector<std::string> see_also = {};
+  /// What the shells offer for values of this name ("JOINT"): words, or "$(command)" that prints them.
+  Entries values = {};
+};
+
+/// Numbers and meanings of the exit statuses, which all programs share.
+const Manual::Entries& exit_statuses();
+
+/// The page (roff), the completion of bash, that of zsh.
+std::string man_page(const CLI::App& app, const Manual& manual);
+std::string bash_completion(const CLI::App& app, const Manual& manual);
+std::string zsh_completion(const CLI::App& app, const Manual& manual);
 
 /// Gives `app` the hidden option --manual man|bash|zsh, which prints one of them to standard output and ends
 /// the parse with success. `app` must outlive the parse.
-void add_manual_option(CLI::App& app, const std::string& program);
+void add_manual_option(CLI::App& app, const Manual& manual);
 
 }  // namespace strainwave

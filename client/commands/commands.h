@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "client/link/client.h"
+#include "client/link/joint_path.h"
+#include "client/link/motion.h"
 #include "client/text/output.h"
 #include "client/watch/watch_screen.h"
 #include "drivers/injected_fault.h"
@@ -84,12 +86,16 @@ struct PlotRecordArguments {
 };
 void plot_record(const Output& output, const PlotRecordArguments& arguments);
 
-/// Orders to one joint. enable() and disable() return once the joint holds or is off. What is so already is no error, and
-/// nothing is sent for it, except for a disable.
+/// An order to each of `joints`, or when there are none to every joint that is heard of the prefix, one after the other. A failure of one
+/// does not keep it from the others; all are told, and the worst one's status is that of the error.
+using JointOrder = void (*)(Client& client, const Output& output, const std::string& joint);
+void order_each(Client& client, const Output& output, const std::vector<std::string>& joints,
+                JointOrder order);
+/// A disable likewise: every joint is told before any is waited for.
+void disable(Client& client, const Output& output, const std::vector<std::string>& joints);
+
+/// Orders to one joint. enable() returns once the joint holds. What is so already is no error, and nothing is sent for it.
 void enable(Client& client, const Output& output, const std::string& joint);
-void disable(Client& client, const Output& output, const std::string& joint);
-/// All joints that are heard of the prefix: every one is told before any is waited for.
-void disable_all(Client& client, const Output& output);
 void hold(Client& client, const Output& output, const std::string& joint);
 void clear_fault(Client& client, const Output& output, const std::string& joint);
 /// Returns once the joint holds, homed.
@@ -100,10 +106,33 @@ struct MoveArguments {
   std::string joint;
   double position_rad = 0.0;
   bool wait = false;
-  double speed_limit_rad_s = 0.0;  ///< 0: as fast as the joint may
+  double speed_limit_rad_s = 0.0;  ///< 0: calmly
   double tolerance_rad = 1e-3;
 };
 void move(Client& client, const Output& output, const MoveArguments& arguments);
+
+/// Several joints on a straight path: they leave and arrive together. Speeds within `speed_limit_rad_s` each.
+struct MoveTogetherArguments {
+  std::vector<JointTarget> targets;  ///< each joint once
+  bool wait = false;
+  double speed_limit_rad_s = 0.0;  ///< 0: a quarter of each joint's limit
+  double tolerance_rad = 1e-3;
+};
+void move_together(Client& client, const Output& output, const MoveTogetherArguments& arguments);
+
+/// Follows the path of a CSV file; every joint must hold at its first knot. With `wait` as above.
+struct PathArguments {
+  std::filesystem::path file;
+  bool wait = false;
+  double tolerance_rad = 1e-3;
+};
+void follow_path(Client& client, const Output& output, const PathArguments& arguments);
+/// Its parts by joint, in the order in which the joints come first. Throws InputError that names the file.
+std::vector<JointPath> read_path(const std::filesystem::path& file);
+
+/// The path that `joint` is on, with all of its joints.
+void pause_path(Client& client, const Output& output, const std::string& joint);
+void resume_path(Client& client, const Output& output, const std::string& joint);
 
 /// Offers a gain table to one joint, or to every joint of the prefix. A refusal by one does not keep it from
 /// the others.
@@ -129,8 +158,7 @@ struct InjectArguments {
   double for_s = 0.0;  ///< 0: until ended
 };
 void inject(Client& client, const Output& output, const InjectArguments& arguments);
-/// Throws ClientError (usage) that names what is allowed: no such kind, amount missing, needless or out of
-/// range.
+/// Throws ClientError (usage) that names what is allowed: no such kind, amount missing, needless or out of range.
 InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
                                 double for_s);
 
@@ -151,9 +179,5 @@ void can_scan(const Output& output, const std::string& interface_name);
 /// Runs the daemon's own start-up of the drives of `config`, without enabling any.
 void can_check(const Output& output, const std::filesystem::path& config,
                const std::filesystem::path& data_sheet);
-
-/// Throws ClientError (refused) with the reason unless `answer` accepts what `what` names.
-void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
-                      const std::string& hint = "");
 
 }  // namespace strainwave

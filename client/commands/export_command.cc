@@ -7,6 +7,7 @@
 
 #include "client/commands/commands.h"
 #include "client/link/output_file.h"
+#include "client/text/mcap_flight.h"
 #include "client/text/mcap_log.h"
 #include "client/text/message_csv.h"
 #include "client/text/state_csv.h"
@@ -196,9 +197,23 @@ void export_into(Export into, const Output& output, const std::filesystem::path&
   if (reader.truncated()) say(output, "the log's last message is cut off", {{"truncated", true}});
 }
 
+void export_flight_record(const Output& output, const ExportArguments& arguments) {
+  if (!arguments.mcap)
+    throw ClientError(ExitStatus::kUsage,
+                      arguments.log.string() +
+                          " is a flight record, which is CSV already: --mcap makes an MCAP file of it");
+  (void)create(arguments.out, arguments.overwrite);
+  const FlightMcap written = write_flight_mcap(arguments.log, arguments.out);
+  say(output, fmt::format("{}: {} messages in {}", written.topic, written.messages, arguments.out.string()),
+      {{"channel", written.topic},
+       {"messages", static_cast<std::int64_t>(written.messages)},
+       {"file", arguments.out.string()}});
+}
+
 }  // namespace
 
 void export_log(const Output& output, const ExportArguments& arguments) {
+  if (is_flight_record(arguments.log)) return export_flight_record(output, arguments);
   const LogSpan span = span_of(arguments.log);  // before anything is created
   if (arguments.mcap)
     export_into(McapExport(arguments.out, arguments.overwrite), output, arguments.log);

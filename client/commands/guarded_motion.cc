@@ -5,14 +5,15 @@
 #include <strainwave/command_v1.hpp>
 
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "client/link/interrupt.h"
+#include "client/link/orders.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr double kSilence_s = 0.5;
+constexpr double kLongestSilence_s = 0.5;
 
 /// What became of the attempt to hold, in words.
 std::string hold_joint(Client& client, const std::string& joint) {
@@ -45,8 +46,8 @@ void require_undisturbed(Client& client, const std::string& joint, std::int64_t 
     throw ClientError(status, joint + ": " + why);
   };
   if (const auto refusal = client.take_refusal()) require_accepted(*refusal, joint, "a setpoint");
-  if (seconds_between(view.received, now()) > kSilence_s)
-    fail(ExitStatus::kNoAnswer, fmt::format("nothing heard for {} s", kSilence_s));
+  if (seconds_between(view.received, now()) > kLongestSilence_s)
+    fail(ExitStatus::kNoAnswer, fmt::format("nothing heard for {} s", kLongestSilence_s));
   if (view.state.session_id != session_id) fail(ExitStatus::kRefused, "the daemon was restarted");
   const auto mode = static_cast<Mode>(view.state.mode);
   if (mode == Mode::kFaulted)

@@ -1,5 +1,4 @@
-// Motion that a program orders setpoint by setpoint: whatever ends it before its time ends in a hold. Not
-// real-time.
+// Motion that a program orders setpoint by setpoint: whatever ends it before its time ends in a hold. Not real-time.
 #pragma once
 
 #include <functional>

@@ -7,10 +7,11 @@
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
 #include "client/commands/identify_plan.h"
-#include "client/commands/order_steps.h"
+#include "client/link/client_error.h"
 #include "client/link/event_log_writer.h"
-#include "client/link/exit_status.h"
-#include "client/link/latest_messages.h"
+#include "client/link/orders.h"
+#include "client/link/published_limits.h"
+#include "client/text/text.h"
 
 namespace strainwave {
 
@@ -92,23 +93,6 @@ class Identification {
   std::int64_t session_id_;
 };
 
-/// The limits of a joint, from the daemon whose states are heard.
-limits_v1 wait_for_limits(Client& client, const std::string& joint) {
-  const LatestMessages<Latest<limits_v1>> limits(client.connection());
-  const std::string& prefix = client.options().prefix;
-  const std::int64_t session_id = client.wait_for_joint(joint).state.session_id;
-  const auto heard = [&] {
-    const auto* latest = limits.find(prefix, joint);
-    return latest != nullptr && latest->message.session_id == session_id;
-  };
-  if (!client.wait_until(heard, Deadline(client.options().timeout_s)))
-    throw ClientError(
-        ExitStatus::kNoAnswer,
-        fmt::format("no limits on {} in {} s: they come once a second from a daemon of this version",
-                    channel(prefix, joint, channel_kind::kLimits), client.options().timeout_s));
-  return limits.find(prefix, joint)->message;
-}
-
 void require_ready(const JointView& view, const std::string& joint) {
   const auto mode = static_cast<Mode>(view.state.mode);
   if (mode != Mode::kHolding)
@@ -133,12 +117,12 @@ void wait_for_limits_in(Client& client, const EventLogWriter& log, const std::st
 void identify(Client& client, const Output& output, const IdentifyArguments& arguments) {
   const std::string& joint = arguments.joint;
   const JointView& view = client.wait_for_joint(joint);
-  const limits_v1 limits = wait_for_limits(client, joint);
+  const limits_v1 limits = PublishedLimits(client, {joint}).wait_for(joint);
   const IdentifyPlan plan = plan_identification(arguments, limits, view.state.joint_position_rad);
   if (output.json)
     output.stream << to_json(plan, joint) << '\n';
   else
-    output.stream << fmt::format("{} at {:.1f} degC:\n{}", joint, view.state.temperature_used_C,
+    output.stream << fmt::format("{} at {} degC:\n{}", joint, temperature_text(view.state.temperature_used_C),
                                  to_text(plan));
   output.stream.flush();
   if (arguments.dry_run) return;
@@ -149,8 +133,8 @@ void identify(Client& client, const Output& output, const IdentifyArguments& arg
   run_guarded(client, joint, [&] {
     Identification(client, joint, plan).run([&](const Sweep& sweep) {
       say(output,
-          fmt::format("{}: {:.4f} rad/s done, {:.1f} degC", joint, sweep.speed_rad_s,
-                      view.state.temperature_used_C),
+          fmt::format("{}: {:.4f} rad/s done, {} degC", joint, sweep.speed_rad_s,
+                      temperature_text(view.state.temperature_used_C)),
           {{"joint", joint},
            {"speed_rad_s", sweep.speed_rad_s},
            {"temperature_used_C", view.state.temperature_used_C}});

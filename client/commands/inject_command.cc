@@ -6,7 +6,8 @@
 #include <strainwave/inject_v1.hpp>
 
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
+#include "client/link/orders.h"
 
 namespace strainwave {
 

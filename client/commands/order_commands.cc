@@ -1,68 +1,23 @@
-// enable, clear-fault, take-over, release, revert-table: one message each, its answer, and where asked the mode that follows.
+// enable, clear-fault, take-over, release, revert-table: an order, and what came of it in words.
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"
-#include "client/commands/order_steps.h"
+#include "client/commands/each_joint.h"
+#include "client/link/orders.h"
 
 namespace strainwave {
 
-namespace {
-
-bool is_enabled(Mode mode) {
-  return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
-}
-
-}  // namespace
-
-Mode mode_of(const JointView& view) {
-  return static_cast<Mode>(view.state.mode);
-}
-
-command_v1 command_message(Action action) {
-  command_v1 message{};
-  message.action = static_cast<std::int32_t>(action);
-  return message;
-}
-
-void order_accepted(Client& client, const std::string& joint, Action action) {
-  const Answer answer = client.request(joint, channel_kind::kCommand, command_message(action));
-  require_accepted(answer, joint, std::string(to_text(action)));
-}
-
-ClientError faulted(const std::string& joint, const JointView& view) {
-  const auto fault = static_cast<Fault>(view.state.fault);
-  return {ExitStatus::kRefused,
-          fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
-                      view.state.fault, to_text(fault), joint)};
-}
-
-void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
-                      const std::string& hint) {
-  if (answer.accepted) return;
-  std::string message = fmt::format("{}: {} refused ({}, {})", joint, what, static_cast<int>(answer.reason),
-                                    to_text(answer.reason));
-  if (!answer.text.empty()) message += ": " + answer.text;
-  if (!hint.empty()) message += "; " + hint;
-  throw ClientError(ExitStatus::kRefused, message);
+void order_each(Client& client, const Output& output, const std::vector<std::string>& joints,
+                JointOrder order) {
+  Failures failures;
+  for (const std::string& joint : joints_or_all(client, joints))
+    failures.attempt([&] { order(client, output, joint); });
+  failures.rethrow();
 }
 
 void enable(Client& client, const Output& output, const std::string& joint) {
-  const bool already = is_enabled(mode_of(client.wait_for_joint(joint)));
-  if (!already) order_accepted(client, joint, Action::kEnable);
+  const bool already = !enable_joint(client, joint);
   const JointView& view = *client.find(joint);
-  const Deadline old_states(kOldStates_s);
-  const auto decided = [&] {
-    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
-    if (mode_of(view) == Mode::kOff && old_states.passed()) {
-      throw ClientError(ExitStatus::kRefused,
-                        joint + ": went back to off while it was starting; see the daemon's log");
-    }
-    return is_enabled(mode_of(view));
-  };
-  if (!client.wait_until(decided, Deadline(client.options().timeout_s))) {
-    throw ClientError(ExitStatus::kNoAnswer, fmt::format("{}: accepted, but still {} after {} s", joint,
-                                                         to_text(mode_of(view)), client.options().timeout_s));
-  }
   const std::string mode(to_text(mode_of(view)));
   say(output,
       fmt::format("{}: {}, {} at {:.6f} rad", joint, already ? "enabled already" : "enabled", mode,
@@ -74,10 +29,9 @@ void enable(Client& client, const Output& output, const std::string& joint) {
 }
 
 void clear_fault(Client& client, const Output& output, const std::string& joint) {
-  if (mode_of(client.wait_for_joint(joint)) != Mode::kFaulted)
-    return say(output, joint + ": has no fault", {{"joint", joint}, {"already", true}});
-  order_accepted(client, joint, Action::kClearFault);
-  say(output, joint + ": fault cleared; enable it to go on", {{"joint", joint}, {"already", false}});
+  const bool already = !clear_joint_fault(client, joint);
+  say(output, already ? joint + ": has no fault" : joint + ": fault cleared; enable it to go on",
+      {{"joint", joint}, {"already", already}});
 }
 
 void revert_table(Client& client, const Output& output, const std::string& joint) {

@@ -5,7 +5,8 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
+#include "client/link/orders.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/wire.h"
 
@@ -46,6 +47,8 @@ setpoint_v2 order_of(const setpoint_v2& recorded) {
   order.position_rad = recorded.position_rad;
   order.velocity_rad_s = recorded.velocity_rad_s;
   order.acceleration_rad_s2 = recorded.acceleration_rad_s2;
+  order.torque_Nm = recorded.torque_Nm;
+  order.load_inertia_kgm2 = recorded.load_inertia_kgm2;
   order.derivatives = recorded.derivatives;
   order.valid_for_s = recorded.valid_for_s;
   order.speed_limit_rad_s = recorded.speed_limit_rad_s;

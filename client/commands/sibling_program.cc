@@ -12,7 +12,7 @@
 
 #include "base/unique_fd.h"
 #include "client/link/client.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 
 namespace strainwave {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "client/link/latest_messages.h"
 
 namespace strainwave {
@@ -56,7 +56,8 @@ std::vector<ResultField> fields_of(const timing_v1& timing) {
 
 void show_timing(Client& client, const Output& output) {
   const std::string& prefix = client.options().prefix;
-  const LatestMessages<Latest<timing_v1>> timings(client.connection());
+  LatestMessages<Latest<timing_v1>> timings(client.connection());
+  timings.keep({prefix, ""});
   if (!client.wait_until([&] { return timings.find(prefix) != nullptr; },
                          Deadline(client.options().timeout_s))) {
     throw ClientError(

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "client/link/interrupt.h"
 
 namespace strainwave {
@@ -15,6 +15,8 @@ namespace {
 // All joints of a daemon are published together; at the slowest sensible rate the next round comes within
 // this time.
 constexpr double kOtherJoints_s = 0.3;
+// Refusals of a stream's samples that wait to be taken.
+constexpr std::size_t kRefusals = 16;
 
 }  // namespace
 
@@ -27,6 +29,7 @@ Client::Client(Connection& connection, const ClientOptions& options)
           connection.subscribe(channel_pattern(options.prefix, channel_kind::kAck), &Client::on_ack, this)) {}
 
 const JointView& Client::wait_for_joint(const std::string& joint) {
+  states_.keep(options_.prefix, joint);
   if (!wait_until([&] { return find(joint) != nullptr; }, Deadline(options_.timeout_s)))
     explain_silence(joint);
   return *find(joint);
@@ -55,8 +58,8 @@ std::vector<JointName> Client::wait_for_heard() {
   return heard();
 }
 
-// Refused unread: the order took too long, or another program of this key was ahead. It was not obeyed, so it may be given
-// anew.
+// Refused unread: the order took too long, or another program of this key was ahead. It was not obeyed, so it
+// may be given anew.
 bool Client::may_try_again(const std::string& joint, const Answer& answer, const Quote& quote) {
   if (answer.reason == Reason::kOldSequence && ack_) {
     sender_.rise_above(ack_->last_sequence);
@@ -74,12 +77,31 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
   awaited_.reset();
   if (ack_) return to_answer(*ack_);
   if (find(joint) == nullptr) explain_silence(joint);
-  throw ClientError(
-      ExitStatus::kNoAnswer,
-      fmt::format(
-          "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
-          "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
-          joint, options_.timeout_s, 1 + PendingOrder::kRepetitions, joint));
+  throw NoAnswer(fmt::format(
+      "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
+      "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
+      joint, options_.timeout_s, 1 + PendingOrder::kRepetitions, joint));
+}
+
+std::optional<Answer> Client::take_refusal() {
+  if (refusals_.empty()) return std::nullopt;
+  const Answer oldest = refusals_.front();
+  refusals_.pop_front();
+  return oldest;
+}
+
+void Client::forget_sent() noexcept {
+  sent_.fill(0);
+  refusals_.clear();
+}
+
+bool Client::was_sent(std::int64_t sequence) const noexcept {
+  return sequence != 0 && std::find(sent_.begin(), sent_.end(), sequence) != sent_.end();
+}
+
+void Client::catch_up() {
+  std::size_t count = 0;
+  while (count < Connection::kQueueCapacity && connection_.handle(0)) ++count;
 }
 
 void Client::handle(int timeout_ms) {
@@ -92,8 +114,11 @@ void Client::on_ack(const ReceivedMessage& message) {
   if (!ack || ack->sender_id != sender_.sender_id()) return;
   if (awaited_ && awaited_->is_answer(*ack, message.channel)) {
     if (!ack_) ack_ = ack;
-  } else if (ack->accepted != 1 && std::find(sent_.begin(), sent_.end(), ack->sequence) != sent_.end()) {
-    refusal_ = to_answer(*ack);
+  } else if (ack->accepted != 1 && was_sent(ack->sequence)) {
+    refusals_.push_back(to_answer(*ack));
+    refusals_.back().overtaken =
+        refusals_.back().reason == Reason::kOldSequence && was_sent(ack->last_sequence);
+    if (refusals_.size() > kRefusals) refusals_.pop_front();
   }
 }
 
@@ -101,19 +126,24 @@ void Client::explain_silence(const std::string& joint) const {
   const auto& prefix = options_.prefix;
   const std::vector<std::string> joints = states_.joints(prefix);
   if (!joints.empty()) {
-    throw ClientError(ExitStatus::kNoAnswer, fmt::format("no joint '{}' on prefix {}; its joints are: {}",
-                                                         joint, prefix, fmt::join(joints, ", ")));
+    throw NoAnswer(fmt::format("no joint '{}' on prefix {}; its joints are: {}", joint, prefix,
+                               fmt::join(joints, ", ")));
   }
+  if (states_.another_version(prefix))
+    throw NoAnswer(
+        fmt::format("the daemon on prefix {} speaks another version: its states have another type than "
+                    "state_v1 of this program. "
+                    "Install both in the same version",
+                    prefix));
   std::string message =
       fmt::format("no daemon on prefix {} in {} s ({}).", prefix, options_.timeout_s, connection_.url());
   if (const std::vector<std::string> prefixes = states_.prefixes(); !prefixes.empty()) {
     message +=
-        fmt::format(" Daemons are heard on: {} (choose one with --prefix).", fmt::join(prefixes, ", "));
+        fmt::format(" Daemons are heard on: {} (choose one by its prefix).", fmt::join(prefixes, ", "));
   } else {
-    message +=
-        " Is strainwaved running, and are its lcm_url and prefix the same as --lcm-url and --prefix here?";
+    message += " Is strainwaved running, and are its lcm_url and prefix the same as here?";
   }
-  throw ClientError(ExitStatus::kNoAnswer, message);
+  throw NoAnswer(message);
 }
 
 }  // namespace strainwave

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <strainwave/ack_v1.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "client/link/connection.h"
@@ -46,7 +46,7 @@ class Client {
   /// The latest view of `joint`, or null when nothing was heard of it.
   const JointView* find(const std::string& joint) const { return states_.find(options_.prefix, joint); }
 
-  /// Waits until `joint` is heard. Throws ClientError (no answer) that says what is heard instead.
+  /// Waits until `joint` is heard; its view lasts as long as this client. Throws ClientError (no answer) that says what is heard instead.
   const JointView& wait_for_joint(const std::string& joint);
 
   /// Waits until a joint is heard, then a little for the others of the daemon. Throws like wait_for_joint().
@@ -57,13 +57,21 @@ class Client {
   /// The same after waiting as wait_for_joints() does.
   std::vector<JointName> wait_for_heard();
 
-  /// Sends `message` (setpoint_v2, command_v1, gain_table_v1 or inject_v1) to `joint` on the channel of `kind` and waits
+  /// Sends `message` (setpoint_v2, command_v1, gain_table_v2 or inject_v1) to `joint` on the channel of `kind` and waits
   /// for the answer. Throws ClientError when the joint is not heard or no answer comes.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {
+    Message prepared = message;
+    return request(joint, kind, prepared, [](Message&) {});
+  }
+
+  /// The same for a message that depends on when it goes out: `prepare` is called with it before every attempt.
+  template <typename Message, typename Prepare>
+  Answer request(const std::string& joint, std::string_view kind, Message& message, const Prepare& prepare) {
     Answer answer;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       const Quote quote = quote_of(wait_for_joint(joint).state);
+      prepare(message);
       answer = exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, quote));
       if (answer.accepted || !may_try_again(joint, answer, quote)) break;
     }
@@ -92,11 +100,16 @@ class Client {
     sent_[sent_count_++ % sent_.size()] = sealed.sequence;
   }
 
-  /// The daemon's latest refusal of a message of send() since the last call.
-  std::optional<Answer> take_refusal() { return std::exchange(refusal_, std::nullopt); }
+  /// The daemon's oldest refusal of a message of send() that was not yet taken.
+  std::optional<Answer> take_refusal();
+  bool has_refusals() const noexcept { return !refusals_.empty(); }
+  /// What send() sent before is answered to nobody.
+  void forget_sent() noexcept;
 
-  /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError
-  /// (interrupted).
+  /// Dispatches what has come so far.
+  void catch_up();
+
+  /// Dispatches messages until `done()` or the deadline; the last value of done(). Throws ClientError (interrupted).
   template <typename Done>
   bool wait_until(const Done& done, const Deadline& deadline) {
     while (!done()) {
@@ -111,6 +124,7 @@ class Client {
   Answer exchange(const std::string& joint, SealedMessage order);
   void handle(int timeout_ms);
   void on_ack(const ReceivedMessage& message);
+  bool was_sent(std::int64_t sequence) const noexcept;
   [[noreturn]] void explain_silence(const std::string& joint) const;
 
   Connection& connection_;
@@ -121,7 +135,7 @@ class Client {
   std::optional<ack_v1> ack_;
   std::array<std::int64_t, 256> sent_{};  ///< sequences of the latest messages of send()
   std::size_t sent_count_ = 0;
-  std::optional<Answer> refusal_;
+  std::deque<Answer> refusals_;
   Subscription acknowledgements_;
 };
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/utime.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
 
@@ -18,8 +18,11 @@ namespace {
 
 constexpr std::string_view kWithoutNetwork = "memq://";
 
-ClientError unavailable(const std::string& lcm_url, const std::string& why) {
-  return {ExitStatus::kNoAnswer, "LCM is not available on '" + lcm_url + "': " + why};
+/// Half a second of 64 joints at 200 Hz: so long a busy machine may leave out who records them.
+constexpr int kSocketQueueBytes = 4 << 20;
+
+NoAnswer unavailable(const std::string& lcm_url, const std::string& why) {
+  return NoAnswer("LCM is not available on '" + lcm_url + "': " + why);
 }
 
 /// Where the URL leads, once it is known that datagrams come back from there: LCM's own messages would not say what to do.
@@ -27,9 +30,9 @@ MulticastAddress checked(const std::string& lcm_url) {
   const auto address = parse_udpm_url(lcm_url);
   if (!address)
     throw unavailable(
-        lcm_url,
-        "it is not of the kind udpm://GROUP:PORT?ttl=N; check the URL (--lcm-url, or "
-        "LCM_DEFAULT_URL in the environment); the usual one is udpm://239.255.76.67:7667?ttl=0");
+        lcm_url, std::string("it is not of the kind udpm://GROUP:PORT?ttl=N; check the URL (--lcm-url, or "
+                             "LCM_DEFAULT_URL in the environment); the usual one is ") +
+                     kUsualLcmUrl);
   if (const auto problem = find_multicast_problem(lcm_url)) throw unavailable(lcm_url, *problem);
   return *address;
 }
@@ -46,7 +49,7 @@ Subscription::~Subscription() {
 
 Connection::Network::Network(const std::string& lcm_url, const MulticastAddress& address)
     : sender(lcm_url),
-      socket(address, largest_datagram(kLargestMessageBytes)),
+      socket(address, largest_datagram(kLargestMessageBytes), kSocketQueueBytes),
       reassembly(kLargestMessageBytes) {
   if (!sender.good()) throw std::system_error(ENETUNREACH, std::generic_category(), "opening LCM's sender");
 }
@@ -62,10 +65,9 @@ Connection::Connection(const std::string& lcm_url) : url_(lcm_url) {
 }
 
 void Connection::publish(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  if (!network_) return keep(channel, bytes);
+  if (!network_) return keep(channel, bytes, {});
   if (network_->sender.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0) {
-    throw ClientError(ExitStatus::kNoAnswer,
-                      "LCM did not take a message for " + channel + ": is the network of " + url_ + " up?");
+    throw NoAnswer("LCM did not take a message for " + channel + ": is the network of " + url_ + " up?");
   }
 }
 
@@ -79,29 +81,30 @@ bool Connection::handle(int timeout_ms) {
   const Waiting next = std::move(waiting_.front());
   waiting_.pop_front();
   for (const Subscription::Entry& entry : subscriptions_)
-    if (matches(next.channel, entry.pattern)) entry.handler({next.channel, next.bytes, next.received_us});
+    if (matches(next.channel, entry.pattern))
+      entry.handler({next.channel, next.bytes, next.received_us, next.from});
   return true;
 }
 
 void Connection::wait(int timeout_ms) const {
   pollfd descriptor{network_ ? network_->socket.descriptor() : -1, POLLIN, 0};
   if (::poll(&descriptor, 1, timeout_ms) < 0 && errno != EINTR)
-    throw ClientError(ExitStatus::kNoAnswer, "LCM stopped working on " + url_);
+    throw NoAnswer("LCM stopped working on " + url_);
 }
 
 void Connection::take_what_came() {
   if (!network_) return;
   const auto take = [this](const LcmSource& from, std::span<const std::uint8_t> datagram) {
     const auto message = network_->reassembly.take(from, datagram);
-    if (message) keep(message->channel, message->bytes);
+    if (message) keep(message->channel, message->bytes, from);
   };
   while (waiting_.size() < kQueueCapacity && network_->socket.receive(take) == LcmSocket::kBatch) {
   }
 }
 
 // Only what somebody wants.
-void Connection::keep(std::string_view channel, std::span<const std::uint8_t> bytes) {
-  Waiting message{std::string(channel), {bytes.begin(), bytes.end()}, utime_now()};
+void Connection::keep(std::string_view channel, std::span<const std::uint8_t> bytes, const LcmSource& from) {
+  Waiting message{std::string(channel), {bytes.begin(), bytes.end()}, utime_now(), from};
   const bool wanted = std::ranges::any_of(subscriptions_, [&](const Subscription::Entry& entry) {
     return matches(message.channel, entry.pattern);
   });

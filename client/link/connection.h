@@ -25,6 +25,7 @@ struct ReceivedMessage {
   const std::string& channel;
   std::span<const std::uint8_t> bytes;
   std::int64_t received_us = 0;  ///< since the epoch, by our own clock
+  LcmSource from = {};           ///< nobody with memq://
 };
 
 class Connection;
@@ -52,8 +53,8 @@ class Subscription {
 
 class Connection {
  public:
-  /// Messages that may wait until handle() is called; what comes then waits in the system's buffer, and is lost when that is
-  /// full.
+  /// Messages that may wait until handle() is called; what comes then waits in the system's buffer, and is lost
+  /// when that is full.
   static constexpr std::size_t kQueueCapacity = 4096;
 
   /// Joins the network of `lcm_url`, udpm://GROUP:PORT?ttl=N; memq:// is none, but this object alone. Throws ClientError (LCM
@@ -91,10 +92,11 @@ class Connection {
     std::string channel;
     std::vector<std::uint8_t> bytes;
     std::int64_t received_us = 0;
+    LcmSource from;
   };
   void wait(int timeout_ms) const;
   void take_what_came();
-  void keep(std::string_view channel, std::span<const std::uint8_t> bytes);
+  void keep(std::string_view channel, std::span<const std::uint8_t> bytes, const LcmSource& from);
 
   std::string url_;
   std::unique_ptr<Network> network_;  ///< none with memq://

@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-lcm_eventlog_t* create(const std::filesystem::path& file, bool overwrite) {
+lcm_eventlog_t* open_log(const std::filesystem::path& file, bool overwrite) {
   refuse_to_replace(file, overwrite);
   lcm_eventlog_t* const log = ::lcm_eventlog_create(file.c_str(), "w");
   if (log == nullptr) throw not_writable(file);
@@ -29,7 +29,7 @@ EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix
                                const std::vector<std::string>& joints, const std::filesystem::path& file,
                                bool overwrite)
     : name_(file.string()),
-      log_(create(file, overwrite), &::lcm_eventlog_destroy),
+      log_(open_log(file, overwrite), &::lcm_eventlog_destroy),
       subscription_(
           connection.subscribe(recorded_channels(prefix, joints), &EventLogWriter::on_message, this)) {}
 

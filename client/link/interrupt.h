@@ -1,5 +1,4 @@
-// Ctrl-C and SIGTERM as a flag, so that a wait ends in order: files closed, the user told what goes on. Not
-// real-time.
+// Ctrl-C and SIGTERM as a flag, so that a wait ends in order: files closed, the user told what goes on. Not real-time.
 #pragma once
 
 namespace strainwave {
@@ -10,8 +9,7 @@ void catch_interrupts();
 /// True once a signal has come.
 bool interrupted() noexcept;
 
-/// Forgets the signal, so that what is left to do (stopping a joint) can be waited for. The next one ends the
-/// program.
+/// Forgets the signal, so that what is left to do (stopping a joint) can be waited for. The next one ends the program.
 void resume_after_interrupt() noexcept;
 
 }  // namespace strainwave

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 
 namespace strainwave {
 

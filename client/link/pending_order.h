@@ -16,7 +16,8 @@ namespace strainwave {
 struct Answer {
   bool accepted = false;
   Reason reason = Reason::kAccepted;
-  std::string text;  ///< the daemon's words, safe to print
+  std::string text;        ///< the daemon's words, safe to print
+  bool overtaken = false;  ///< a refusal of Client::send(): a later message of it came first
 };
 
 Answer to_answer(const ack_v1& ack);

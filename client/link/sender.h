@@ -81,8 +81,8 @@ class Sender {
 
   /// Sequences rise with the clock, in microseconds; nothing that a daemon answers comes near this.
   static constexpr std::int64_t kLargestSequence = std::int64_t{1} << 62;
-  /// The next order's sequence is above `sequence`: another program of this key was ahead. What leaves no room above it is no daemon's
-  /// answer.
+  /// The next order's sequence is above `sequence`: another program of this key was ahead. What leaves no room above it
+  /// is no daemon's answer.
   void rise_above(std::int64_t sequence) noexcept {
     if (sequence < kLargestSequence) sequence_ = std::max(sequence_, sequence);
   }

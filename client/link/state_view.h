@@ -35,7 +35,10 @@ class StateView {
   /// Starts to listen.
   explicit StateView(Connection& connection) : latest_(connection) {}
 
-  /// The joint, or null when nothing was heard of it.
+  /// See LatestMessages.
+  void keep(const std::string& prefix, const std::string& joint) { latest_.keep({prefix, joint}); }
+
+  /// The joint, or null when nothing was heard of it. Lasts until the next message, for ever if the joint is kept.
   const JointView* find(const std::string& prefix, const std::string& joint) const {
     return latest_.find(prefix, joint);
   }
@@ -44,9 +47,12 @@ class StateView {
   std::vector<std::string> joints(const std::string& prefix) const;
   std::vector<std::string> prefixes() const;
 
+  /// See LatestMessages.
+  bool another_version(const std::string& prefix) const { return latest_.another_version(prefix); }
+
   /// Takes one message, as the subscription does.
-  void accept(const std::string& channel, std::span<const std::uint8_t> bytes) {
-    latest_.accept(channel, bytes);
+  void accept(const std::string& channel, std::span<const std::uint8_t> bytes, const LcmSource& from = {}) {
+    latest_.accept(channel, bytes, from);
   }
 
  private:

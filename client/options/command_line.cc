@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/manual/command_line.h"
+#include "base/printable.h"
 #include "client/options/command_options.h"
 
 namespace strainwave {
@@ -12,7 +13,7 @@ namespace strainwave {
 namespace {
 
 void configure(CLI::App& app, Invocation& invocation) {
-  configure_program(app, "strainwavectl");
+  configure_program(app, manual_of_strainwavectl());
   app.require_subcommand(1);
   app.fallthrough();
   add_common_options(app, invocation);
@@ -25,7 +26,7 @@ void configure(CLI::App& app, Invocation& invocation) {
 }
 
 ExitStatus report(std::ostream& err, ExitStatus status, const std::string& message) {
-  err << "strainwavectl: " << message << '\n';
+  err << "strainwavectl: " << printable_paragraph(message) << '\n';
   return status;
 }
 
@@ -54,6 +55,8 @@ ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out
     return report(err, ExitStatus::kUsage, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return report(err, ExitStatus::kUsage, error.what());
+  } catch (const std::exception& error) {
+    return report(err, ExitStatus::kNoAnswer, error.what());
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 
 namespace strainwave {
 

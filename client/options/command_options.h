@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/manual/manual.h"
 #include "client/commands/commands.h"
+#include "lcmtypes/multicast_check.h"
 
 namespace CLI {
 class App;
@@ -18,12 +20,15 @@ namespace strainwave {
 
 /// What the command line asks for.
 struct Invocation {
-  std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string lcm_url = kUsualLcmUrl;
   ClientOptions options;
   bool json = false;
   std::function<void(Client&, const Output&)> command;
   std::function<void(const Output&)> local_command;  ///< instead of `command`: needs neither LCM nor a daemon
 };
+
+/// What its man page and completion say beyond the command line.
+Manual manual_of_strainwavectl();
 
 /// Options for all commands, then the families in the order of the help.
 void add_common_options(CLI::App& app, Invocation& invocation);

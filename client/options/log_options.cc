@@ -32,7 +32,10 @@ void add_record(CLI::App& app, Invocation& invocation) {
 void add_export(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("export", "decode an LCM event log into CSV (needs no daemon)");
   auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("LOG", arguments->log, "from record, or from lcm-logger")->required()->type_name("");
+  command
+      ->add_option("LOG", arguments->log, "from record, or from lcm-logger; with --mcap also a flight record")
+      ->required()
+      ->type_name("");
   command
       ->add_option(
           "--out", arguments->out,

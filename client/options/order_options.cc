@@ -1,8 +1,10 @@
-// enable, disable, move, hold, clear-fault, take-over, release, home, load-table, revert-table, inject.
+// enable, disable, move, path, pause, resume, hold, clear-fault, take-over, release, home, load-table, revert-table, inject.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <memory>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "client/options/command_options.h"
 #include "client/text/text.h"
 
@@ -23,35 +25,97 @@ void add_order(CLI::App& app, Invocation& invocation, const std::string& name, c
   });
 }
 
-void add_disable(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("disable", "stop and switch the drive off");
-  auto joint = std::make_shared<std::string>();
+using EachOrder = std::function<void(Client&, const Output&, const std::vector<std::string>&)>;
+
+/// A command on one joint or several, or with --all on every one that is heard.
+void add_order_to_each(CLI::App& app, Invocation& invocation, const std::string& name,
+                       const std::string& help, const EachOrder& order) {
+  CLI::App* command = app.add_subcommand(name, help);
+  auto joints = std::make_shared<std::vector<std::string>>();
   auto all = std::make_shared<bool>(false);
-  CLI::Option* name = add_joint(*command, *joint);
-  command->add_flag("--all", *all, "every joint that is heard of the prefix")->excludes(name);
-  command->callback([&invocation, joint, all] {
-    if (joint->empty() && !*all)
-      throw ClientError(ExitStatus::kUsage, "disable: JOINT is required, or --all for every joint");
-    invocation.command = [joint, all](Client& client, const Output& output) {
-      *all ? disable_all(client, output) : disable(client, output, *joint);
+  CLI::Option* names = add_joints(*command, *joints, "joints, one or several");
+  command->add_flag("--all", *all, "every joint that is heard of the prefix")->excludes(names);
+  command->callback([&invocation, name, joints, all, order] {
+    if (joints->empty() && !*all) throw InvalidInput(name + ": JOINT is required, or --all for every joint");
+    invocation.command = [joints, order](Client& client, const Output& output) {
+      order(client, output, *joints);
+    };
+  });
+}
+
+void add_order_to_each(CLI::App& app, Invocation& invocation, const std::string& name,
+                       const std::string& help, JointOrder order) {
+  add_order_to_each(app, invocation, name, help,
+                    [order](Client& client, const Output& output, const std::vector<std::string>& joints) {
+                      order_each(client, output, joints, order);
+                    });
+}
+
+MoveTogetherArguments move_together_arguments(const MoveArguments& first,
+                                              const std::vector<std::string>& others) {
+  MoveTogetherArguments together{
+      {{first.joint, first.position_rad}}, first.wait, first.speed_limit_rad_s, first.tolerance_rad};
+  for (std::size_t i = 0; i < others.size(); i += 2) {
+    const std::string& joint = others[i];
+    if (!is_valid_name(joint)) throw InvalidInput("move: '" + joint + "' is not a joint's name");
+    if (i + 1 == others.size())
+      throw InvalidInput("move: " + joint + ": each joint needs its position: JOINT POSITION_rad");
+    if (std::any_of(together.targets.begin(), together.targets.end(),
+                    [&](const JointTarget& target) { return target.joint == joint; }))
+      throw InvalidInput("move: " + joint + " is named twice: each joint once is allowed");
+    together.targets.push_back({joint, parse_position_rad(others[i + 1])});
+  }
+  return together;
+}
+
+void add_path(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand(
+      "path", "follow a path of one or several joints, checked as a whole before it begins");
+  auto arguments = std::make_shared<PathArguments>();
+  command
+      ->add_option("FILE", arguments->file,
+                   "CSV: joint, time_s, position_rad, velocity_rad_s; 2 to " +
+                       std::to_string(JointPath::kMostKnots) + " knots for each joint")
+      ->required()
+      ->type_name("");
+  command->add_flag("--wait", arguments->wait, "return once all joints are where it ends");
+  add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
+      ->capture_default_str();
+  command->callback([&invocation, arguments] {
+    invocation.command = [arguments](Client& client, const Output& output) {
+      follow_path(client, output, *arguments);
     };
   });
 }
 
 void add_move(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("move", "move one joint to a position");
+  CLI::App* command =
+      app.add_subcommand("move", "move a joint to a position, or several that leave and arrive together");
   auto arguments = std::make_shared<MoveArguments>();
   auto position = std::make_shared<std::string>();
+  auto others = std::make_shared<std::vector<std::string>>();
   add_joint(*command, arguments->joint)->required();
   command->add_option("POSITION_rad", *position, "where to, in rad, joint side")->required()->type_name("");
-  add_positive(*command, "--speed_limit_rad_s", arguments->speed_limit_rad_s, "RAD/S",
-               "no faster than this; otherwise as fast as the joint may");
+  command
+      ->add_option("JOINT POSITION_rad", *others,
+                   "other joints of the daemon, which leave and arrive with this one")
+      ->type_name("");
+  add_positive(
+      *command, "--speed-limit_rad_s", arguments->speed_limit_rad_s, "RAD/S",
+      "no faster than this; otherwise calmly: a quarter of the limit, or joint.limits.move_speed_share");
   command->add_flag("--wait", arguments->wait,
                     "return once the joint is there and stays; says how long it took");
   add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
       ->capture_default_str();
-  command->callback([&invocation, arguments, position] {
+  command->callback([&invocation, arguments, position, others] {
     arguments->position_rad = parse_position_rad(*position);
+    if (!others->empty()) {
+      const MoveTogetherArguments together = move_together_arguments(*arguments, *others);
+      invocation.command = [together](Client& client, const Output& output) {
+        move_together(client, output, together);
+      };
+      return;
+    }
     invocation.command = [arguments](Client& client, const Output& output) {
       move(client, output, *arguments);
     };
@@ -110,16 +174,21 @@ void add_inject(CLI::App& app, Invocation& invocation) {
 }  // namespace
 
 void add_order_commands(CLI::App& app, Invocation& invocation) {
-  add_order(app, invocation, "enable", "switch the drive on and hold the position", enable);
-  add_disable(app, invocation);
+  add_order_to_each(app, invocation, "enable", "switch the drive on and hold the position", enable);
+  add_order_to_each(app, invocation, "disable", "stop and switch the drive off", disable);
   add_move(app, invocation);
-  add_order(app, invocation, "hold", "stop and hold where it stops", hold);
-  add_order(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
-  add_order(app, invocation, "take-over", "have the joint instead of whoever has it (engineer)", take_over);
-  add_order(app, invocation, "release", "give the joint up before its lease ends", release);
-  add_order(app, invocation, "home", "find the home position", home);
+  add_path(app, invocation);
+  add_order(app, invocation, "pause", "stop on the path that the joint is on, with all of its joints",
+            pause_path);
+  add_order(app, invocation, "resume", "go on along that path, with all of its joints", resume_path);
+  add_order_to_each(app, invocation, "hold", "stop and hold where it stops", hold);
+  add_order_to_each(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
+  add_order_to_each(app, invocation, "take-over", "have the joint instead of whoever has it (engineer)",
+                    take_over);
+  add_order_to_each(app, invocation, "release", "give the joint up before its lease ends", release);
+  add_order_to_each(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);
-  add_order(app, invocation, "revert-table", "use the previous gain table again", revert_table);
+  add_order_to_each(app, invocation, "revert-table", "use the previous gain table again", revert_table);
   add_inject(app, invocation);
 }
 

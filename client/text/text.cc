@@ -11,7 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
+#include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/state_fields.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -19,12 +20,11 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kSilence_s = 1.0;  // a daemon publishes at least this often at any sensible rate
-
 constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
                               Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
                               Notice::kNotHomed,        Notice::kAtLimitSwitch,      Notice::kPlainLaw,
-                              Notice::kOffStream,       Notice::kPositionLate};
+                              Notice::kOffStream,       Notice::kPositionLate,       Notice::kOffTarget,
+                              Notice::kLoadHigh};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
@@ -34,11 +34,12 @@ bool is_degree_mark(std::string_view text) {
 /// What a number of the state means, for the fields that are codes; else empty.
 std::string meaning(std::string_view field, const state_v1& state) {
   if (field == "mode") return std::string(to_text(static_cast<Mode>(state.mode)));
-  if (field == "fault") return std::string(to_text(static_cast<Fault>(state.fault)));
+  if (field == "fault") return fault_words(static_cast<Fault>(state.fault), state.drive_error);
   if (field == "gains_in_use") return std::string(to_text(static_cast<GainsInUse>(state.gains_in_use)));
   if (field == "temperature_status") {
     return std::string(to_text(static_cast<TemperatureStatus>(state.temperature_status)));
   }
+  if (field == "temperature_used_C" && std::isnan(state.temperature_used_C)) return "no plausible value yet";
   if (field == "notices") {
     std::vector<std::string_view> texts;
     for (const Notice notice : kNotices) {
@@ -77,10 +78,33 @@ std::string clipped(std::string_view line, std::size_t columns) {
   return std::string(line);
 }
 
+std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std::size_t most) {
+  std::vector<std::string> lines;
+  while (lines.size() < most && (lines.empty() || !text.empty())) {
+    std::string_view line = text.substr(0, clipped(text, columns).size());
+    const bool all = line.size() == text.size();
+    if (!all && lines.size() + 1 == most) {
+      lines.push_back(clipped(text, columns - 3) + "...");
+      break;
+    }
+    if (const auto blank = line.rfind(' ');
+        !all && text[line.size()] != ' ' && blank != line.npos && blank > 0)
+      line = line.substr(0, blank);
+    lines.emplace_back(line);
+    text.remove_prefix(line.size());
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  }
+  return lines;
+}
+
 std::string display_name(const JointName& name, const std::vector<JointName>& names) {
   const bool several = std::any_of(names.begin(), names.end(),
                                    [&](const JointName& other) { return other.prefix != name.prefix; });
   return several ? name.prefix + "." + name.joint : name.joint;
+}
+
+std::string temperature_text(double temperature_C) {
+  return std::isnan(temperature_C) ? "-" : fmt::format("{:+.1f}", temperature_C);
 }
 
 std::string state_header() {
@@ -91,17 +115,17 @@ std::string state_header() {
 
 std::string state_row(const std::string& joint, const JointView& view, double age_s) {
   const state_v1& state = view.state;
-  return fmt::format("{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>+13.1f}  {:<16}  {}", joint,
+  return fmt::format("{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>13}  {:<16}  {}", joint,
                      to_text(static_cast<Mode>(state.mode)), state.setpoint_position_rad,
                      state.joint_position_rad, tracking_error_rad(view), state.torque_commanded_Nm,
-                     state.temperature_used_C, to_text(static_cast<GainsInUse>(state.gains_in_use)),
-                     state_notes(view, age_s));
+                     temperature_text(state.temperature_used_C),
+                     to_text(static_cast<GainsInUse>(state.gains_in_use)), state_notes(view, age_s));
 }
 
 std::string state_notes(const JointView& view, double age_s) {
   const state_v1& state = view.state;
   std::vector<std::string> notes;
-  if (age_s > kSilence_s) notes.push_back(fmt::format("no message for {:.1f} s", age_s));
+  if (age_s > kStateSilence_s) notes.push_back(fmt::format("no message for {:.1f} s", age_s));
   if (view.two_daemons) notes.emplace_back("two daemons use these channels");
   if (state.fault != 0) notes.push_back(fmt::format("fault {}: {}", state.fault, meaning("fault", state)));
   if (state.notices != 0) notes.push_back(meaning("notices", state));

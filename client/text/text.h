@@ -1,5 +1,4 @@
-// Text in and out: positions as people type them, states as lines for a terminal. No network, no clock. Not
-// real-time.
+// Text in and out: positions as people type them, states as lines for a terminal. No network, no clock. Not real-time.
 #pragma once
 
 #include <optional>
@@ -12,6 +11,9 @@
 
 namespace strainwave {
 
+/// A daemon publishes at least this often at any sensible rate.
+inline constexpr double kStateSilence_s = 1.0;
+
 /// A position in rad: a plain finite decimal number and nothing else. Throws ClientError (usage) that names
 /// what was typed; for an angle with a degree mark it says the same angle in rad.
 double parse_position_rad(std::string_view text);
@@ -19,8 +21,14 @@ double parse_position_rad(std::string_view text);
 /// At most `columns` characters of `line`; bytes of UTF-8 continuation count for nothing.
 std::string clipped(std::string_view line, std::size_t columns);
 
+/// `text` in lines of at most `columns`, broken at blanks where there are some; of more than `most` lines the last ends in "...".
+std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std::size_t most);
+
 /// "elbow", or "SW.elbow" when `names` has joints of several daemons.
 std::string display_name(const JointName& name, const std::vector<JointName>& names);
+
+/// "+21.5", or "-" as long as no temperature is known: temperature_status tells why.
+std::string temperature_text(double temperature_C);
 
 /// Column titles of state_row().
 std::string state_header();

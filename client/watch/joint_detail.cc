@@ -18,6 +18,8 @@ constexpr int kLabelWidth = 13;
 constexpr int kLeastPlotHeight = 3;
 constexpr int kTwoPlotsAbreast = 100;  // columns
 constexpr std::size_t kRefusalsShown = 3;
+constexpr std::size_t kLatestRefusal = 5;  // lines: as long as a reason of the daemon's is in 80 columns
+constexpr std::size_t kOlderRefusals = 1;
 
 /// Writes lines one below the other as long as there is room.
 class Lines {
@@ -26,19 +28,15 @@ class Lines {
   int row() const { return row_; }
 
   /// Breaks at blanks, into `most` lines; what follows stands under `label`'s text.
-  void put(std::string_view label, const std::string& text, Style style = Style::kPlain, int most = 3) {
+  void put(std::string_view label, const std::string& text, Style style = Style::kPlain,
+           std::size_t most = 3) {
     constexpr int kIndent = 9;
     const auto room = static_cast<std::size_t>(std::max(10, screen_.columns() - kIndent));
-    std::string_view rest = text;
-    for (bool begun = false; !rest.empty() || !begun; begun = true) {
-      if (row_ >= end_ || most-- == 0) return;
-      if (!begun) screen_.put(row_, 0, label, Style::kDim);
-      std::string_view line = rest.substr(0, clipped(rest, room).size());
-      if (const auto blank = line.rfind(' '); line.size() < rest.size() && blank != line.npos && blank > 0)
-        line = line.substr(0, blank);
+    for (const std::string& line : wrapped(text, room, most)) {
+      if (row_ >= end_) return;
+      screen_.put(row_, 0, label, Style::kDim);
       screen_.put(row_++, kIndent, line, style);
-      rest.remove_prefix(line.size());
-      while (rest.starts_with(' ')) rest.remove_prefix(1);
+      label = "";
     }
   }
 
@@ -72,10 +70,13 @@ std::string gains_text(const WatchModel& model, const WatchedJoint& joint) {
   std::deque<double> weights;
   for (int i = 0; i < std::clamp(state.rule_count, 0, 16); ++i)
     weights.push_back(state.temperature_weights[i]);
-  return fmt::format("{}, rules {}, standstill {:.2f}; temperature {:+.1f} degC from {}",
-                     to_text(static_cast<GainsInUse>(state.gains_in_use)),
-                     sparkline(weights, static_cast<int>(weights.size()), 1.0, model.unicode),
-                     state.zero_velocity_weight, state.temperature_used_C, temperature_source(joint));
+  return fmt::format(
+      "{}, rules {}, standstill {:.2f}; {}", to_text(static_cast<GainsInUse>(state.gains_in_use)),
+      sparkline(weights, static_cast<int>(weights.size()), 1.0, model.unicode), state.zero_velocity_weight,
+      std::isnan(state.temperature_used_C)
+          ? "temperature " + temperature_source(joint)
+          : fmt::format("temperature {} degC from {}", temperature_text(state.temperature_used_C),
+                        temperature_source(joint)));
 }
 
 /// What the daemon has refused since its start, from anybody.
@@ -99,12 +100,12 @@ void put_text(const WatchModel& model, const WatchedJoint& joint, Lines& lines) 
                         state.setpoint_position_rad, state.joint_velocity_rad_s));
   if (const std::string notes = state_notes(joint.view, joint.age_s); !notes.empty())
     lines.put("notes", notes, style_of(joint));
-  if (joint.limits) lines.put("limits", limits_text(joint));
-  lines.put("gains", gains_text(model, joint));
   for (std::size_t i = 0; i < std::min(kRefusalsShown, model.refusals.size()); ++i)
     lines.put(i == 0 ? "refused" : "",
               fmt::format("{:.0f} s ago: {}", model.refusals[i].age_s, model.refusals[i].text),
-              Style::kWarning, 1);
+              Style::kWarning, i == 0 ? kLatestRefusal : kOlderRefusals);
+  if (joint.limits) lines.put("limits", limits_text(joint));
+  lines.put("gains", gains_text(model, joint));
   if (const std::string rejects = rejects_text(model, joint); !rejects.empty())
     lines.put("rejects", rejects + " (since the daemon's start, from anybody)");
 }

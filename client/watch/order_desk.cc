@@ -7,6 +7,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
+#include "client/link/orders.h"
 #include "lcmtypes/channels.h"
 
 namespace strainwave {
@@ -74,6 +75,12 @@ void OrderDesk::post(const Name& joint, std::string_view kind, const Message& me
 }
 
 void OrderDesk::order(const Name& joint, Action action) {
+  const JointView* view = states_.find(joint.first, joint.second);
+  if (action == Action::kClearFault && view != nullptr && mode_of(*view) != Mode::kFaulted) {
+    message_ = full_name(joint) + ": has no fault";
+    alarm_ = false;
+    return;
+  }
   post(joint, channel_kind::kCommand, command(action), std::string(to_text(action)));
 }
 

@@ -30,7 +30,7 @@ class OrderDesk {
   /// and nobody who forges stops its answer. Of several, the message counts the answers and names who did not give one.
   void stop(const std::vector<Name>& joints);
   /// Signed if there is a key. Throws InputError when the key cannot be used. What is refused unread, since it was on its way for
-  /// too long or another program of this key was ahead, is given anew, a few times.
+  /// too long or another program of this key was ahead, is given anew, a few times. To clear a fault that is not there is not sent.
   void order(const Name& joint, Action action);
   void move(const Name& joint, double position_rad);
 

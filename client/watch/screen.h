@@ -1,5 +1,4 @@
-// A screen of characters, without a terminal: what the view is drawn on, and what a test looks at. Not
-// real-time.
+// A screen of characters, without a terminal: what the view is drawn on, and what a test looks at. Not real-time.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 
 namespace strainwave {
 

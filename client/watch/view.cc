@@ -14,7 +14,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kSilence_s = 1.0;
 constexpr double kDaemonSilence_s = 3.0;  // TIMING comes once a second
 constexpr int kSparkWidth = 12;
 constexpr int kNotesWidth = 17;   // room for notes before the least important column
@@ -53,7 +52,7 @@ const std::array<Column, 10> kColumns{{
      }},
     {"temp_C", 6, 4,
      [](const WatchModel&, const WatchedJoint& j) {
-       return fmt::format("{:+6.1f}", j.view.state.temperature_used_C);
+       return fmt::format("{:>6}", temperature_text(j.view.state.temperature_used_C));
      }},
     {"from", 14, 9, [](const WatchModel&, const WatchedJoint& j) { return temperature_source(j); }},
     {"error", kSparkWidth, 7,
@@ -118,11 +117,11 @@ void draw_daemon(const WatchedDaemon& daemon, Screen& screen, int row) {
   for (const std::int64_t count : timing.rejects) refused += count;
   const bool silent = daemon.age_s > kDaemonSilence_s;
   const std::string text =
-      fmt::format("{}: {}{}, {} overruns, wake-up {:.0f} us, execution {:.0f} us, {} refused, period {} s",
+      fmt::format("{}: {}{} at {:g} ms, {} overruns, wake-up {:.0f} us, execution {:.0f} us, {} refused",
                   daemon.prefix, silent ? fmt::format("SILENT for {:.0f} s, ", daemon.age_s) : "",
-                  timing.real_time == 1 ? "real time" : "not real time", timing.overruns,
-                  static_cast<double>(timing.wakeup_latency_max_ns) * 1e-3,
-                  static_cast<double>(timing.execution_time_max_ns) * 1e-3, refused, timing.period_s);
+                  timing.real_time == 1 ? "real time" : "not real time", 1e3 * timing.period_s,
+                  timing.overruns, static_cast<double>(timing.wakeup_latency_max_ns) * 1e-3,
+                  static_cast<double>(timing.execution_time_max_ns) * 1e-3, refused);
   screen.put(row, 0, text, silent ? Style::kAlarm : Style::kPlain);
 }
 
@@ -184,6 +183,11 @@ void draw_body(const WatchModel& model, Screen& screen, int first, int end) {
                 end);
 }
 
+/// "1 joint", "2 joints".
+std::string counted(std::size_t number, std::string_view thing) {
+  return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::string name_of(const WatchModel& model, const WatchedJoint& joint) {
@@ -193,7 +197,7 @@ std::string name_of(const WatchModel& model, const WatchedJoint& joint) {
 }
 
 Style style_of(const WatchedJoint& joint) {
-  if (mode_of(joint) == Mode::kFaulted || joint.age_s > kSilence_s || joint.view.two_daemons)
+  if (mode_of(joint) == Mode::kFaulted || joint.age_s > kStateSilence_s || joint.view.two_daemons)
     return Style::kAlarm;
   if (joint.view.state.notices != 0 || joint.view.state.temperature_status != 0) return Style::kWarning;
   return mode_of(joint) == Mode::kOff ? Style::kDim : Style::kGood;
@@ -213,7 +217,8 @@ Screen render(const WatchModel& model, int rows, int columns) {
     return screen;
   }
   screen.put(0, 0,
-             fmt::format("strainwave  {} joints of {} daemons  {}", model.joints.size(), model.daemons.size(),
+             fmt::format("strainwave  {} of {}  {}", counted(model.joints.size(), "joint"),
+                         counted(model.daemons.size(), "daemon"),
                          model.has_key ? "orders are signed" : "orders are not signed"),
              Style::kTitle);
   int row = 1;
@@ -221,8 +226,13 @@ Screen render(const WatchModel& model, int rows, int columns) {
   const int daemon_rows = std::min(static_cast<int>(model.daemons.size()), std::max(1, rows / 3 - 1));
   for (int i = 0; i < daemon_rows; ++i)
     draw_daemon(model.daemons[static_cast<std::size_t>(i)], screen, row++);
-  draw_body(model, screen, row, rows - 2);
-  screen.put(rows - 2, 0, model.message, model.message_alarm ? Style::kAlarm : Style::kPlain);
+  // As long as the daemon's reasons are; a sixth of the screen at most.
+  const std::vector<std::string> message = wrapped(model.message, static_cast<std::size_t>(columns),
+                                                   static_cast<std::size_t>(std::max(1, rows / 6)));
+  const int end = rows - 1 - static_cast<int>(message.size());
+  draw_body(model, screen, row, end);
+  for (std::size_t i = 0; i < message.size(); ++i)
+    screen.put(end + static_cast<int>(i), 0, message[i], model.message_alarm ? Style::kAlarm : Style::kPlain);
   screen.put(rows - 1, 0, keys(model, columns), Style::kDim);
   return screen;
 }

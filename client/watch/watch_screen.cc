@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/input_error.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "client/link/latest_messages.h"
 #include "client/watch/order_desk.h"
 #include "client/watch/terminal.h"

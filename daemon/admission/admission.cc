@@ -18,7 +18,8 @@ Admission::Admission(std::string prefix, std::int64_t session_id, std::vector<Jo
       challenges_(security_.order_lifetime_cycles, joints_.size()),
       ownership_(joints_.size(), security_.lease_s),
       sequences_(challenges_.lifetime_cycles(), security_.keys.size() * joints_.size()),
-      unsigned_sequences_(challenges_.lifetime_cycles(), kUnsignedSenders) {}
+      unsigned_sequences_(challenges_.lifetime_cycles(), kUnsignedSenders),
+      path_ids_(joints_.size()) {}
 
 Verdict Admission::consider(const WireMessage& message, std::int64_t now_ns) {
   now_ns_ = now_ns;
@@ -44,6 +45,7 @@ Verdict Admission::judge(std::string_view kind, std::size_t joint, const WireMes
   if (kind == channel_kind::kCommand) return judge_command(joint, message);
   if (kind == channel_kind::kTable) return judge_table_message(joint, message);
   if (kind == channel_kind::kInject) return judge_injection(joint, message);
+  if (kind == channel_kind::kPath) return judge_path(joint, message);
   return discard(Reason::kMalformed);
 }
 

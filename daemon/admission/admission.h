@@ -23,6 +23,7 @@
 #include "daemon/admission/table_admission.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/orders.h"
+#include "daemon/realtime/path_slots.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -35,6 +36,7 @@ struct JointAdmission {
   double position_max_rad = 0.0;
   double speed_limit_rad_s = 0.0;
   bool takes_injected_faults = false;  ///< the simulated driver's
+  PathLimits path = {};                ///< what its paths may need
 };
 
 /// Whom an answer is for.
@@ -56,7 +58,7 @@ struct Requester {
 /// What to do with one message.
 struct Verdict {
   enum class Kind {
-    kOrder,    ///< pass `order` to the joint's loop and answer with its reply
+    kOrder,  ///< pass `order` to the joint's loop and answer with its reply; a table's box is still to be proved
     kRefuse,   ///< answer with reason and text
     kRepeat,   ///< a resend of the last message of this sender: give the same answer again
     kDone,     ///< obeyed here: answer that it is accepted
@@ -69,6 +71,7 @@ struct Verdict {
   Order order;                       ///< kOrder
   std::unique_ptr<GainTable> table;  ///< kOrder of a table
   bool revert_table = false;         ///< kOrder: use the previous table again
+  std::unique_ptr<LoadedPath> path;  ///< kOrder of a path
 };
 
 class Admission {
@@ -99,6 +102,9 @@ class Admission {
   }
   const Ownership& ownership() const noexcept { return ownership_; }
 
+  /// For how many cycles an order that was fresh when it came may wait.
+  std::int64_t order_lifetime_cycles() const noexcept { return challenges_.lifetime_cycles(); }
+
   /// A refusal decided elsewhere (by the loop) belongs to the same counts.
   void count_reject(Reason reason) noexcept { ++rejects_[static_cast<std::size_t>(reason)]; }
   const std::array<std::int64_t, kReasonCount>& rejects() const noexcept { return rejects_; }
@@ -115,6 +121,9 @@ class Admission {
   Verdict judge_command(std::size_t joint, const WireMessage& message);
   Verdict judge_table_message(std::size_t joint, const WireMessage& message);
   Verdict judge_injection(std::size_t joint, const WireMessage& message);
+  Verdict judge_path(std::size_t joint, const WireMessage& message);
+  /// Who does not have all joints of the path that the requester's is to have part of, or nothing.
+  std::optional<Verdict> check_path_owner(const Requester& requester);
   /// A refusal or a repeat, or nothing when the envelope is in order; then the requester is authentic.
   std::optional<Verdict> check_envelope(const WireMessage& message, const Envelope& envelope,
                                         Requester& requester);
@@ -137,6 +146,7 @@ class Admission {
   Ownership ownership_;
   SequenceMemory sequences_;
   SequenceMemory unsigned_sequences_;
+  std::vector<std::int64_t> path_ids_;  ///< of the last path that was passed on, by joint
   FairShare verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
   FairShare stop_verifications_{kWastedVerificationsPer_s, kWastedVerificationsAtOnce};
   bool ending_ = false;

@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
@@ -22,6 +22,8 @@ constexpr double kMaxInjection_s = 3600.0;
 // Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
 constexpr double kMaxVelocity_rad_s = 1000.0;
 constexpr double kMaxAcceleration_rad_s2 = 1e6;
+// A load of so many times the joint's inertia leaves it a tenth of its acceleration, and no table is certified for it.
+constexpr double kHeaviestLoad = 10.0;
 
 struct Number {
   const char* name;
@@ -54,6 +56,23 @@ std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
   return text.str();
 }
 
+// What a sample tells of its load may be no more than the joint could carry, and is for streams only.
+std::optional<std::string> complaint_about_load(const setpoint_v2& setpoint, const ExpectedJoint& joint) {
+  std::ostringstream text;
+  const double heaviest_kgm2 = kHeaviestLoad * joint.plant.inertia_kgm2;
+  if (setpoint.stream_id == 0 && (setpoint.torque_Nm != 0.0 || setpoint.load_inertia_kgm2 != 0.0))
+    text << "a move (stream_id 0) plans its own torque: torque_Nm and load_inertia_kgm2 must be 0";
+  else if (std::abs(setpoint.torque_Nm) > joint.torque_limit_Nm)
+    text << "torque_Nm = " << setpoint.torque_Nm << ": at most " << joint.torque_limit_Nm
+         << " is allowed (joint.limits.torque_limit_Nm)";
+  else if (setpoint.load_inertia_kgm2 < 0.0 || setpoint.load_inertia_kgm2 > heaviest_kgm2)
+    text << "load_inertia_kgm2 = " << setpoint.load_inertia_kgm2 << ": from 0 to " << heaviest_kgm2
+         << " is allowed (" << kHeaviestLoad << " times joint.inertia_kgm2)";
+  else
+    return std::nullopt;
+  return text.str();
+}
+
 std::optional<OrderKind> order_of(Action action) {
   switch (action) {
     case Action::kEnable:
@@ -68,6 +87,10 @@ std::optional<OrderKind> order_of(Action action) {
       return OrderKind::kUseTable;
     case Action::kHome:
       return OrderKind::kHome;
+    case Action::kPause:
+      return OrderKind::kPausePath;
+    case Action::kResume:
+      return OrderKind::kResumePath;
     case Action::kTakeOver:
     case Action::kRelease:
       break;  // of admission itself, not of the loop
@@ -87,6 +110,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   if (const auto complaint = complaint_about_numbers({{"position_rad", setpoint->position_rad},
                                                       {"velocity_rad_s", setpoint->velocity_rad_s},
                                                       {"acceleration_rad_s2", setpoint->acceleration_rad_s2},
+                                                      {"torque_Nm", setpoint->torque_Nm},
+                                                      {"load_inertia_kgm2", setpoint->load_inertia_kgm2},
                                                       {"valid_for_s", setpoint->valid_for_s},
                                                       {"speed_limit_rad_s", setpoint->speed_limit_rad_s}}))
     return refuse(requester, Reason::kNotFinite, *complaint);
@@ -112,9 +137,13 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   }
   if (auto complaint = complaint_about_motion(*setpoint))
     return refuse(requester, Reason::kOutOfRange, *complaint);
+  if (auto complaint = complaint_about_load(*setpoint, limits.expected))
+    return refuse(requester, Reason::kOutOfRange, *complaint);
   Verdict verdict = pass(requester, OrderKind::kSetpoint, setpoint->challenge);
   verdict.order.velocity_rad_s = setpoint->velocity_rad_s;
   verdict.order.acceleration_rad_s2 = setpoint->acceleration_rad_s2;
+  verdict.order.torque_Nm = setpoint->torque_Nm;
+  verdict.order.load_inertia_kgm2 = setpoint->load_inertia_kgm2;
   verdict.order.derivatives = setpoint->derivatives;
   verdict.order.at_cycle = setpoint->at_cycle;
   verdict.order.stream_id = setpoint->stream_id;
@@ -144,22 +173,24 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
     return refuse(requester, Reason::kUnknownAction,
                   "action = " + std::to_string(command->action) + ": from " +
                       std::to_string(static_cast<int>(Action::kEnable)) + " to " +
-                      std::to_string(static_cast<int>(Action::kRelease)) +
+                      std::to_string(static_cast<int>(Action::kResume)) +
                       " is allowed, see docs/messages.md");
+  if (action == Action::kPause || action == Action::kResume)
+    if (auto verdict = check_path_owner(requester)) return std::move(*verdict);
   Verdict verdict = pass(requester, *kind, command->challenge);
   verdict.revert_table = action == Action::kRevertTable;
   return verdict;
 }
 
 Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& message) {
-  const auto table_message = decode_exactly<gain_table_v1>(payload(message));
+  const auto table_message = decode_exactly<gain_table_v2>(payload(message));
   if (!table_message) return discard(Reason::kMalformed);
   Requester requester{joint, table_message->sender_id, table_message->sequence};
   if (auto verdict = check_envelope(
           message, {table_message->session_id, table_message->challenge, Role::kEngineer, true}, requester))
     return std::move(*verdict);
   auto table = std::make_unique<GainTable>(to_gain_table(*table_message));
-  const TableVerdict judged = judge_table(*table, joints_[joint].expected);
+  const TableVerdict judged = judge_table_but_box(*table, joints_[joint].expected);
   if (judged.reason != Reason::kAccepted) return refuse(requester, judged.reason, judged.text);
   Verdict verdict = pass(requester, OrderKind::kUseTable, table_message->challenge);
   verdict.text = judged.text;

@@ -1,7 +1,6 @@
 #include "daemon/admission/answers.h"
 
 #include <algorithm>
-#include <limits>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
@@ -59,12 +58,9 @@ void Answers::repeat(const Requester& to) {
 }
 
 void Answers::temperature(const StateRecord& record) {
-  const auto status = static_cast<TemperatureStatus>(record.state.temperature_status);
   temperature_v1 message{};
   message.utime = utime_now();
-  message.temperature_measured_C = status == TemperatureStatus::kNeverSeen
-                                       ? std::numeric_limits<double>::quiet_NaN()
-                                       : record.temperature_measured_C;
+  message.temperature_measured_C = record.temperature_measured_C;
   message.temperature_used_C = record.state.temperature_used_C;
   message.age_s = record.temperature_age_s;
   message.status = record.state.temperature_status;

@@ -26,10 +26,8 @@ constexpr std::size_t kMaxFileBytes = std::size_t{256} * 1024;
 }
 
 std::string read_protected(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  require_protected(path, Writers::kNobody);
   struct stat status {};
-  if (::stat(folder.c_str(), &status) != 0) fail(folder, "security.authorized_keys cannot be read");
-  require_protected(folder, status, Writers::kNobody);
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) fail(path, "security.authorized_keys cannot be read");
   std::string text;

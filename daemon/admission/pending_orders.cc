@@ -1,6 +1,7 @@
 #include "daemon/admission/pending_orders.h"
 
 #include <iomanip>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -10,9 +11,23 @@ namespace strainwave {
 
 namespace {
 
+bool is_of_path(OrderKind kind) {
+  return kind == OrderKind::kLoadPath || kind == OrderKind::kPausePath || kind == OrderKind::kResumePath;
+}
+
 // What the loop refused by a number: the number, what is allowed, and where that is set.
 std::string number_refused(const Reply& reply, OrderKind kind) {
   std::ostringstream text;
+  if (is_of_path(kind)) {
+    if (reply.reason == Reason::kWrongMode)
+      text << ": " << reply.value << " of the path's " << reply.limit
+           << " joints have their part of it: send the others (PATH), then resume";
+    else
+      text << ": the path begins " << reply.value << " rad from where "
+           << (kind == OrderKind::kLoadPath ? "it" : "one of its joints") << " is to be, at most "
+           << reply.limit << " rad are allowed: move to its first knot before";
+    return text.str();
+  }
   if (reply.reason == Reason::kMoving)
     text << " and moves at " << reply.value << " rad/s: it is enabled at standstill, at most " << reply.limit
          << " rad/s (joint.supervision.standstill_rad_s)";
@@ -29,10 +44,23 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
   return text.str();
 }
 
+// Of an order that is for all joints of a path, where that matters.
+std::string path_advice(const Reply& reply, OrderKind kind) {
+  if (reply.reason == Reason::kMoving)
+    return kind == OrderKind::kLoadPath ? ": a path is taken while the joint holds, hold it first"
+                                        : ": one of the path's joints moves, hold it first";
+  if (reply.reason != Reason::kWrongMode) return "";
+  if (kind == OrderKind::kLoadPath) return ": a path needs it enabled, and holding";
+  return ": it is on no path, and has none to begin or to go on with, or one of the path's joints is not "
+         "enabled";
+}
+
 // What the loop's refusal means for whoever asked: the mode it met, and the way on.
 std::string advice(const Reply& reply, OrderKind kind) {
   std::string mode = "the joint is " + std::string(to_text(reply.mode));
   if (reply.limit != 0.0) return mode + number_refused(reply, kind);
+  if (is_of_path(kind))
+    if (const std::string text = path_advice(reply, kind); !text.empty()) return mode + text;
   switch (reply.reason) {
     case Reason::kNoTable:
       return mode + ": load a gain table first (joint.table, or strainwavectl load-table)";
@@ -101,14 +129,34 @@ void PendingOrders::handle(Verdict& verdict, std::int64_t now_ns) {
 }
 
 void PendingOrders::obey(Verdict& verdict, std::int64_t now_ns) {
+  if (verdict.table == nullptr || verdict.table->box.rigid()) return give(verdict, now_ns);
+  if (!prover_.hand_over(verdict))
+    refuse(verdict, Reason::kBusy, "another table is just being proved", now_ns);
+}
+
+void PendingOrders::take_proved_table(std::int64_t now_ns) {
+  std::optional<TableProver::Proved> proved = prover_.take();
+  if (!proved) return;
+  Verdict& verdict = proved->order;
+  if (proved->box.reason != Reason::kAccepted)
+    return refuse(verdict, proved->box.reason, proved->box.text, now_ns);
+  verdict.text += proved->box.text;
+  // It was fresh when it came; the time since then was ours.
+  verdict.order.expires_cycle = loop_.statistics().cycle.load() + admission_.order_lifetime_cycles();
+  give(verdict, now_ns);
+}
+
+void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
   const std::size_t joint = verdict.requester.joint;
   std::int64_t table_id = 0;
   const bool is_table = verdict.order.kind == OrderKind::kUseTable;
   if (is_table && !prepare_table(verdict, table_id))
     return refuse(verdict, verdict.reason, verdict.text, now_ns);
+  if (verdict.order.kind == OrderKind::kLoadPath && !prepare_path(verdict))
+    return refuse(verdict, Reason::kBusy, "another path is just being taken over", now_ns);
   verdict.order.id = next_order_id_++;
   if (!loop_.joint(joint).orders().push(verdict.order)) {
-    if (is_table) books_[joint].end(false);
+    undo_preparation(verdict);
     return refuse(verdict, Reason::kBusy,
                   "too many orders at once, at most " + std::to_string(kWaitingOrders) +
                       " of a joint may wait for its loop: send fewer, or wait for answers",
@@ -149,7 +197,20 @@ bool PendingOrders::prepare_table(Verdict& verdict, std::int64_t& table_id) {
   return true;
 }
 
+bool PendingOrders::prepare_path(Verdict& verdict) {
+  const auto slot = loop_.joint(verdict.requester.joint).path_slots().hand_over(*verdict.path);
+  verdict.order.path_slot = slot.value_or(0);
+  return slot.has_value();
+}
+
+void PendingOrders::undo_preparation(const Verdict& verdict) {
+  const std::size_t joint = verdict.requester.joint;
+  if (verdict.order.kind == OrderKind::kUseTable) books_[joint].end(false);
+  if (verdict.order.kind == OrderKind::kLoadPath) loop_.joint(joint).path_slots().take_back();
+}
+
 void PendingOrders::take_replies(std::int64_t now_ns) {
+  take_proved_table(now_ns);
   Reply reply;
   while (loop_.replies().pop(reply)) {
     const bool accepted = reply.reason == Reason::kAccepted;

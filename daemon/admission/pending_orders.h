@@ -11,6 +11,7 @@
 #include "daemon/admission/answers.h"
 #include "daemon/admission/fair_share.h"
 #include "daemon/admission/table_book.h"
+#include "daemon/admission/table_prover.h"
 #include "daemon/realtime/realtime_loop.h"
 
 namespace strainwave {
@@ -28,6 +29,9 @@ class PendingOrders {
 
   PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers);
 
+  /// Begins to prove tables, for which there is a thread.
+  void start() { prover_.start(); }
+
   /// Whether the loop owes a reply.
   bool waiting() const noexcept { return !pending_.empty(); }
 
@@ -37,7 +41,7 @@ class PendingOrders {
   /// Obeys the verdict as far as the loop need not; afterwards `verdict` says what has become of it.
   void handle(Verdict& verdict, std::int64_t now_ns);
 
-  /// Answers what the loop has replied to, and what it has not replied to in time.
+  /// Passes on tables that were proved meanwhile; answers what the loop has replied to, and what it has not replied to in time.
   void take_replies(std::int64_t now_ns);
 
   /// A state that the loop has published since. A table whose reply was lost is in use by then, or never will be.
@@ -58,7 +62,11 @@ class PendingOrders {
     std::int64_t cycle = 0;  ///< when the waiting ended
   };
   void obey(Verdict& verdict, std::int64_t now_ns);
+  void give(Verdict& verdict, std::int64_t now_ns);
+  void take_proved_table(std::int64_t now_ns);
   bool prepare_table(Verdict& verdict, std::int64_t& table_id);
+  bool prepare_path(Verdict& verdict);
+  void undo_preparation(const Verdict& verdict);
   void refuse(Verdict& verdict, Reason reason, const std::string& text, std::int64_t now_ns);
   void answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns);
   void give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns);
@@ -69,6 +77,7 @@ class PendingOrders {
   std::vector<TableBook> books_;
   std::vector<Unanswered> unanswered_;       ///< by joint: its book is busy until this is known
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
+  TableProver prover_;
   std::int64_t next_order_id_ = 1;
   FairShare stranger_answers_{kStrangerAnswersPer_s, kStrangerAnswersAtOnce};
   FairShare stop_answers_{kStopAnswersPer_s, kStopAnswersAtOnce};

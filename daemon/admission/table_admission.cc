@@ -8,8 +8,11 @@
 #include <cstring>
 #include <iomanip>
 #include <sstream>
+#include <vector>
 
+#include "control/box_certificate.h"
 #include "control/certificate.h"
+#include "control/joint_catalogue.h"
 #include "control/spring_certificate.h"
 #include "lcmtypes/gain_table_message.h"
 #include "lcmtypes/wire.h"
@@ -32,44 +35,32 @@ TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const Pl
   return {Reason::kTableNotCertified, text.str()};
 }
 
-// Damping of the swing of motor and link against each other, which have (Jm Jl) / (Jm + Jl) together.
-double least_damping_Nms_rad(const LinkModel& link, double stiffness_Nm_rad) {
-  const double inertia_kgm2 =
-      link.motor_inertia_kgm2 * link.link_inertia_kgm2 / (link.motor_inertia_kgm2 + link.link_inertia_kgm2);
-  return std::max(link.damping_Nms_rad,
-                  2.0 * kStructuralDamping * std::sqrt(stiffness_Nm_rad * inertia_kgm2));
-}
-
-struct LinkSwing {
-  SpringPlant plant;
-  double radius = 0.0;
-};
-
-// The largest eigenvalue of the loop over the slopes, the extremes of viscous friction, and every gain of both controllers.
-LinkSwing worst_swing(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
-  double most_viscous_Nms_rad = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.friction.rule_count); ++i)
-    most_viscous_Nms_rad = std::max(most_viscous_Nms_rad, table.friction.rules[i].friction.viscous_Nms_rad);
-  LinkSwing worst;
+// Over the slopes, the extremes of viscous friction, and every gain of both controllers.
+WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
+  const std::vector<GainRow> gains = gains_of(table);
+  const double most_viscous_Nms_rad = largest_viscous_Nms_rad(table.friction);
+  WorstCorner worst;
   for (const double stiffness :
-       {link.spring.stiffness_1_Nm_rad, link.spring.stiffness_2_Nm_rad, link.spring.stiffness_3_Nm_rad})
-    for (const double viscous : {0.0, most_viscous_Nms_rad})
-      for (const FeedbackGains* gains : {&table.primary, &table.fallback})
-        for (int rule = 0; rule < gains->rule_count; ++rule) {
-          const SpringPlant plant{link.motor_inertia_kgm2, link.link_inertia_kgm2, stiffness,
-                                  least_damping_Nms_rad(link, stiffness), viscous};
-          const double radius = spring_loop_radius(plant, gains->gain(rule), loop);
-          if (!(radius <= worst.radius)) worst = {plant, radius};
-        }
+       {link.spring.stiffness_1_Nm_rad, link.spring.stiffness_2_Nm_rad, link.spring.stiffness_3_Nm_rad}) {
+    const double damping = std::max(
+        link.damping_Nms_rad, structural_damping_Nms_rad(link.motor_inertia_kgm2, link.link_inertia_kgm2,
+                                                         stiffness, kStructuralDamping));
+    const SpringBox box{link.motor_inertia_kgm2,
+                        {link.link_inertia_kgm2, link.link_inertia_kgm2},
+                        {stiffness, stiffness},
+                        {damping, damping},
+                        {0.0, most_viscous_Nms_rad}};
+    const WorstCorner here = worst_corner(gains, box, loop);
+    if (!(here.radius <= worst.radius)) worst = here;
+  }
   return worst;
 }
 
 // On a joint that is told of its spring.
 TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint) {
-  const LinkSwing worst = worst_swing(table, *joint.link, {joint.plant.period_s, joint.delay_periods, 1.0});
-  if (worst.radius < 1.0)
-    return {Reason::kAccepted,
-            "; of a rigid joint: strainwave-design verify says what is proved of the spring"};
+  const WorstCorner worst =
+      worst_on_spring(table, *joint.link, {joint.plant.period_s, joint.delay_periods, 1.0});
+  if (worst.radius < 1.0) return {};
   std::ostringstream text;
   text << std::setprecision(5) << "the link swings up under these gains: eigenvalue " << worst.radius
        << " a period, below 1 is allowed, at " << describe(worst.plant)
@@ -78,6 +69,32 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
        << " --motor-inertia_kgm2 " << worst.plant.motor_inertia_kgm2 << " --load-inertia_kgm2 "
        << worst.plant.link_inertia_kgm2 << " --delay " << joint.delay_periods;
   return {Reason::kTableNotCertified, text.str()};
+}
+
+// Whether the joint is one of those that the table is for.
+TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) {
+  if (const auto mismatch = find_identity_mismatch(
+          table, joint.plant,
+          joint.link && !table.box.rigid() ? InertiaCheck::kOfTheBox : InertiaCheck::kSame))
+    return {Reason::kTableIdentity, *mismatch};
+  if (table.box.encoder_side != joint.encoder_side)
+    return {Reason::kTableIdentity, std::string("box.encoder_side = ") + to_text(table.box.encoder_side) +
+                                        ": this joint's encoder is on the " + to_text(joint.encoder_side) +
+                                        ": design the table with --encoder-side " +
+                                        to_text(joint.encoder_side)};
+  if (!joint.link) return {};
+  if (const auto outside = find_outside_box(table, *joint.link, joint.delay_periods))
+    return {Reason::kTableIdentity, *outside};
+  return {};
+}
+
+// Friction is fed forward beside what is certified: it must be the joint's own, or it drives the joint.
+TableVerdict judge_friction(const GainTable& table) {
+  const CatalogueJoint* joint = find_catalogue_joint(table.plant.joint_model.view());
+  if (joint == nullptr) return {};
+  if (const auto more = find_excess_friction(table.friction, *joint, table.plant.gear_ratio))
+    return {Reason::kTableIdentity, *more};
+  return {};
 }
 
 // The smaller of the two holds. Certified is what happens below it, so that a smaller one takes no proof away; it may take the torque
@@ -100,7 +117,26 @@ std::string which_torque_limit_holds(const GainTable& table, double torque_limit
 
 }  // namespace
 
+TableVerdict judge_box(const GainTable& table) {
+  if (table.box.rigid()) return {};
+  const BoxReport report = certify_box(table);
+  if (report.certified)
+    return {Reason::kAccepted, "; with the spring (" + describe(table.box) + "): " + report.text};
+  return {Reason::kTableNotCertified, "box: " + report.text + ": stability on the spring is not proved (" +
+                                          describe(table.box) +
+                                          "); design the table again with strainwave-design gains"};
+}
+
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& joint) {
+  TableVerdict verdict = judge_table_but_box(table, joint);
+  if (verdict.reason != Reason::kAccepted) return verdict;
+  TableVerdict box = judge_box(table);
+  if (box.reason != Reason::kAccepted) return box;
+  verdict.text += box.text;
+  return verdict;
+}
+
+TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& joint) {
   const PlantIdentity& expected = joint.plant;
   if (const auto defect = find_defect(table)) return {Reason::kTableDefect, *defect};
   if (std::abs(table.plant.period_s - expected.period_s) > kTolerance * expected.period_s) {
@@ -109,16 +145,19 @@ TableVerdict judge_table(const GainTable& table, const ExpectedJoint& joint) {
          << " in this daemon: design the table with --period_s " << expected.period_s;
     return {Reason::kTablePeriod, text.str()};
   }
-  if (const auto mismatch = find_identity_mismatch(table, expected))
-    return {Reason::kTableIdentity, *mismatch};
-  TableVerdict primary = judge_gains("primary", table.primary, expected, table.friction);
+  TableVerdict identity = judge_identity(table, joint);
+  if (identity.reason != Reason::kAccepted) return identity;
+  TableVerdict friction = judge_friction(table);
+  if (friction.reason != Reason::kAccepted) return friction;
+  // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
+  const PlantIdentity& plant = joint.link ? table.plant : expected;
+  TableVerdict primary = judge_gains("primary", table.primary, plant, table.friction);
   if (primary.reason != Reason::kAccepted) return primary;
-  TableVerdict fallback = judge_gains("fallback", table.fallback, expected, table.friction);
+  TableVerdict fallback = judge_gains("fallback", table.fallback, plant, table.friction);
   if (fallback.reason != Reason::kAccepted) return fallback;
   if (joint.link) {
     TableVerdict spring = judge_on_spring(table, joint);
     if (spring.reason != Reason::kAccepted) return spring;
-    primary.text += spring.text;
   }
   primary.text += which_torque_limit_holds(table, joint.torque_limit_Nm);
   return primary;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "control/encoder_side.h"
 #include "control/gain_table.h"
 #include "control/link_model.h"
 #include "lcmtypes/vocabulary.h"
@@ -22,11 +23,18 @@ struct ExpectedJoint {
   double torque_limit_Nm = 0.0;   ///< that it delivers; holds where it is below the table's
   std::optional<LinkModel> link;  ///< its spring, where it is told of it
   int delay_periods = 0;          ///< between a torque's computation and its effect, 0..kMaxSpringDelay
+  EncoderSide encoder_side = EncoderSide::kMotor;
 };
 
-/// Judges `table` for a joint that is `expected`. The certificate is recomputed here for the joint's own plant, never taken on trust. It is
-/// of a rigid joint; on one with a spring gains under which the link swings up are refused, on any of the slopes.
+/// Judges `table` for a joint that is `expected`. The certificates are recomputed here, never taken on trust: that of the one inertia, and
+/// where the table carries a box that of every joint with a spring in it. A joint that is told of its spring must be in the box, and is
+/// refused, too, where its link swings up with the damping that is the least of any joint's.
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& expected);
+
+/// The same in two parts: all but the box's proof, which takes milliseconds, and that proof, which may take seconds. A rigid table has
+/// nothing for the second; its text says what is certified of the box.
+TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& expected);
+TableVerdict judge_box(const GainTable& table);
 
 /// A short name for the table's content, never 0: the same bits give the same number.
 std::int64_t table_digest(const GainTable& table);

@@ -22,7 +22,6 @@ namespace {
 
 constexpr double kOrderLifetime_s = 1.0;
 constexpr double kMaxRecorder_MB = 1024.0;
-constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 /// Of this machine.
 std::int64_t last_processor() {
@@ -82,7 +81,7 @@ void number_groups(std::vector<JointConfig>& joints) {
 
 std::string read_lcm_url(TomlSection& section) {
   constexpr std::size_t kLongest = 255;
-  std::string url = section.text_or("lcm_url", kDefaultLcmUrl);
+  std::string url = section.text_or("lcm_url", kUsualLcmUrl);
   if (const auto defect = find_udpm_defect(url)) section.fail("lcm_url", *defect);
   if (url.size() > kLongest) section.fail("lcm_url", "at most 255 characters are allowed");
   return url;

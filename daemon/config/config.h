@@ -40,6 +40,7 @@ struct DriveOnBus {
 struct JointConfig {
   std::string name;
   PlantIdentity plant;
+  EncoderSide encoder_side = EncoderSide::kMotor;
   JointLoopConfig loop;
   std::string driver;
   std::string group;  ///< name of the joints that stop together; empty: none

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/input_error.h"
+#include "control/units.h"
 #include "daemon/config/config_doubts.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
@@ -15,7 +15,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr Range kPositive{1e-9, 1e9};
 constexpr std::int64_t kMaxNodeId = 127;
 constexpr std::int64_t kMaxObject = 0xFFFF;
 constexpr std::int64_t kMaxSubIndex = 0xFF;
@@ -64,10 +63,10 @@ cia402::TemperatureObject read_temperature(TomlSection section, double period_s)
 }
 
 MotorLimits read_motor(TomlSection section, cia402::DriveConfig& drive) {
-  drive.units.torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
+  const MotorConstants motor = read_motor_constants(section);
+  drive.units.torque_constant_Nm_A = motor.torque_constant_Nm_A;
   drive.rated_current_A = section.number_or("rated_current_A", 0.0, {0.0, 1e4});
-  const MotorLimits limits = read_motor_limits(section, drive.units.torque_constant_Nm_A,
-                                               drive.units.gear_ratio, drive.torque_limit_Nm);
+  const MotorLimits limits = read_motor_limits(section, motor, drive.units.gear_ratio, drive.torque_limit_Nm);
   section.refuse_unknown_keys();
   return limits;
 }
@@ -207,7 +206,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
-  read_encoder_side(section, joint.loop.controller.rigid);
+  joint.encoder_side = read_encoder_side(section, joint.loop.controller.rigid);
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);
@@ -216,7 +215,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
 
   JointControllerConfig& controller = joint.loop.controller;
   controller.motor = read_motor(section.section("motor"), drive);
-  controller.encoder_resolution_rad = 2.0 * std::numbers::pi / drive.units.counts_per_output_revolution;
+  controller.encoder_resolution_rad = kTurn_rad / drive.units.counts_per_output_revolution;
   // What is read was sampled with the last SYNC, and what is ordered acts from the next one on: one period.
   controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 1, kMaxControlDelay));
   drive.delay_periods = controller.delay_periods;

@@ -1,16 +1,17 @@
 #include "daemon/config/config_doubts.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <span>
 #include <sstream>
 
 #include "base/printable.h"
+#include "control/units.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kRadianPerDegree = kTurn_rad / 360.0;
 // Of errors and margins: a sixth of a turn is no small angle.
 constexpr double kLargeError_rad = 1.0;
@@ -21,6 +22,38 @@ constexpr double kLargeOverspeed = 2.0;
 // What a joint does on its own over a longer absence of the loop is no small thing.
 constexpr double kLongAbsence_s = 0.1;
 constexpr double kLargeShare = 0.5;
+// To full speed, or half a turn: a robot's joint needs tenths of a second. Beyond these it practically stands.
+constexpr double kSlowStart_s = 2.0;
+constexpr double kSlowTurn_s = 120.0;
+// Of the torque limit, when friction and gravity are overcome: what is left for motion.
+constexpr double kLeastSpare = 0.1;
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value;
+  return text.str();
+}
+
+// Limits with which the joint practically does not move, each by itself.
+void doubt_motion(const TomlSection& section, const JointLoopConfig& loop) {
+  const double speed_rad_s = loop.controller.motion.velocity_rad_s;
+  const double way_rad =
+      std::min(loop.limits.position_max_rad - loop.limits.position_min_rad, 0.5 * kTurn_rad);
+  if (const double way_s = way_rad / speed_rad_s; way_s > kSlowTurn_s)
+    section.warn("speed_limit_rad_s", rounded(way_rad) + " rad take " + rounded(way_s) +
+                                          " s; in a minute they are done with " + rounded(way_rad / 60.0));
+  const auto slow_start = [&](const char* key, double start_s, double in_a_second) {
+    if (start_s > kSlowStart_s)
+      section.warn(key, "the joint needs " + rounded(start_s) +
+                            " s to reach speed_limit_rad_s = " + rounded(speed_rad_s) +
+                            "; in one second it is there with " + rounded(in_a_second));
+  };
+  slow_start("acceleration_rad_s2", speed_rad_s / loop.controller.motion.acceleration_rad_s2, speed_rad_s);
+  // v = j (t / 2)^2: the acceleration rises for one half and falls for the other.
+  if (const auto jerk_rad_s3 = loop.controller.jerk_limit_rad_s3)
+    slow_start("jerk_limit_rad_s3", 2.0 * std::sqrt(speed_rad_s / *jerk_rad_s3), 4.0 * speed_rad_s);
+}
 
 }  // namespace
 
@@ -48,10 +81,33 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
           << speed_rad_s * kRadianPerDegree;
     section.warn("speed_limit_rad_s", doubt.str());
   }
+  doubt_motion(section, loop);
   if (section.has("overspeed_rad_s") && limits.overspeed_rad_s > kLargeOverspeed * speed_rad_s)
     section.warn("overspeed_rad_s", "a joint that runs away is stopped only at " +
                                         number_text(limits.overspeed_rad_s / speed_rad_s) +
                                         " times its speed limit; left out it is a quarter above it");
+}
+
+std::vector<std::string> doubt_torque(const std::string& joint, double torque_limit_Nm, double gravity_Nm,
+                                      const GainTable& table) {
+  const double holds_Nm = std::min(torque_limit_Nm, table.torque_limit_Nm);
+  const auto rules =
+      std::span(table.friction.rules).first(static_cast<std::size_t>(table.friction.rule_count));
+  const TemperatureRule& hardest = *std::max_element(
+      rules.begin(), rules.end(),
+      [](const auto& a, const auto& b) { return a.friction.static_Nm < b.friction.static_Nm; });
+  const double needed_Nm = hardest.friction.static_Nm + gravity_Nm;
+  if (holds_Nm * (1.0 - kLeastSpare) >= needed_Nm) return {};
+  std::ostringstream doubt;
+  doubt.precision(4);
+  doubt << joint << ": torque limit " << holds_Nm
+        << " N.m (of joint.limits.torque_limit_Nm = " << torque_limit_Nm << " and the table's "
+        << table.torque_limit_Nm << "): at " << hardest.center_C << " degC " << hardest.friction.static_Nm
+        << " N.m of it are static friction";
+  if (gravity_Nm > 0.0) doubt << " and " << gravity_Nm << " N.m gravity";
+  doubt << (holds_Nm > needed_Nm ? ", and hardly any is left to move" : ": the joint does not move there")
+        << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would do";
+  return {doubt.str()};
 }
 
 void doubt_loop(const TomlSection& section, const LoopConfig& loop) {

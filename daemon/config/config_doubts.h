@@ -2,10 +2,13 @@
 // not refused, since some joint may want it; the daemon says so at its start, and strainwaved --check. Not real-time.
 #pragma once
 
-#include <numbers>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/toml_section.h"
+#include "control/gain_table.h"
+#include "control/units.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/loop_parts.h"
 
@@ -13,10 +16,15 @@ namespace strainwave {
 
 /// Notes a doubt when the angle that `key` gives is larger than it usually is, of a position a turn: it may be meant in degrees.
 void doubt_angle(const TomlSection& section, std::string_view key, double angle_rad,
-                 double usual_rad = 2.0 * std::numbers::pi);
+                 double usual_rad = kTurn_rad);
 
 /// Of [joint.limits], already read into `loop`, of a joint behind such a gear.
 void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio);
+
+/// Of a joint's torque limit beside what its table says of its friction: where the joint hardly moves or does not move at all. With
+/// `torque_limit_Nm` of the configuration, of which and the table's the smaller holds, and the most that gravity is told to ask for.
+std::vector<std::string> doubt_torque(const std::string& joint, double torque_limit_Nm, double gravity_Nm,
+                                      const GainTable& table);
 
 /// Of [daemon], already read into `loop`.
 void doubt_loop(const TomlSection& section, const LoopConfig& loop);

@@ -13,10 +13,11 @@ const char* const kWhy =
 
 }  // namespace
 
-void read_encoder_side(TomlSection& section, bool rigid, const std::string& truth) {
+EncoderSide read_encoder_side(TomlSection& section, bool rigid, const std::string& truth) {
   const std::string side = truth.empty() ? section.choice("encoder_side", {"motor", "link"})
                                          : section.choice_or("encoder_side", truth, {"motor", "link"});
   if (side == "link" && !rigid) section.fail("encoder_side", std::string("\"motor\" is allowed") + kWhy);
+  return side == "link" ? EncoderSide::kLink : EncoderSide::kMotor;
 }
 
 void require_motor_encoder(const TomlSection& section, double encoder_turns_per_joint_turn, double gear_ratio,

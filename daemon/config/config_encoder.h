@@ -5,11 +5,12 @@
 #include <string>
 
 #include "base/toml_section.h"
+#include "control/encoder_side.h"
 
 namespace strainwave {
 
 /// Reads encoder_side, "motor" or "link"; required unless `truth` says what it is when it is not given. Throws InputError.
-void read_encoder_side(TomlSection& section, bool rigid, const std::string& truth = "");
+EncoderSide read_encoder_side(TomlSection& section, bool rigid, const std::string& truth = "");
 
 /// Of an ODrive, which says how often its encoder turns in a turn of the joint: so often as the motor. Throws InputError.
 void require_motor_encoder(const TomlSection& section, double encoder_turns_per_joint_turn, double gear_ratio,

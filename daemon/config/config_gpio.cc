@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
+#include "control/units.h"
+#include "daemon/config/config_motor.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "drivers/gpio/gpio_joint.h"
 
@@ -14,7 +15,6 @@ namespace strainwave {
 namespace {
 
 constexpr Range kDelay_s{0.0, 10.0};
-constexpr Range kPositive{1e-9, 1e9};
 
 LineOptions read_line(TomlSection section, LineRole role) {
   LineOptions line;
@@ -68,13 +68,10 @@ PwmConfig read_pwm(TomlSection section) {
 
 // The keys are of the motor's own shaft; what comes out is at the joint.
 MotorData read_motor(TomlSection section, double gear_ratio) {
-  const double torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
-  MotorData motor;
-  motor.torque_constant_Nm_A =
-      torque_constant_Nm_A * gear_ratio * section.number_or("efficiency", 1.0, {0.01, 1.0});
+  MotorData motor = read_motor_constants(section).at_joint(gear_ratio);
+  motor.torque_constant_Nm_A *= section.number_or("efficiency", 1.0, {0.01, 1.0});
   motor.peak_torque_Nm = section.number("peak_current_A", kPositive) * motor.torque_constant_Nm_A;
   if (section.has("resistance_ohm")) motor.resistance_ohm = section.number("resistance_ohm", kPositive);
-  motor.back_emf_Vs_rad = section.number_or("back_emf_Vs_rad", torque_constant_Nm_A, {0.0, 1e6}) * gear_ratio;
   section.refuse_unknown_keys();
   return motor;
 }
@@ -128,7 +125,7 @@ void read_brake(TomlSection section, GpioJointConfig& gpio) {
 // Joint's counts per radian; sets the rest of the encoder.
 double read_encoder(TomlSection section, double period_s, const JointConfig& joint, GpioJointConfig& gpio) {
   const double counts_per_turn = section.number("counts_per_motor_revolution", {1.0, 1e9});
-  const double counts_per_rad = counts_per_turn * joint.plant.gear_ratio / (2.0 * std::numbers::pi);
+  const double counts_per_rad = counts_per_turn * joint.plant.gear_ratio / kTurn_rad;
   gpio.motion.count_rad = 1.0 / counts_per_rad;
   gpio.motion.period_s = period_s;
   gpio.motion.encoder_reversed = section.boolean_or("reversed", false);

@@ -9,6 +9,7 @@
 #include "daemon/config/config_link.h"
 #include "daemon/config/config_simulated.h"
 #include "daemon/config/config_thermometer.h"
+#include "lcmtypes/calm_speed.h"
 #include "lcmtypes/channels.h"
 
 namespace strainwave {
@@ -16,7 +17,9 @@ namespace strainwave {
 namespace {
 
 constexpr Range kAnyAngle{-1e4, 1e4};
-constexpr Range kPositive{1e-9, 1e9};
+
+// Of the largest load: what calls for a notice.
+constexpr double kHighLoad = 0.8;
 
 void read_limits(TomlSection section, double gear_ratio, JointLoopConfig& loop) {
   JointLimits& limits = loop.limits;
@@ -26,15 +29,24 @@ void read_limits(TomlSection section, double gear_ratio, JointLoopConfig& loop) 
     section.fail("position_max_rad", "a position above position_min_rad is allowed");
   limits.position_margin_rad = section.number_or("position_margin_rad", 0.05, {0.0, 10.0});
   loop.controller.motion.velocity_rad_s = section.number("speed_limit_rad_s", {1e-4, 1e3});
+  loop.move_speed_share = section.number_or("move_speed_share", kCalmShare, {1e-3, 1.0});
   loop.controller.motion.acceleration_rad_s2 = section.number("acceleration_rad_s2", {1e-3, 1e6});
   loop.controller.motion.deceleration_rad_s2 =
       section.number_or("deceleration_rad_s2", loop.controller.motion.acceleration_rad_s2, {1e-3, 1e6});
+  if (section.has("jerk_limit_rad_s3"))
+    loop.controller.jerk_limit_rad_s3 = section.number("jerk_limit_rad_s3", {1e-2, 1e9});
   const double speed_rad_s = loop.controller.motion.velocity_rad_s;
   limits.overspeed_rad_s = section.number_or("overspeed_rad_s", 1.25 * speed_rad_s + 0.1, {speed_rad_s, 1e3});
   limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
   loop.controller.torque_limit_Nm = section.number("torque_limit_Nm", kPositive);
   limits.temperature_limit_C = section.number_or("temperature_limit_C", 80.0, {-50.0, 200.0});
   limits.load_Nm = section.number_or("load_Nm", loop.controller.torque_limit_Nm, kPositive);
+  limits.load_notice_Nm =
+      section.number_or("load_notice_Nm", kHighLoad * limits.load_Nm, {1e-6, limits.load_Nm});
+  loop.overload_stop =
+      section.choice_or("on_overload", "torque_off", {"torque_off", "hold_load"}) == "hold_load"
+          ? OverloadStop::kHoldLoad
+          : OverloadStop::kTorqueOff;
   doubt_limits(section, loop, gear_ratio);
   section.refuse_unknown_keys();
 }
@@ -63,13 +75,19 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
   loop.start_timeout_s = section.number_or("start_timeout_s", loop.start_timeout_s, {0.01, 60.0});
   loop.stop_timeout_s = section.number_or("stop_timeout_s", loop.stop_timeout_s, {0.01, 60.0});
   loop.standstill_rad_s = section.number_or("standstill_rad_s", loop.standstill_rad_s, {1e-6, 1.0});
+  loop.overload_s = section.number_or("overload_s", loop.overload_s, {0.0, 60.0});
   loop.blocked_s = section.number_or("blocked_s", loop.blocked_s, {0.01, 60.0});
+  loop.rest_tolerance_rad = section.number_or("rest_tolerance_rad", loop.rest_tolerance_rad, {1e-9, 1.0});
   loop.missed_readings_limit =
       static_cast<int>(section.integer_or("missed_readings_limit", loop.missed_readings_limit, 0, 1000));
   section.refuse_unknown_keys();
 }
 
-void read_features(TomlSection section, PlantIdentity& plant, JointLoopConfig& loop) {
+// A tenth of a millisecond from the earliest to the latest is what an operating system and a bus make of an instant. Simulated joints
+// are sampled evenly.
+constexpr double kSamplingDeviation_s = 3e-5;
+
+void read_features(TomlSection section, bool simulated, PlantIdentity& plant, JointLoopConfig& loop) {
   JointControllerConfig& controller = loop.controller;
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);
@@ -83,9 +101,14 @@ void read_features(TomlSection section, PlantIdentity& plant, JointLoopConfig& l
     section.fail("landing", "true is allowed only with rigid = true, observer = true and rest = true");
   controller.encoder_deviation_counts =
       section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
+  controller.sampling_deviation_s =
+      section.number_or("sampling_deviation_s", simulated ? 0.0 : kSamplingDeviation_s, {0.0, 1e-3});
   const double torque_limit_Nm = controller.torque_limit_Nm;
   loop.initial_load_Nm =
       section.number_or("initial_load_Nm", loop.initial_load_Nm, {-torque_limit_Nm, torque_limit_Nm});
+  controller.stream_bridge_s = section.number_or("stream_bridge_s", controller.stream_bridge_s, {0.0, 0.2});
+  if (controller.jerk_limit_rad_s3 && !controller.use_shaping)
+    section.fail("shaping", "true is needed for joint.limits.jerk_limit_rad_s3: steps have no jerk limit");
   controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
   read_link(section, plant, controller);
   section.refuse_unknown_keys();
@@ -130,9 +153,10 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   if (joint.loop.fault_stops_group && joint.group.empty())
     section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
-  read_features(section.section_or_empty("control"), joint.plant, joint.loop);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
-  if (section.has("thermometer")) joint.thermometer = read_thermometer(section.section("thermometer"));
+  read_features(section.section_or_empty("control"), joint.driver == "simulated", joint.plant, joint.loop);
+  if (section.has("thermometer"))
+    joint.thermometer = read_thermometer(section.section("thermometer"), folder);
   if (joint.thermometer && joint.driver == "simulated")
     section.fail("thermometer",
                  "a sensor of a real drive is allowed: the simulated one has its own temperature");
@@ -146,7 +170,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   else if (joint.driver == "gpio")
     inputs = read_gpio_driver(driver, section.full_name("gpio"), period_s, joint);
   else
-    inputs = read_simulated_driver(driver, period_s, joint);
+    inputs = read_simulated_driver(driver, period_s, folder, joint);
   driver.refuse_unknown_keys();
   read_homing(section.section_or_empty("homing"), inputs, joint);
   section.refuse_unknown_keys();

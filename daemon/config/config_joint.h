@@ -11,8 +11,8 @@
 
 namespace strainwave {
 
-/// Reads the section and all below it; paths are relative to `folder`, and a drive on a bus is put on it in `can`. Throws
-/// InputError.
+/// Reads the section and all below it; paths are relative to `folder`, and a drive on a bus is put on it
+/// in `can`. Throws InputError.
 JointConfig read_joint(TomlSection& section, double period_s, const std::filesystem::path& folder,
                        CanConfig& can);
 

@@ -1,11 +1,11 @@
 #include "daemon/config/config_link.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "base/printable.h"
 #include "control/gear_catalogue.h"
+#include "control/units.h"
 
 namespace strainwave {
 
@@ -13,7 +13,6 @@ namespace {
 
 // A link this light beside the motor follows it: a rigid joint.
 constexpr double kLeastShare = 1e-3;
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
   const Gear* gear = find_gear(section.text("gear"));

@@ -2,21 +2,29 @@
 
 namespace strainwave {
 
-MotorLimits read_motor_limits(TomlSection& section, double torque_constant_Nm_A, double gear_ratio,
-                              double peak_joint_torque_Nm) {
-  constexpr Range kPositive{1e-9, 1e9};
-  const double back_emf_Vs_rad = section.number_or("back_emf_Vs_rad", torque_constant_Nm_A, {0.0, 1e6});
+MotorData MotorConstants::at_joint(double gear_ratio) const {
   MotorData motor;
-  motor.peak_torque_Nm = peak_joint_torque_Nm;
   motor.torque_constant_Nm_A = torque_constant_Nm_A * gear_ratio;
   motor.back_emf_Vs_rad = back_emf_Vs_rad * gear_ratio;
+  return motor;
+}
+
+MotorConstants read_motor_constants(TomlSection& section) {
+  const double torque_constant_Nm_A = section.number("torque_constant_Nm_A", kPositive);
+  return {torque_constant_Nm_A, section.number_or("back_emf_Vs_rad", torque_constant_Nm_A, {0.0, 1e6})};
+}
+
+MotorLimits read_motor_limits(TomlSection& section, const MotorConstants& motor, double gear_ratio,
+                              double peak_joint_torque_Nm) {
+  MotorData data = motor.at_joint(gear_ratio);
+  data.peak_torque_Nm = peak_joint_torque_Nm;
   if (section.has("supply_V") != section.has("resistance_ohm"))
     section.fail("supply_V", "supply_V and resistance_ohm, or neither, are allowed");
   if (section.has("supply_V")) {
-    motor.supply_V = section.number("supply_V", kPositive);
-    motor.resistance_ohm = section.number("resistance_ohm", kPositive);
+    data.supply_V = section.number("supply_V", kPositive);
+    data.resistance_ohm = section.number("resistance_ohm", kPositive);
   }
-  return MotorLimits::from_motor(motor);
+  return MotorLimits::from_motor(data);
 }
 
 }  // namespace strainwave

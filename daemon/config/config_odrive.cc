@@ -1,8 +1,8 @@
 #include "daemon/config/config_odrive.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "control/units.h"
 #include "daemon/config/config_doubts.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
@@ -66,14 +66,13 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
 
   JointControllerConfig& controller = joint.loop.controller;
   const double counts = section.number("encoder_counts_per_joint_turn", {1.0, 1e10});
-  controller.encoder_resolution_rad = 2.0 * std::numbers::pi / counts;
+  controller.encoder_resolution_rad = kTurn_rad / counts;
   // Both read the edges of an encoder that is sampled with the loop. This one has its own clock, and its own velocity.
   controller.use_observer = controller.use_landing = false;
   controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
   TomlSection motor = section.section("motor");
-  const double torque_constant_Nm_A = motor.number("torque_constant_Nm_A", {1e-9, 1e9});
   controller.motor =
-      read_motor_limits(motor, torque_constant_Nm_A, drive.units.gear_ratio, drive.torque_limit_Nm);
+      read_motor_limits(motor, read_motor_constants(motor), drive.units.gear_ratio, drive.torque_limit_Nm);
   motor.refuse_unknown_keys();
   joint.drive_error_text = [](Fault /*fault*/, std::uint32_t drive_error) {
     return odrive::drive_error_text(drive_error);

@@ -1,9 +1,9 @@
 #include "daemon/config/config_simulated.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/input_error.h"
+#include "control/units.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "drivers/faulty_actuator.h"
@@ -16,28 +16,29 @@ namespace {
 
 constexpr double kDefaultTemperatureNoise_C = 0.02;
 
-TemperatureProfile read_ambient(TomlSection& section) {
+TemperatureProfile read_ambient(TomlSection& section, const std::filesystem::path& folder) {
   const std::string text = section.text_or("ambient_temperature_C", "constant:25");
   try {
-    return TemperatureProfile::parse(text);
+    return TemperatureProfile::parse(text, folder);
   } catch (const InputError& error) {
     section.fail("ambient_temperature_C", error.what());
   }
 }
 
-TimeProfile read_load(TomlSection& section) {
+TimeProfile read_load(TomlSection& section, const std::filesystem::path& folder) {
   const std::string text = section.text_or("load_torque_Nm", "constant:0");
   try {
-    return TimeProfile::parse(text, {"load_torque_Nm", -1e3, 1e3});
+    return TimeProfile::parse(text, {"load_torque_Nm", -1e3, 1e3}, folder);
   } catch (const InputError& error) {
     section.fail("load_torque_Nm", error.what());
   }
 }
 
 // What the controller is told of the drive, as with a real one: by default what is true of it.
-void read_what_is_told(TomlSection& section, const JointPlantConfig& plant,
-                       JointControllerConfig& controller) {
-  read_encoder_side(section, controller.rigid, plant.feedback == EncoderSide::kLink ? "link" : "motor");
+void read_what_is_told(TomlSection& section, const JointPlantConfig& plant, JointConfig& joint) {
+  JointControllerConfig& controller = joint.loop.controller;
+  joint.encoder_side =
+      read_encoder_side(section, controller.rigid, plant.feedback == EncoderSide::kLink ? "link" : "motor");
   const long delay_periods = std::lround(plant.delay.periods);
   if (delay_periods > kMaxControlDelay && !section.has("delay_periods"))
     section.fail("delay_periods", "it must be given, 0 to " + std::to_string(kMaxControlDelay) +
@@ -86,14 +87,15 @@ HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInput
   available.index = section.has("index_rad");
   if (available.index) {
     inputs.index_rad = section.number("index_rad", kPosition);
-    inputs.index_spacing_rad = 2.0 * std::numbers::pi / gear_ratio;
+    inputs.index_spacing_rad = kTurn_rad / gear_ratio;
   }
   return available;
 }
 
 }  // namespace
 
-HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointConfig& joint) {
+HomingInputs read_simulated_driver(TomlSection& section, double period_s, const std::filesystem::path& folder,
+                                   JointConfig& joint) {
   const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
   SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
@@ -118,8 +120,8 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   }
   config.incremental = section.boolean_or("incremental", config.incremental);
   const HomingInputs available = read_inputs(section, joint.plant.gear_ratio, config.inputs);
-  config.ambient = read_ambient(section);
-  config.load_torque_Nm = read_load(section);
+  config.ambient = read_ambient(section, folder);
+  config.load_torque_Nm = read_load(section, folder);
   config.enable_delay_s = section.number_or("enable_delay_s", config.enable_delay_s, {0.0, 10.0});
   config.watchdog_s = section.number_or("watchdog_s", config.watchdog_s, {0.0, 10.0});
   config.temperature_period_s =
@@ -132,7 +134,7 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, JointC
   controller.encoder_resolution_rad = config.plant.feedback == EncoderSide::kLink
                                           ? config.plant.link_encoder.resolution_rad()
                                           : config.plant.encoder.resolution_rad();
-  read_what_is_told(section, config.plant, controller);
+  read_what_is_told(section, config.plant, joint);
   controller.motor = config.plant.motor;
   joint.drive = SimulatedDrive{config, {period_s, read_faults(section), &busy_wait, config.seed + 1}};
   joint.takes_injected_faults = true;

@@ -4,10 +4,10 @@
 
 namespace strainwave {
 
-TemperatureFileConfig read_thermometer(TomlSection section) {
+TemperatureFileConfig read_thermometer(TomlSection section, const std::filesystem::path& folder) {
   TemperatureFileConfig config;
   config.clock_ns = &monotonic_now_ns;
-  config.file = section.text("file");
+  config.file = folder / section.text("file");
   config.kind = section.choice_or("kind", "number", {"number", "one_wire"}) == "one_wire"
                     ? TemperatureFileKind::kOneWire
                     : TemperatureFileKind::kNumber;

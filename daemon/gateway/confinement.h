@@ -1,7 +1,7 @@
 // Takes from the gateway everything it does not need, in two steps: who it is, before it opens anything; and what it may ask of
 // the system, when all is open and bound and before it reads the first datagram. What remains is to receive and send on
-// the sockets it has. Both steps throw std::system_error when the system refuses: better no gateway than an open one. Not
-// real-time.
+// the sockets it has. Both steps throw std::system_error when the system refuses: better no gateway than an
+// open one. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,7 @@ bool has_system_call_filter() noexcept;
 void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
 
 /// Silences the standard streams (whoever takes the gateway over writes no line into a log), forbids new processes and
-/// growing files, bounds memory, and leaves the system calls of receiving and sending: any other ends the process. All
-/// threads.
+/// growing files, bounds memory, and leaves the system calls of receiving and sending: any other ends the process. All threads.
 void confine();
 
 /// Writes that filter, as a program of struct sock_filter, to `descriptor`: for `architecture` (AUDIT_ARCH_...), which

@@ -31,7 +31,8 @@ OrderLane lane_of(std::string_view prefix, std::string_view channel,
                   std::span<const std::uint8_t> bytes) noexcept {
   const std::string_view kind = kind_of(prefix, channel);
   if (kind == channel_kind::kCommand) return is_stop(bytes) ? OrderLane::kStop : OrderLane::kOrder;
-  if (kind == channel_kind::kSetpoint || kind == channel_kind::kTable || kind == channel_kind::kInject)
+  if (kind == channel_kind::kSetpoint || kind == channel_kind::kTable || kind == channel_kind::kPath ||
+      kind == channel_kind::kInject)
     return OrderLane::kOrder;
   return kind == channel_kind::kState ? OrderLane::kState : OrderLane::kNone;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/durations.h"
@@ -11,8 +12,8 @@ namespace strainwave {
 
 namespace {
 
-/// A speed this close to its limit is at it.
-constexpr double kAtLimit = 1.0 - 1e-9;
+/// What an encoder cannot tell.
+constexpr double kCountsOffTarget = 2.0;
 /// So little of its way changes the torque of gravity by a hundredth at most.
 constexpr double kSamePlace_rad = 0.01;
 
@@ -60,8 +61,10 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       zero_(config.homing.required),
       homing_(config.homing),
       controller_(config.controller),
-      motion_watch_({config.limits.following_error_rad, config.limits.load_Nm, config.blocked_s,
-                     config.standstill_rad_s}),
+      motion_watch_(
+          {config.limits.following_error_rad, config.limits.load_Nm, config.limits.load_notice_Nm,
+           config.overload_s, config.blocked_s, config.standstill_rad_s,
+           std::max(config.rest_tolerance_rad, kCountsOffTarget * config.controller.encoder_resolution_rad)}),
       held_{config.initial_load_Nm, {}} {
   record_.joint_index = index;
 }
@@ -129,49 +132,16 @@ void JointLoop::control(const CycleTime& time) noexcept {
   measurement.joint_velocity_rad_s = reading().joint_velocity_rad_s;
   measurement.temperature_C =
       schedule_.follow_C(temperature_.used_C(), time.cycle, motion_.gains_in_use != GainsInUse::kPrimary);
+  measurement.has_position = watch_.fresh();
   measurement.has_velocity = reading().has_velocity;
   measurement.temperature_valid = temperature_.usable();
   measurement.late_periods = reading().position_late_periods;
   measurement.elapsed_periods =
-      static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, kMaxElapsedPeriods));
+      static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
   motion_ = controller_.step(measurement);
   refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
   note_limits(measurement);
-}
-
-void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
-  if (motion_.output.saturated) notice(Notice::kTorqueLimited);
-  if (motion_.monitor != MonitorState::kWatching) notice(Notice::kPlainLaw);
-  if (motion_.off_stream) notice(Notice::kOffStream);
-  const FuzzyFriction& friction = table_->table.friction;
-  if (motion_.gains_in_use == GainsInUse::kFallback)
-    notice(Notice::kFallbackGains);
-  else if (measurement.temperature_C < friction.temperature_min_C ||
-           measurement.temperature_C > friction.temperature_max_C)
-    notice(Notice::kTemperatureClamped);
-  const double speed_limit_rad_s = config_.controller.motion.velocity_rad_s;
-  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s)
-    notice(Notice::kSpeedLimited);
-}
-
-void JointLoop::check_motion(const CycleTime& time) noexcept {
-  if (!mode_.controlled()) return;
-  const JointLimits& limits = config_.limits;
-  const double position_rad = reading().joint_position_rad;
-  const double joint_rad = zero_.to_joint_rad(position_rad);
-  if (zero_.known() && (joint_rad < limits.position_min_rad - limits.position_margin_rad ||
-                        joint_rad > limits.position_max_rad + limits.position_margin_rad))
-    return raise_fault(Fault::kPositionLimit, time);
-  if (!mode_.is(Mode::kHoming) && into_limit_switch(motion_.reference.velocity_rad_s))
-    return raise_fault(Fault::kLimitSwitch, time);
-  if (motion_.monitor == MonitorState::kFaultDue) return raise_fault(Fault::kChatter, time);
-  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
-    return raise_fault(Fault::kSpeedLimit, time);
-  // Until the brake is open the joint stands whatever it is ordered.
-  if (mode_.is(Mode::kReleasing)) return motion_watch_.begin(time.now_ns);
-  const Fault fault = motion_watch_.judge(motion_, position_rad, time.now_ns);
-  if (fault != Fault::kNone) raise_fault(fault, time);
 }
 
 void JointLoop::advance_mode(const CycleTime& time) noexcept {
@@ -190,7 +160,7 @@ void JointLoop::advance_mode(const CycleTime& time) noexcept {
       return;
     case Mode::kTracking:
       // A stream rests at its last setpoint until the next one comes or it expires.
-      if (motion_.at_target && !ordered_.streamed()) (void)change_mode(ModeEvent::kArrived, time);
+      if (motion_.at_target && !ordered_.goes_on()) (void)change_mode(ModeEvent::kArrived, time);
       return;
     case Mode::kHoming:
       return end_homing(time);
@@ -212,7 +182,7 @@ void JointLoop::take_over(const CycleTime& time) noexcept {
   const double measured_rad_s = measured_velocity_rad_s();
   const double velocity_rad_s = std::abs(measured_rad_s) > config_.standstill_rad_s ? measured_rad_s : 0.0;
   controller_.start(reading().joint_position_rad, velocity_rad_s, load_here_Nm());
-  motion_watch_.begin(time.now_ns);
+  motion_watch_.begin(reading().joint_position_rad, time.now_ns);
   (void)change_mode(reading().brake_shut ? ModeEvent::kTorqueReady : ModeEvent::kDriveReady, time);
   control(time);
 }
@@ -258,7 +228,10 @@ void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   if (from == Mode::kStopping && mode_.is(Mode::kOff))
     held_ = {motion_.phase == MotionPhase::kResting ? motion_.output.torque_Nm : controller_.held_load_Nm(),
              reading().joint_position_rad};
-  if (mode_.is(Mode::kStopping) || !mode_.controlled()) ordered_.end();
+  if (mode_.is(Mode::kStopping) || !mode_.controlled()) {
+    ordered_.end();
+    drop_path();
+  }
 }
 
 void JointLoop::end(const CycleTime& time) noexcept {
@@ -270,7 +243,8 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   if (!zero_.known()) notice(Notice::kNotHomed);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
-  cycle.target_rad = controller_.target_rad();
+  cycle.target_rad =
+      on_path() ? zero_.to_drive_rad(path_->path.last().position_rad) : controller_.target_rad();
   cycle.joint_velocity_rad_s = measured_velocity_rad_s();
   cycle.table_id = table_ != nullptr ? table_->id : 0;
   cycle.temperature_rules = table_ != nullptr ? table_->table.friction.rule_count : 0;

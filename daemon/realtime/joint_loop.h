@@ -18,6 +18,7 @@
 #include "daemon/realtime/motion_watch.h"
 #include "daemon/realtime/ordered_target.h"
 #include "daemon/realtime/orders.h"
+#include "daemon/realtime/path_slots.h"
 #include "daemon/realtime/reading_watch.h"
 #include "daemon/realtime/speed_gauge.h"
 #include "daemon/realtime/temperature_check.h"
@@ -35,7 +36,14 @@ struct JointLimits {
   double overspeed_rad_s = 0.0;      ///< fault
   double following_error_rad = 0.0;  ///< fault: |what the orders make of the reference - position|
   double temperature_limit_C = 0.0;  ///< fault above
-  double load_Nm = 0.0;              ///< fault: the estimated load is larger for blocked_s
+  double load_Nm = 0.0;              ///< the joint yields: a larger load shows for overload_s
+  double load_notice_Nm = std::numeric_limits<double>::infinity();  ///< notice: a larger load shows
+};
+
+/// What becomes of a joint that yields to a load.
+enum class OverloadStop {
+  kTorqueOff,  ///< fault: torque 0, drive off
+  kHoldLoad,  ///< the torque is what held the load before, until the joint has been let go; then it holds where it comes to rest
 };
 
 struct JointLoopConfig {
@@ -49,11 +57,17 @@ struct JointLoopConfig {
   double start_timeout_s = 2.0;               ///< from enable to the drive's readiness
   double stop_timeout_s = 3.0;                ///< from disable to standstill
   double standstill_rad_s = 0.01;
-  double blocked_s = 0.5;  ///< at the torque limit without progress, before it is a fault
+  double blocked_s = 0.5;    ///< at the torque limit without progress, before it is a fault
+  double overload_s = 0.02;  ///< that a load is too large, before the joint yields
+  OverloadStop overload_stop = OverloadStop::kTorqueOff;
+  double rest_tolerance_rad = 1e-3;  ///< notice: the joint holds farther from its place; at least two counts
   double initial_load_Nm =
       0.0;  ///< what holds the joint until it is first enabled holds this; later the estimate
+  double move_speed_share = 1.0;  ///< of the speed limit, in (0, 1]: how fast a move is that names no speed
   int missed_readings_limit = 5;  ///< periods without a fresh position before it is a fault
 };
+
+class PathFollower;
 
 class JointLoop {
  public:
@@ -73,6 +87,10 @@ class JointLoop {
   /// The supervisor may write a slot only while no order names it and it is neither active nor previous.
   TableSlot& table_slot(std::size_t slot) noexcept { return tables_[slot]; }
 
+  PathSlots& path_slots() noexcept { return path_slots_; }
+
+  /// Before the loop runs: who is told of orders that are for all joints of a path. It outlives this object.
+  void follow_paths_of(PathFollower& follower) noexcept { follower_ = &follower; }
   /// Before the loop runs: where every cycle is recorded. It outlives this object.
   void record_into(FlightRecorder& recorder) noexcept { recorder_ = &recorder; }
 
@@ -89,6 +107,21 @@ class JointLoop {
     return config_.fault_stops_group && mode() == Mode::kFaulted && mode_.began(time.now_ns) &&
            mode_.fault() != Fault::kGroup;
   }
+  // Of a path: for its follower.
+  /// What it has of one, begun or not; null: nothing.
+  const LoadedPath* path() const noexcept { return path_; }
+  /// Whether it could begin `path` in this cycle: it holds where the path begins.
+  Ruling may_begin(const LoadedPath& path) const noexcept;
+  void begin_path(const CycleTime& time) noexcept;
+  /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
+  void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
+  /// From begin_path() until end_path(), or until something else took the joint off it.
+  bool on_path() const noexcept { return ordered_.on_path(); }
+  void end_path() noexcept;
+  /// Comes to rest by itself, off the path.
+  void stop_beside_path() noexcept;
+  const MotionLimits& motion_limits() const noexcept { return config_.controller.motion; }
+
   int group() const noexcept { return config_.group; }
   bool at_rest() const noexcept { return mode() == Mode::kOff || mode() == Mode::kFaulted; }
   Mode mode() const noexcept { return mode_.mode(); }
@@ -114,6 +147,7 @@ class JointLoop {
   void take_over(const CycleTime& time) noexcept;
   double load_here_Nm() const noexcept;
   void check_motion(const CycleTime& time) noexcept;
+  void stop_overloaded(const CycleTime& time) noexcept;
   void advance_mode(const CycleTime& time) noexcept;
   void command_drive(const CycleTime& time) noexcept;
   void tell(const CycleTime& time) noexcept;
@@ -122,6 +156,8 @@ class JointLoop {
   Ruling enable(const CycleTime& time) noexcept;
   Ruling use_table(const TableSlot& slot) noexcept;
   Ruling begin_setpoint(const Order& order, const CycleTime& time) noexcept;
+  Ruling take_path(const Order& order) noexcept;
+  void drop_path() noexcept;
   PositionRange reachable_range() const noexcept;
   Reason hold() noexcept;
   Reason clear_fault(const CycleTime& time) noexcept;
@@ -153,6 +189,9 @@ class JointLoop {
   OrderQueue orders_;
   std::array<TableSlot, kTableSlots> tables_{};
   const TableSlot* table_ = nullptr;  ///< the active one
+  PathSlots path_slots_;
+  const LoadedPath* path_ = nullptr;  ///< begun or not
+  PathFollower* follower_ = nullptr;
   FlightRecorder* recorder_ = nullptr;
 
   JointMode mode_;

@@ -1,8 +1,10 @@
 // What a joint makes of orders: JointLoop's methods that obey them. Real-time safe.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/path_follower.h"
 
 namespace strainwave {
 
@@ -25,6 +27,7 @@ void JointLoop::take_orders(const CycleTime& time) noexcept {
     // The loop may have stood still while the order waited.
     const bool too_old = order.expires_cycle >= 0 && time.cycle > order.expires_cycle;
     const Ruling ruling = too_old ? Ruling(Reason::kTooOld) : obey(order, time);
+    if (order.kind == OrderKind::kLoadPath) path_slots_.judged();
     // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.
     if (order.id != 0) (void)replies_.push({order.id, ruling.reason, mode(), ruling.value, ruling.limit});
   }
@@ -48,6 +51,12 @@ Ruling JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
       return inject(order.injection);
     case OrderKind::kHome:
       return home(time);
+    case OrderKind::kLoadPath:
+      return take_path(order);
+    case OrderKind::kPausePath:
+      return follower_->pause(static_cast<std::size_t>(index_));
+    case OrderKind::kResumePath:
+      return follower_->resume(static_cast<std::size_t>(index_));
   }
   return Reason::kUnknownAction;
 }
@@ -78,7 +87,10 @@ Ruling JointLoop::use_table(const TableSlot& slot) noexcept {
     return {Reason::kOutOfRange, table.torque_limit_Nm, holds_Nm};
   controller_.load(table);
   table_ = &slot;
-  watch_.set_joint(table.plant.inertia_kgm2, largest_static_friction_Nm(table.friction));
+  // A table with a box is for joints of other inertias than the one that it is designed for.
+  const std::optional<LinkModel>& link = config_.controller.link;
+  watch_.set_joint(link ? link->motor_inertia_kgm2 + link->link_inertia_kgm2 : table.plant.inertia_kgm2,
+                   largest_static_friction_Nm(table.friction));
   return Reason::kAccepted;
 }
 
@@ -94,14 +106,23 @@ Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   const double ahead_s = static_cast<double>(in_periods) * config_.controller.period_s;
   if (ahead_s > kFarthestAhead_s) return {Reason::kOutOfRange, ahead_s, kFarthestAhead_s};
   const double target_rad = zero_.to_drive_rad(order.position_rad);
+  if (controller_.yields()) return Reason::kMoving;
   if (into_limit_switch(target_rad - reading().joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
   if (order.stream_id == 0)
-    controller_.set_target(target_rad, order.speed_limit_rad_s);
+    controller_.set_target(target_rad,
+                           order.speed_limit_rad_s > 0.0
+                               ? order.speed_limit_rad_s
+                               : config_.move_speed_share * config_.controller.motion.velocity_rad_s);
   else
-    controller_.follow(
-        {target_rad, order.velocity_rad_s, order.acceleration_rad_s2, order.derivatives, in_periods},
-        order.begins_stream, order.speed_limit_rad_s, reachable_range());
+    controller_.follow({target_rad,
+                        order.velocity_rad_s,
+                        order.acceleration_rad_s2,
+                        order.derivatives,
+                        in_periods,
+                        {order.torque_Nm, order.load_inertia_kgm2}},
+                       order.begins_stream, order.speed_limit_rad_s, reachable_range());
+  if (on_path()) drop_path();
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   return Reason::kAccepted;
 }
@@ -114,6 +135,8 @@ PositionRange JointLoop::reachable_range() const noexcept {
 
 Reason JointLoop::hold() noexcept {
   if (!mode_.controlled()) return Reason::kWrongMode;
+  if (follower_ != nullptr && follower_->end(static_cast<std::size_t>(index_))) return Reason::kAccepted;
+  drop_path();
   controller_.stop();
   homing_.abort();
   ordered_.end();

@@ -3,6 +3,7 @@
 // stream that is not under way is refused, however late it comes. Real-time safe; time is an argument.
 //
 //   none -> live -> expired -> none      hold, stop, fault, enable, a move: live -> none
+//   none -> path -> none                 its end, and whatever ends a stream
 #pragma once
 
 #include <cstdint>
@@ -27,9 +28,15 @@ class OrderedTarget {
   void accept(const Setpoint& setpoint, std::int64_t now_ns) noexcept;
   /// True once, in the period in which a live stream has ended.
   bool expire(std::int64_t now_ns) noexcept;
+  /// A path begins, which ends at `joint_rad`. It is not valid for a time: who follows it ends it.
+  void begin_path(double joint_rad, double drive_rad) noexcept {
+    joint_rad_ = joint_rad;
+    drive_rad_ = drive_rad;
+    stream_ = Stream::kPath;
+  }
   /// Something ends all motion: a live stream is over. That one has expired stays shown.
   void end() noexcept {
-    if (streamed()) stream_ = Stream::kNone;
+    if (goes_on()) stream_ = Stream::kNone;
   }
   /// Something else begins: nothing of a stream is left.
   void forget() noexcept { stream_ = Stream::kNone; }
@@ -37,16 +44,19 @@ class OrderedTarget {
   void rezero(const JointZero& zero) noexcept { joint_rad_ = zero.to_joint_rad(drive_rad_); }
 
   bool streamed() const noexcept { return stream_ == Stream::kLive; }
+  bool on_path() const noexcept { return stream_ == Stream::kPath; }
+  /// A setpoint that rests is not the end.
+  bool goes_on() const noexcept { return streamed() || on_path(); }
   /// Until the next setpoint is accepted.
   bool shows_expiry() const noexcept { return stream_ == Stream::kExpired; }
-  /// The target `drive_rad` of the controller at the joint: to the bit what was ordered, so that whoever ordered it knows it
-  /// again.
+  /// The target `drive_rad` of the controller at the joint: to the bit what was ordered, so that whoever ordered
+  /// it knows it again.
   double shown_rad(double drive_rad, const JointZero& zero) const noexcept {
     return drive_rad == drive_rad_ ? joint_rad_ : zero.to_joint_rad(drive_rad);
   }
 
  private:
-  enum class Stream { kNone, kLive, kExpired };
+  enum class Stream { kNone, kLive, kExpired, kPath };
   Stream stream_ = Stream::kNone;
   std::int64_t stream_id_ = 0;   ///< while live
   std::int64_t expires_ns_ = 0;  ///< while live

@@ -17,7 +17,10 @@ enum class OrderKind : std::int32_t {
   kSetpoint,
   kUseTable,
   kInject,
-  kHome
+  kHome,
+  kLoadPath,
+  kPausePath,
+  kResumePath
 };
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
@@ -33,15 +36,20 @@ struct Order {
   bool begins_stream = false;        ///< kSetpoint: the stream begins with this one
   double velocity_rad_s = 0.0;       ///< kSetpoint of a stream, with derivatives >= 1
   double acceleration_rad_s2 = 0.0;  ///< kSetpoint of a stream, with derivatives 2
+  double torque_Nm = 0.0;            ///< kSetpoint of a stream: added to what is planned
+  double load_inertia_kgm2 = 0.0;    ///< kSetpoint of a stream: carried besides the joint's own
   std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
   std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: as it comes
   std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
+  std::int32_t path_slot = 0;        ///< kLoadPath
 };
 
 /// What the loop makes of an order, and of a refusal by a number that number and the bound that it met; else both are 0:
 ///   kMoving of an enable            the joint's speed, rad/s, and joint.supervision.standstill_rad_s
 ///   kOutOfRange of a setpoint       how far its at_cycle is ahead, and how far it may be, s
 ///   kOutOfRange of a table          its torque limit, and the torque that holds the joint, N.m
+///   kOutOfRange of a path           how far from its setpoint it begins, and how far it may, rad
+///   kWrongMode of a resume          joints that have their part of the path, and how many there must be
 ///   kTooOld of a setpoint           its at_cycle, and the present cycle; 0 and 0 when it waited too long
 struct Ruling {
   Ruling(Reason given) noexcept : reason(given) {}  // implicit: most are a reason alone

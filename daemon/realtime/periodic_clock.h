@@ -1,5 +1,4 @@
-// The period: absolute sleeps on CLOCK_MONOTONIC. The only place of the real-time thread that reads a clock. Real-time
-// safe.
+// The period: absolute sleeps on CLOCK_MONOTONIC. The only place of the real-time thread that reads a clock. Real-time safe.
 #pragma once
 
 #include <cstdint>

@@ -28,10 +28,13 @@ bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven
   const bool jump = driven && has_last_ && jumped(position_rad, elapsed_s(now_ns));
   if (!driven || !has_last_) begin_stretch();
   const bool motionless = driven && has_last_ && stuck(position_rad, torque_Nm, elapsed_s(now_ns));
+  doubt_ = jump         ? doubt_number(ReadingDoubt::kJump, std::abs(position_rad - last_position_rad_))
+           : motionless ? doubt_number(ReadingDoubt::kStuck, owed_motion_rad_)
+                        : 0;
   last_position_rad_ = position_rad;
   last_ns_ = now_ns;
   has_last_ = true;
-  return !jump && !motionless;
+  return doubt_ == 0;
 }
 
 double PositionCheck::elapsed_s(std::int64_t now_ns) const noexcept {

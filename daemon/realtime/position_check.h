@@ -7,11 +7,12 @@
 //     displacement >= integral integral max(0, |T - T0| - 2 Fs) / J  dt dt
 // A sensor that shows no change although that displacement is many counts is stuck. T0 is the lowest
 // (highest) torque since the reading last changed. A joint that stands with the load balanced is never taken
-// for stuck, and neither is one whose sensor stops while nothing is asked of it: that shows with the next
-// motion.
+// for stuck, and neither is one whose sensor stops while nothing is asked of it: that shows with the next motion.
 #pragma once
 
 #include <cstdint>
+
+#include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 
@@ -34,6 +35,8 @@ class PositionCheck {
   /// One fresh reading at `now_ns` with the torque applied since the one before. Returns whether it can be
   /// true. With `driven` false the joint may be moved by hand and nothing is concluded from it.
   bool plausible(double position_rad, double torque_Nm, bool driven, std::int64_t now_ns) noexcept;
+  /// Of the last reading, why it cannot be true; see lcmtypes/reading_doubt.h. 0: it can.
+  std::uint32_t doubt() const noexcept { return doubt_; }
 
  private:
   bool jumped(double position_rad, double elapsed_s) const noexcept;
@@ -47,6 +50,7 @@ class PositionCheck {
   double last_position_rad_ = 0.0;
   std::int64_t last_ns_ = 0;
   bool has_last_ = false;
+  std::uint32_t doubt_ = 0;
   // Of the stretch without a change:
   int unchanged_periods_ = 0;
   double torque_min_Nm_ = 0.0;

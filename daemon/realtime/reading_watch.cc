@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/durations.h"
+
 namespace strainwave {
+
+ReadingDoubt ReadingWatch::not_finite(const ActuatorReading& reading) noexcept {
+  if (!std::isfinite(reading.joint_position_rad)) return ReadingDoubt::kPositionNotFinite;
+  if (reading.has_velocity && !std::isfinite(reading.joint_velocity_rad_s))
+    return ReadingDoubt::kVelocityNotFinite;
+  return std::isfinite(reading.torque_applied_Nm) ? ReadingDoubt::kNone : ReadingDoubt::kTorqueNotFinite;
+}
 
 ReadingWatch::Freshness ReadingWatch::judge(const ActuatorReading& reading) noexcept {
   if (!reading.has_position) return Freshness::kNone;
-  const bool numbers = std::isfinite(reading.joint_position_rad) &&
-                       (!reading.has_velocity || std::isfinite(reading.joint_velocity_rad_s)) &&
-                       std::isfinite(reading.torque_applied_Nm);
-  return numbers ? Freshness::kFresh : Freshness::kMalformed;
+  return not_finite(reading) == ReadingDoubt::kNone ? Freshness::kFresh : Freshness::kMalformed;
 }
 
 const ActuatorReading& ReadingWatch::take(const ActuatorReading& reading, bool controlled,
@@ -29,10 +35,16 @@ const ActuatorReading& ReadingWatch::take(const ActuatorReading& reading, bool c
   missed_ = fresh() ? 0 : static_cast<int>(std::min<std::int64_t>(missed, missed_limit_ + 1));
   // A brake that is shut holds the joint whatever the torque.
   const bool driven = reading.drive_state == DriveState::kEnabled && controlled && !reading.brake_shut;
+  // What a joint may have moved by counts from where it was sampled: after a stall the newest position is of the time before.
+  const std::int64_t sampled_ns = time.now_ns - nanoseconds(reading.position_late_periods * period_s_);
   const bool possible = !fresh() || position_check_.plausible(reading.joint_position_rad,
-                                                              reading.torque_applied_Nm, driven, time.now_ns);
-  if ((freshness_ == Freshness::kMalformed || !possible) && reading_.fault == ActuatorFault::kNone)
+                                                              reading.torque_applied_Nm, driven, sampled_ns);
+  if (reading_.fault == ActuatorFault::kImplausible)
+    reading_.drive_error = doubt_number(ReadingDoubt::kCountsMissing);
+  if (reading_.fault == ActuatorFault::kNone && (freshness_ == Freshness::kMalformed || !possible)) {
     reading_.fault = ActuatorFault::kImplausible;
+    reading_.drive_error = possible ? doubt_number(not_finite(reading)) : position_check_.doubt();
+  }
   return reading_;
 }
 

@@ -7,6 +7,7 @@
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/position_check.h"
 #include "drivers/actuator.h"
+#include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 
@@ -24,7 +25,8 @@ class ReadingWatch {
     position_check_.set_joint(inertia_kgm2, static_friction_Nm);
   }
   /// One period's reading. `controlled`: the control law moved the joint, at `velocity_rad_s` by its own estimate. A fresh
-  /// position that cannot be true becomes the fault kImplausible, unless the drive has one of its own.
+  /// position that cannot be true becomes the fault kImplausible, unless the drive has one of its own. With it, drive_error says which
+  /// of its causes it was (lcmtypes/reading_doubt.h), for the drive's own finding too.
   const ActuatorReading& take(const ActuatorReading& reading, bool controlled, double velocity_rad_s,
                               const CycleTime& time) noexcept;
   /// Begins to count missed positions anew.
@@ -43,6 +45,7 @@ class ReadingWatch {
     kFresh
   };
   static Freshness judge(const ActuatorReading& reading) noexcept;
+  static ReadingDoubt not_finite(const ActuatorReading& reading) noexcept;
 
   PositionCheck position_check_;
   double period_s_;

@@ -35,6 +35,7 @@ RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
     stop_deadline_periods_ =
         std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.period_s));
   }
+  paths_ = std::make_unique<PathFollower>(joints_, config.period_s);
 }
 
 RealtimeLoop::~RealtimeLoop() {
@@ -81,6 +82,7 @@ void RealtimeLoop::run() noexcept {
     account_wake(wake, time);
     bring_to_rest_when_asked(time);
     for (const auto& bus : buses_) bus->begin_cycle(time.now_ns);
+    paths_->advance(time);
     for (const auto& joint : joints_) joint->step(time);
     stop_faulted_groups(joints_, time);
     account_positions();

@@ -17,6 +17,7 @@
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/loop_parts.h"
 #include "daemon/realtime/overrun_watch.h"
+#include "daemon/realtime/path_follower.h"
 #include "daemon/realtime/periodic_clock.h"
 
 namespace strainwave {
@@ -86,6 +87,7 @@ class RealtimeLoop {
   std::vector<std::unique_ptr<FlightRecorder>> recorders_;
   std::vector<std::unique_ptr<Fieldbus>> buses_;  ///< the joints' drives refer to them
   std::vector<std::unique_ptr<JointLoop>> joints_;
+  std::unique_ptr<PathFollower> paths_;
   std::thread thread_;
   std::string refusal_;
   std::string sleep_state_refusal_;

@@ -36,7 +36,8 @@ void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
   state.cycle = cycle.time.cycle;
   state.table_id = cycle.table_id;
   fill_motion(cycle, state);
-  state.temperature_used_C = cycle.temperature.used_C();
+  state.temperature_used_C =
+      cycle.temperature.known() ? cycle.temperature.used_C() : std::numeric_limits<double>::quiet_NaN();
   std::copy(cycle.weights.weight.begin(), cycle.weights.weight.end(), state.temperature_weights);
   state.rule_count = cycle.temperature_rules;
   state.temperature_status = static_cast<std::int32_t>(cycle.temperature.status());

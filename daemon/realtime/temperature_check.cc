@@ -16,7 +16,7 @@ double seconds_between(std::int64_t from_ns, std::int64_t to_ns) noexcept {
 
 double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
   // A thread beside the loop may have asked its sensor after this period's instant.
-  return seen_ ? std::max(0.0, seconds_between(measured_ns_, now_ns)) : -1.0;
+  return seen() ? std::max(0.0, seconds_between(measured_ns_, now_ns)) : -1.0;
 }
 
 bool TemperatureCheck::is_stuck(std::int64_t now_ns) const noexcept {
@@ -29,7 +29,7 @@ TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t pro
     return TemperatureStatus::kOutOfRange;
   if (seconds_between(produced_ns, now_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
   if (is_stuck(now_ns)) return TemperatureStatus::kNotChanging;
-  if (accepted_) {
+  if (use_ != Use::kNotYet) {
     // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
     // nothing was believed, the more may have changed, so that the signal can return.
     const double silence_s = std::max(0.0, seconds_between(accepted_ns_, produced_ns));
@@ -42,31 +42,30 @@ TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t pro
 void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64_t produced_ns,
                               std::int64_t now_ns) noexcept {
   if (has_reading) {
-    if (!seen_ || temperature_C != measured_C_) changed_ns_ = now_ns;
-    seen_ = true;
+    if (!seen() || temperature_C != measured_C_) changed_ns_ = now_ns;
     measured_C_ = std::isfinite(temperature_C) ? temperature_C : std::numeric_limits<double>::quiet_NaN();
     measured_ns_ = produced_ns;
     status_ = judge(temperature_C, produced_ns, now_ns);
-  } else if (seen_ && seconds_between(measured_ns_, now_ns) > config_.max_age_s) {
+  } else if (seen() && seconds_between(measured_ns_, now_ns) > config_.max_age_s) {
     status_ = TemperatureStatus::kTooOld;
   }
 
   if (status_ != TemperatureStatus::kValid) {
-    lost_once_ = lost_once_ || usable_;
-    usable_ = false;
+    if (use_ == Use::kUsed) use_ = Use::kRecovering;
     good_since_ns_ = now_ns;
     return;
   }
   if (has_reading) {
     const double time_constant_s = config_.max_step_C / config_.max_rate_C_s;
     const double elapsed_s = std::max(0.0, seconds_between(accepted_ns_, produced_ns));
-    recent_C_ +=
-        accepted_ ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s) : temperature_C;
-    accepted_ = true;
+    recent_C_ += use_ != Use::kNotYet
+                     ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s)
+                     : temperature_C;
     accepted_C_ = temperature_C;
     accepted_ns_ = produced_ns;
   }
-  usable_ = usable_ || !lost_once_ || seconds_between(good_since_ns_, now_ns) >= config_.recovery_s;
+  if (use_ == Use::kNotYet || seconds_between(good_since_ns_, now_ns) >= config_.recovery_s)
+    use_ = Use::kUsed;
 }
 
 }  // namespace strainwave

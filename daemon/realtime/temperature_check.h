@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "lcmtypes/vocabulary.h"
 
@@ -27,27 +28,31 @@ class TemperatureCheck {
 
   TemperatureStatus status() const noexcept { return status_; }
   /// Whether the schedule may use temperature: valid, and not within the recovery time after a loss.
-  bool usable() const noexcept { return usable_; }
-  /// The last plausible value; meaningful only once a value has been plausible.
+  bool usable() const noexcept { return use_ == Use::kUsed; }
+  /// Whether any value has been plausible.
+  bool known() const noexcept { return use_ != Use::kNotYet; }
+  /// The last plausible value; meaningful only once it is known.
   double used_C() const noexcept { return accepted_C_; }
+  /// The sensor's last number; none (NaN) before the first.
   double measured_C() const noexcept { return measured_C_; }
   /// Whether the sensor's last number is above `limit_C`, plausible or not: what is too hot to be believed may be too hot.
-  bool hotter_than(double limit_C) const noexcept { return seen_ && measured_C_ > limit_C; }
+  bool hotter_than(double limit_C) const noexcept { return seen() && measured_C_ > limit_C; }
   /// Whether the loss of the signal is to stop the joint.
   bool lost() const noexcept { return config_.loss_is_fault && status_ != TemperatureStatus::kValid; }
   double age_s(std::int64_t now_ns) const noexcept;
 
  private:
+  /// The first plausible reading is used at once; after a loss the signal has to prove itself.
+  enum class Use { kNotYet, kUsed, kRecovering };
+
+  bool seen() const noexcept { return status_ != TemperatureStatus::kNeverSeen; }
   bool is_stuck(std::int64_t now_ns) const noexcept;
   TemperatureStatus judge(double temperature_C, std::int64_t produced_ns, std::int64_t now_ns) const noexcept;
 
   TemperatureCheckConfig config_;
   TemperatureStatus status_ = TemperatureStatus::kNeverSeen;
-  bool seen_ = false;      ///< any reading at all
-  bool accepted_ = false;  ///< any plausible reading
-  bool usable_ = false;
-  bool lost_once_ = false;
-  double measured_C_ = 0.0;
+  Use use_ = Use::kNotYet;
+  double measured_C_ = std::numeric_limits<double>::quiet_NaN();
   double accepted_C_ = 0.0;
   double recent_C_ = 0.0;  ///< accepted readings, low-passed so that a ramp of max_rate lags by max_step
   std::int64_t measured_ns_ = 0;

@@ -43,8 +43,7 @@ class FlightRecordWriter {
   FlightRecordWriter& operator=(const FlightRecordWriter&) = delete;
 
   void start();
-  /// Writes every frozen record and releases its memory, whatever comes of it. What the thread does again and
-  /// again.
+  /// Writes every frozen record and releases its memory, whatever comes of it. What the thread does again and again.
   void turn(std::int64_t now_ns);
 
  private:

@@ -61,8 +61,7 @@ bool ask(int socket, unsigned long request, const std::string& name, ifreq& answ
   return ::ioctl(socket, request, &answer) == 0;
 }
 
-// The bit rate is known to netlink alone. Without it (a service that may not open such sockets) it stays
-// unknown.
+// The bit rate is known to netlink alone. Without it (a service that may not open such sockets) it stays unknown.
 void ask_netlink(const std::string& name, CanInterface& interface) {
   const UniqueFd socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
   if (socket.get() < 0) return;

@@ -22,8 +22,7 @@ struct CanInterface {
 /// Throws std::system_error only when the kernel cannot be asked at all.
 CanInterface inspect_can_interface(const std::string& name);
 
-/// The link's part of a netlink answer of RTM_NEWLINK: the attributes behind its ifinfomsg. For tests as
-/// well.
+/// The link's part of a netlink answer of RTM_NEWLINK: the attributes behind its ifinfomsg. For tests as well.
 void read_link_attributes(std::span<const std::byte> attributes, CanInterface& interface);
 
 /// Throws InputError that says what is wrong and the command that mends it: absent, down, another bit rate

@@ -19,20 +19,21 @@ class Debounce {
   std::uint32_t step(std::uint32_t active, std::int64_t now_ns) noexcept {
     if (!started_) believed_ = active;
     started_ = true;
+    const std::uint32_t differing = active ^ believed_;
     for (std::size_t i = 0; i < kLineRoles; ++i) {
       const std::uint32_t role = 1U << i;
-      const bool differs = ((active ^ believed_) & role) != 0;
-      if (differs && now_ns - agreed_ns_[i] < steady_ns_[i]) continue;
-      if (differs) believed_ ^= role;
-      agreed_ns_[i] = now_ns;
+      if ((differing & ~differed_ & role) != 0) since_ns_[i] = now_ns;
+      if ((differing & role) != 0 && now_ns - since_ns_[i] >= steady_ns_[i]) believed_ ^= role;
     }
+    differed_ = active ^ believed_;
     return believed_;
   }
 
  private:
   std::array<std::int64_t, kLineRoles> steady_ns_{};
-  std::array<std::int64_t, kLineRoles> agreed_ns_{};
+  std::array<std::int64_t, kLineRoles> since_ns_{};  ///< when a level that is not believed was first read
   std::uint32_t believed_ = 0;
+  std::uint32_t differed_ = 0;  ///< levels that were not believed in the last period
   bool started_ = false;
 };
 

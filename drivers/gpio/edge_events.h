@@ -21,8 +21,7 @@ struct Edge {
 };
 
 /// Of a line that both edges are wanted of, the kernel reads the level a little after the interrupt: a pulse
-/// shorter than that shows as two edges to the same level. A pulse whose beginning alone counts needs
-/// kActive.
+/// shorter than that shows as two edges to the same level. A pulse whose beginning alone counts needs kActive.
 enum class EdgeKind { kBoth, kActive };
 
 class EdgeEvents {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 
 namespace strainwave {
 
@@ -96,7 +97,8 @@ LinePlace find_line(const LineOptions& options, const std::string& where) {
 }
 
 std::string describe_holder(const LineInfo& info) {
-  const std::string holder = info.consumer.empty() ? "somebody without a name" : "\"" + info.consumer + "\"";
+  const std::string holder =
+      info.consumer.empty() ? "somebody without a name" : "\"" + printable(info.consumer) + "\"";
   return "held by " + holder + ": end what uses it, or take its driver off the line";
 }
 

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "drivers/gpio/gpio_joint.h"
 #include "drivers/gpio/kernel_view.h"
 
@@ -55,7 +56,7 @@ bool report_line(const GpioJointConfig& config, LineRole role, std::ostream& out
     if (!place.info.held)
       out << "free\n";
     else if (ours)
-      out << "held by \"" << place.info.consumer << "\"\n";
+      out << "held by \"" << printable(place.info.consumer) << "\"\n";
     else
       out << "UNUSABLE: " << describe_holder(place.info) << '\n';
     return !place.info.held || ours;

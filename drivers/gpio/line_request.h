@@ -1,7 +1,6 @@
 // Lines of one GPIO chip, requested together with the same settings: the narrow seam to libgpiod, which has
 // two incompatible APIs. line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13);
-// pkg-config chooses one. read() and write() are one system call each and real-time safe; everything else is
-// not.
+// pkg-config chooses one. read() and write() are one system call each and real-time safe; everything else is not.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct BoundOptions {
   LoopOptions loop;
   std::string table;
 };
@@ -53,7 +53,7 @@ void add_row(TextTable& result, const std::string& reference, const ClosedLoopCo
   result.rows.push_back(row);
 }
 
-void run(const Options& options, bool one_reference) {
+void run(const BoundOptions& options, bool one_reference) {
   std::vector<Contender> contenders = {pid_contender()};
   if (!options.table.empty()) {
     const GainTable table = read_gain_table(options.table);
@@ -87,8 +87,8 @@ void run(const Options& options, bool one_reference) {
 
 }  // namespace
 
-void add_bound_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_bound_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<BoundOptions>();
   options->loop.plant = "limited";
   options->loop.ambient_temperature_C = "constant:-10";
   CLI::App* command = program.add_subcommand("bound",
@@ -97,8 +97,12 @@ void add_bound_command(CLI::App& program) {
   command->add_option("--table", options->table, "gain table (JSON) to compare; the PID is always compared");
   add_loop_options(*command, options->loop);
   command->get_option("--reference_rad")->default_str("constant: 0.001, 0.01, 0.1 and 1 rad in turn");
-  command->callback(
-      [options, command] { run(*options, command->get_option("--reference_rad")->count() > 0); });
+  command->callback([&chosen, options, command] {
+    chosen = [options, one_reference = command->get_option("--reference_rad")->count() > 0] {
+      run(*options, one_reference);
+      return ExitStatus::kDone;
+    };
+  });
 }
 
 }  // namespace strainwave

@@ -13,7 +13,7 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct Chapter6Options {
   std::string tables;
   std::string data;
   std::string out = "chapter6";
@@ -43,7 +43,7 @@ std::string introduction(const Chapter6& chapter) {
          " s.</p>\n";
 }
 
-void run(const Options& options) {
+void run(const Chapter6Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path data =
       options.data.empty() ? shared_folder("data") : std::filesystem::path(options.data);
@@ -77,8 +77,8 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_chapter6_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_chapter6_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<Chapter6Options>();
   CLI::App* command =
       program.add_subcommand("chapter6", "Every controller in every scenario of the source's chapter 6");
   command->add_option("--tables", options->tables,
@@ -87,7 +87,12 @@ void add_chapter6_command(CLI::App& program) {
                       "folder with the catalogue's CSV files (default: the installed data)");
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->add_flag("--no-figures", options->no_figures, "tables only");
-  command->callback([options] { run(*options); });
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      run(*options);
+      return ExitStatus::kDone;
+    };
+  });
 }
 
 }  // namespace strainwave

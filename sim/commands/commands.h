@@ -1,10 +1,11 @@
-// The subcommands of strainwave-sim. Each adds itself to the program; what it does runs when it was chosen.
-// Offline.
+// The subcommands of strainwave-sim. Each adds itself to the program and leaves in `chosen` what is to be done when
+// it is given; that throws InputError. Offline.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
+#include "base/manual/command_line.h"
 #include "sim/studies/closed_loop.h"
 #include "sim/studies/contenders.h"
 
@@ -14,13 +15,13 @@ class App;
 
 namespace strainwave {
 
-void add_chapter6_command(CLI::App& program);
-void add_run_command(CLI::App& program);
-void add_bound_command(CLI::App& program);
-void add_robustness_command(CLI::App& program);
-void add_heat_command(CLI::App& program);
-void add_flexible_command(CLI::App& program);
-void add_temperature_command(CLI::App& program);
+void add_chapter6_command(CLI::App& program, CommandBody& chosen);
+void add_run_command(CLI::App& program, CommandBody& chosen);
+void add_bound_command(CLI::App& program, CommandBody& chosen);
+void add_robustness_command(CLI::App& program, CommandBody& chosen);
+void add_heat_command(CLI::App& program, CommandBody& chosen);
+void add_flexible_command(CLI::App& program, CommandBody& chosen);
+void add_temperature_command(CLI::App& program, CommandBody& chosen);
 
 /// The folder `name` ("data") of the installation, or of the source tree the program was built from. Throws
 /// InputError when there is neither.
@@ -35,12 +36,13 @@ struct LoopOptions {
   double duration_s = 2.0;
 };
 
-/// Adds --plant, --reference_rad, --ambient_temperature_C, --load_torque_Nm and --duration_s.
+/// Adds --plant, --reference_rad, --ambient-temperature_C, --load-torque_Nm and --duration_s.
 void add_loop_options(CLI::App& command, LoopOptions& options);
 /// Throws InputError.
 ClosedLoopConfig loop_config(const LoopOptions& options);
 
-/// "extended", "plain" or "fallback" with `table`, or "pid". Throws InputError for another kind.
+/// "extended" (as the daemon runs it), "told" (as it does when told of the plant's spring and gravity), "plain" or "fallback"
+/// with `table`, or "pid". Throws InputError for another kind.
 Contender contender_of_kind(const std::string& kind, const GainTable& table);
 
 }  // namespace strainwave

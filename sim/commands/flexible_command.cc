@@ -15,7 +15,7 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct FlexibleOptions {
   std::string tables;
   std::string out = "flexible";
   bool full = false;
@@ -55,7 +55,7 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::cout << "written to " << out.string() << "\n";
 }
 
-void run(const Options& options) {
+void run(const FlexibleOptions& options) {
   const std::filesystem::path directory =
       options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
   const FlexibleTables gains = read_flexible_tables(directory);
@@ -102,8 +102,8 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_flexible_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_flexible_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<FlexibleOptions>();
   CLI::App* command =
       program.add_subcommand("flexible", "Every controller on a joint with a spring, over a grid of joints");
   command->add_option("--tables", options->tables,
@@ -117,7 +117,12 @@ void add_flexible_command(CLI::App& program) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the random joints")->capture_default_str();
-  command->callback([options] { run(*options); });
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      run(*options);
+      return ExitStatus::kDone;
+    };
+  });
 }
 
 }  // namespace strainwave

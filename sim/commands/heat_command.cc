@@ -12,7 +12,7 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct HeatOptions {
   HeatConfig study;
   std::string table;
   std::string plant = "flexible";
@@ -32,7 +32,7 @@ TextTable details(const std::vector<HeatRun>& runs) {
   return table;
 }
 
-void run(Options& options) {
+void run(HeatOptions& options) {
   options.study.plant = plant_named(options.plant);
   if (options.study.plant.thermal.resistance_C_W == 0.0) options.study.plant.thermal = reference_thermal();
   const auto runs = run_heat(options.study, read_gain_table(options.table));
@@ -43,15 +43,15 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_heat_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_heat_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<HeatOptions>();
   CLI::App* command = program.add_subcommand(
       "heat", "Losses warm the joint; what a late, biased or missing temperature costs");
   HeatConfig& study = options->study;
   command->add_option("--table", options->table, "gain table (JSON)")->required();
   command->add_option("--plant", options->plant, "flexible, realistic, limited, ideal or a plant file")
       ->capture_default_str();
-  command->add_option("--ambient_temperature_C", study.ambient_temperature_C, "surroundings")
+  command->add_option("--ambient-temperature_C", study.ambient_temperature_C, "surroundings")
       ->capture_default_str();
   command->add_option("--stroke_rad", study.stroke_rad, "there and back")->capture_default_str();
   command->add_option("--interval_s", study.interval_s, "from one setpoint to the next")
@@ -61,7 +61,12 @@ void add_heat_command(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--bias_C", study.bias_C, "of the biased sensors")->capture_default_str();
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
-  command->callback([options] { run(*options); });
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      run(*options);
+      return ExitStatus::kDone;
+    };
+  });
 }
 
 }  // namespace strainwave

@@ -18,13 +18,13 @@ void add_loop_options(CLI::App& command, LoopOptions& options) {
           "square:FIRST,SECOND,INTERVAL_S, csv:FILE or hold:FILE (columns time_s,setpoint_position_rad)")
       ->capture_default_str();
   command
-      .add_option("--ambient_temperature_C", options.ambient_temperature_C,
+      .add_option("--ambient-temperature_C", options.ambient_temperature_C,
                   "surroundings over time: constant:C, steps:START,RISE,INTERVAL_S,COUNT, "
                   "ramp:FIRST,SECOND,BEGIN_S,END_S, sine:MEAN,AMPLITUDE,RAD_S, csv:FILE or hold:FILE "
                   "(columns time_s,ambient_temperature_C)")
       ->capture_default_str();
   command
-      .add_option("--load_torque_Nm", options.load_torque_Nm,
+      .add_option("--load-torque_Nm", options.load_torque_Nm,
                   "load torque over time, on the link, likewise (column load_torque_Nm); "
                   "steps:0,20,0.5,1 is one step of 20 N.m")
       ->capture_default_str();
@@ -50,12 +50,18 @@ Contender contender_of_kind(const std::string& kind, const GainTable& table) {
   if (kind == "pid") return pid_contender();
   if (kind == "plain") return plain_contender(name, table);
   if (kind == "extended") return extended_contender(name + "+", table);
+  if (kind == "told") {
+    ExtendedFeatures features = daemon_defaults();
+    features.link = true;
+    features.gravity = true;
+    return extended_contender(name + "+ told", table, features);
+  }
   if (kind == "fallback") {
     GainTable fallback = table;
     fallback.primary = table.fallback;
     return plain_contender(std::string(table.fallback.controller.view()), fallback);
   }
-  throw InputError("--controller", "controller", kind, "must be extended, plain, fallback or pid");
+  throw InputError("--controller", "controller", kind, "must be extended, told, plain, fallback or pid");
 }
 
 }  // namespace strainwave

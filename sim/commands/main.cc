@@ -24,15 +24,21 @@ std::filesystem::path shared_folder(const std::filesystem::path& name) {
 
 int main(int argc, char** argv) {
   CLI::App program("Simulates a strain-wave joint under control, faster than real time.");
-  strainwave::configure_program(program, "strainwave-sim");
+  strainwave::configure_program(
+      program,
+      {.program = "strainwave-sim",
+       .files = {{"/usr/share/strainwave/data/", "gain tables and friction that the studies begin with"}},
+       .examples = {{"strainwave-sim chapter6 --out figures", "every controller through every scenario"},
+                    {"strainwave-sim flexible --out figures", "on a gear that is a spring"}},
+       .see_also = {"strainwave-design(1)", "strainwaved(8)"}});
   program.require_subcommand(1);
-  strainwave::add_chapter6_command(program);
-  strainwave::add_run_command(program);
-  strainwave::add_bound_command(program);
-  strainwave::add_robustness_command(program);
-  strainwave::add_heat_command(program);
-  strainwave::add_flexible_command(program);
-  strainwave::add_temperature_command(program);
-  // Each command runs in its callback, as part of the parse.
-  return strainwave::run_program(program, argc, argv, [] { return strainwave::ExitStatus::kDone; });
+  strainwave::CommandBody chosen;
+  strainwave::add_chapter6_command(program, chosen);
+  strainwave::add_run_command(program, chosen);
+  strainwave::add_bound_command(program, chosen);
+  strainwave::add_robustness_command(program, chosen);
+  strainwave::add_heat_command(program, chosen);
+  strainwave::add_flexible_command(program, chosen);
+  strainwave::add_temperature_command(program, chosen);
+  return strainwave::run_program(program, argc, argv, [&] { return chosen(); });
 }

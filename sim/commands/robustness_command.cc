@@ -12,14 +12,14 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct RobustnessOptions {
   RobustnessConfig study;
   std::string table;
   std::string plant = "flexible";
   std::string out = "robustness";
 };
 
-void run(Options& options) {
+void run(RobustnessOptions& options) {
   options.study.plant = plant_named(options.plant);
   const GainTable table = read_gain_table(options.table);
   std::vector<Contender> contenders = {pid_contender()};
@@ -35,8 +35,8 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_robustness_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_robustness_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<RobustnessOptions>();
   CLI::App* command = program.add_subcommand(
       "robustness", "Monte-Carlo: other inertia, friction, payload than the table was made for");
   RobustnessConfig& study = options->study;
@@ -58,7 +58,12 @@ void add_robustness_command(CLI::App& program) {
   command->add_option("--setpoint_rad", study.setpoint_rad, "where it is to go")->capture_default_str();
   command->add_option("--duration_s", study.duration_s, "length of a run")->capture_default_str();
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
-  command->callback([options] { run(*options); });
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      run(*options);
+      return ExitStatus::kDone;
+    };
+  });
 }
 
 }  // namespace strainwave

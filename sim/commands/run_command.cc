@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "base/input_error.h"
@@ -14,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct RunOptions {
   LoopOptions loop;
   std::string table;
   std::string controller = "extended";
@@ -87,6 +89,31 @@ void print_limit(const ClosedLoopConfig& config, const LoopStatistics& judged, d
   }
 }
 
+/// What one notices of the last move: when it is over, and what is left.
+void print_arrival(const std::vector<TracePoint>& link, bool flexible) {
+  constexpr double kArcSecond_rad = 4.848137e-6;
+  const double target_rad = link.back().setpoint_position_rad;
+  const auto error_rad = [&](const TracePoint& point) {
+    return std::abs(target_rad - point.link_position_rad);
+  };
+  const auto same = [&](const TracePoint& point) { return point.setpoint_position_rad == target_rad; };
+  const auto begin = std::find_if_not(link.rbegin(), link.rend(), same).base();
+  const auto last_off =
+      std::find_if(link.rbegin(), std::make_reverse_iterator(begin),
+                   [&](const TracePoint& point) { return error_rad(point) > kCountedError_rad; });
+  const double left_rad = error_rad(link.back());
+  std::cout << "the " << (flexible ? "link" : "joint");
+  if (left_rad > kCountedError_rad)
+    std::cout << " is not within two counts of an encoder (40 urad) at the end";
+  else
+    std::cout << " stays within two counts of an encoder (40 urad) after "
+              << number(last_off.base() == begin ? 0.0 : std::round(1e3 * (last_off->time_s - begin->time_s)),
+                        7)
+              << " ms";
+  std::cout << " and ends " << number(1e6 * left_rad, 2) << " urad (" << number(left_rad / kArcSecond_rad, 2)
+            << " arc seconds) from its target\n";
+}
+
 void print_monitor(const ClosedLoopResult& result) {
   if (result.fallen_back_s)
     std::cout << "the joint chattered: the monitor fell back to the plain law at "
@@ -96,7 +123,7 @@ void print_monitor(const ClosedLoopResult& result) {
               << " s\n";
 }
 
-void run(const Options& options) {
+void run(const RunOptions& options) {
   const ClosedLoopConfig config = loop_config(options.loop);
   const GainTable table = options.table.empty() ? GainTable{} : read_gain_table(options.table);
   const Contender contender = contender_of_kind(options.controller, table);
@@ -111,6 +138,7 @@ void run(const Options& options) {
     if (result.diverged) sides.back().pi1_rad2 = sides.back().pi2 = result.statistics.pi2;
   }
   std::cout << statistics_table(names, sides).markdown();
+  if (!result.diverged) print_arrival(link, flexible);
   print_limit(config, sides.back(), counted_pi2(link));
   print_monitor(result);
   if (result.diverged) std::cout << "the loop is unstable: the run ended early\n";
@@ -121,19 +149,24 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_run_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<RunOptions>();
   CLI::App* command =
       program.add_subcommand("run", "One closed loop: any table, reference, temperature, plant");
   auto* table = command->add_option("--table", options->table, "gain table (JSON); not needed for the PID");
-  auto* kind = command->add_option("--controller", options->controller,
-                                   "extended (as the daemon runs it), plain (the bare law), fallback or pid");
-  kind->capture_default_str()->check(CLI::IsMember({"extended", "plain", "fallback", "pid"}));
+  auto* kind =
+      command->add_option("--controller", options->controller,
+                          "extended (as the daemon runs it), told (of the plant's spring and gravity), plain "
+                          "(the bare law), fallback or pid");
+  kind->capture_default_str()->check(CLI::IsMember({"extended", "told", "plain", "fallback", "pid"}));
   add_loop_options(*command, options->loop);
   command->add_option("--out", options->out, "CSV file for every sample");
-  command->callback([options, table] {
+  command->callback([&chosen, options, table] {
     if (options->controller != "pid" && table->count() == 0) throw CLI::RequiredError("--table");
-    run(*options);
+    chosen = [options] {
+      run(*options);
+      return ExitStatus::kDone;
+    };
   });
 }
 

@@ -1,5 +1,4 @@
-// How a study ends: its summary on the screen, and a folder with a CSV of everything, the figure, and one
-// page.
+// How a study ends: its summary on the screen, and a folder with a CSV of everything, the figure, and one page.
 #pragma once
 
 #include <filesystem>

@@ -13,12 +13,12 @@ namespace strainwave {
 
 namespace {
 
-struct Options {
+struct TemperatureOptions {
   std::string tables;
   std::string out = "temperature";
 };
 
-void run(const Options& options) {
+void run(const TemperatureOptions& options) {
   const std::filesystem::path directory =
       options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
   const auto begin = std::chrono::steady_clock::now();
@@ -50,14 +50,19 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_temperature_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+void add_temperature_command(CLI::App& program, CommandBody& chosen) {
+  const auto options = std::make_shared<TemperatureOptions>();
   CLI::App* command = program.add_subcommand(
       "temperature", "What it is worth to know the temperature: ways to meet friction, cold and warm");
   command->add_option("--tables", options->tables,
                       "folder with total-*/c1.json .. c4.json (default: the installed tables)");
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
-  command->callback([options] { run(*options); });
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      run(*options);
+      return ExitStatus::kDone;
+    };
+  });
 }
 
 }  // namespace strainwave

@@ -4,13 +4,13 @@
 #include <numbers>
 #include <string>
 
+#include "base/printable.h"
 #include "control/gear_catalogue.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr Range kPositive{1e-9, 1e9};
 constexpr Range kNotNegative{0.0, 1e9};
 constexpr Range kPhase_rad{-std::numbers::pi, std::numbers::pi};
 
@@ -21,7 +21,7 @@ const Gear* read_gear(TomlSection& section, bool gear_sets_ratio, JointEffects& 
   if (gear_sets_ratio) effects.gear_ratio = gear->ratio;
   if (gear->ratio != effects.gear_ratio)
     section.fail("gear",
-                 "a gear with the joint's ratio of " + std::to_string(effects.gear_ratio) + " is allowed");
+                 "a gear with the joint's ratio of " + number_text(effects.gear_ratio) + " is allowed");
   return gear;
 }
 
@@ -59,10 +59,10 @@ KinematicError read_kinematic_error(TomlSection section, double gear_ratio) {
   if (steepest >= 1.0)
     section.fail(
         error.amplitude_rad[0] >= 2.0 * error.amplitude_rad[1] ? "once_rad" : "twice_rad",
-        "less is allowed: with " + std::to_string(gear_ratio) +
+        "less is allowed: with " + number_text(gear_ratio) +
             " motor turns per joint turn the link would turn back while the motor goes on; once_rad and "
             "twice_rad below " +
-            std::to_string(1.0 / steepest) + " of what they are do not");
+            number_text(1.0 / steepest) + " of what they are do not");
   return error;
 }
 

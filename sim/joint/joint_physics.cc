@@ -41,8 +41,7 @@ struct DenseOutput {
 };
 
 /// Root of `velocity` in [0, 1], given value(0) of the sign `direction` and value(1) of the other sign or
-/// zero. Newton kept inside a shrinking bracket; 60 halvings reach rounding even when every Newton step is
-/// refused.
+/// zero. Newton kept inside a shrinking bracket; 60 halvings reach rounding even when every Newton step is refused.
 double find_root(const DenseOutput& velocity, double direction) noexcept {
   double low = 0.0;
   double high = 1.0;

@@ -11,8 +11,7 @@
 // Between events: classical Runge-Kutta of order 4 with friction continued smoothly through w = 0. For
 // constant torque the velocity obeys a scalar autonomous equation, so it is monotone: a step holds at most
 // one change of sign. The change is the root of the step's cubic dense output, found to rounding; there the
-// joint is at rest, and only then it stays stuck or breaks away for the remaining time. The sign is never
-// smoothed.
+// joint is at rest, and only then it stays stuck or breaks away for the remaining time. The sign is never smoothed.
 #pragma once
 
 #include "control/friction.h"

@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 
 namespace strainwave {
 
 namespace {
 
-void require(bool valid, const char* key, double value, const char* allowed) {
-  if (!valid) throw InputError("simulated joint", key, std::to_string(value), allowed);
+void require(bool valid, const char* key, double value, const std::string& allowed) {
+  if (!valid) throw InputError("simulated joint", key, number_text(value), allowed);
 }
 
 bool finite_and_not_negative(double value) {
@@ -41,6 +42,32 @@ void check(const Transmission& gear) {
 
 // Friction grows with the cold: as cold as this a joint may be run.
 constexpr double kColdest_C = -40.0;
+
+// A motor that moves is not held back by more than one that stands: else it would stop and go without end.
+void check_friction(const ExponentialTemperatureLaw& law) {
+  require(
+      law.asymptote.static_Nm >= law.asymptote.coulomb_Nm, "friction.asymptote_static_Nm",
+      law.asymptote.static_Nm,
+      "at least friction.asymptote_coulomb_Nm = " + number_text(law.asymptote.coulomb_Nm) + " is allowed");
+  const FrictionParameters cold = law.at(kColdest_C);
+  require(cold.static_Nm >= cold.coulomb_Nm, "friction.amplitude_static_Nm", law.amplitude.static_Nm,
+          "more is allowed: at " + number_text(kColdest_C) + " degC static friction is " +
+              number_text(cold.static_Nm) + " N.m, less than Coulomb's of " + number_text(cold.coulomb_Nm));
+}
+
+// Motor and bristles swing at sqrt(Fs / (J presliding)), damped by half of what is critical: as a sub-step bears it.
+void check_presliding(const JointPlantConfig& c) {
+  const double presliding_rad = c.effects.friction.presliding_rad;
+  if (presliding_rad <= 0.0) return;
+  require(c.joint.friction.asymptote.static_Nm > 0.0, "friction.asymptote_static_Nm",
+          c.joint.friction.asymptote.static_Nm, "more than 0 is allowed with presliding");
+  const double fastest_rad_s = c.substeps / c.period_s;
+  const double static_Nm = c.joint.friction.at(kColdest_C).static_Nm;
+  const double least_rad = static_Nm / (c.joint.inertia_kgm2 * fastest_rad_s * fastest_rad_s);
+  require(presliding_rad >= least_rad, "friction.presliding_rad", presliding_rad,
+          "0, or at least " + number_text(least_rad) + " with " + std::to_string(c.substeps) +
+              " sub-steps is allowed (the friction of -40 degC on this inertia)");
+}
 
 // What the integration of a sub-step bears: its fastest swing turns by at most 1 rad, its fastest decay is at most e^-2.
 void check_substeps(const JointPlantConfig& c) {
@@ -119,6 +146,8 @@ JointPlantConfig checked(const JointPlantConfig& c) {
           "link_counts_per_joint_revolution", c.link_encoder.counts_per_joint_revolution,
           "must be > 0 where the link's encoder is the feedback");
   check(c.effects);
+  check_friction(c.joint.friction);
+  check_presliding(c);
   check_substeps(c);
   return c;
 }

@@ -2,6 +2,7 @@
 // at a time. Real-time safe except for the constructor.
 #pragma once
 
+#include "control/encoder_side.h"
 #include "sim/joint/delay_line.h"
 #include "sim/joint/encoder.h"
 #include "sim/joint/flexible_physics.h"
@@ -9,21 +10,18 @@
 
 namespace strainwave {
 
-/// Which side of the gear the drive reports as the joint's position.
-enum class EncoderSide { kMotor, kLink };
-
 struct JointPlantConfig {
-  JointParameters joint;  ///< with a transmission its inertia is the motor's alone
-  JointEffects effects;   ///< default: one rigid inertia
-  MotorLimits motor;      ///< default: no limit
-  Encoder encoder;        ///< of the motor's side; default: ideal
-  Encoder link_encoder;   ///< the second one, of the link; 0 counts: there is none
-  EncoderSide feedback = EncoderSide::kMotor;
-  ThermalParameters thermal;        ///< default: no heating, no lag
-  double winding_loss_W_Nm2 = 0.0;  ///< R / Kt^2: heat of holding a torque
-  double period_s = 1e-3;           ///< > 0
-  int substeps = 10;                ///< integration steps per period, 1..10000
-  DelayConfig delay;                ///< from a command to its effect
+  JointParameters joint;                       ///< with a transmission its inertia is the motor's alone
+  JointEffects effects;                        ///< default: one rigid inertia
+  MotorLimits motor;                           ///< default: no limit
+  Encoder encoder;                             ///< of the motor's side; default: ideal
+  Encoder link_encoder;                        ///< the second one, of the link; 0 counts: there is none
+  EncoderSide feedback = EncoderSide::kMotor;  ///< whose position the drive reports as the joint's
+  ThermalParameters thermal;                   ///< default: no heating, no lag
+  double winding_loss_W_Nm2 = 0.0;             ///< R / Kt^2: heat of holding a torque
+  double period_s = 1e-3;                      ///< > 0
+  int substeps = 10;                           ///< integration steps per period, 1..10000
+  DelayConfig delay;                           ///< from a command to its effect
   double initial_position_rad = 0.0;
 };
 
@@ -63,8 +61,7 @@ class JointPlant {
   double measured_link_position_rad() const noexcept {
     return config_.link_encoder.measure_rad(link_state().position_rad);
   }
-  /// Motor torque over the last period: its command after delay and limits, at the velocity of the period's
-  /// end.
+  /// Motor torque over the last period: its command after delay and limits, at the velocity of the period's end.
   double applied_torque_Nm() const noexcept { return applied_Nm_; }
   /// Temperature of the joint's lubricant, and what the sensor shows.
   double joint_temperature_C() const noexcept { return thermal_.joint_C(); }

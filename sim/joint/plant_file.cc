@@ -10,7 +10,6 @@ namespace strainwave {
 
 namespace {
 
-constexpr Range kPositive{1e-9, 1e9};
 constexpr Range kNotNegative{0.0, 1e9};
 constexpr Range kAnyTemperature_C{-273.15, 1e4};
 const std::vector<std::string> kBases = {"ideal", "limited", "realistic", "flexible"};

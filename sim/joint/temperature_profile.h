@@ -25,8 +25,10 @@ class TemperatureProfile {
   static TemperatureProfile from_csv(const std::filesystem::path& path) {
     return {TimeProfile::from_csv(path, false, quantity())};
   }
-  /// "constant:25", "steps:-10,5,1,11", "ramp:25,-10,5,65", "sine:15,25,1", "csv:FILE" or "hold:FILE".
-  static TemperatureProfile parse(std::string_view text) { return {TimeProfile::parse(text, quantity())}; }
+  /// "constant:25", "steps:-10,5,1,11", "ramp:25,-10,5,65", "sine:15,25,1", "csv:FILE" or "hold:FILE", relative to `folder`.
+  static TemperatureProfile parse(std::string_view text, const std::filesystem::path& folder = {}) {
+    return {TimeProfile::parse(text, quantity(), folder)};
+  }
 
   /// Temperature in degC at `time_s`.
   double at(double time_s) const noexcept { return profile_.at(time_s); }

@@ -5,6 +5,7 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
+#include "base/printable.h"
 
 namespace strainwave {
 
@@ -12,15 +13,14 @@ namespace {
 
 double checked(double value, const ProfileQuantity& quantity, const std::string& where) {
   if (!(value >= quantity.min && value <= quantity.max))
-    throw InputError(
-        where, quantity.key, std::to_string(value),
-        "must be in [" + std::to_string(quantity.min) + ", " + std::to_string(quantity.max) + "]");
+    throw InputError(where, quantity.key, number_text(value),
+                     "must be in [" + number_text(quantity.min) + ", " + number_text(quantity.max) + "]");
   return value;
 }
 
 void require(bool valid, const ProfileQuantity& quantity, const char* key, double value,
              const char* allowed) {
-  if (!valid) throw InputError("profile of " + quantity.key, key, std::to_string(value), allowed);
+  if (!valid) throw InputError("profile of " + quantity.key, key, number_text(value), allowed);
 }
 
 std::string place(const ProfileQuantity& quantity) {
@@ -98,18 +98,20 @@ TimeProfile TimeProfile::from_csv(const std::filesystem::path& path, bool hold,
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const double time_s = table.rows[i][0];
     if (!profile.points_.empty() && time_s <= profile.points_.back().time_s)
-      throw InputError(table.place(i), "time_s", std::to_string(time_s),
+      throw InputError(table.place(i), "time_s", number_text(time_s),
                        "must be greater than in the row before");
     profile.points_.push_back({time_s, checked(table.rows[i][1], quantity, table.place(i))});
   }
   return profile;
 }
 
-TimeProfile TimeProfile::parse(std::string_view text, const ProfileQuantity& quantity) {
+TimeProfile TimeProfile::parse(std::string_view text, const ProfileQuantity& quantity,
+                               const std::filesystem::path& folder) {
   const auto colon = text.find(':');
   const std::string_view kind = text.substr(0, colon);
   const std::string_view rest = colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
-  if ((kind == "csv" || kind == "hold") && !rest.empty()) return from_csv(rest, kind == "hold", quantity);
+  if ((kind == "csv" || kind == "hold") && !rest.empty())
+    return from_csv(folder / rest, kind == "hold", quantity);
   const auto fields = split(rest, ',');
   const auto number = [&](std::size_t i) {
     return parse_number(fields[i], place(quantity), std::string(text));

@@ -10,8 +10,7 @@
 
 namespace strainwave {
 
-/// What the numbers of a profile are: named in messages and as the CSV column, and the range they must stay
-/// in.
+/// What the numbers of a profile are: named in messages and as the CSV column, and the range they must stay in.
 struct ProfileQuantity {
   std::string key;  ///< e.g. "ambient_temperature_C"
   double min = -std::numeric_limits<double>::max();
@@ -39,8 +38,10 @@ class TimeProfile {
   /// Between two rows a straight line, or, with `hold`, the earlier row's value.
   static TimeProfile from_csv(const std::filesystem::path& path, bool hold, const ProfileQuantity& quantity);
   /// "constant:25", "steps:-10,5,1,11", "ramp:0,20,1,3", "square:0,1,0.5", "sine:15,25,1", "csv:FILE" (straight
-  /// lines) or "hold:FILE", arguments as above. One step of 20 at 1 s is "steps:0,20,1,1". All factories throw InputError.
-  static TimeProfile parse(std::string_view text, const ProfileQuantity& quantity);
+  /// lines) or "hold:FILE", arguments as above. One step of 20 at 1 s is "steps:0,20,1,1". FILE is relative to `folder`, which is by
+  /// default the working directory. All factories throw InputError.
+  static TimeProfile parse(std::string_view text, const ProfileQuantity& quantity,
+                           const std::filesystem::path& folder = {});
 
   /// The value at `time_s`.
   double at(double time_s) const noexcept;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "control/units.h"
 
 namespace strainwave {
@@ -24,7 +25,7 @@ double error_rad(const TracePoint& point) {
 
 std::size_t sample_count(const ClosedLoopConfig& config) {
   if (!(config.duration_s > 0.0 && config.duration_s <= kLongestRun_s))
-    throw InputError("closed loop", "duration_s", std::to_string(config.duration_s), "must be in (0, 1e6]");
+    throw InputError("closed loop", "duration_s", number_text(config.duration_s), "must be in (0, 1e6]");
   return static_cast<std::size_t>(std::ceil(config.duration_s / config.plant.period_s - 1e-9));
 }
 
@@ -42,8 +43,7 @@ Iterator stretch_end(Iterator begin, Iterator end) {
   });
 }
 
-/// Adds one stretch; returns the number of torque sign changes in its steady part and its length in
-/// `steady_samples`.
+/// Adds one stretch; returns the number of torque sign changes in its steady part and its length in `steady_samples`.
 long add_stretch(Iterator begin, Iterator end, double origin_rad, LoopStatistics& result,
                  long& steady_samples) {
   const double direction = sign(begin->setpoint_position_rad - origin_rad);

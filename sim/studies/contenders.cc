@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "control/gain_table_json.h"
 
 namespace strainwave {
@@ -13,8 +14,8 @@ namespace {
 void require_period(const GainTable& table, const JointPlantConfig& plant) {
   if (std::abs(table.plant.period_s - plant.period_s) > 1e-9 * plant.period_s)
     throw InputError("gain table " + std::string(table.name.view()), "period_s",
-                     std::to_string(table.plant.period_s),
-                     "must be the plant's period, " + std::to_string(plant.period_s));
+                     number_text(table.plant.period_s),
+                     "must be the plant's period, " + number_text(plant.period_s));
 }
 
 // A plant without a torque limit (the source's ideal setting) may be given what it takes; a plan needs some number, and
@@ -36,7 +37,7 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
   config.delay_periods = static_cast<int>(std::lround(plant.delay.periods));
   if (config.delay_periods > kMaxControlDelay)
-    throw InputError("plant", "drive.delay_periods", std::to_string(plant.delay.periods),
+    throw InputError("plant", "drive.delay_periods", number_text(plant.delay.periods),
                      "the daemon's controller allows 0 to " + std::to_string(kMaxControlDelay));
   config.torque_limit_Nm = table.torque_limit_Nm;
   config.motor = plant.motor;
@@ -100,13 +101,7 @@ double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
   if (!started_ || controller_.target_rad() != sample.setpoint_position_rad)
     controller_.set_target(sample.setpoint_position_rad);
   started_ = true;
-  JointMeasurement measurement;
-  measurement.joint_position_rad = sample.joint_position_rad;
-  measurement.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(0.0);
-  measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
-  measurement.temperature_C = sample.temperature_C;
-  measurement.temperature_valid = std::isfinite(sample.temperature_C);
-  const JointStep step = controller_.step(measurement);
+  const JointStep step = controller_.step(measurement_of(sample, sample.temperature_C));
   monitor_ = step.monitor;
   return monitor_ == MonitorState::kFaultDue ? 0.0 : step.output.torque_Nm;
 }

@@ -34,8 +34,9 @@ void write_data(std::string& script, const std::string& name, const Points& poin
 
 std::string range(const char* axis, const std::vector<double>& limits) {
   if (limits.size() != 2) return std::string("set autoscale ") + axis + "\n";
-  return std::string("set ") + axis + "range [" + std::to_string(limits[0]) + ":" +
-         std::to_string(limits[1]) + "]\n";
+  std::array<char, 64> text;  // std::to_string() would make 0 of 1e-9
+  std::snprintf(text.data(), text.size(), "range [%.9g:%.9g]\n", limits[0], limits[1]);
+  return std::string("set ") + axis + text.data();
 }
 
 std::string style(const Series& series) {
@@ -60,10 +61,11 @@ void write_panel(std::string& script, const Panel& panel, std::size_t figure, st
         script, block_name(figure, index, i),
         panel.series[i].mark == Mark::kPoints ? panel.series[i].points : thinned(panel.series[i].points));
   script += "set title " + gnuplot_quoted(panel.title) + "\nset xlabel " + gnuplot_quoted(panel.x_label) +
-            " offset 0,0.5\nset ylabel " + gnuplot_quoted(panel.y_label) + "\n";
+            "\nset ylabel " + gnuplot_quoted(panel.y_label) + "\n";
   script += panel.log_y ? "set logscale y\nset format y '%.0e'\n" : "unset logscale\nset format y '%g'\n";
   script += range("x", panel.x_range) + range("y", panel.y_range);
-  script += panel.show_key ? "set key below horizontal samplen 2\n" : "unset key\n";
+  script += panel.show_key ? "set key below horizontal Left reverse samplen 1.5 width -1 height 0.6\n"
+                           : "unset key\n";
   if (panel.right_label.empty()) {
     script += "unset y2tics\nunset y2label\nset ytics mirror\n";
   } else {
@@ -86,7 +88,7 @@ std::string script_of(const Figure& figure, std::size_t index, const std::filesy
   const std::string size = std::to_string(columns * kPanelWidth) + "," + std::to_string(rows * kPanelHeight);
   std::string script =
       "reset\nset encoding utf8\nset terminal svg noenhanced size " + size +
-      " dynamic font 'sans-serif,12' name '" + figure.id + "' background 'white'\nset output " +
+      " fixed font 'sans-serif,12' name '" + figure.id + "' background 'white'\nset output " +
       gnuplot_quoted((directory / (figure.id + ".svg")).string()) + "\nset grid lc rgb '#dddddd'\n";
   script += "set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + "\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) write_panel(script, figure.panels[i], index, i);

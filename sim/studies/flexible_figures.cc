@@ -65,11 +65,9 @@ double map_height(const FlexibleCell& cell) {
 std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
                                      const std::vector<Contender>& contenders) {
   const std::size_t drawn = std::min(contenders.size(), kDrawnContenders);
-  Figure responses{"flexible_responses",
-                   "The link's error over time, -10 degC, the heaviest link below 0.5 kg.m2.",
-                   2,
-                   {}};
-  Panel torque = panel("torque at rest after 0.1 rad", "frequency (Hz)", "amplitude (N.m)", true);
+  Figure responses{
+      "flexible_responses", "The link's error over time, -10 °C, the heaviest link below 0.5 kg·m².", 2, {}};
+  Panel torque = panel("torque at rest after 0.1 rad", "frequency (Hz)", "amplitude (N·m)", true);
   for (const double step_rad : {0.001, 0.01, 0.1, 1.0}) {
     const FlexibleRow* row = example(rows, step_rad);
     if (row == nullptr) continue;
@@ -94,7 +92,7 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
   Figure map{"flexible_map",
              "Where the joint oscillates at rest, or the monitor took over, over its free-free frequency. "
              "Each step has a band; "
-             "in it temperature rises from -10 to 45 degC, and for each temperature damping from 1 to 10 %.",
+             "in it temperature rises from -10 to 45 °C, and for each temperature damping from 1 to 10 %.",
              2,
              {}};
   for (std::size_t c = 0; c < drawn; ++c) {

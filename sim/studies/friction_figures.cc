@@ -52,7 +52,7 @@ double motor_viscous(double joint_Nms_rad) {
 Figure torque_figure(const Catalogue& catalogue) {
   Panel panel{"No-load torque of the motor",
               "motor speed (rpm)",
-              "torque (N.cm)",
+              "torque (N·cm)",
               "",
               {},
               false,
@@ -66,7 +66,7 @@ Figure torque_figure(const Catalogue& catalogue) {
     Points points;
     for (std::size_t s = 0; s < kSpeeds_rpm.size(); ++s) points.emplace_back(kSpeeds_rpm[s], row[s + 1]);
     const FrictionParameters law = reference_joint().friction.at(row[0]);
-    panel.series.push_back({number(row[0]) + " degC", points, Mark::kPoints, colour, false});
+    panel.series.push_back({number(row[0]) + " °C", points, Mark::kPoints, colour, false});
     panel.series.push_back({"",
                             sampled(
                                 0, 3600, [&](double rpm) { return fit[2] + fit[1] * rpm; }, 2),
@@ -91,7 +91,7 @@ Figure torque_figure(const Catalogue& catalogue) {
 Figure parameter_figure(const Catalogue& catalogue, const FuzzyFriction& friction) {
   const auto panel = [&](const std::string& title, const std::string& unit, std::size_t index, auto&& value) {
     return Panel{title,
-                 "temperature (degC)",
+                 "temperature (°C)",
                  unit,
                  "",
                  {{"catalogue", column(catalogue.parameters, index), Mark::kPoints, 0, false},
@@ -111,17 +111,17 @@ Figure parameter_figure(const Catalogue& catalogue, const FuzzyFriction& frictio
       "Friction parameters over temperature at the motor side: catalogue, the plant's law and the "
       "controller's rules.",
       3,
-      {panel("static", "Fs (N.cm)", 3, [](const FrictionParameters& f) { return motor_Ncm(f.static_Nm); }),
-       panel("Coulomb", "Fc (N.cm)", 2, [](const FrictionParameters& f) { return motor_Ncm(f.coulomb_Nm); }),
-       panel("viscous", "Fv (N.cm/rpm)", 1,
+      {panel("static", "Fs (N·cm)", 3, [](const FrictionParameters& f) { return motor_Ncm(f.static_Nm); }),
+       panel("Coulomb", "Fc (N·cm)", 2, [](const FrictionParameters& f) { return motor_Ncm(f.coulomb_Nm); }),
+       panel("viscous", "Fv (N·cm/rpm)", 1,
              [](const FrictionParameters& f) { return motor_viscous(f.viscous_Nms_rad); })}};
 }
 
 Figure membership_figure(const FuzzyFriction& friction) {
   Panel temperature{
-      "Layer 1: temperature", "temperature (degC)", "membership", "", {}, false, {}, {0, 1.05}, true};
+      "Layer 1: temperature", "temperature (°C)", "membership", "", {}, false, {}, {0, 1.05}, true};
   Panel weight{
-      "Layer 1: normalised weights", "temperature (degC)", "weight", "", {}, false, {}, {0, 1.05}, false};
+      "Layer 1: normalised weights", "temperature (°C)", "weight", "", {}, false, {}, {0, 1.05}, false};
   for (int i = 0; i < friction.rule_count; ++i) {
     const TemperatureRule& rule = friction.rules[static_cast<std::size_t>(i)];
     const auto bell = [&](double t) { return std::exp(-std::pow((t - rule.center_C) / rule.width_C, 2)); };
@@ -150,7 +150,7 @@ Figure membership_figure(const FuzzyFriction& friction) {
 Figure velocity_figure(const FuzzyFriction& friction) {
   const auto panel = [&](double to_rpm) {
     Panel result{
-        "Friction torque at the joint", "motor speed (rpm)", "friction (N.m)", "", {}, false, {}, {}, true};
+        "Friction torque at the joint", "motor speed (rpm)", "friction (N·m)", "", {}, false, {}, {}, true};
     int colour = 0;
     for (const double temperature_C : {-10.0, 5.0, 20.0, 40.0}) {
       const JointParameters joint = reference_joint();
@@ -165,7 +165,7 @@ Figure velocity_figure(const FuzzyFriction& friction) {
       };
       const double from_rpm = 1e-6;
       result.series.push_back(
-          {number(temperature_C) + " degC", sampled(from_rpm, to_rpm, plant), Mark::kLine, colour, false});
+          {number(temperature_C) + " °C", sampled(from_rpm, to_rpm, plant), Mark::kLine, colour, false});
       result.series.push_back({"", sampled(from_rpm, to_rpm, model), Mark::kDashed, colour, false});
       ++colour;
     }

@@ -140,7 +140,7 @@ TextTable heat_summary(const std::vector<HeatRun>& runs) {
 }
 
 Figure heat_figure(const std::vector<HeatRun>& runs) {
-  Panel temperature{"Temperature", "time (s)", "degC", "", {}, false, {}, {}, true};
+  Panel temperature{"Temperature", "time (s)", "temperature (°C)", "", {}, false, {}, {}, true};
   Panel cost{"PI2 of a move", "time (s)", "sum |e| / stroke", "", {}, false, {}, {}, true};
   Panel settled{"|error| at the end of a move", "time (s)", "rad", "", {}, true, {}, {}, true};
   temperature.series.push_back({"joint", runs.front().joint_temperature_C, Mark::kLine, 0, false});

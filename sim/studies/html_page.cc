@@ -14,12 +14,11 @@ table { border-collapse: collapse; margin: 1.5em 0; font-variant-numeric: tabula
 caption { text-align: left; font-weight: bold; padding: .3em 0; }
 td, th { border: 1px solid #ccc; padding: .2em .6em; text-align: right; }
 td:first-child, th:first-child { text-align: left; }
-figure { margin: 2em 0; } figure svg { width: 100%; height: auto; } figcaption { color: #555; }
+figure { margin: 2em 0; } figure svg { max-width: 100%; height: auto; } figcaption { color: #555; }
 </style></head><body>
 )";
 
-/// The <svg> element of a file, without the XML declaration and document type that HTML does not allow
-/// inside.
+/// The <svg> element of a file, without the XML declaration and document type that HTML does not allow inside.
 std::string inline_svg(const std::filesystem::path& path) {
   const std::string text = read_text_file(path);
   const auto begin = text.find("<svg");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "sim/studies/linear_program.h"
 
 namespace strainwave {
@@ -154,14 +155,14 @@ void require_motion(const LinkLimitConfig& c) {
     throw InputError("flexible limit", "peak_torque_Nm", "infinite",
                      "must be finite: else every move takes no time");
   if (!(c.motor.peak_torque_Nm > c.friction.static_Nm + std::abs(c.load_torque_Nm)))
-    throw InputError("flexible limit", "peak_torque_Nm", std::to_string(c.motor.peak_torque_Nm),
+    throw InputError("flexible limit", "peak_torque_Nm", number_text(c.motor.peak_torque_Nm),
                      "must exceed static friction and load, or the joint cannot move");
   if (!(std::isfinite(c.step_rad) && c.step_rad != 0.0))
-    throw InputError("flexible limit", "step_rad", std::to_string(c.step_rad), "must be finite and not 0");
+    throw InputError("flexible limit", "step_rad", number_text(c.step_rad), "must be finite and not 0");
   const double farthest_rad = top_speed_rad_s(c) * kLongestMotion * c.period_s;
   if (std::abs(c.step_rad) > farthest_rad)
-    throw InputError("flexible limit", "step_rad", std::to_string(c.step_rad),
-                     "must be below " + std::to_string(farthest_rad) +
+    throw InputError("flexible limit", "step_rad", number_text(c.step_rad),
+                     "must be below " + number_text(farthest_rad) +
                          ", which the joint's top speed covers in the " + std::to_string(kLongestMotion) +
                          " periods that are solved for");
 }
@@ -231,7 +232,7 @@ LinkLimit find_link_limit(const LinkLimitConfig& config) {
     }
     return limit;
   }
-  throw InputError("flexible limit", "step_rad", std::to_string(config.step_rad),
+  throw InputError("flexible limit", "step_rad", number_text(config.step_rad),
                    "must be less: no motion of " + std::to_string(kLongestMotion) + " periods reaches it");
 }
 

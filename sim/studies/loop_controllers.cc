@@ -4,6 +4,16 @@
 
 namespace strainwave {
 
+JointMeasurement measurement_of(const LoopSample& sample, double temperature_C) noexcept {
+  JointMeasurement measurement;
+  measurement.joint_position_rad = sample.joint_position_rad;
+  measurement.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(0.0);
+  measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
+  measurement.temperature_C = temperature_C;
+  measurement.temperature_valid = std::isfinite(temperature_C);
+  return measurement;
+}
+
 double FeedbackLoopController::torque_Nm(const LoopSample& sample) noexcept {
   if (std::isfinite(sample.temperature_C) && sample.temperature_C != temperature_C_) {
     controller_.set_temperature(sample.temperature_C);

@@ -6,9 +6,13 @@
 #include <optional>
 
 #include "control/scheduled_controller.h"
+#include "control/state_estimator.h"
 #include "sim/studies/closed_loop.h"
 
 namespace strainwave {
+
+/// What the daemon's controller is given of `sample`, with a temperature that need not be the sensor's; NaN: it is not known.
+JointMeasurement measurement_of(const LoopSample& sample, double temperature_C) noexcept;
 
 /// Backward difference of the measured position, as the source takes velocity from the encoder; 0 at the
 /// first sample.

@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include "sim/studies/loop_controllers.h"
+
 namespace strainwave {
 
 namespace {
 
-constexpr int kInterval = 10;  // periods between two samples of the stream
+constexpr int kInterval = 10;       // periods between two samples of the stream
+constexpr double kRounding = 1e-9;  // makes no period of its own
 
 }  // namespace
 
@@ -17,8 +20,10 @@ StreamedController::StreamedController(const JointControllerConfig& config, cons
 }
 
 void StreamedController::send(double time_s) noexcept {
-  const Reference then = path_.at(time_s + kInterval * config_.period_s + controller_.stream_lag_s());
-  controller_.follow({then.position_rad, then.velocity_rad_s, then.acceleration_rad_s2, 2, kInterval},
+  const int ahead =
+      kInterval + static_cast<int>(std::ceil(controller_.stream_lead_s() / config_.period_s - kRounding));
+  const Reference then = path_.at(time_s + ahead * config_.period_s);
+  controller_.follow({then.position_rad, then.velocity_rad_s, then.acceleration_rad_s2, 2, ahead},
                      periods_ == 0, 0.0, {});
 }
 
@@ -26,13 +31,8 @@ double StreamedController::torque_Nm(const LoopSample& sample) noexcept {
   if (periods_ == 0) controller_.start(sample.joint_position_rad);
   if (periods_ % kInterval == 0) send(sample.time_s);
   ++periods_;
-  JointMeasurement measurement;
-  measurement.joint_position_rad = sample.joint_position_rad;
-  measurement.joint_velocity_rad_s = sample.joint_velocity_rad_s.value_or(0.0);
-  measurement.has_velocity = sample.joint_velocity_rad_s.has_value();
-  measurement.temperature_C = told_.fixed_C.value_or(sample.temperature_C + told_.shift_C);
-  measurement.temperature_valid = std::isfinite(measurement.temperature_C);
-  const JointStep step = controller_.step(measurement);
+  const JointStep step =
+      controller_.step(measurement_of(sample, told_.fixed_C.value_or(sample.temperature_C + told_.shift_C)));
   monitor_ = step.monitor;
   return monitor_ == MonitorState::kFaultDue ? 0.0 : step.output.torque_Nm;
 }

@@ -13,7 +13,7 @@
 namespace strainwave {
 
 /// The daemon's controller under a stream of the path: samples for every tenth period, with velocity and acceleration, one interval
-/// ahead, and earlier by the lag that a joint with a spring has (docs/flexible-joint.md).
+/// ahead of what the controller needs (JointController::stream_lead_s()).
 class StreamedController final : public LoopController {
  public:
   /// What it is told of the temperature: the sensor's plus `shift_C`, always the same, or nothing.

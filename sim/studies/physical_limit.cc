@@ -4,19 +4,16 @@
 #include <string>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "sim/studies/time_optimal.h"
 
 namespace strainwave {
 
 namespace {
 
-std::string text(double value) {
-  return std::to_string(value);
-}
-
 void require_none(const char* key, double value) {
   if (value != 0.0)
-    throw InputError("physical limit", key, text(value),
+    throw InputError("physical limit", key, number_text(value),
                      "0 is allowed: the limit is that of the joint without");
 }
 
@@ -41,8 +38,9 @@ void require_constant(const ClosedLoopConfig& config, const char* key, const Val
   for (std::size_t k = 1; k < sample_count(config); ++k) {
     const double time_s = static_cast<double>(k) * config.plant.period_s;
     if (value(time_s) != first)
-      throw InputError("physical limit", key, text(value(time_s)) + " at " + text(time_s) + " s",
-                       text(first) + " throughout is allowed: the limit of a link is that of one step");
+      throw InputError(
+          "physical limit", key, number_text(value(time_s)) + " at " + number_text(time_s) + " s",
+          number_text(first) + " throughout is allowed: the limit of a link is that of one step");
   }
 }
 

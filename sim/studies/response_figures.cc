@@ -12,6 +12,9 @@ namespace {
 constexpr int kSetpointColour = 7;
 constexpr int kLimitColour = 0;
 
+/// What is smaller is drawn as this: a logarithmic axis has no 0.
+constexpr double kSmallestDrawn_rad = 1e-9;
+
 /// The same colour for a contender in every figure.
 int colour_of(const Chapter6& chapter, const std::string& contender) {
   const auto found = std::find(chapter.contenders.begin(), chapter.contenders.end(), contender);
@@ -45,7 +48,9 @@ std::string range_text(int range) {
 
 Series contender_series(const Chapter6& chapter, const Chapter6Key& key, const std::string& contender,
                         double from_s, double to_s, double (*value)(const TracePoint&)) {
-  return {contender, over_time(chapter.at(key, contender).trace, from_s, to_s, value), Mark::kLine,
+  // C3's gains are nearly C1's: one would hide the other.
+  const Mark mark = contender == "C3" ? Mark::kDashed : Mark::kLine;
+  return {contender, over_time(chapter.at(key, contender).trace, from_s, to_s, value), mark,
           colour_of(chapter, contender), false};
 }
 
@@ -54,7 +59,7 @@ Figure step_responses(const Chapter6& chapter, Setting setting, int range) {
   const Chapter6Key key{setting, Scenario::kStaircase, range};
   Figure figure{"steps_" + std::string(name(setting)) + "_" + std::to_string(range + 1),
                 "Step responses from " + range_text(range) + ", " + std::string(name(setting)) +
-                    " setting, temperature 15 + 25 sin(t) degC.",
+                    " setting, temperature 15 + 25 sin(t) °C.",
                 3,
                 {}};
   for (const std::string& contender : chapter.contenders) {
@@ -74,20 +79,34 @@ Figure step_responses(const Chapter6& chapter, Setting setting, int range) {
   return figure;
 }
 
+/// Decades around all that is drawn, with room below: what lies on the axis is not seen.
+std::vector<double> decades(const std::vector<Series>& drawn) {
+  double low = 1.0;
+  double high = kSmallestDrawn_rad;
+  for (const Series& series : drawn) {
+    for (const auto& [time_s, value] : series.points) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  return {std::pow(10.0, std::floor(std::log10(low) - 0.3)), std::pow(10.0, std::ceil(std::log10(high)))};
+}
+
 /// Error on a logarithmic scale, all contenders, one panel per range.
 Figure error_magnitudes(const Chapter6& chapter, Setting setting, Scenario scenario) {
-  Figure figure{
-      "errors_" + std::string(name(scenario)) + "_" + std::string(name(setting)),
-      "Size of the error, " + std::string(name(scenario)) + ", " + std::string(name(setting)) + " setting.",
-      2,
-      {}};
+  Figure figure{"errors_" + std::string(name(scenario)) + "_" + std::string(name(setting)),
+                "Size of the error, " + std::string(name(scenario)) + ", " + std::string(name(setting)) +
+                    " setting; below 1 nrad it is drawn as 1 nrad.",
+                2,
+                {}};
   for (int range = 0; range < kRangeCount; ++range) {
     Panel panel{"from " + range_text(range), "time (s)", "|error| (rad)", "", {}, true, {}, {}, true};
     for (const std::string& contender : chapter.contenders) {
       Series series = contender_series(chapter, {setting, scenario, range}, contender, 0, 12, error);
-      for (auto& [time_s, value] : series.points) value = std::max(std::abs(value), 1e-9);
+      for (auto& [time_s, value] : series.points) value = std::max(std::abs(value), kSmallestDrawn_rad);
       panel.series.push_back(series);
     }
+    panel.y_range = decades(panel.series);
     figure.panels.push_back(panel);
   }
   return figure;
@@ -112,8 +131,8 @@ Figure temperature_steps(const Chapter6& chapter, Setting setting, double from_s
     const Chapter6Key key{setting, Scenario::kRamp, range};
     Panel panel{"setpoint " + range_text(range),
                 "time (s)",
-                "error (urad)",
-                "temperature (degC)",
+                "error (µrad)",
+                "temperature (°C)",
                 {},
                 false,
                 {from_s, to_s},
@@ -162,7 +181,7 @@ Figure resting_torque(const Chapter6& chapter) {
       {}};
   for (int range = 0; range < kRangeCount; ++range) {
     Panel panel{
-        "setpoint " + range_text(range), "time (s)", "torque (N.m)", "", {}, false, {11, 12}, {}, true};
+        "setpoint " + range_text(range), "time (s)", "torque (N·m)", "", {}, false, {11, 12}, {}, true};
     for (const char* contender : {"C3", "C4", "PID", "C4+"})
       panel.series.push_back(
           contender_series(chapter, {Setting::kRealistic, Scenario::kRamp, range}, contender, 11, 12,
@@ -186,7 +205,7 @@ std::vector<Figure> response_figures(const Chapter6& chapter) {
   for (const Setting setting : {Setting::kIdeal, Setting::kRealistic}) {
     figures.push_back(
         temperature_steps(chapter, setting, 0.5, 12.0, "temperature_ramp",
-                          "Error while the temperature rises from -10 to 45 degC, after the first move;"));
+                          "Error while the temperature rises from -10 to 45 °C, after the first move;"));
     figures.push_back(temperature_steps(chapter, setting, 2.9, 4.2, "temperature_zoom",
                                         "The same around two steps of the temperature, enlarged;"));
   }

@@ -10,8 +10,7 @@
 
 namespace strainwave {
 
-/// Staircase: Tables 8 and 9, temperature 15 + 25 sin(t). Ramp: Tables 10 and 11, -10 degC and 5 more each
-/// second.
+/// Staircase: Tables 8 and 9, temperature 15 + 25 sin(t). Ramp: Tables 10 and 11, -10 degC and 5 more each second.
 enum class Scenario { kStaircase, kRamp };
 inline constexpr std::array kScenarios = {Scenario::kStaircase, Scenario::kRamp};
 

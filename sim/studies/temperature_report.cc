@@ -197,7 +197,7 @@ std::vector<Figure> temperature_figures(const std::vector<TemperatureRow>& rows,
   Figure over{"temperature", "RMS error of the link over temperature, the sensor right.", 3, {}};
   const auto ways = distinct(rows, &TemperatureRow::way);
   for (const std::string& motion : distinct(rows, &TemperatureRow::motion)) {
-    Panel panel{motion, "degC", "RMS error (rad)", "", {}, true, {}, {}, over.panels.empty()};
+    Panel panel{motion, "temperature (°C)", "RMS error (rad)", "", {}, true, {}, {}, over.panels.empty()};
     for (std::size_t w = 0; w < ways.size(); ++w) {
       Points points;
       for (const double temperature_C : kStudyTemperatures_C)
@@ -207,7 +207,7 @@ std::vector<Figure> temperature_figures(const std::vector<TemperatureRow>& rows,
     }
     over.panels.push_back(panel);
   }
-  Panel moves{"a hundred moves of 0.1 rad, -10 degC", "move", "RMS error (rad)", "", {}, true, {}, {}, true};
+  Panel moves{"a hundred moves of 0.1 rad, -10 °C", "move", "RMS error (rad)", "", {}, true, {}, {}, true};
   for (std::size_t w = 0; w < hundred.size(); ++w) {
     Points points;
     for (std::size_t move = 0; move < hundred[w].moves.size(); ++move)

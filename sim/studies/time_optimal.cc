@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "control/units.h"
 #include "sim/joint/root.h"
 
@@ -54,7 +55,7 @@ class Move {
     const JointInput start = input(first_, direction_);
     if (!(direction_ * (start.torque_Nm - start.load_torque_Nm) > start.friction.static_Nm))
       throw InputError("time-optimal motion", "peak_torque_Nm",
-                       std::to_string(config_.plant.motor.peak_torque_Nm),
+                       number_text(config_.plant.motor.peak_torque_Nm),
                        "must exceed static friction and load, or the joint cannot move");
     const auto miss_rad = [&](double switch_s) {
       return direction_ * (simulate(switch_s, nullptr).position_rad - to_rad_);
@@ -132,8 +133,8 @@ TimeOptimalResult run_time_optimal(const ClosedLoopConfig& config) {
     if (std::any_of(result.trace.begin() + static_cast<std::ptrdiff_t>(k), result.trace.end(),
                     [&](const TracePoint& point) { return point.setpoint_position_rad != setpoint_rad; }))
       throw InputError(
-          "time-optimal motion", "setpoint_position_rad", std::to_string(setpoint_rad),
-          "must hold until the move to it has ended, which takes " + std::to_string(stop.duration_s) + " s");
+          "time-optimal motion", "setpoint_position_rad", number_text(setpoint_rad),
+          "must hold until the move to it has ended, which takes " + number_text(stop.duration_s) + " s");
     position_rad = setpoint_rad;
   }
   result.trace.resize(count);

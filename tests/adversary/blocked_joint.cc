@@ -71,6 +71,7 @@ TEST_F(BlockedJoint, FaultsWithinASecondHoweverItIsStreamedTo) {
 TEST_F(BlockedJoint, FaultsByItsTorqueWhereNoFollowingErrorIsLargeEnough) {
   BenchJoint joint = jammed_joint();
   joint.loop.limits.following_error_rad = 10.0;
+  joint.loop.limits.load_Nm = 1e3;  // nor its load too large, which would end it sooner
   JointBench bench({joint});
   bench.bring_to_hold(0);
   let_counts_flicker(bench);
@@ -84,6 +85,34 @@ TEST_F(BlockedJoint, FaultsAfterASingleMove) {
   bench.bring_to_hold(0);
   ASSERT_EQ(bench.move(0, 1.0), Reason::kAccepted);
   EXPECT_GE(bench.step_until([&] { return bench.fault(0) != Fault::kNone; }, 1000), 0);
+}
+
+TEST_F(BlockedJoint, FaultsHoweverTheOrdersToPushAreInterrupted) {
+  enum class Between { kMoveBack, kHold, kEnable };
+  for (const Between between : {Between::kMoveBack, Between::kHold, Between::kEnable}) {
+    BenchJoint joint = jammed_joint();
+    joint.loop.limits.following_error_rad = 10.0;
+    joint.loop.limits.load_Nm = 1e3;
+    JointBench bench({joint});
+    bench.bring_to_hold(0);
+    let_counts_flicker(bench);
+    bench.run(0.3);
+    int bursts = 0;
+    for (; bursts < 20 && bench.fault(0) == Fault::kNone; ++bursts) {
+      (void)bench.move(0, 1.0);
+      bench.run(0.42);
+      if (between == Between::kMoveBack) (void)bench.move(0, bench.state(0).joint_position_rad - 1e-3);
+      if (between == Between::kHold) (void)bench.order(0, OrderKind::kHold);
+      if (between == Between::kEnable) {
+        (void)bench.order(0, OrderKind::kDisable);
+        bench.run(0.2);
+        (void)bench.order(0, OrderKind::kEnable);
+      }
+      bench.run(0.08);
+    }
+    EXPECT_LE(bursts, 3) << static_cast<int>(between);
+    EXPECT_EQ(bench.fault(0), Fault::kBlocked) << to_text(bench.fault(0));
+  }
 }
 
 TEST_F(BlockedJoint, IsNotWhatAHeavyLoadedOrAStiffJointIs) {

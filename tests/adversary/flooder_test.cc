@@ -48,9 +48,10 @@ constexpr double kBound_ms = 50.0;
 
 /// Floods with sound orders that cost the core most: a table to certify, ten thousand times a second from as many ports as the gateway
 /// keeps orders, so that no order of another finds a place.
-[[noreturn]] void flood_with_tables(gain_table_v1 table) {
+[[noreturn]] void flood_with_tables(gain_table_v2 table) {
   TestClient listener;
   std::vector<PortSender> ports(256);
+  table.sequence += 1'000'000'000;  // or what is answered to these would pass for the answer to a stop
   auto due = Clock::now();
   for (;;) {
     listener.pump(milliseconds(0));
@@ -71,7 +72,7 @@ class Flooder {
   explicit Flooder(std::uint64_t seed) : pid_(::fork()) {
     if (pid_ == 0) flood(seed);
   }
-  explicit Flooder(const gain_table_v1& table) : pid_(::fork()) {
+  explicit Flooder(const gain_table_v2& table) : pid_(::fork()) {
     if (pid_ == 0) flood_with_tables(table);
   }
   ~Flooder() {
@@ -101,15 +102,28 @@ class FlooderTest : public DaemonTest {
     }
     return false;
   }
-  /// How long until a stop was acknowledged and seen in the states, in ms; above a thousand: never.
-  double stop_ms() {
+  struct Stop {
+    double obeyed_ms = 0.0;  ///< until the first state that tells of it, by the daemon's clock
+    double known_ms = 0.0;   ///< until it was acknowledged and seen here, where the flood comes, too
+  };
+  Stop stop() {
     const command_v1 stop = client_.make_command("elbow", Action::kDisable);
+    client_.forget_states();
     const auto sent = Clock::now();
+    const auto sent_us = std::chrono::duration_cast<std::chrono::microseconds>(
+        std::chrono::system_clock::now().time_since_epoch());
     client_.lcm().publish("SW.elbow.COMMAND", &stop);
     const Answer answer = client_.wait_for_answer(stop.sequence, seconds(5));
     EXPECT_TRUE(answer.accepted) << answer.text;
     EXPECT_TRUE(client_.wait_for_mode("elbow", Mode::kOff, seconds(5)));
-    return std::chrono::duration<double, std::milli>(Clock::now() - sent).count();
+    Stop result;
+    result.known_ms = std::chrono::duration<double, std::milli>(Clock::now() - sent).count();
+    for (const state_v1& state : client_.history("elbow")) {
+      if (state.mode != static_cast<std::int32_t>(Mode::kOff)) continue;
+      result.obeyed_ms = 1e-3 * static_cast<double>(state.utime - sent_us.count());
+      break;
+    }
+    return result;
   }
 
   std::optional<DaemonProcess> daemon_;
@@ -130,7 +144,7 @@ TEST_F(FlooderTest, EveryStopIsObeyedAndAcknowledgedAndTheGatewayLives) {
   double longest_ms = 0.0;
   for (int i = 0; i < kStops; ++i) {
     ASSERT_TRUE(hold_position()) << i << daemon_->log();
-    longest_ms = std::max(longest_ms, stop_ms());
+    longest_ms = std::max(longest_ms, stop().known_ms);
     ASSERT_FALSE(HasFailure()) << "stop " << i;
   }
   std::printf("%d stops, the longest took %.2f ms\n", kStops, longest_ms);
@@ -144,18 +158,20 @@ TEST_F(FlooderTest, EveryStopIsObeyedAndAcknowledgedAndTheGatewayLives) {
 
 // What a lane of their own is for: among the orders there is no room, and each costs the core milliseconds.
 TEST_F(FlooderTest, StopsGoBeforeOrdersForWhichThereIsNoRoom) {
-  double longest_ms = 0.0;
+  Stop longest;
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(hold_position()) << i << daemon_->log();
-    gain_table_v1 table = client_.make_table("elbow", shipped_table());
+    gain_table_v2 table = client_.make_table("elbow", shipped_table());
     const Flooder flooder(table);
     client_.pump(seconds(1));
-    longest_ms = std::max(longest_ms, stop_ms());
+    const Stop one = stop();
+    longest.obeyed_ms = std::max(longest.obeyed_ms, one.obeyed_ms);
+    longest.known_ms = std::max(longest.known_ms, one.known_ms);
     ASSERT_FALSE(HasFailure()) << "stop " << i;
   }
-  std::printf("the longest took %.2f ms\n", longest_ms);
+  std::printf("the longest took %.2f ms, known after %.2f ms\n", longest.obeyed_ms, longest.known_ms);
   if (in_virtual_time()) {
-    EXPECT_LT(longest_ms, kBound_ms);
+    EXPECT_LT(longest.obeyed_ms, kBound_ms);
   }
 }
 

@@ -1,5 +1,5 @@
-// A loop that is not always there: periods left out, stalls, and a joint that goes on under the last torque meanwhile. Virtual
-// time.
+// A loop that is not always there: periods left out, stalls, and a joint that goes on under the last
+// torque meanwhile. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,6 +77,59 @@ TEST_F(StalledLoop, IsAFaultBeforeItHasBeenAwayForTwentyMillisecondsManyTimes) {
   }
   EXPECT_EQ(bench_->fault(0), Fault::kPeriodsMissed);
   EXPECT_LE(stalls, 6);
+}
+
+enum class Law { kObserved, kRigid, kAsByDefault };
+
+/// A drive that gives no torque without an order for 5 ms, so that no model knows what it does over a stall.
+BenchJoint watched_joint(Law law, const MotionLimits& motion, double overspeed_rad_s) {
+  BenchJoint joint = demo_joint();
+  joint.drive.watchdog_s = 0.005;
+  joint.loop.controller.motion = motion;
+  joint.loop.controller.rigid = law != Law::kAsByDefault;
+  joint.loop.controller.use_observer = law == Law::kObserved;
+  joint.loop.controller.use_landing = law == Law::kObserved;
+  joint.loop.limits.overspeed_rad_s = overspeed_rad_s;
+  return joint;
+}
+
+/// Stalls so long, somewhere in a motion over the whole range, of a joint that then must arrive without a fault.
+void stall_anywhere(const BenchJoint& joint, const OverrunLimits& limits, int periods, double fastest_rad_s) {
+  for (const double after_s : {0.02, 0.05, 0.13, 0.3, 0.7, 0.95, 1.2, 1.5, 1.57, 1.62}) {
+    JointBench bench({joint}, limits);
+    bench.bring_to_hold(0);
+    ASSERT_EQ(bench.move(0, -3.0), Reason::kAccepted);
+    bench.run(2.5);
+    ASSERT_EQ(bench.move(0, 3.0), Reason::kAccepted);
+    bench.run(after_s);
+    bench.stall(periods);
+    const JointState& truth = bench.drive(0).simulated().plant().state();
+    double fastest_seen_rad_s = 0.0;
+    double fastest_true_rad_s = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+      bench.step();
+      ASSERT_EQ(bench.fault(0), Fault::kNone)
+          << to_text(bench.fault(0)) << ", " << i << " periods after a stall of " << periods << " at "
+          << after_s << " s";
+      fastest_seen_rad_s = std::max(fastest_seen_rad_s, std::abs(bench.state(0).joint_velocity_rad_s));
+      fastest_true_rad_s = std::max(fastest_true_rad_s, std::abs(truth.velocity_rad_s));
+    }
+    EXPECT_LT(fastest_seen_rad_s, fastest_rad_s) << "seen, stall of " << periods << " at " << after_s << " s";
+    EXPECT_LT(fastest_true_rad_s, fastest_rad_s) << "true, stall of " << periods << " at " << after_s << " s";
+    EXPECT_NEAR(truth.position_rad, 3.0, 1e-3) << periods << ", " << after_s;
+  }
+}
+
+TEST(StallThatIsTolerated, MakesNoOtherFaultWithWhatTheDemoTolerates) {
+  for (const Law law : {Law::kObserved, Law::kRigid, Law::kAsByDefault})
+    for (const int periods : {1, 5, 9, 10, 19, 49, 50, 80, 300, 1990})
+      stall_anywhere(watched_joint(law, {4.0, 30.0, 30.0}, 8.0), {1000, 2.0, 1.0}, periods, 5.0);
+}
+
+TEST(StallThatIsTolerated, MakesNoOtherFaultWithWhatIsToleratedByDefault) {
+  for (const Law law : {Law::kObserved, Law::kRigid, Law::kAsByDefault})
+    for (const int periods : {1, 5, 9, 10, 15, 19})
+      stall_anywhere(watched_joint(law, {6.0, 150.0, 150.0}, 7.6), {}, periods, 7.5);
 }
 
 TEST_F(StalledLoop, IsNoFaultWhileAllJointsAreOff) {

@@ -3,22 +3,19 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "base/input_error.h"
-
 namespace strainwave {
 namespace {
 
 std::string refusal(const std::string& script) {
   try {
     run_gnuplot(script);
-  } catch (const InputError& error) {
+  } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "";
 }
 
 TEST(Gnuplot, SaysWhatGnuplotSaid) {
-  if (std::system("gnuplot --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
   EXPECT_EQ(refusal("x = 1\n"), "");
   EXPECT_NE(refusal("plot nonsense(\n").find("nonsense"), std::string::npos);
 }

@@ -22,8 +22,13 @@ TEST(Printable, ShowsNoTextInAnotherOrderThanItIs) {
   // U+202E turns the direction, U+2028 begins a line, U+200B is invisible, U+FEFF too.
   EXPECT_EQ(printable("elbow\u202Edelbasid"), "elbow?delbasid");
   EXPECT_EQ(printable("a\u2028b\u200Bc\uFEFFd\u2066e"), "a?b?c?d?e");
+  EXPECT_EQ(printable("a\u115Fb\u3164c\uFFA0d"), "a?b?c?d");
   EXPECT_EQ(printable("\u00C4rmel \u2013 \u65E5\u672C \U0001F916"),
             "\u00C4rmel \u2013 \u65E5\u672C \U0001F916");
+}
+
+TEST(Printable, LetsNoTextPassForALineOfTheProgram) {
+  EXPECT_EQ(printable_paragraph("x\nstrainwaved: sound\n\x1b[2J"), "x\n  strainwaved: sound\n  ?[2J");
 }
 
 TEST(Printable, TakesNothingForTextThatIsNoUtf8) {

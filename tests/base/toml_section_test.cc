@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -99,6 +100,52 @@ TEST(TomlSection, SaysWhatIsNoFile) {
     }
   }
   EXPECT_EQ(refusal("[joint\n", [](TomlSection&) {}).find("a.toml:1: not valid TOML"), 0U);
+}
+
+TEST(TomlSection, RefusesWhatNestsTooDeepBeforeItIsParsed) {
+  const auto repeated = [](const std::string& part, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += part;
+    return text;
+  };
+  const auto ignore = [](TomlSection&) {};
+  for (const std::string& deep :
+       {"x = 1\n" + repeated("a.", 50'000) + "a = 1", "x = 1\n[" + repeated("a.", 50'000) + "a]",
+        "x = 1\n" + repeated("\"a\" . ", 50'000) + "a = 1", "x = 1\na = " + repeated("[", 50'000),
+        "x = 1\na = " + repeated("{a=", 50'000), "x = 1\na = " + repeated("{a.a.a.a=", 50'000),
+        "x = '\"'\n" + repeated("'\u00e4'.", 50'000) + "a = 1",
+        "x = 1 # \"\"\"\n" + repeated("a.", 50'000) + "a = 1"}) {
+    const std::string said = refusal(deep, ignore);
+    EXPECT_EQ(said.find("a.toml:2: tables lie in each other more than 32 deep"), 0U) << said.substr(0, 200);
+  }
+  EXPECT_NE(refusal(repeated("a.", 32) + "a = 1", ignore).find("unknown key"), std::string::npos);
+}
+
+TEST(TomlSection, CountsNoDotsOfStringsCommentsAndNumbers) {
+  const std::string much = std::string(100, '.') + std::string(100, '[');
+  const auto read = [](TomlSection& section) {
+    for (const char* key : {"a", "b", "c", "d"}) (void)section.text(key);
+    EXPECT_EQ(section.numbers("e", {0, 1}).size(), 40U);
+  };
+  std::string text = "# " + much + "\na = \"\\\"" + much + "\"\nb = '" + much + "'\nc = \"\"\"\"" + much +
+                     "\n" + much + "\"\"\"\"\"\nd = '''" + much + "''" + much + "'''\ne = [";
+  for (int i = 0; i < 40; ++i) text += "0.5, ";
+  EXPECT_EQ(refusal(text + "]", read), "accepted");
+}
+
+TEST(TomlSection, ShowsNothingThatCommandsATerminal) {
+  // An escape, a turned direction of writing and another line, as values and as keys.
+  const std::string hostile = R"("\u001b[2J\u202e\nsound")";
+  for (const std::string& text :
+       {"torque_Nm = " + hostile, hostile + " = 1\ntorque_Nm = 1", "torque_Nm = 1\n[" + hostile + "]",
+        std::string("torque_N = \"\x1b[2J\""), std::string("torque_N\u202e = 1")}) {
+    const std::string said = refused_number(text);
+    EXPECT_EQ(said, printable(said));
+    EXPECT_NE(said, "accepted");
+  }
+  TomlSection section = TomlSection::parse("torque_Nm = " + hostile, "a.toml");
+  section.warn("torque_Nm", "is doubtful");
+  EXPECT_EQ(section.warnings().front(), "a.toml:1: torque_Nm = \"?[2J??sound\": is doubtful");
 }
 
 }  // namespace

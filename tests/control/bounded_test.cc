@@ -38,8 +38,7 @@ TEST(Bounded, ErrorBoundsCoverWhatHappensInRandomExpressions) {
     const Pair result = random_expression(random, 5);
     if (!std::isfinite(result.bounded.error)) continue;
     const long double error = std::abs(static_cast<long double>(result.bounded.value) - result.exact);
-    // The long double's own error: 2^-64 relative per operation, of which the bound (2^-53 each) is 2^11
-    // times.
+    // The long double's own error: 2^-64 relative per operation, of which the bound (2^-53 each) is 2^11 times.
     ASSERT_LE(error, static_cast<long double>(result.bounded.error) * 1.001L) << i;
   }
 }

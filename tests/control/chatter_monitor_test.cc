@@ -18,6 +18,7 @@ ChatterSample sample_with(double torque_Nm, double planned_Nm = 0.0) {
   sample.torque_Nm = torque_Nm;
   sample.planned_torque_Nm = planned_Nm;
   sample.static_friction_Nm = kStatic_Nm;
+  sample.torque_limit_Nm = 34.0;
   return sample;
 }
 
@@ -154,6 +155,48 @@ TEST(ChatterMonitor, TakesWhatACoarseEncoderMakesOfTheTorqueForNoise) {
   }
 }
 
+TEST(ChatterMonitor, TakesNoReversalOfTheWholeTorqueForNoiseHoweverCoarseTheEncoder) {
+  ChatterMonitor monitor(0.001);
+  MonitorState state = MonitorState::kWatching;
+  for (int k = 0; k < 50; ++k) {
+    ChatterSample sample = sample_with(k / 2 % 2 == 0 ? 34.0 : -34.0);
+    sample.feedback_step_Nm = 20.0;
+    state = monitor.step(sample);
+  }
+  EXPECT_EQ(state, MonitorState::kFallenBack);
+}
+
+TEST(ChatterMonitor, DistrustsAModelWhoseInnovationAsksForHalfOfTheTorqueAndNoneThatAsksForLess) {
+  for (const double share : {0.45, 0.8, 5.0}) {
+    ChatterMonitor monitor(0.001);
+    int fallback = -1;
+    for (int k = 0; k < 1000 && fallback < 0; ++k) {
+      ChatterSample sample = sample_with(0.0);
+      sample.innovation_Nm = (k / 20 % 2 == 0 ? 34.0 : -34.0) * share;
+      if (monitor.step(sample) != MonitorState::kWatching) fallback = k;
+    }
+    if (share < 0.5) {
+      EXPECT_LT(fallback, 0);
+    } else {
+      EXPECT_GE(fallback, 0) << share;
+      EXPECT_LE(fallback, 50) << share;
+    }
+  }
+}
+
+TEST(ChatterMonitor, TakesLessForChatterWhereTheLawCompensatesNoFriction) {
+  for (const bool compensates : {false, true}) {
+    ChatterMonitor monitor(0.001);
+    MonitorState state = MonitorState::kWatching;
+    for (int k = 0; k < 100; ++k) {
+      ChatterSample sample = sample_with((k / 7 % 2 == 0 ? 1.4 : -1.4) * kStatic_Nm);
+      sample.compensates_friction = compensates;
+      state = monitor.step(sample);
+    }
+    EXPECT_EQ(state != MonitorState::kWatching, !compensates);
+  }
+}
+
 TEST(ChatterMonitor, IsSilentHoweverLongAndHardThePushInOneDirection) {
   ChatterMonitor monitor(0.001);
   for (int k = 0; k < 100000; ++k) ASSERT_EQ(monitor.step(sample_with(34.0)), MonitorState::kWatching);
@@ -185,6 +228,50 @@ TEST(ChatterMonitor, IsNotMovedByATorqueThatIsNoNumber) {
   ChatterMonitor monitor(0.001);
   for (int k = 0; k < 1000; ++k)
     ASSERT_EQ(monitor.step(sample_with(k % 2 == 0 ? std::nan("") : 20.0)), MonitorState::kWatching);
+}
+
+/// Periods of 1 ms until a joint that comes over its place every so many falls back; -1: it does not.
+int periods_until_it_drives_itself(int every, bool compensates, double rests_s) {
+  ChatterMonitor monitor(0.001);
+  for (int k = 0; k < 5000; ++k) {
+    ChatterSample sample = sample_with(0.0);
+    sample.reference_rests = 1e-3 * k < rests_s;
+    sample.compensates_friction = compensates;
+    sample.swung_over = k % every == 0;
+    if (monitor.step(sample) != MonitorState::kWatching) return monitor.drives_itself() ? k : -2;
+  }
+  return -1;
+}
+
+TEST(ChatterMonitor, SeesWithin50msOfTheSecondSwingThatCompensatedFrictionDrivesTheJoint) {
+  for (const int every : {12, 24, 48}) {
+    const int seen = periods_until_it_drives_itself(every, true, 5.0);
+    EXPECT_GT(seen, 100) << every << ": what comes to rest may swing";
+    EXPECT_LE(seen, 100 + 2 * every) << every;
+  }
+  EXPECT_EQ(periods_until_it_drives_itself(24, false, 5.0), -1) << "none is compensated";
+  EXPECT_EQ(periods_until_it_drives_itself(24, true, 0.05), -1) << "it moves";
+  EXPECT_EQ(periods_until_it_drives_itself(200, true, 5.0), -1) << "somebody pushes it";
+}
+
+TEST(ChatterMonitor, TakesNoMoreThanOrdersThatSwingTheJointExplainForTheirs) {
+  const auto seen = [](double excess_Nm, double ordered_Nm, int ordered_for) {
+    ChatterMonitor monitor(0.001);
+    for (int k = 0; k < 2000; ++k) {
+      ChatterSample sample = sample_with(excess_Nm * std::sin(2e-3 * std::numbers::pi * 50.0 * k));
+      if (k < 100) sample.torque_Nm = 0.0;
+      if (k < ordered_for) sample.ordered_torque_Nm = k / 25 % 2 == 0 ? ordered_Nm : -ordered_Nm;
+      sample.planned_torque_Nm = sample.ordered_torque_Nm;
+      sample.torque_Nm += sample.planned_torque_Nm;
+      if (monitor.step(sample) != MonitorState::kWatching) return k;
+    }
+    return -1;
+  };
+  EXPECT_GE(seen(9.0, 0.0, 2000), 100);
+  EXPECT_EQ(seen(9.0, 6.0, 2000), -1) << "the swing of what it carries";
+  EXPECT_LT(seen(20.0, 6.0, 2000), 160) << "more than the orders make";
+  EXPECT_GE(seen(9.0, 6.0, 1000), 1000);
+  EXPECT_LT(seen(9.0, 6.0, 1000), 1300) << "it goes on after them";
 }
 
 }  // namespace

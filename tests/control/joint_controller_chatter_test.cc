@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include "control/gain_table_json.h"
 #include "control/joint_controller.h"
+#include "tests/support/scaled_table.h"
 #include "tests/support/two_mass_joint.h"
 
 namespace strainwave {
@@ -16,15 +16,9 @@ constexpr double kCount_rad = 2.0 * std::numbers::pi / 320000.0;
 constexpr double kLimit_Nm = 34.0;
 constexpr double kStrong_Nm = 4.0;
 
-/// The catalogue's table for another inertia: the same closed loop.
+/// The catalogue's table for another inertia.
 GainTable table_for(double inertia_kgm2) {
-  GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
-  const double scale = inertia_kgm2 / table.plant.inertia_kgm2;
-  table.plant.inertia_kgm2 = inertia_kgm2;
-  for (FeedbackGains* gains : {&table.primary, &table.fallback})
-    for (int rule = 0; rule < gains->rule_count; ++rule)
-      gains->set(rule, scale * gains->gain(rule), gains->lyapunov(rule));
-  return table;
+  return testing::scaled_table("c4.json", inertia_kgm2);
 }
 
 JointControllerConfig config_for(bool rigid) {

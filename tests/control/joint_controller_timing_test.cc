@@ -48,7 +48,7 @@ TEST(JointControllerTiming, ALatePositionDoesLessHarmWhenItsLatenessIsKnown) {
 }
 
 TEST(JointControllerTiming, TakesSkippedPeriodsForWhatTheyAre) {
-  for (const int skipped : {1, 2, 5, 20}) {
+  for (const int skipped : {1, 2, 5, 19}) {
     ControlledJoint loop;
     loop.controller().set_target(10.0, 2.0);
     loop.run(1.0);
@@ -80,6 +80,24 @@ TEST(JointControllerTiming, ArrivesToTheCountAlthoughPeriodsWereSkippedOnTheWay)
     }
     EXPECT_LE(std::abs(loop.position_rad() - 1.0), kCount_rad) << begin;
     EXPECT_LE(furthest_rad, 1.01) << begin;
+  }
+}
+
+TEST(JointControllerTiming, GoesOnFromWhereTheJointIsAfterAStallThatNoModelKnows) {
+  for (const int skipped : {20, 80, 2000}) {
+    ControlledJoint loop;
+    loop.controller().set_target(10.0, 2.0);
+    loop.run(1.0);
+    const JointStep before = loop.step();
+    const double from_rad = loop.position_rad();
+    loop.skip(skipped);
+    const double mean_rad_s = (loop.position_rad() - from_rad) / (0.001 * skipped);
+    const JointStep after = loop.step();
+    EXPECT_NEAR(after.estimate.velocity_rad_s, mean_rad_s, 0.1)
+        << "over all periods that passed: " << skipped;
+    EXPECT_NEAR(after.reference.position_rad, loop.position_rad(), 0.01) << skipped;
+    EXPECT_EQ(after.ordered_reference.position_rad, after.reference.position_rad) << skipped;
+    EXPECT_GT(after.reference.position_rad, before.reference.position_rad) << skipped;
   }
 }
 

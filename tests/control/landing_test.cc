@@ -69,5 +69,27 @@ TEST(Landing, LooksForAnEdgeWhileFrictionIsInDoubtAndNoMoreThanEightTimes) {
   EXPECT_LE(pushes, 8);
 }
 
+TEST(Landing, APushThatIsOverBeforeTheEncoderTellsOfItIsPlannedToItsEndAndNotAnswered) {
+  for (const double told_rad_s : {0.0, 0.3, -0.3}) {
+    Landing landing({0.001, kCount_rad, 2});
+    landing.begin(0.5);
+    JointEstimate before;
+    before.position_rad = 0.5 - 2.0 * kCount_rad;
+    for (int k = 0; k < 2; ++k) EXPECT_EQ(landing.step(before, before, 0.0, model()), 0.0);
+    double position_rad = before.position_rad;
+    double velocity_rad_s = 0.0;
+    JointEstimate told = before;
+    for (int k = 0; k < 20; ++k) {
+      const ModelMotion motion =
+          model().advance(landing.step(told, told, 0.0, model()), {}, velocity_rad_s, 0.001);
+      position_rad += motion.displacement_rad;
+      velocity_rad_s = motion.velocity_rad_s;
+      told.velocity_rad_s = told_rad_s;
+      if (motion.moved && velocity_rad_s == 0.0) break;
+    }
+    EXPECT_NEAR(position_rad, 0.5, 0.5 * kCount_rad) << told_rad_s;
+  }
+}
+
 }  // namespace
 }  // namespace strainwave

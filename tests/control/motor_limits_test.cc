@@ -80,6 +80,21 @@ TEST(ReachableLimits, ALoadCountsAgainstBothAndFrictionOnlyAgainstAcceleration) 
   EXPECT_GT(limits({2.0, 0.0}, 0.0).deceleration_rad_s2, free.deceleration_rad_s2);
 }
 
+TEST(ReachableLimits, EndAtASpeedThatTheMotorHoldsAgainstFrictionAndTheirAccelerationWithIt) {
+  const MotorLimits motor = MotorLimits::from_motor(kMotor);
+  const auto at = [&](const JointDisturbance& disturbance, double speed_rad_s) {
+    return reachable_limits({1e3, 1e6, 1e6}, motor, model(), disturbance, 34.0, 0.02, speed_rad_s, 0.001);
+  };
+  for (const double load_Nm : {0.0, 8.0}) {
+    const double top_rad_s = at({0.0, load_Nm}, 0.0).velocity_rad_s;
+    EXPECT_LE(3.6 + load_Nm + 2.3 * top_rad_s, motor.available_Nm(top_rad_s)) << load_Nm;
+    EXPECT_GT(3.6 + load_Nm + 2.3 * 1.1 * top_rad_s, motor.available_Nm(1.1 * top_rad_s))
+        << "no slower than reserve and trickle make it";
+    EXPECT_EQ(at({0.0, load_Nm}, 2.0 * top_rad_s).velocity_rad_s, top_rad_s);
+  }
+  EXPECT_GT(at({0.0, 1000.0}, 0.0).velocity_rad_s, 0.0);
+}
+
 TEST(ReachableLimits, LeaveATrickleUnderALoadThatNothingCanMove) {
   const MotionLimits stuck = limits({0.0, 1000.0}, 0.0);
   EXPECT_GT(stuck.acceleration_rad_s2, 0.0);

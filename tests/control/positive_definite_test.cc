@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <limits>
 #include <random>
@@ -23,8 +24,7 @@ bool certain(const StateMatrix& matrix, int size = 3) {
   return test_positive_definite(matrix, StateMatrix::Zero(), size).certain;
 }
 
-// The smallest eigenvalue's sign in long double, from the leading minors: an independent judge near the
-// limit.
+// The smallest eigenvalue's sign in long double, from the leading minors: an independent judge near the limit.
 bool positive_in_long_double(const StateMatrix& matrix) {
   using Wide = Eigen::Matrix<long double, 3, 3>;
   const Wide m = matrix.cast<long double>();
@@ -119,6 +119,29 @@ TEST(PositiveDefinite, TheMarginIsPositiveExactlyWhenCertain) {
     const auto result = test_positive_definite(matrix, StateMatrix::Zero(), 3);
     ASSERT_EQ(result.certain, result.margin > 0.0);
   }
+}
+
+TEST(PositiveDefinite, TheMarginIsTheSmallestEigenvalue) {
+  std::mt19937_64 random(5);
+  const auto any = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int certain = 0;
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const int size = 1 + i % kMaxProofStates;
+    const double beside = std::exp2(any(-12.0, 3.0));
+    ProofMatrix matrix = ProofMatrix::NullaryExpr(size, size, [&] { return beside * any(-1.0, 1.0); });
+    matrix = (0.5 * (matrix + matrix.transpose())).eval();
+    for (int k = 0; k < size; ++k) matrix(k, k) = any(0.5, 2.0);  // balanced as it is
+    const double expected =
+        Eigen::SelfAdjointEigenSolver<ProofMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    const auto result = test_positive_definite(matrix, ProofMatrix::Zero(size, size), size);
+    ++(result.certain ? certain : refused);
+    ASSERT_NEAR(result.margin, expected, 1e-12) << matrix;
+  }
+  EXPECT_GT(certain, 200);
+  EXPECT_GT(refused, 200);
 }
 
 }  // namespace

@@ -114,6 +114,26 @@ TEST(ScheduledController, AGainChangeMakesNoTorqueStep) {
   }
 }
 
+TEST(ScheduledController, SoftenedGivesThatShareOfItsFeedbackAndKeepsWhatTheIntegralHolds) {
+  for (const double velocity_rad_s : {0.0, 0.02, 0.5}) {
+    ScheduledController controller = scheduled();
+    const ControllerInput off = input_at(1e-3, velocity_rad_s, 1e3);
+    for (int k = 0; k < 50; ++k) controller.step(off);
+    ControllerInput on = input_at(0.0, 0.0, 1e3);
+    ScheduledController softened = controller;
+    softened.soften(0.25);
+    EXPECT_NEAR(softened.integral_torque_Nm(), controller.integral_torque_Nm(), 1e-12);
+    EXPECT_NEAR(softened.step(on).torque_Nm, controller.step(on).torque_Nm, 1e-9);
+    softened.reset();
+    controller.reset();
+    EXPECT_NEAR(softened.step(off).feedback_torque_Nm, 0.25 * controller.step(off).feedback_torque_Nm, 1e-12);
+    softened.soften(4.0);
+    softened.reset();
+    controller.reset();
+    EXPECT_EQ(softened.step(off).torque_Nm, controller.step(off).torque_Nm) << "and back, to the digit";
+  }
+}
+
 TEST(ScheduledController, ATemperatureChangeMovesTheTorqueByNoMoreThanFrictionAndGainsDiffer) {
   ScheduledController controller = scheduled();
   const ControllerInput input = input_at(0.0, 0.0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <random>
@@ -94,6 +95,27 @@ TEST(SpringCertificate, TheSecondPeriodOfDelayDrivesAStiffSpringWithoutDamping) 
   const SpringPlant light{0.089, 0.05, 13000.0, 0.0, 0.0};
   EXPECT_LT(spring_loop_radius(light, kGains[0], {1e-3, 1, 1.0}), 1.0);
   EXPECT_GT(spring_loop_radius(light, kGains[0], {1e-3, 2, 1.0}), 1.02);
+}
+
+TEST(SpringCertificate, TheRadiusIsThatOfTheLargestEigenvalue) {
+  std::mt19937_64 random(12);
+  const auto any = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int unstable = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const SpringPlant plant{0.089, std::exp(any(-4.0, 1.0)), std::exp(any(7.0, 10.5)), any(0.0, 2.0),
+                            any(0.0, 5.0)};
+    const GainRow gain(any(-1e3, 0.0), any(-3e3, 0.0), any(-60.0, 5.0));
+    const SpringLoop loop{1e-3, i % (kMaxSpringDelay + 1), 1.0};
+    const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
+    const ProofMatrix H = spring_loop(sampled, gain, loop.period_s, loop.delay_periods).value;
+    const double expected = Eigen::EigenSolver<ProofMatrix>(H, false).eigenvalues().cwiseAbs().maxCoeff();
+    ASSERT_NEAR(spring_loop_radius(plant, gain, loop), expected, 1e-8 * expected) << i;
+    if (expected > 1.0) ++unstable;
+  }
+  EXPECT_GT(unstable, 100);
+  EXPECT_LT(unstable, 900);
 }
 
 // What lies between the corners is lost where they are far apart, and is found when the box is cut: the errors fall by four.

@@ -148,5 +148,19 @@ TEST(StateEstimator, CountsHowLongTheReadingStands) {
   EXPECT_EQ(state.still_periods(), kMaxElapsedPeriods);
 }
 
+TEST(StateEstimator, LearnsNothingFromAPositionThatIsNoReading) {
+  StateEstimator told = estimator(0);
+  StateEstimator untold = estimator(0);
+  JointMeasurement guessed = at(0.001);
+  for (StateEstimator* state : {&told, &untold}) state->step(at(0.0), model(), EstimateSource::kObserver);
+  untold.step(guessed, model(), EstimateSource::kObserver);
+  EXPECT_TRUE(untold.now().surprised);
+  EXPECT_NE(untold.now().position_rad, 0.0);
+  guessed.has_position = false;
+  told.step(guessed, model(), EstimateSource::kObserver);
+  EXPECT_FALSE(told.now().surprised);
+  EXPECT_EQ(told.now().position_rad, 0.0);
+}
+
 }  // namespace
 }  // namespace strainwave

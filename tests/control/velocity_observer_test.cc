@@ -138,5 +138,41 @@ TEST(VelocityObserver, BeginsWithTheVelocityAndTheLoadThatItIsGiven) {
   EXPECT_EQ(filter.estimate().disturbance.load_Nm, -5.0);
 }
 
+struct UnevenRun {
+  int surprises = 0;
+  double worst_rad_s = 0.0;  ///< of the velocity, while it moves fast
+};
+
+/// A joint that is the model, sampled up to `late_s` late.
+UnevenRun run_unevenly(double late_s, double sampling_deviation_s) {
+  VelocityObserver filter({kPeriod_s, kCount_rad, 0.02, sampling_deviation_s});
+  filter.reset(0.0, model().friction_scale_Nm);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> lateness(0.0, std::max(late_s, 1e-12));
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  UnevenRun result;
+  for (int k = 0; k < 3000; ++k) {
+    const double torque_Nm = k % 200 < 60 ? 12.0 : k % 200 < 100 ? -5.0 : 0.0;
+    const ModelMotion motion = model().advance(torque_Nm, {}, velocity_rad_s, kPeriod_s);
+    position_rad += motion.displacement_rad;
+    velocity_rad_s = motion.velocity_rad_s;
+    filter.predict(torque_Nm, model());
+    filter.correct(read(position_rad + lateness(random) * velocity_rad_s));
+    const JointEstimate estimate = filter.estimate();
+    result.surprises += estimate.surprised ? 1 : 0;
+    if (std::abs(velocity_rad_s) > 1.0)
+      result.worst_rad_s = std::max(result.worst_rad_s, std::abs(estimate.velocity_rad_s - velocity_rad_s));
+  }
+  return result;
+}
+
+TEST(VelocityObserver, IsNotSurprisedBySamplesThatAreAsUnevenAsItWasTold) {
+  EXPECT_EQ(run_unevenly(1e-4, 3e-5).surprises, 0);
+  EXPECT_LT(run_unevenly(1e-4, 3e-5).worst_rad_s, 0.05);
+  EXPECT_LT(run_unevenly(0.0, 3e-5).worst_rad_s, 0.05);
+  EXPECT_GT(run_unevenly(1e-4, 0.0).surprises, 20) << "it is the knowledge that helps";
+}
+
 }  // namespace
 }  // namespace strainwave

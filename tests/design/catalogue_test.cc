@@ -14,8 +14,7 @@ namespace {
 
 const std::filesystem::path kData = STRAINWAVE_SOURCE_DIR "/data";
 
-// Half a unit of the last digit that the source prints: 5 significant digits for viscous, 4 decimals for the
-// others.
+// Half a unit of the last digit that the source prints: 5 significant digits for viscous, 4 decimals for the others.
 double printed_viscous_error(double value) {
   return 0.51 * std::pow(10.0, std::floor(std::log10(value)) - 4.0);
 }

@@ -8,6 +8,8 @@
 
 #include "base/text_file.h"
 #include "control/gain_table_json.h"
+#include "control/units.h"
+#include "design/friction_file.h"
 
 namespace strainwave {
 namespace {
@@ -27,6 +29,10 @@ class DesignProgram : public ::testing::Test {
     output_ = read_text_file(log);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
+  /// Of the exponential law in the friction file that was made.
+  double decay_C() const {
+    return friction_file_from_json(read_text_file(file("friction.json")), "made").exponential->law.decay_C;
+  }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   std::filesystem::path folder_ =
@@ -42,8 +48,9 @@ TEST_F(DesignProgram, VerifiesATableOnAJointWithASpring) {
   EXPECT_EQ(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.05 --delay 2"), 1) << output_;
   EXPECT_NE(output_.find("with the spring, delay 2: UNSTABLE"), std::string::npos) << output_;
   EXPECT_NE(output_.find("c4.json: NOT CERTIFIED"), std::string::npos) << output_;
-  // The table names no gear.
-  EXPECT_NE(run(command + "--load-inertia_kgm2 0.085..0.093"), 0);
+  EXPECT_NE(output_.find("link 0.085..0.093 kg m2"), std::string::npos) << "the table's own box\n" << output_;
+  const std::string rigid = "verify " + kData + "tables/rhs17-6006.json --motor-inertia_kgm2 0.089 ";
+  EXPECT_NE(run(rigid + "--load-inertia_kgm2 0.085..0.093"), 0) << "the table names no gear";
   EXPECT_NE(output_.find("csf-14-50"), std::string::npos) << output_;
   EXPECT_NE(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.3..0.05"), 0);
   EXPECT_NE(output_.find("must be FROM..TO, ascending"), std::string::npos) << output_;
@@ -66,7 +73,9 @@ TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
 }
 
 TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {
-  ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --out " + file("friction.json")), 0) << output_;
+  ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --non-increasing rules --out " + file("friction.json")),
+            0)
+      << output_;
   ASSERT_EQ(run("gains --friction " + file("friction.json") + " --out " + file("table.json")), 0) << output_;
   EXPECT_EQ(run("verify " + file("table.json")), 0) << output_;
   EXPECT_EQ(run("show " + file("table.json")), 0) << output_;
@@ -79,17 +88,86 @@ TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {
   EXPECT_TRUE(made.fallback.gain(0).isApprox(shipped.fallback.gain(0), 1e-6));
 }
 
-TEST_F(DesignProgram, FitWarnsOfACellThatIsTenTimesTooLargeAndOfNoneInTheCatalogue) {
+TEST_F(DesignProgram, FitNamesATemperatureThatSpoilsTheFitAndLeavesItOutWhenAsked) {
   std::string text = read_text_file(kData + "no_load_torque.csv");
   const std::string fit = " --model exponential --method least-squares --out " + file("friction.json");
   ASSERT_EQ(run("fit " + kData + "no_load_torque.csv" + fit), 0) << output_;
-  EXPECT_EQ(output_.find("WARNING"), std::string::npos) << output_;
+  EXPECT_EQ(output_.find("outlier"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("residuals: RMS"), std::string::npos) << output_;
+  const double clean_C = decay_C();
   const std::string row = "10,3.8,5.7,8.9,12.4";
   const auto at = text.find(row);
   ASSERT_NE(at, std::string::npos);
   write_text_file(file("bad.csv"), text.replace(at, row.size(), "10,3.8,57.0,8.9,12.4"));
   ASSERT_EQ(run("fit " + file("bad.csv") + fit), 0) << output_;
-  EXPECT_NE(output_.find("at 10 degC"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("WARNING: 10 degC is an outlier"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("--outliers leave-out"), std::string::npos) << output_;
+  EXPECT_GT(std::abs(decay_C() - clean_C), 0.1 * clean_C) << "the test would show nothing";
+  ASSERT_EQ(run("fit " + file("bad.csv") + fit + " --outliers leave-out"), 0) << output_;
+  EXPECT_NE(output_.find("left out"), std::string::npos) << output_;
+  EXPECT_NEAR(decay_C(), clean_C, 0.02 * clean_C);
+}
+
+TEST_F(DesignProgram, RulesOfFewTemperaturesFollowTheLawBetweenThem) {
+  for (const int count : {3, 4, 5}) {
+    // The exponential law itself.
+    std::string csv = "temperature_C,viscous_Ncm_per_rpm,coulomb_Ncm,static_Ncm\n";
+    const auto law = [](double temperature_C) { return std::exp(-(temperature_C + 10.0) / 14.0); };
+    for (int i = 0; i < count; ++i) {
+      const double T = -10.0 + 50.0 * i / (count - 1);
+      csv += std::to_string(T) + "," + std::to_string(0.001 + 0.009 * law(T)) + "," +
+             std::to_string(1.4 + 4.0 * law(T)) + "," + std::to_string(3.0 + 4.0 * law(T)) + "\n";
+    }
+    write_text_file(file("few.csv"), csv);
+    const auto worst = [&](const std::string& options) {
+      EXPECT_EQ(run("fit " + file("few.csv") + options + " --out " + file("friction.json")), 0) << output_;
+      const FuzzyFriction rules =
+          friction_file_from_json(read_text_file(file("friction.json")), "made").fuzzy->friction;
+      double share = 0.0;
+      for (double T = -10.0; T <= 40.0; T += 0.5) {
+        const double truth_Nm = joint_torque_Nm_from_motor_Ncm(1.4 + 4.0 * law(T), 50.0);
+        share = std::max(share, std::abs(rules.blend(rules.weights(T)).coulomb_Nm / truth_Nm - 1.0));
+      }
+      return share;
+    };
+    EXPECT_LT(worst(""), 0.03) << count << "\n" << output_;
+    EXPECT_NE(output_.find("follow the exponential law instead"), std::string::npos) << output_;
+    EXPECT_GT(worst(" --rules-from data"), 0.1) << count << ": the test would show nothing";
+  }
+}
+
+TEST_F(DesignProgram, FitSaysHowWellEachModelForetellsAndChoosesTheRulesForTheCatalogue) {
+  ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --out " + file("friction.json")), 0) << output_;
+  EXPECT_NE(output_.find("each foretold from the others"), std::string::npos) << output_;
+  EXPECT_EQ(output_.find("WARNING"), std::string::npos) << output_;
+  ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --non-increasing rules --rules-from data --out " +
+                file("friction.json")),
+            0);
+  EXPECT_NE(output_.find("WARNING: Coulomb friction rises by 3.8 % towards 6.2 degC"), std::string::npos)
+      << output_;
+}
+
+TEST_F(DesignProgram, FitRefusesWhatIsNoCatalogue) {
+  const std::string running = "temperature_C,torque_500rpm_Ncm,torque_2000rpm_Ncm,starting_torque_Ncm\n";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"temperature_C,torque_500rpm_Ncm,torque_500.0rpm_Ncm\n-10,5,5\n0,4,4\n9,3,3\n", "torque_500.0rpm_Ncm"},
+      {running + "-10,11,28,1e308\n15,3,7,1\n40,2,3,1\n", ":2: static friction"},
+      {running + "-10,11,28,1\n15,3,7,-1\n40,2,3,1\n", ":3: static friction"},
+      {running + "-300,11,28,1\n15,3,7,1\n40,2,3,1\n", ":2: temperature_C = -300"},
+      {"temperature_C,viscous_Ncm_per_rpm,coulomb_Ncm,static_Ncm\n0,1e-3,5,4\n9,1e-3,2,3\n20,1e-3,2,3\n",
+       ":2: static friction"},
+      {running + "-10,11,28,1\n15,3,7,1\n15,2,3,1\n", ":4: temperatures must ascend"},
+  };
+  for (const auto& [csv, mentions] : cases) {
+    write_text_file(file("bad.csv"), csv);
+    EXPECT_EQ(run("fit " + file("bad.csv") + " --out " + file("friction.json")), 2) << csv << output_;
+    EXPECT_NE(output_.find(mentions), std::string::npos) << mentions << "\n" << output_;
+    EXPECT_FALSE(std::filesystem::exists(file("friction.json"))) << csv;
+  }
+  // A byte order mark is none of the data.
+  write_text_file(file("bom.csv"),
+                  "\xEF\xBB\xBF" + running + "-10,11.5,28,1.6\n15,3.2,7.2,1.5\n40,1.8,3.2,1.6\n");
+  EXPECT_EQ(run("fit " + file("bom.csv") + " --out " + file("friction.json")), 0) << output_;
 }
 
 TEST_F(DesignProgram, VerifyEndsWith1ForATamperedTable) {

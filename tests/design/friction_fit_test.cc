@@ -58,8 +58,7 @@ TEST(FrictionFit, TheSourcesTable4CostsWhatTheTheoryPageSays) {
   EXPECT_LT(fit_consequents(problem, table4.center_C, table4.width_C).cost, 0.2567);
 }
 
-// The derivatives against central differences of the projected cost; twelve digits of the cost, so a step of
-// 1e-5.
+// The derivatives against central differences of the projected cost; twelve digits of the cost, so a step of 1e-5.
 TEST(FrictionFit, GradientsAreTheDerivativesOfTheProjectedCost) {
   std::mt19937_64 random(1);
   int constrained = 0;

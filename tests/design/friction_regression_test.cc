@@ -25,7 +25,7 @@ std::vector<SteadyPoint> points(double noise_Nm, std::mt19937_64& random) {
 
 TEST(FrictionRegression, RecoversWhatMadeThePoints) {
   std::mt19937_64 random(1);
-  const FrictionRegression fit = regress_friction(points(0.0, random), kShape, 0.95);
+  const FrictionRegression fit = regress_friction(points(0.0, random), kShape, 0.95, 0.0);
   EXPECT_NEAR(fit.static_Nm.value, kTrue.static_Nm, 1e-9);
   EXPECT_NEAR(fit.coulomb_Nm.value, kTrue.coulomb_Nm, 1e-9);
   EXPECT_NEAR(fit.viscous_Nms_rad.value, kTrue.viscous_Nms_rad, 1e-9);
@@ -47,7 +47,7 @@ TEST(FrictionRegression, ItsIntervalsHoldTheTruthAsOftenAsTheySay) {
     std::mt19937_64 random(20240917);
     Coverage hits;
     for (int trial = 0; trial < kTrials; ++trial) {
-      const FrictionRegression fit = regress_friction(points(0.05, random), kShape, confidence);
+      const FrictionRegression fit = regress_friction(points(0.05, random), kShape, confidence, 0.0);
       hits.static_hits += holds(fit.static_Nm, kTrue.static_Nm) ? 1 : 0;
       hits.coulomb_hits += holds(fit.coulomb_Nm, kTrue.coulomb_Nm) ? 1 : 0;
       hits.viscous_hits += holds(fit.viscous_Nms_rad, kTrue.viscous_Nms_rad) ? 1 : 0;
@@ -59,16 +59,56 @@ TEST(FrictionRegression, ItsIntervalsHoldTheTruthAsOftenAsTheySay) {
   }
 }
 
+/// Share of intervals that hold the true static friction where one slow point determines it and every torque is off by
+/// itself by one per cent: the residuals of the others say nothing of it.
+double static_coverage(double torque_uncertainty, std::uint64_t seed) {
+  constexpr int kTrials = 500;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  int hits = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<SteadyPoint> slow_ones_left_out;
+    for (const double speed : {0.06, 0.15, 0.23, 0.35, 0.55, 0.85, 1.3, 2.1, 3.2}) {
+      const double error = speed < 0.1 ? 0.01 * normal(random) : 1e-4 * normal(random);
+      slow_ones_left_out.push_back(
+          {20.0, speed, stribeck_friction_Nm(kTrue, kShape, speed) * (1.0 + error), 0.0});
+    }
+    const FrictionRegression fit = regress_friction(slow_ones_left_out, kShape, 0.95, torque_uncertainty);
+    hits += holds(fit.static_Nm, kTrue.static_Nm) ? 1 : 0;
+  }
+  return static_cast<double>(hits) / kTrials;
+}
+
+TEST(FrictionRegression, ItsIntervalOfStaticFrictionCountsWhatASingleSlowPointMayBeOff) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    EXPECT_GE(static_coverage(0.01, seed), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / 500)) << seed;
+    EXPECT_LT(static_coverage(0.0, seed), 0.5) << "the test would show nothing, seed " << seed;
+  }
+}
+
+TEST(FrictionRegression, ARippleOfTheSpeedIsWorthTheMeanOfTheBentCurve) {
+  constexpr double kDeviation_rad_s = 0.004;
+  for (const double speed : {0.02, 0.05, 0.06, 0.08, 0.5}) {
+    const auto friction_Nm = [&](double off) { return stribeck_friction_Nm(kTrue, kShape, speed + off); };
+    const double mean_Nm = 0.5 * (friction_Nm(kDeviation_rad_s) + friction_Nm(-kDeviation_rad_s));
+    const SteadyPoint point{20.0, speed, friction_Nm(0.0), 0.0, kDeviation_rad_s};
+    EXPECT_NEAR(ripple_Nm(kShape, kTrue.static_Nm - kTrue.coulomb_Nm, point),
+                std::abs(mean_Nm - friction_Nm(0.0)), 2e-4)
+        << speed;
+  }
+  EXPECT_EQ(ripple_Nm(kShape, 1.1, SteadyPoint{20.0, 0.05, 2.0, 0.0}), 0.0);
+}
+
 TEST(FrictionRegression, RefusesSpeedsThatDoNotTellTheParametersApart) {
   std::vector<SteadyPoint> fast;
   for (const double speed : {1.0, 2.0, 3.0, 4.0, 5.0}) fast.push_back({20.0, speed, 1.0 + speed, 0.0});
-  EXPECT_THROW(regress_friction(fast, kShape, 0.95), InputError);
+  EXPECT_THROW(regress_friction(fast, kShape, 0.95, 0.01), InputError);
   std::mt19937_64 random(1);
   auto few = points(0.0, random);
   few.resize(3);
-  EXPECT_THROW(regress_friction(few, kShape, 0.95), InputError);
+  EXPECT_THROW(regress_friction(few, kShape, 0.95, 0.01), InputError);
   const std::vector<SteadyPoint> same(6, SteadyPoint{20.0, 0.05, 2.0, 0.0});
-  EXPECT_THROW(regress_friction(same, kShape, 0.95), InputError);
+  EXPECT_THROW(regress_friction(same, kShape, 0.95, 0.01), InputError);
 }
 
 TEST(FrictionRegression, GroupsPointsByTemperature) {

@@ -38,7 +38,7 @@ TEST(SpringProof, ProvesATableOfTheStudyOnItsGear) {
   EXPECT_EQ(proof.outcome, SpringOutcome::kCertified) << describe(proof);
   EXPECT_GT(proof.worst.margin, 0.0);
   // What lies between the eight corners counts: the cells are cut further, with the same P.
-  EXPECT_GT(proof.inequalities, proof.cells * (1 + 8 * 7));
+  EXPECT_GT(proof.inequalities, static_cast<int>(proof.cells.size()) * (1 + 8 * 7));
 }
 
 TEST(SpringProof, ATableWithOneEntryDestroyedIsRefused) {

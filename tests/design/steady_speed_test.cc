@@ -17,8 +17,7 @@ class Recording {
   using Torque = std::function<double(double position_rad, double velocity_rad_s)>;
   explicit Recording(Torque torque) : torque_(std::move(torque)) {}
 
-  /// To `target_rad` at a constant speed; the joint's own speed may differ by a factor that depends on the
-  /// time.
+  /// To `target_rad` at a constant speed; the joint's own speed may differ by a factor that depends on the time.
   void leg(
       double target_rad, double speed_rad_s,
       const std::function<double(double)>& factor = [](double) { return 1.0; }) {

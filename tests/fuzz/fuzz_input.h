@@ -1,5 +1,4 @@
-// What a fuzzer's bytes mean to the harnesses: numbers and CAN frames, taken from the front. Beyond the end:
-// zeros.
+// What a fuzzer's bytes mean to the harnesses: numbers and CAN frames, taken from the front. Beyond the end: zeros.
 #pragma once
 
 #include <cstddef>

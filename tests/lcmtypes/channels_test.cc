@@ -8,9 +8,9 @@
 namespace strainwave {
 namespace {
 
-constexpr std::string_view kKinds[] = {channel_kind::kState,    channel_kind::kTemperature,
-                                       channel_kind::kSetpoint, channel_kind::kCommand,
-                                       channel_kind::kTable,    channel_kind::kAck};
+constexpr std::string_view kKinds[] = {
+    channel_kind::kState, channel_kind::kTemperature, channel_kind::kSetpoint, channel_kind::kCommand,
+    channel_kind::kTable, channel_kind::kAck,         channel_kind::kPath};
 
 TEST(ChannelName, ReadsBackAsItWasMade) {
   for (const std::string_view kind : kKinds) {

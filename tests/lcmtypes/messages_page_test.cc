@@ -1,5 +1,4 @@
-// docs/messages.md against the declarations: every field with its type in its order, every number with its
-// text.
+// docs/messages.md against the declarations: every field with its type in its order, every number with its text.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,11 +1,13 @@
-// The numbers of the vocabulary are on wires and in logs for ever: this list is written by hand, and only
-// grows.
+// The numbers of the vocabulary are on wires and in logs for ever: this list is written by hand, and only grows.
 #include "lcmtypes/vocabulary.h"
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 #include <string>
+
+#include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 namespace {
@@ -60,7 +62,9 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {128, Notice::kAtLimitSwitch, "at a limit switch"},
                                      {256, Notice::kPlainLaw, "chatter, plain control law"},
                                      {512, Notice::kOffStream, "off the stream"},
-                                     {1024, Notice::kPositionLate, "position late"}};
+                                     {1024, Notice::kPositionLate, "position late"},
+                                     {2048, Notice::kOffTarget, "off target"},
+                                     {4096, Notice::kLoadHigh, "load high"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},
@@ -103,7 +107,9 @@ constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {5, Action::kRevertTable, "revert-table"},
                                      {6, Action::kHome, "home"},
                                      {7, Action::kTakeOver, "take-over"},
-                                     {8, Action::kRelease, "release"}};
+                                     {8, Action::kRelease, "release"},
+                                     {9, Action::kPause, "pause"},
+                                     {10, Action::kResume, "resume"}};
 
 constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
     {0, TemperatureStatus::kValid, "valid"},
@@ -168,6 +174,22 @@ TEST(Vocabulary, HasOneBitPerNotice) {
     EXPECT_EQ(all & word.number, 0) << word.text;
     all |= word.number;
   }
+}
+
+TEST(FaultWords, SayWhichOfTheCausesOfFaultFiveItWas) {
+  const Fault fault = Fault::kImplausibleReading;
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kJump, 0.05)),
+            "implausible reading: the position jumped by 0.05 rad from one reading to the next");
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kStuck, 0.0002)),
+            "implausible reading: the position stands still though the torque must have moved the joint by "
+            "0.0002 rad");
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kPositionNotFinite)),
+            "implausible reading: the position is not a number");
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kJump, std::numeric_limits<double>::infinity())),
+            "implausible reading: the position jumped by 16.7772 rad or more from one reading to the next");
+  EXPECT_EQ(fault_words(fault, 0), "implausible reading");
+  EXPECT_EQ(fault_words(fault, -1), "implausible reading") << "what a network sends";
+  EXPECT_EQ(fault_words(Fault::kDriveFault, doubt_number(ReadingDoubt::kJump, 0.05)), "drive fault");
 }
 
 }  // namespace

@@ -6,11 +6,15 @@
 #include <random>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/path_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
+
+#include "lcmtypes/channels.h"
+#include "lcmtypes/fingerprints.h"
 
 namespace strainwave {
 namespace {
@@ -33,8 +37,8 @@ class WireTest : public testing::Test {
   }
 };
 
-using Messages =
-    testing::Types<ack_v1, command_v1, gain_table_v1, setpoint_v2, state_v1, temperature_v1, timing_v1>;
+using Messages = testing::Types<ack_v1, command_v1, gain_table_v2, path_v1, setpoint_v2, state_v1,
+                                temperature_v1, timing_v1>;
 class MessageNames {
  public:
   template <typename Message>
@@ -84,12 +88,12 @@ TYPED_TEST(WireTest, FitsIntoOneDatagram) {
 
 TEST(Wire, NoTypeIsTakenForAnother) {
   const std::vector<std::vector<std::uint8_t>> all{
-      encode(ack_v1{}),   encode(command_v1{}), encode(gain_table_v1{}), encode(setpoint_v2{}),
+      encode(ack_v1{}),   encode(command_v1{}), encode(gain_table_v2{}), encode(setpoint_v2{}),
       encode(state_v1{}), encode(timing_v1{}),  encode(temperature_v1{})};
   int taken = 0;
   for (const auto& bytes : all) {
     taken += decode_exactly<ack_v1>(bytes).has_value() + decode_exactly<command_v1>(bytes).has_value() +
-             decode_exactly<gain_table_v1>(bytes).has_value() +
+             decode_exactly<gain_table_v2>(bytes).has_value() +
              decode_exactly<setpoint_v2>(bytes).has_value() + decode_exactly<state_v1>(bytes).has_value() +
              decode_exactly<timing_v1>(bytes).has_value() + decode_exactly<temperature_v1>(bytes).has_value();
   }
@@ -101,6 +105,20 @@ TEST(Wire, IsBigEndianAfterTheFingerprint) {
   message.utime = 0x0102030405060708;
   const std::vector<std::uint8_t> bytes = encode(message);
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(bytes.at(kFingerprintBytes + i), i + 1);
+}
+
+TEST(Fingerprint, TellsAnotherVersionFromATornMessageAndFromOurs) {
+  std::vector<std::uint8_t> bytes = encode(command_v1{});
+  EXPECT_FALSE(is_of_another_version(channel_kind::kCommand, bytes));
+  EXPECT_FALSE(is_of_another_version(channel_kind::kCommand, std::span(bytes).first(9))) << "torn";
+  EXPECT_FALSE(is_of_another_version(channel_kind::kCommand, std::span(bytes).first(7)));
+  EXPECT_FALSE(is_of_another_version("NONE", bytes));
+  EXPECT_TRUE(is_of_another_version(channel_kind::kSetpoint, bytes));
+  for (std::size_t i = 0; i < kFingerprintBytes; ++i) {
+    std::vector<std::uint8_t> other = bytes;
+    other[i] ^= 1;
+    EXPECT_TRUE(is_of_another_version(channel_kind::kCommand, other)) << i;
+  }
 }
 
 }  // namespace

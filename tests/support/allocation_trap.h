@@ -17,8 +17,7 @@ namespace strainwave {
 
 class AllocationTrap {
  public:
-  /// Counts for the calling thread from now on, or for the thread with kernel id `thread`. One trap at a
-  /// time.
+  /// Counts for the calling thread from now on, or for the thread with kernel id `thread`. One trap at a time.
   AllocationTrap() noexcept;
   explicit AllocationTrap(pid_t thread) noexcept;
   ~AllocationTrap();

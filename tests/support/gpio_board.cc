@@ -4,9 +4,10 @@
 // in the place of PWM and counter.
 //
 //   gpio_board plant LINES TREE POSITION_RAD   the joint, until SIGTERM
-//   gpio_board encoder LINES RATE_HZ SECONDS   quadrature edges on lines a and b: three quarters forward, one
-//   back; prints the count
-//                                              and the rate that came about
+//   gpio_board encoder LINES RATE_HZ SECONDS BOUNCES   quadrature edges on lines a and b: three quarters forward,
+//       one back, each after so many bounces of 50 us; prints the count and the rate that came about
+//   gpio_board bounce LINES INPUT SECONDS      a contact: never active for more than 5 ms, nor inactive for less
+//       than 2 ms
 //   gpio_board react LINES TREE INPUT          activates INPUT and prints the ns until enable is low and the
 //   duty 0
 //
@@ -22,6 +23,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "sim/joint/joint_plant.h"
@@ -37,6 +39,9 @@ constexpr double kCounts_rad = 320000.0 / (2.0 * std::numbers::pi);
 constexpr double kEnd_rad = 0.5;
 constexpr double kHomeFrom_rad = 0.10;
 constexpr double kHomeTo_rad = 0.15;
+constexpr long kBounce_ns = 25'000;
+constexpr long kLongestOn_ns = 5'000'000;
+constexpr long kShortestOff_ns = 2'000'000;
 constexpr double kIndexSpacing_rad = 2.0 * std::numbers::pi / 50.0;
 
 volatile sig_atomic_t ended = 0;
@@ -79,6 +84,7 @@ class Input {
     high_ = high;
     set_ = true;
   }
+  bool high() const { return high_; }
 
  private:
   File pull_;
@@ -156,7 +162,12 @@ int run_plant(const std::string& lines, const std::string& tree, double position
   return 0;
 }
 
-int run_encoder(const std::string& lines, double rate_Hz, double duration_s) {
+void pause_ns(long duration_ns) {
+  const timespec pause{0, duration_ns};
+  ::nanosleep(&pause, nullptr);
+}
+
+int run_encoder(const std::string& lines, double rate_Hz, double duration_s, int bounces) {
   Input a(lines, "quadrature_a");
   Input b(lines, "quadrature_b");
   a.set(false);
@@ -170,12 +181,40 @@ int run_encoder(const std::string& lines, double rate_Hz, double duration_s) {
   for (long i = 0; i < edges && ended == 0; ++i) {
     count += i < edges / 4 * 3 ? 1 : -1;
     const long phase = ((count % 4) + 4) % 4;
-    a.set(phase == 1 || phase == 2);
-    b.set(phase == 2 || phase == 3);
+    const bool a_high = phase == 1 || phase == 2;
+    const bool b_high = phase == 2 || phase == 3;
+    for (int bounce = 0; bounce < bounces; ++bounce) {
+      // One of the two is new.
+      const bool a_before = a.high();
+      const bool b_before = b.high();
+      a.set(a_high);
+      b.set(b_high);
+      pause_ns(kBounce_ns);
+      a.set(a_before);
+      b.set(b_before);
+      pause_ns(kBounce_ns);
+    }
+    a.set(a_high);
+    b.set(b_high);
     advance(next, step_ns);
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
   }
   std::printf("%ld %.0f\n", count, 1e9 * static_cast<double>(edges) / static_cast<double>(since_ns(begin)));
+  return 0;
+}
+
+int run_bounces(const std::string& lines, const std::string& name, double duration_s) {
+  Input input(lines, name);
+  std::mt19937 random(11);
+  std::uniform_int_distribution<long> on_ns(kBounce_ns, kLongestOn_ns);
+  timespec begin{};
+  ::clock_gettime(CLOCK_MONOTONIC, &begin);
+  while (static_cast<double>(since_ns(begin)) < 1e9 * duration_s) {
+    input.set(true);
+    pause_ns(on_ns(random));
+    input.set(false);
+    pause_ns(kShortestOff_ns);
+  }
   return 0;
 }
 
@@ -204,10 +243,14 @@ int main(int argc, char** argv) {
   ::signal(SIGTERM, end);
   const std::string task = argc > 1 ? argv[1] : "";
   if (task == "plant" && argc == 5) return run_plant(argv[2], argv[3], std::atof(argv[4]));
-  if (task == "encoder" && argc == 5) return run_encoder(argv[2], std::atof(argv[3]), std::atof(argv[4]));
+  if (task == "encoder" && argc == 6)
+    return run_encoder(argv[2], std::atof(argv[3]), std::atof(argv[4]), std::atoi(argv[5]));
+  if (task == "bounce" && argc == 5) return run_bounces(argv[2], argv[3], std::atof(argv[4]));
   if (task == "react" && argc == 5) return run_reaction(argv[2], argv[3], argv[4]);
   std::fputs(
-      "gpio_board plant LINES TREE POSITION_RAD | encoder LINES RATE_HZ SECONDS | react LINES TREE INPUT\n",
+      "gpio_board plant LINES TREE POSITION_RAD | encoder LINES RATE_HZ SECONDS BOUNCES | bounce LINES INPUT "
+      "SECONDS"
+      " | react LINES TREE INPUT\n",
       stderr);
   return 2;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <set>
 
@@ -20,7 +21,7 @@ const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"Clp_", {"sim/studies/linear_program.cc"}},
     {"lcm/", {"daemon/gateway/", "client/link/", "tests/"}},
-    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "telemetry/", "tests/", "bench/"}},
+    {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "telemetry/", "tests/"}},
     {"boost/", {"telemetry/server/"}},
     {"toml++/", {"base/toml_section.cc"}},
     {"seccomp", {"daemon/gateway/"}},
@@ -35,8 +36,7 @@ const std::vector<Library> kLibraries{
      false},
 };
 
-/// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON
-/// privately).
+/// Headers that control/ must not see: no threads, sockets or clocks there, and no library but Eigen (JSON privately).
 const std::set<std::string_view> kForbiddenInControl{
     "thread",  "mutex",     "shared_mutex", "condition_variable",
     "future",  "semaphore", "barrier",      "latch",
@@ -86,6 +86,22 @@ std::string check_library_header(std::string_view file, std::string_view header)
   return "";
 }
 
+struct Include {
+  std::string header;
+  bool quoted = false;
+};
+
+std::optional<Include> include_in(std::string_view line) {
+  static const std::regex kInclude(R"(^\s*#\s*(?:include|import)\s*(["<])([^">]+)[">].*$)");
+  std::match_results<std::string_view::const_iterator> match;
+  if (!std::regex_match(line.begin(), line.end(), match, kInclude)) return std::nullopt;
+  return Include{match[2], match[1] == "\""};
+}
+
+std::string library_sentence(std::string_view user, const Library& library) {
+  return std::string(user) + " includes nothing of <" + std::string(library.header) + "...>";
+}
+
 bool is_source(const std::filesystem::path& file) {
   static const std::set<std::string> kExtensions{".h", ".cc", ".hpp", ".cpp", ".hh", ".cxx", ".c", ".inl"};
   return kExtensions.contains(file.extension().string());
@@ -132,13 +148,36 @@ std::string IncludeRules::check_our_header(std::string_view file, std::string_vi
 }
 
 std::string IncludeRules::find_defect(std::string_view file, std::string_view line) const {
-  static const std::regex kInclude(R"(^\s*#\s*(?:include|import)\s*(["<])([^">]+)[">].*$)");
-  std::match_results<std::string_view::const_iterator> match;
-  if (!std::regex_match(line.begin(), line.end(), match, kInclude)) return "";
-  const std::string header = match[2];
-  if (match[1] == "\"") return check_our_header(file, header);
+  const std::optional<Include> include = include_in(line);
+  if (!include) return "";
+  const std::string& header = include->header;
+  if (include->quoted) return check_our_header(file, header);
   if (row_of(header) != nullptr) return "headers of ours stand in quotation marks: <" + header + ">";
   return check_library_header(file, header);
+}
+
+std::vector<std::string> IncludeRules::find_unused(const std::filesystem::path& root) const {
+  std::set<std::string> unused;
+  for (const Row& row : rows_)
+    for (const std::string& name : row.may_include) unused.insert(row.name + " includes nothing of " + name);
+  for (const Library& library : kLibraries)
+    for (const std::string_view user : library.users) unused.insert(library_sentence(user, library));
+  for (const std::filesystem::path& path : sources_under(root)) {
+    const std::string file = std::filesystem::relative(path, root).generic_string();
+    const Row* row = row_of(file);
+    std::ifstream stream(path);
+    for (std::string line; row != nullptr && std::getline(stream, line);) {
+      const std::optional<Include> include = include_in(line);
+      if (!include) continue;
+      for (const std::string& name : row->may_include)
+        if (fits(name, include->header)) unused.erase(row->name + " includes nothing of " + name);
+      for (const Library& library : kLibraries)
+        for (const std::string_view user : library.users)
+          if (file.starts_with(user) && include->header.starts_with(library.header))
+            unused.erase(library_sentence(user, library));
+    }
+  }
+  return {unused.begin(), unused.end()};
 }
 
 void IncludeRules::check_file(const std::filesystem::path& root, const std::filesystem::path& path,

@@ -24,6 +24,9 @@ class IncludeRules {
   /// the table does not know are defects, too.
   std::vector<std::string> find_defects(const std::filesystem::path& root) const;
 
+  /// One sentence for every permission, of the table and of the libraries, that no source under `root` uses.
+  std::vector<std::string> find_unused(const std::filesystem::path& root) const;
+
  private:
   struct Row {
     std::string name;

@@ -56,6 +56,7 @@ JointBench::JointBench(const std::vector<BenchJoint>& joints, const OverrunLimit
     joints_.push_back(std::make_unique<JointLoop>(static_cast<std::int64_t>(joints_.size()), joint.loop,
                                                   std::move(faulty), *replies_, *events_));
   }
+  paths_ = std::make_unique<PathFollower>(joints_, joints.at(0).loop.controller.period_s);
 }
 
 void JointBench::step() {
@@ -66,6 +67,7 @@ void JointBench::step() {
   time_.now_ns += (1 + skipped) * period_ns_;
   if (const Fault fault = overruns_.judge(skipped); fault != Fault::kNone)
     fault_driven_joints(joints_, fault, time_);
+  paths_->advance(time_);
   for (const auto& joint : joints_) joint->step(time_);
   stop_faulted_groups(joints_, time_);
 }

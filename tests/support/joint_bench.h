@@ -11,6 +11,7 @@
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/overrun_watch.h"
+#include "daemon/realtime/path_follower.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
 
@@ -110,6 +111,7 @@ class JointBench {
   Reply last_reply_;
   std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
   std::vector<std::unique_ptr<JointLoop>> joints_;
+  std::unique_ptr<PathFollower> paths_;
   std::vector<WatchedActuator*> drives_;
   std::int64_t period_ns_;
   CycleTime time_;

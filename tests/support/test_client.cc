@@ -101,8 +101,8 @@ setpoint_v2 TestClient::make_setpoint(const std::string& joint, double position_
   return message;
 }
 
-gain_table_v1 TestClient::make_table(const std::string& joint, const GainTable& table) {
-  gain_table_v1 message = to_message(table);
+gain_table_v2 TestClient::make_table(const std::string& joint, const GainTable& table) {
+  gain_table_v2 message = to_message(table);
   fill_envelope(joint, message);
   return message;
 }

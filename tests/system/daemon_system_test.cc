@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lcmtypes/wire.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/private_network.h"
 
@@ -53,6 +54,21 @@ TEST_F(DaemonSystem, TracksMovesWhileTheTemperatureRises) {
   double sum = 0.0;
   for (int i = 0; i < state.rule_count; ++i) sum += state.temperature_weights[i];
   EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST_F(DaemonSystem, SaysThatAMessageIsOfAnotherVersion) {
+  start();
+  ASSERT_TRUE(client_->wait_for_timing());
+  const std::int64_t rejected = client_->timing()->rejects[static_cast<int>(Reason::kMalformed)];
+  std::vector<std::uint8_t> older = encode(client_->make_setpoint("elbow", 0.1));
+  ++older[0];  // of its type's fingerprint
+  ASSERT_EQ(
+      client_->lcm().publish("SW.elbow.SETPOINT", older.data(), static_cast<unsigned int>(older.size())), 0);
+  ASSERT_TRUE(client_->wait_for_timing());
+  ASSERT_TRUE(client_->wait_for_timing());
+  EXPECT_EQ(client_->timing()->rejects[static_cast<int>(Reason::kMalformed)], rejected + 1);
+  EXPECT_NE(daemon_->log().find("message of another version on SW.elbow.SETPOINT"), std::string::npos)
+      << daemon_->log();
 }
 
 TEST_F(DaemonSystem, RefusesATableWhoseGainWasMadeUnstable) {
@@ -155,7 +171,7 @@ TEST_F(DaemonSystem, ASecondDaemonOnTheSamePrefixIsRefusedWithAdvice) {
 TEST_F(DaemonSystem, WithoutAMulticastRouteItDoesNotStartAndSaysWhatToDo) {
   if (!enter_private_network(false)) GTEST_SKIP() << "no network namespace allowed here";
   DaemonProcess daemon(folder_, configuration());
-  EXPECT_EQ(daemon.wait_for_end(seconds(10)), 2);
+  EXPECT_EQ(daemon.wait_for_end(seconds(10)), 3);
   EXPECT_NE(daemon.log().find("ip route add 239.255.76.67/32"), std::string::npos) << daemon.log();
 }
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
 #include <strainwave/setpoint_v2.hpp>
 #include <thread>
 
@@ -119,7 +119,7 @@ void HostileDatagrams::order_with_random_fields() {
       break;
     default:
       put_text("SW.elbow.TABLE", true);
-      order = encode(gain_table_v1{});
+      order = encode(gain_table_v2{});
       break;
   }
   // A stop (action 2) is everybody's right; a random action is one in four thousand million.

@@ -3,8 +3,10 @@
 // is designed, and the joint tracks with it as well as with a table that was designed for its true friction.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "base/text_file.h"
 #include "client/commands/identify_plan.h"
@@ -20,15 +22,23 @@ namespace {
 constexpr double kFrictionScale = 1.3;
 constexpr std::int64_t kStateEvery = 5;  // cycles: 200 Hz
 
-/// The simulated joint with the given friction in units of the catalogue's, at a constant temperature.
-BenchJoint joint_at(double temperature_C) {
+/// Friction in units of the catalogue's; what static friction has above Coulomb's by itself.
+struct Scales {
+  double breakaway = kFrictionScale;
+  double coulomb = kFrictionScale;
+  double viscous = kFrictionScale;
+};
+
+/// The simulated joint with this friction, at a constant temperature.
+BenchJoint joint_at(double temperature_C, const Scales& scales = {}) {
   BenchJoint joint = demo_joint();
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
   for (FrictionParameters* part :
        {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
-    part->static_Nm *= kFrictionScale;
-    part->coulomb_Nm *= kFrictionScale;
-    part->viscous_Nms_rad *= kFrictionScale;
+    part->static_Nm =
+        scales.breakaway * (part->static_Nm - part->coulomb_Nm) + scales.coulomb * part->coulomb_Nm;
+    part->coulomb_Nm *= scales.coulomb;
+    part->viscous_Nms_rad *= scales.viscous;
   }
   return joint;
 }
@@ -63,8 +73,7 @@ void leg(JointBench& bench, double target_rad, double speed_rad_s, std::vector<M
   ASSERT_EQ(bench.fault(0), Fault::kNone);
 }
 
-SteadyPoints identify_at(double temperature_C) {
-  const BenchJoint joint = joint_at(temperature_C);
+SteadyPoints identify(const BenchJoint& joint) {
   JointBench bench({joint});
   bench.bring_to_hold(0);
   IdentifyArguments arguments;
@@ -130,7 +139,7 @@ double tracking_error_rad(const GainTable& table, double temperature_C) {
 TEST(Identification, FindsTheFrictionOfAJointThatIs30PerCentOffTheCatalogue) {
   std::vector<SteadyPoint> points;
   for (const double temperature_C : {-5.0, 10.0, 30.0}) {
-    const SteadyPoints found = identify_at(temperature_C);
+    const SteadyPoints found = identify(joint_at(temperature_C));
     EXPECT_GE(found.points.size(), 7U) << temperature_C;
     points.insert(points.end(), found.points.begin(), found.points.end());
   }
@@ -161,6 +170,44 @@ TEST(Identification, FindsTheFrictionOfAJointThatIs30PerCentOffTheCatalogue) {
     EXPECT_GT(with_catalogue, 1.05 * with_truth)
         << "the test would show nothing at " << temperature_C << " degC";
   }
+}
+
+TEST(Identification, ItsIntervalsHoldTheFrictionOfJointsDrawnAtRandom) {
+  constexpr int kJoints = 40;
+  constexpr double kConfidence = 0.95;
+  std::mt19937_64 random(20261122);
+  std::uniform_real_distribution<double> scale(0.7, 1.5);
+  std::uniform_real_distribution<double> temperature(-5.0, 38.0);
+  const StribeckShape shape = source_stribeck_shape(50.0);
+  int held_static = 0;
+  int held_coulomb = 0;
+  int held_viscous = 0;
+  std::vector<double> off;  // of static friction, in half widths
+  for (int i = 0; i < kJoints; ++i) {
+    BenchJoint joint = joint_at(temperature(random), {scale(random), scale(random), scale(random)});
+    joint.drive.seed = random();
+    const FrictionParameters truth = joint.drive.plant.joint.friction.at(joint.drive.ambient.at(0.0));
+    const SteadyPoints found = identify(joint);
+    const FrictionRegression fit =
+        regress_friction(found.points, shape, kConfidence, UpdateWeights{}.torque_uncertainty);
+    const auto in_half_widths = [](const Interval& interval, double true_value) {
+      return std::abs(interval.value - true_value) / interval.half_width;
+    };
+    off.push_back(in_half_widths(fit.static_Nm, truth.static_Nm));
+    held_static += off.back() <= 1.0 ? 1 : 0;
+    held_coulomb += in_half_widths(fit.coulomb_Nm, truth.coulomb_Nm) <= 1.0 ? 1 : 0;
+    held_viscous += in_half_widths(fit.viscous_Nms_rad, truth.viscous_Nms_rad) <= 1.0 ? 1 : 0;
+    // An interval that holds everything says nothing.
+    EXPECT_LT(fit.static_Nm.half_width, 0.5 * truth.static_Nm) << i;
+    EXPECT_LT(fit.coulomb_Nm.half_width, 0.05 * truth.coulomb_Nm) << i;
+  }
+  std::ranges::sort(off);
+  std::printf(
+      "of %d joints the intervals hold static %d, Coulomb %d, viscous %d; static off by %.2f half widths in "
+      "the "
+      "median, %.2f at most\n",
+      kJoints, held_static, held_coulomb, held_viscous, off[kJoints / 2], off.back());
+  for (const int held : {held_static, held_coulomb, held_viscous}) EXPECT_GE(held, kConfidence * kJoints);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "drivers/injected_fault.h"
+#include "lcmtypes/reading_doubt.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/private_network.h"
 
@@ -46,6 +47,10 @@ TEST_F(DaemonInjection, LatchesTheFaultAndLeavesAFlightRecord) {
   ASSERT_TRUE(answer.accepted) << answer.text;
   ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kFaulted));
   EXPECT_EQ(client_->state("elbow")->fault, static_cast<int>(Fault::kImplausibleReading));
+  EXPECT_EQ(client_->state("elbow")->drive_error, doubt_number(ReadingDoubt::kPositionNotFinite));
+  EXPECT_NE(daemon_->log().find("fault 5: implausible reading: the position is not a number, see"),
+            std::string::npos)
+      << daemon_->log();
   for (int i = 0; i < 100 && records().empty(); ++i) client_->pump(milliseconds(50));
   ASSERT_EQ(records().size(), 1U) << daemon_->log();
   std::ifstream record(records().front());

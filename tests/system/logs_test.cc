@@ -131,7 +131,7 @@ TEST_F(Logs, PlayMovesTheJointAgainWithAKeyAndNotWithout) {
   EXPECT_EQ(ctl("play " + path("a.lcm") + " --joint wrist"), 2) << output_;
 }
 
-TEST_F(Logs, PlaySendsTheVelocitiesAndAccelerationsOfARecordedStream) {
+TEST_F(Logs, PlaySendsTheVelocitiesAccelerationsAndLoadsOfARecordedStream) {
   EventLogFile log(path("stream.lcm"));
   for (int i = 0; i < 3; ++i) {
     setpoint_v2 sample{};
@@ -141,6 +141,8 @@ TEST_F(Logs, PlaySendsTheVelocitiesAndAccelerationsOfARecordedStream) {
     sample.position_rad = 0.001 * i;
     sample.velocity_rad_s = 0.0625;
     sample.acceleration_rad_s2 = 0.03125;
+    sample.torque_Nm = -0.25;
+    sample.load_inertia_kgm2 = 0.015625;
     sample.derivatives = 2;
     sample.at_cycle = 1'000'000'000;  // of the session that it was recorded in
     log.add(1'000'000 + 20'000 * i, "SW.elbow.SETPOINT", sample);
@@ -152,7 +154,7 @@ TEST_F(Logs, PlaySendsTheVelocitiesAndAccelerationsOfARecordedStream) {
   std::getline(setpoints, line);
   int sent = 0;
   for (; std::getline(setpoints, line); ++sent)
-    EXPECT_NE(line.find(",0.0625,0.03125,0,2,"), std::string::npos) << line;
+    EXPECT_NE(line.find(",0.0625,0.03125,-0.25,0.015625,0,2,"), std::string::npos) << line;
   EXPECT_EQ(sent, 3);
 }
 

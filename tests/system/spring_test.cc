@@ -113,7 +113,8 @@ TEST_F(DaemonOnASpring, MovesTheLinkAsTheStudySaysWithinOnePerCent) {
       study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
 
     enable(configured(table.plant.inertia_kgm2,
-                      "speed_limit_rad_s = 1000\noverspeed_rad_s = 1000\nacceleration_rad_s2 = 1e6\n"
+                      "speed_limit_rad_s = 1000\nmove_speed_share = 1\noverspeed_rad_s = "
+                      "1000\nacceleration_rad_s2 = 1e6\n"
                       "following_error_rad = 10\n",
                       "",
                       "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
@@ -182,7 +183,8 @@ class DaemonInTheWrong : public DaemonOnASpring {
       for (const double step_rad : {0.01, 1.0}) {
         const std::string what = std::string(mistake.what) + (rigid ? ", declared rigid" : "");
         enable(configured(table.plant.inertia_kgm2,
-                          "speed_limit_rad_s = 5\nacceleration_rad_s2 = 60\nfollowing_error_rad = 10\n"
+                          "speed_limit_rad_s = 5\nmove_speed_share = 1\nacceleration_rad_s2 = "
+                          "60\nfollowing_error_rad = 10\n"
                           "overspeed_rad_s = 1000\n",
                           rigid ? "rigid = true\n" : "", mistake.drive),
                table);

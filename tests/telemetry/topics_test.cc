@@ -15,19 +15,25 @@ TEST(Topics, KeepTheirNumberAndNeverGetAnothers) {
   EXPECT_EQ(topics.find("SW.c.STATE", 1.0), nullptr);
 }
 
-TEST(Topics, GiveUpWhatIsSilentForWhatIsNewAndNeverWhatIsSpokenOn) {
+TEST(Topics, GiveUpOfWhoHasTheMostWhatIsSilentTheLongest) {
   Topics topics;
-  const std::uint32_t silent = topics.add("SW.silent.STATE", "s", "{}", 0.0)->id;
-  for (std::size_t i = 1; i < Topics::kMax; ++i)
-    ASSERT_NE(topics.add("SW.j" + std::to_string(i) + ".STATE", "s", "{}", 1.0), nullptr);
-  EXPECT_EQ(topics.add("SW.new.STATE", "s", "{}", 30.0), nullptr) << "all were heard within the minute";
+  const LcmSource daemon{1, 1};
+  const LcmSource flooder{2, 1};
+  ASSERT_NE(topics.add("SW.a.STATE", "s", "{}", 0.0, daemon), nullptr);
+  const std::uint32_t silent = topics.add("SW.silent.STATE", "s", "{}", 1.0, flooder)->id;
+  for (std::size_t i = 2; i < Topics::kMax; ++i)
+    ASSERT_NE(topics.add("SW.j" + std::to_string(i) + ".STATE", "s", "{}", 2.0, flooder), nullptr);
   EXPECT_FALSE(topics.given_up());
-  const Topic* added = topics.add("SW.new.STATE", "s", "{}", Topics::kSilent_s + 0.5);
+  const Topic* added = topics.add("SW.new.STATE", "s", "{}", 2.5, daemon);
   ASSERT_NE(added, nullptr);
   EXPECT_EQ(topics.given_up(), silent);
   EXPECT_FALSE(topics.has(silent));
   EXPECT_NE(added->id, silent);
   EXPECT_EQ(topics.size(), Topics::kMax);
+  for (int i = 0; i < 3000; ++i)
+    (void)topics.add("F." + std::to_string(i) + ".STATE", "s", "{}", 3.0, flooder);
+  EXPECT_NE(topics.find("SW.a.STATE", 3.0), nullptr);
+  EXPECT_NE(topics.find("SW.new.STATE", 3.0), nullptr);
 }
 
 }  // namespace

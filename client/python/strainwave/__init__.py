@@ -12,10 +12,12 @@ those that lcm-gen makes, for programs that speak LCM themselves.
 # The types first: they look for each other here.
 from .ack_v1 import ack_v1
 from .command_v1 import command_v1
+from .box_cell_v1 import box_cell_v1
 from .feedback_gains_v1 import feedback_gains_v1
-from .gain_table_v1 import gain_table_v1
+from .gain_table_v2 import gain_table_v2
 from .inject_v1 import inject_v1
 from .limits_v1 import limits_v1
+from .path_v1 import path_v1
 from .setpoint_v2 import setpoint_v2
 from .state_v1 import state_v1
 from .temperature_v1 import temperature_v1
@@ -24,6 +26,7 @@ from .timing_v1 import timing_v1
 from .errors import Faulted, InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError
 from .joint import Joint
 from .motion import Arrival
+from .path import Path
 from .state import Limits, State
 from .stream import Stream
 from .vocabulary import Action, Fault, GainsInUse, Mode, Notice, Reason, TemperatureStatus

@@ -112,12 +112,20 @@ class Conversation:
         return bool(self._refusals)
 
     def take_refusal(self):
-        """(Reason, text) of the oldest refusal of a message of send() that was not yet taken, or None."""
+        """(Reason, text, overtaken) of the oldest refusal of a message of send() that was not yet taken, or None. Overtaken: a later
+        one of send() came to the daemon before it."""
         with self.network.changed:
             if not self._refusals:
                 return None
             ack = self._refusals.popleft()
-        return Reason(ack.reason), text_of(ack.text)
+            overtaken = ack.reason == Reason.OLD_SEQUENCE and ack.last_sequence in self._sent
+        return Reason(ack.reason), text_of(ack.text), overtaken
+
+    def forget_sent(self):
+        """What send() sent before is answered to nobody."""
+        with self.network.changed:
+            self._sent.clear()
+            self._refusals.clear()
 
     def _exchange(self, kind, message, state):
         channel = self.channel(kind)
@@ -171,6 +179,9 @@ class Conversation:
     def _silence(self):
         heard = sorted(self.network.joints)
         joints = [joint for prefix, joint in heard if prefix == self.prefix]
+        if self.joint in joints:  # the name was heard, the state was not understood
+            return (f"the daemon on prefix {self.prefix} speaks another version: its states have another type than state_v1 of this "
+                    "program. Install both in the same version")
         if joints:
             return f"no joint '{self.joint}' on prefix {self.prefix}; its joints are: {', '.join(joints)}"
         words = f"no daemon on prefix {self.prefix} in {self.timeout_s:g} s ({self.network.url})."

@@ -26,10 +26,10 @@ class Refused(StrainwaveError):
 
 
 class Faulted(StrainwaveError):
-    """The joint has a latched fault. fault: Fault."""
+    """The joint has a latched fault. fault: Fault; `words`: its text, with the cause where that is known."""
 
-    def __init__(self, joint, fault):
-        super().__init__(f"{joint}: faulted ({int(fault)}: {fault.text}); once the cause is gone: clear_fault()")
+    def __init__(self, joint, fault, words=""):
+        super().__init__(f"{joint}: faulted ({int(fault)}: {words or fault.text}); once the cause is gone: clear_fault()")
         self.joint, self.fault = joint, fault
 
 

@@ -76,7 +76,7 @@ class Joint:
         def decided():
             mode = self._mode()
             if mode == Mode.FAULTED:
-                raise Faulted(self.name, State(self._conversation.state, 0.0).fault)
+                raise self._faulted()
             if mode == Mode.OFF and now_s() > ordered_s + OLD_STATES_S:
                 raise NotDone(f"{self.name}: went back to off while it was starting; see the daemon's log")
             return mode in _ENABLED
@@ -89,7 +89,7 @@ class Joint:
 
         def decided():
             if self._mode() == Mode.FAULTED:
-                raise Faulted(self.name, State(self._conversation.state, 0.0).fault)
+                raise self._faulted()
             return self._mode() == Mode.OFF
 
         self._conversation.wait_for_state()
@@ -100,6 +100,10 @@ class Joint:
         self._stop(Action.HOLD)
         self._conversation.wait_for_state()
         wait_for_motion(self._conversation, Mode.TRACKING, "hold", lambda state: state.mode == Mode.HOLDING)
+
+    def _faulted(self):
+        state = State(self._conversation.state, 0.0)
+        return Faulted(self.name, state.fault, state.fault_words())
 
     def clear_fault(self):
         """Leaves a latched fault, to off. A joint without one is left alone."""
@@ -123,7 +127,7 @@ class Joint:
         self._order(Action.RELEASE)
 
     def move(self, position_rad, *, speed_limit_rad_s=0.0, tolerance_rad=1e-3, wait=True) -> Arrival | None:
-        """Moves to `position_rad`, no faster than `speed_limit_rad_s` (0: as fast as the joint may).
+        """Moves to `position_rad`, no faster than `speed_limit_rad_s` (0: the share of its limit that the joint moves at by itself).
 
         With `wait`, returns an Arrival once the joint is within `tolerance_rad` and stays there. Without, returns at once: the joint
         is on its way. An exception of the wait, a keyboard interrupt too, does not end the motion: hold() does. Raises Refused, Faulted,

@@ -69,7 +69,7 @@ def wait_for_motion(conversation, mode, purpose, done, replaced=lambda state: Fa
             raise NoAnswer(f"{conversation.joint}: the daemon fell silent during the motion; the joint's state is not known")
         state = State(conversation.state, conversation.received_s)
         if state.mode == Mode.FAULTED:
-            raise Faulted(conversation.joint, state.fault)
+            raise Faulted(conversation.joint, state.fault, state.fault_words())
         motion_seen = motion_seen or state.mode == mode
         if not motion_seen and now_s() < old_states_end_s:
             continue

@@ -2,7 +2,7 @@
 from .limits_v1 import limits_v1
 from .messages import text_of
 from .state_v1 import state_v1
-from .vocabulary import Fault, GainsInUse, Mode, Notice, TemperatureStatus
+from .vocabulary import Fault, GainsInUse, Mode, Notice, TemperatureStatus, fault_words
 
 
 class _Snapshot:
@@ -29,6 +29,10 @@ class State(_Snapshot):
         self.temperature_status = TemperatureStatus(message.temperature_status)
         # Only as many as the table has rules mean anything.
         self.temperature_weights = tuple(message.temperature_weights[:max(0, message.rule_count)])
+
+    def fault_words(self):
+        """The fault in words; with fault 5, which of its causes it was."""
+        return fault_words(self.fault, self.drive_error)
 
     def tracking_error_rad(self, period_s):
         """Setpoint minus position at one instant: a position that is read in a cycle was there one period before.

@@ -36,7 +36,7 @@ class Stream:
     """Made by Joint.stream(); use it in a with-statement: at its end the joint comes to rest and holds."""
 
     def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, beside):
-        self.late = 0  # samples that came after their time and were left out
+        self.late = 0  # samples that came after their time, or after a later one, and were left out
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
         self._ahead_s = check_number("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = check_number("valid_for_s", valid_for_s, "above 0 to 3600", lambda s: 0 < s <= 3600)
@@ -46,13 +46,16 @@ class Stream:
         self._last_t = None
         self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun
 
-    def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None):
+    def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None, *, torque_Nm=0.0, load_inertia_kgm2=0.0):
         """The joint shall be at `position_rad` at time `t` (s; rising; the first is in `ahead_s` from now), with the velocity and
-        acceleration then if they are known. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
+        acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
+        carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
         runs at the joint's pace. False: it came after its time and was left out. Raises Refused, NotDone, NoAnswer, InvalidInput.
         """
         t = check_number("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
+        message.torque_Nm = check_number("torque_Nm", torque_Nm, "a finite number", lambda _: True)
+        message.load_inertia_kgm2 = check_number("load_inertia_kgm2", load_inertia_kgm2, "a number from 0", lambda kgm2: kgm2 >= 0)
         self._last_t = t
         if self._last_cycle is None:
             return self._begin(t, message)
@@ -72,11 +75,15 @@ class Stream:
         if self._last_cycle is None:
             return
         network, conversation = self._conversation.network, self._conversation
-        self._check_refusals()
-        if not network.wait_until(lambda: conversation.state.cycle >= self._last_cycle, self._ahead_s + conversation.timeout_s):
-            raise NoAnswer(f"{self._joint.name}: fell silent before the stream's end")
-        self._last_cycle = None
-        self._joint.hold()
+        try:
+            self._check_refusals()
+            if not network.wait_until(lambda: conversation.state.cycle >= self._last_cycle, self._ahead_s + conversation.timeout_s):
+                raise NoAnswer(f"{self._joint.name}: fell silent before the stream's end")
+            self._check_refusals()
+        finally:
+            if self._last_cycle is not None:
+                self._last_cycle = None
+                self._joint.hold()
 
     def __enter__(self):
         return self
@@ -114,6 +121,7 @@ class Stream:
         message.begins_stream = 1
         message.acknowledge = 1
         sets_the_base = self._base.origin_t is None
+        self._conversation.forget_sent()
 
         def prepare(again):
             if sets_the_base:
@@ -136,9 +144,10 @@ class Stream:
 
     def _check_refusals(self):
         while (refusal := self._conversation.take_refusal()) is not None:
-            reason, text = refusal
-            if reason != Reason.TOO_OLD:
-                self._last_cycle = None  # it is over
+            reason, text, overtaken = refusal
+            if reason != Reason.TOO_OLD and not overtaken:
+                if reason == Reason.STREAM_ENDED:
+                    self._last_cycle = None  # whoever ended it has the joint
                 raise Refused(self._joint.name, "a setpoint of the stream", reason, text)
             self.late += 1
 

@@ -125,6 +125,8 @@ class Action(_Word):
     HOME = 6, "home"
     TAKE_OVER = 7, "take-over"
     RELEASE = 8, "release"
+    PAUSE = 9, "pause"
+    RESUME = 10, "resume"
 
 
 class TemperatureStatus(_Word):
@@ -160,6 +162,8 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     PLAIN_LAW = 1 << 8
     OFF_STREAM = 1 << 9
     POSITION_LATE = 1 << 10
+    OFF_TARGET = 1 << 11
+    LOAD_HIGH = 1 << 12
 
     @property
     def texts(self):
@@ -185,4 +189,25 @@ _NOTICE_TEXTS = {
     Notice.PLAIN_LAW: "chatter, plain control law",
     Notice.OFF_STREAM: "off the stream",
     Notice.POSITION_LATE: "position late",
+    Notice.OFF_TARGET: "off target",
+    Notice.LOAD_HIGH: "load high",
 }
+
+
+_READING_DOUBTS = {
+    1: "the position is not a number",
+    2: "the velocity is not a number",
+    3: "the torque is not a number",
+    4: "the position jumped by {} from one reading to the next",
+    5: "the position stands still though the torque must have moved the joint by {}",
+    6: "counts of the encoder are missing or wrong",
+}
+
+
+def fault_words(fault, drive_error):
+    """The fault in words, of fault 5 with its cause, which is in state_v1.drive_error (docs/faults.md)."""
+    size_urad = drive_error & 0xFFFFFF
+    doubt = _READING_DOUBTS.get(drive_error >> 24)
+    if fault != Fault.IMPLAUSIBLE_READING or doubt is None:
+        return fault.text
+    return f"{fault.text}: " + doubt.format(f"{1e-6 * size_urad:.6g} rad" + (" or more" if size_urad == 0xFFFFFF else ""))

@@ -10,6 +10,9 @@ namespace {
 using canopen::CobId;
 using canopen::NmtState;
 
+// More than any estimate goes back.
+constexpr std::int64_t kMostSkipped = 1000;
+
 // 60FDh
 constexpr std::uint32_t kNegativeLimitBit = 1U << 0U;
 constexpr std::uint32_t kPositiveLimitBit = 1U << 1U;
@@ -27,6 +30,10 @@ std::string drive_error_text(std::uint32_t drive_error) {
 }
 
 void Node::begin_cycle(std::int64_t now_ns) noexcept {
+  skipped_syncs_ =
+      now_ns_ > 0
+          ? static_cast<int>(std::clamp<std::int64_t>((now_ns - now_ns_) / period_ns_ - 1, 0, kMostSkipped))
+          : 0;
   now_ns_ = now_ns;
   fresh_ = false;
   const SetUpState::State setup = setup_.now();
@@ -153,7 +160,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.joint_position_rad = position_rad_;
   reading.has_position = fresh_;
   reading.position_delay_ns = fresh_ ? age_.delay_ns() : 0;
-  reading.position_late_periods = age_.late_periods();
+  reading.position_late_periods = age_.late_periods() + stale_periods();
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_velocity = fresh_ && layout_.velocity.pdo != 0;
   reading.torque_applied_Nm = torque_applied_Nm_;
@@ -163,6 +170,12 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.fault = shown.fault;
   reading.drive_error = shown.fault != ActuatorFault::kNone ? shown.drive_error : emergency_;
   return reading;
+}
+
+// Over periods that the loop left out nobody sent a SYNC: the newest position is of the last one before them.
+int Node::stale_periods() const noexcept {
+  const int usual_lag = age_.lag_periods() - age_.late_periods();
+  return config_.daemon_sends_sync ? std::max(0, skipped_syncs_ - usual_lag) : 0;
 }
 
 void Node::fill_temperature(ActuatorReading& reading) const noexcept {
@@ -204,7 +217,7 @@ void Node::transmit_order(CanTransmitter& bus) noexcept {
   const Goal wanted = goal();
   const std::uint16_t controlword = power_.controlword(wanted, now_ns_);
   const bool driven = wanted == Goal::kEnabled && power_.state() == PowerState::kOperationEnabled &&
-                      controlword == kEnableOperation && missed_ <= config_.zero_torque_after;
+                      controlword == controlword::kEnableOperation && missed_ <= config_.zero_torque_after;
   const std::int16_t torque = driven ? torque_scale_.per_mille(command_.torque_Nm) : std::int16_t{0};
   CanFrame frame;
   frame.id = layout_.command.cob_id(config_.node_id);

@@ -72,6 +72,7 @@ class Node final : public CanNode {
   Goal goal() const noexcept;
   DriveState drive_state() const noexcept;
   void fill_temperature(ActuatorReading& reading) const noexcept;
+  int stale_periods() const noexcept;
   void read_temperature(CanPort& port, std::vector<std::string>& messages);
 
   DriveConfig config_;
@@ -93,6 +94,7 @@ class Node final : public CanNode {
 
   // The loop alone.
   std::int64_t now_ns_ = 0;
+  int skipped_syncs_ = 0;  ///< before this period
   PowerSequence power_;
   PositionScale position_scale_;
   TouchProbe probe_;

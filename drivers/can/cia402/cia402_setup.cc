@@ -195,7 +195,7 @@ void set_mode(SdoClient& client, OperationMode mode) {
 /// No torque, whatever the drive did before: another daemon may have died with it enabled.
 void take_torque_off(SdoClient& client) {
   client.download(kTargetTorque, 0, 2);
-  client.download(kControlword, kDisableVoltage, 2);
+  client.download(kControlword, controlword::kDisableVoltage, 2);
   const std::int64_t deadline_ns = client.port().now_ns() + kDisableWait_ns;
   const auto has_torque = [&] {
     const PowerState state = power_state_of(static_cast<std::uint16_t>(number(client, kStatusword, 2)));

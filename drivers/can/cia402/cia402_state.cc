@@ -18,18 +18,19 @@ struct StatusRow {
 };
 
 using enum PowerState;
+namespace word = controlword;
 // clang-format off
-constexpr std::uint16_t kOff = kDisableVoltage;
+constexpr std::uint16_t kOff = controlword::kDisableVoltage;
 constexpr std::array<StatusRow, 8> kTable{{
-    // status and its mask, state,            text,                    to disable, to enable,        to quick stop
-    {0x4F, 0x00, kNotReady,         "not ready to switch on", kOff,       kOff,             kOff},
-    {0x4F, 0x40, kSwitchOnDisabled, "switch on disabled",     kOff,       kShutdown,        kOff},
-    {0x6F, 0x21, kReadyToSwitchOn,  "ready to switch on",     kOff,       kSwitchOn,        kOff},
-    {0x6F, 0x23, kSwitchedOn,       "switched on",            kShutdown,  kEnableOperation, kOff},
-    {0x6F, 0x27, kOperationEnabled, "operation enabled",      kShutdown,  kEnableOperation, kQuickStop},
-    {0x6F, 0x07, kQuickStopActive,  "quick stop active",      kOff,       kOff,             kQuickStop},
-    {0x4F, 0x0F, kFaultReaction,    "fault reaction active",  kOff,       kOff,             kOff},
-    {0x4F, 0x08, kFault,            "fault",                  kOff,       kOff,             kOff},
+    // status and its mask, state,            text,                    to disable,      to enable,              to quick stop
+    {0x4F, 0x00, kNotReady,         "not ready to switch on", kOff,            kOff,                   kOff},
+    {0x4F, 0x40, kSwitchOnDisabled, "switch on disabled",     kOff,            word::kShutdown,        kOff},
+    {0x6F, 0x21, kReadyToSwitchOn,  "ready to switch on",     kOff,            word::kSwitchOn,        kOff},
+    {0x6F, 0x23, kSwitchedOn,       "switched on",            word::kShutdown, word::kEnableOperation, kOff},
+    {0x6F, 0x27, kOperationEnabled, "operation enabled",      word::kShutdown, word::kEnableOperation, word::kQuickStop},
+    {0x6F, 0x07, kQuickStopActive,  "quick stop active",      kOff,            kOff,                   word::kQuickStop},
+    {0x4F, 0x0F, kFaultReaction,    "fault reaction active",  kOff,            kOff,                   kOff},
+    {0x4F, 0x08, kFault,            "fault",                  kOff,            kOff,                   kOff},
 }};
 // clang-format on
 
@@ -60,7 +61,7 @@ std::uint16_t controlword_towards(Goal goal, PowerState state) noexcept {
     case Goal::kQuickStop:
       return row.quick_stop;
   }
-  return kDisableVoltage;
+  return controlword::kDisableVoltage;
 }
 
 }  // namespace strainwave::cia402

@@ -26,18 +26,20 @@ enum class Goal : std::uint8_t {
   kQuickStop,  ///< stopped as fast as the drive can, then without torque
 };
 
+/// Values of the controlword (6040h).
+namespace controlword {
 inline constexpr std::uint16_t kShutdown = 0x06;
 inline constexpr std::uint16_t kSwitchOn = 0x07;
 inline constexpr std::uint16_t kEnableOperation = 0x0F;
 inline constexpr std::uint16_t kDisableVoltage = 0x00;
 inline constexpr std::uint16_t kQuickStop = 0x02;
 inline constexpr std::uint16_t kFaultReset = 0x80;
+}  // namespace controlword
 
 /// Of a statusword (6041h). Every value has one.
 PowerState power_state_of(std::uint16_t statusword) noexcept;
 
-/// The next controlword (6040h) on the way to `goal`. A fault is never reset by it: that is an operator's
-/// order.
+/// The next controlword (6040h) on the way to `goal`. A fault is never reset by it: that is an operator's order.
 std::uint16_t controlword_towards(Goal goal, PowerState state) noexcept;
 
 }  // namespace strainwave::cia402

@@ -32,7 +32,7 @@ void LastResort::hear(std::int64_t now_ns) noexcept {
 
 CanFrame LastResort::frame() const noexcept {
   if (step_ == Step::kResetting) return canopen::nmt_frame(canopen::NmtCommand::kResetNode, node_id_);
-  return canopen::expedited_download(node_id_, {0x6040, 0}, kDisableVoltage, 2);
+  return canopen::expedited_download(node_id_, {0x6040, 0}, controlword::kDisableVoltage, 2);
 }
 
 void LastResort::sent(std::int64_t now_ns) noexcept {

@@ -6,8 +6,7 @@ namespace strainwave::cia402 {
 
 namespace {
 
-/// Periods that the reset bit stays low, then high. Several, because a frame may be lost; the edge is what
-/// counts.
+/// Periods that the reset bit stays low, then high. Several, because a frame may be lost; the edge is what counts.
 constexpr int kResetHalf = 5;
 
 }  // namespace
@@ -30,13 +29,14 @@ std::uint16_t PowerSequence::controlword(Goal goal, std::int64_t now_ns) noexcep
     reached_ = goal == Goal::kEnabled && state() == PowerState::kOperationEnabled;
   }
   if (resetting_ && goal != Goal::kQuickStop) return reset_word();
-  if (goal_ == Goal::kQuickStop && now_ns - goal_since_ns_ > times_.quick_stop_ns) return kDisableVoltage;
+  if (goal_ == Goal::kQuickStop && now_ns - goal_since_ns_ > times_.quick_stop_ns)
+    return controlword::kDisableVoltage;
   return controlword_towards(goal_, state());
 }
 
 std::uint16_t PowerSequence::reset_word() noexcept {
   const bool high = (reset_periods_++ / kResetHalf) % 2 != 0;
-  return high ? kFaultReset : kDisableVoltage;
+  return high ? controlword::kFaultReset : controlword::kDisableVoltage;
 }
 
 void PowerSequence::begin_reset(std::int64_t now_ns) noexcept {

@@ -1,5 +1,4 @@
-// What the configuration says of an ODrive axis, and its units. Plain data; the conversions are real-time
-// safe.
+// What the configuration says of an ODrive axis, and its units. Plain data; the conversions are real-time safe.
 #pragma once
 
 #include <algorithm>

@@ -199,8 +199,7 @@ bool Node::has_position() const noexcept {
 void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.fault_after + 1);
   if (!command_.enable) return;
-  // Nobody fed the idle drive before this loop began; being enabled is the operator's order to go on from
-  // there.
+  // Nobody fed the idle drive before this loop began; being enabled is the operator's order to go on from there.
   if (heartbeat_.errors == kWatchdogExpired && !was_armed_ && !closed_loop()) clear_ordered_ = true;
   watch_.latch(watch_.link_trouble(setup_, now_ns_));
   watch_.latch(use_trouble());

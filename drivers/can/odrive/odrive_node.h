@@ -1,6 +1,5 @@
 // One ODrive axis in the loop, by CANSimple: its frames in, its state, its torque out, and every way in which
-// it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in
-// cia402_node.h.
+// it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in cia402_node.h.
 //
 // CANSimple has no SYNC: the drive sends its position by its own clock, and where in the loop's period that falls changes.
 // Each position comes with the velocity of the same instant; with it the position is carried to the beginning of the cycle.

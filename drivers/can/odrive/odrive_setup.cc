@@ -41,8 +41,7 @@ void send(CanPort& port, const DriveConfig& config, const CanFrame& frame) {
     throw InputError(where(config) + ": the CAN interface takes no frame");
 }
 
-/// Sends `request` and waits for the first frame that `decode` can read among those with `answer`'s
-/// identifier.
+/// Sends `request` and waits for the first frame that `decode` can read among those with `answer`'s identifier.
 template <typename Value>
 std::optional<Value> ask(CanPort& port, const DriveConfig& config, const CanFrame& request, Command answer,
                          const std::function<std::optional<Value>(const CanFrame&)>& decode) {

@@ -154,8 +154,9 @@ public final class JointPlot extends JPanel {
     final state_v1 state = sample.state();
     final String mode = state.mode >= 0 && state.mode < MODES.length ? MODES[state.mode] : "mode " + state.mode;
     final String fault = state.fault == 0 ? "" : ", fault " + state.fault + " (docs/faults.md)";
-    return String.format("%s%s   position %+.6f rad   error %+.1e rad   torque %+.3f N m   %.1f °C", mode, fault,
+    return String.format("%s%s   position %+.6f rad   error %+.1e rad   torque %+.3f N m   %s", mode, fault,
         state.joint_position_rad, sample.error_rad(), state.torque_applied_Nm,
-        state.temperature_used_C);
+        Double.isNaN(state.temperature_used_C) ? "no temperature"
+                                               : String.format("%.1f °C", state.temperature_used_C));
   }
 }

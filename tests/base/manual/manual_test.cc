@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <regex>
 #include <string>
+
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -51,10 +56,47 @@ TEST_P(Manual, ThePageNamesTheProgramAndFormatsWithoutComplaint) {
   EXPECT_NE(page.find(".SH NAME"), std::string::npos);
   EXPECT_NE(page.find("\\-\\-help"), std::string::npos);
   EXPECT_EQ(page.find("manual"), std::string::npos) << "the option is hidden";
+  for (const char* section : {"EXIT STATUS", "FILES", "EXAMPLES", "SEE ALSO"})
+    EXPECT_NE(page.find(std::string("\n.SH ") + section + "\n"), std::string::npos) << section;
   if (!is_there("groff")) return;
   const Result formatted = shell(kBin + GetParam() + " --manual man | groff -man -Tascii -ww -z");
   EXPECT_EQ(formatted.status, 0);
   EXPECT_EQ(formatted.output, "");
+}
+
+TEST_P(Manual, ThePageHasADateAndTheSectionOfItsKind) {
+  const std::string name = GetParam();
+  const bool daemon = name == "strainwaved" || name == "strainwave-telemetry";
+  const std::string page = print("man");
+  const std::regex head("\\.TH [A-Z-]+ " + std::string(daemon ? "8" : "1") +
+                        " \"[0-9]{1,2} [A-Z][a-z]{2} 20[0-9]{2}\" \"strainwave [0-9.]+\"");
+  EXPECT_TRUE(std::regex_search(page.substr(0, page.find('\n')), head)) << page.substr(0, 100);
+}
+
+TEST_P(Manual, EveryOptionOfTheHelpIsOnThePageAndOfferedByTheShells) {
+  const std::string help = shell(kBin + GetParam() + " --help").output;
+  const std::string page = print("man");
+  const std::string bash = print("bash");
+  const std::string zsh = print("zsh");
+  // At the beginning of a line: a description may name an option of another program.
+  const std::regex option("\n +(?:-[a-zA-Z],)?(--[a-z][a-zA-Z0-9_-]*)");
+  for (auto it = std::sregex_iterator(help.begin(), help.end(), option); it != std::sregex_iterator(); ++it) {
+    const std::string name = it->str(1);
+    EXPECT_NE(std::regex_replace(page, std::regex("\\\\-"), "-").find(name), std::string::npos) << name;
+    EXPECT_NE(bash.find(name), std::string::npos) << name;
+    EXPECT_NE(zsh.find(name), std::string::npos) << name;
+  }
+}
+
+TEST_P(Manual, EveryOptionIsWordsJoinedByDashesThenItsUnit) {
+  const std::regex option("[ ']--[A-Za-z][A-Za-z0-9_-]*");
+  const std::regex spelling("--[A-Za-z][a-z0-9]*(-[a-z0-9]+)*(_(rad|rad_s|s|C|Nm|Ncm|kgm2|Nms_rad))?");
+  const std::string bash = print("bash");
+  int count = 0;
+  for (auto it = std::sregex_iterator(bash.begin(), bash.end(), option); it != std::sregex_iterator();
+       ++it, ++count)
+    EXPECT_TRUE(std::regex_match(it->str().substr(1), spelling)) << it->str();
+  EXPECT_GE(count, 3);
 }
 
 TEST_P(Manual, TheShellsTakeTheirCompletions) {
@@ -77,11 +119,59 @@ INSTANTIATE_TEST_SUITE_P(Programs, Manual,
                            return name;
                          });
 
-/// What bash offers for the last of `words`.
-std::string completions(const std::string& words) {
-  return shell("bash -c 'eval \"$(" + kBin + "strainwavectl --manual bash)\"; COMP_WORDS=(" + words +
-               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _strainwavectl; echo \"${COMPREPLY[@]}\"'")
+/// What bash offers for the last of `words`. The joints that are heard are those of `network`.
+std::string completions(const std::string& words, const std::string& network = "/nowhere") {
+  const std::string program = words.substr(0, words.find(' '));
+  std::string function = "_" + program;
+  std::replace(function.begin(), function.end(), '-', '_');
+  return shell("bash -c 'eval \"$(" + kBin + program + " --manual bash)\"; PATH=" + network +
+               ":$PATH; COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); " + function +
+               "; echo \"${COMPREPLY[@]}\"'")
       .output;
+}
+
+TEST(Page, ShowsWhatMayBeLeftOutInBrackets) {
+  const std::string page = shell(kBin + "strainwavectl --manual man").output;
+  EXPECT_NE(page.find("\\fBstatus\\fR [\\fIJOINT\\fR]\n"), std::string::npos);
+  EXPECT_NE(page.find("\\fBwatch\\fR [\\fIJOINT\\fR ...]\n"), std::string::npos);
+  EXPECT_NE(page.find("\\fBpause\\fR \\fIJOINT\\fR\n"), std::string::npos);
+  EXPECT_NE(page.find("\\fBenable\\fR [\\fIJOINT\\fR ...]\n"), std::string::npos);
+}
+
+TEST(Page, OfTheViewerNamesTheOptionsOfItsLauncher) {
+  const std::string page = STRAINWAVE_BINARY_DIR "/man/strainwave-spy.1";
+  if (!std::filesystem::exists(page)) GTEST_SKIP() << "not built";
+  const std::string help = shell(kBin + "strainwave-spy --help").output;
+  const std::regex option("--[a-z-]+");
+  const std::string text = shell("sed 's/\\\\-/-/g' " + page).output;
+  EXPECT_NE(help.find("--lcm-url"), std::string::npos) << help;
+  for (auto it = std::sregex_iterator(help.begin(), help.end(), option); it != std::sregex_iterator(); ++it)
+    EXPECT_NE(text.find(it->str()), std::string::npos) << it->str();
+  if (!is_there("groff")) return;
+  EXPECT_EQ(shell("groff -man -Tascii -ww -z " + page).output, "");
+}
+
+TEST(BashCompletion, OffersTheWordsThatAnOptionOrArgumentTakes) {
+  EXPECT_EQ(completions("strainwavectl keygen --role \"\""), "operator engineer\n");
+  EXPECT_EQ(completions("strainwavectl keygen --role e"), "engineer\n");
+  EXPECT_EQ(completions("strainwavectl inject elbow sensor_na"), "sensor_nan\n");
+  EXPECT_EQ(completions("strainwavectl --timeout_s 3 inject --for_s 1 elbow none"), "none\n")
+      << "values of options are no arguments";
+  if (std::filesystem::exists(kBin + "strainwave-design")) {
+    EXPECT_EQ(completions("strainwave-design gains --controller C"), "C1 C2 C3 C4\n");
+  }
+}
+
+TEST(BashCompletion, OffersTheJointsThatAreHeard) {
+  const TemporaryFolder folder;
+  const std::filesystem::path program = folder.path() / "strainwavectl";
+  std::ofstream(program) << "#!/bin/sh\ntest \"$1 $2\" = 'status --json' &&\n"
+                         << "echo '[{\"prefix\":\"SW\",\"joint\":\"elbow\"},{\"joint\": \"wrist\"}]'\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string network = folder.path().string();
+  EXPECT_EQ(completions("strainwavectl enable \"\"", network), "elbow wrist\n");
+  EXPECT_EQ(completions("strainwavectl watch elbow w", network), "wrist\n");
+  EXPECT_EQ(completions("strainwavectl move elbow \"\"", network), "\n") << "a position";
 }
 
 TEST(BashCompletion, OffersCommandsThenTheirOptions) {

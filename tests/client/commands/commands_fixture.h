@@ -7,7 +7,7 @@
 #include <string>
 
 #include "client/commands/commands.h"
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "tests/client/link/fake_daemon.h"
 
 namespace strainwave::testing {

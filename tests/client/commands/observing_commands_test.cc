@@ -102,8 +102,7 @@ TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
             ExitStatus::kUsage);
 }
 
-/// memq:// drops what nobody has subscribed to yet: sends the message once a first one, the trigger, is
-/// dispatched.
+/// memq:// drops what nobody has subscribed to yet: sends the message once a first one, the trigger, is dispatched.
 class LaterTiming {
  public:
   LaterTiming(Connection& connection, const timing_v1& timing)

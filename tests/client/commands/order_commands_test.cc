@@ -29,7 +29,7 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   daemon.modes_after_answer = {Mode::kHoming, Mode::kHolding};
   home(client, output, "elbow");
   daemon.modes_after_answer = {Mode::kOff};
-  disable(client, output, "elbow");
+  disable(client, output, {"elbow"});
   std::vector<std::int32_t> actions;
   for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
   EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 6, 2}));
@@ -109,7 +109,7 @@ TEST_F(CommandsTest, EnableThatNeverEndsIsNoSuccess) {
 
 TEST_F(CommandsTest, DisableReachesAJointThatIsNotHeard) {
   daemon.modes_after_answer = {Mode::kStopping, Mode::kOff};
-  EXPECT_EQ(status_of([&] { disable(client, output, "elbow"); }), ExitStatus::kDone);
+  EXPECT_EQ(status_of([&] { disable(client, output, {"elbow"}); }), ExitStatus::kDone);
   EXPECT_TRUE(output_has("elbow: disabled"));
 }
 
@@ -123,7 +123,7 @@ TEST_F(CommandsTest, EnableAndClearFaultAreDoneAlreadyWhenThereIsNothingToDo) {
 }
 
 TEST_F(CommandsTest, AStopThatNobodyAnswersWasSentAllTheSame) {
-  EXPECT_EQ(status_of([&] { disable(client, output, "ghost"); }), ExitStatus::kNoAnswer);
+  EXPECT_EQ(status_of([&] { disable(client, output, {"ghost"}); }), ExitStatus::kNoAnswer);
   EXPECT_TRUE(message_has("ghost: the stop was sent 4 times, and nothing answered")) << message;
 }
 
@@ -133,9 +133,42 @@ TEST_F(CommandsTest, DisableAllGoesOnAfterAFailure) {
   wrist.publish_state(Mode::kHolding);
   daemon.drop = 100;
   wrist.modes_after_answer = {Mode::kOff};
-  EXPECT_EQ(status_of([&] { disable_all(client, output); }), ExitStatus::kNoAnswer);
+  EXPECT_EQ(status_of([&] { disable(client, output, {}); }), ExitStatus::kNoAnswer);
   EXPECT_TRUE(message_has("elbow: the stop was sent")) << message;
   EXPECT_TRUE(output_has("wrist: disabled"));
+}
+
+TEST_F(CommandsTest, EnableOfSeveralTellsEachOutcomeAndEndsAsTheWorst) {
+  FakeDaemon wrist(connection, "SW", "wrist");
+  daemon.publish_state(Mode::kFaulted);
+  wrist.publish_state();
+  daemon.reason = Reason::kFaulted;
+  wrist.modes_after_answer = {Mode::kHolding};
+  EXPECT_EQ(status_of([&] { order_each(client, output, {"elbow", "wrist"}, enable); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("elbow: enable refused (16")) << message;
+  EXPECT_TRUE(output_has("wrist: enabled, holding")) << "the failure before did not keep the order from it";
+  // "ghost" is not there, which is worse than a refusal, whichever comes first.
+  EXPECT_EQ(status_of([&] {
+              order_each(client, output, {"ghost", "elbow"}, enable);
+            }),
+            ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("no joint 'ghost'") && message_has("\nelbow: enable refused")) << message;
+  EXPECT_EQ(status_of([&] {
+              order_each(client, output, {"elbow", "ghost"}, enable);
+            }),
+            ExitStatus::kNoAnswer);
+}
+
+TEST_F(CommandsTest, AnOrderToAllReachesEveryJointThatIsHeard) {
+  FakeDaemon wrist(connection, "SW", "wrist");
+  FakeDaemon other(connection, "OTHER", "elbow");
+  daemon.publish_state(Mode::kHolding);
+  wrist.publish_state(Mode::kHolding);
+  other.publish_state(Mode::kHolding);
+  order_each(client, output, {}, hold);
+  EXPECT_EQ(daemon.heard().size(), 1U);
+  EXPECT_EQ(wrist.heard().size(), 1U);
+  EXPECT_TRUE(other.heard().empty()) << "another prefix's";
 }
 
 TEST_F(CommandsTest, ResultsAreOneJsonObjectALineWhenAskedFor) {

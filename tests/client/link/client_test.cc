@@ -5,7 +5,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "tests/client/link/fake_daemon.h"
 
 namespace strainwave {
@@ -41,6 +41,21 @@ TEST_F(ClientTest, LearnsTheSessionFromTheStateAndQuotesIt) {
   ASSERT_EQ(daemon.heard().size(), 1U);
   EXPECT_EQ(daemon.heard()[0].channel, "SW.elbow.SETPOINT");
   EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->session_id, 4711);
+}
+
+TEST_F(ClientTest, SaysThatTheDaemonSpeaksAnotherVersion) {
+  std::vector<std::uint8_t> older = encode(state_v1{});
+  ++older[3];  // of the type's fingerprint
+  older.resize(older.size() - 8);
+  connection.publish("SW.elbow.STATE", older);
+  EXPECT_NE(failure("elbow").find("the daemon on prefix SW speaks another version"), std::string::npos);
+}
+
+TEST_F(ClientTest, TakesATornStateForNoOtherVersion) {
+  std::vector<std::uint8_t> torn = encode(state_v1{});
+  torn.resize(torn.size() - 8);
+  connection.publish("SW.elbow.STATE", torn);
+  EXPECT_NE(failure("elbow").find("no daemon on prefix SW"), std::string::npos);
 }
 
 TEST_F(ClientTest, PassesOnAReasonAndItsText) {

@@ -7,8 +7,8 @@
 
 #include "base/input_error.h"
 #include "client/commands/commands.h"
+#include "client/link/client_error.h"
 #include "client/link/event_log_writer.h"
-#include "client/link/exit_status.h"
 #include "client/text/message_csv.h"
 #include "client/text/state_csv.h"
 #include "tests/client/link/fake_daemon.h"

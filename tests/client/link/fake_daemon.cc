@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <optional>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
 #include <strainwave/inject_v1.hpp>
+#include <strainwave/path_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
 #include "lcmtypes/wire.h"
@@ -15,10 +16,13 @@ FakeDaemon::FakeDaemon(Connection& connection, std::string prefix, std::string j
     : connection_(connection),
       prefix_(std::move(prefix)),
       joint_(std::move(joint)),
-      subscription_(connection.subscribe(prefix_ + "\\." + joint_ + "\\.(SETPOINT|COMMAND|TABLE|INJECT)",
+      subscription_(connection.subscribe(prefix_ + "\\." + joint_ + "\\.(SETPOINT|PATH|COMMAND|TABLE|INJECT)",
                                          &FakeDaemon::on_order, this)) {
   state.session_id = 77;
   state.rule_count = 1;
+  limits.period_s = 1e-3;
+  limits.position_min_rad = -3.0;
+  limits.position_max_rad = 3.0;
 }
 
 void FakeDaemon::publish_state() {
@@ -29,6 +33,11 @@ void FakeDaemon::publish_state() {
 void FakeDaemon::publish_state(Mode mode) {
   state.mode = static_cast<std::int32_t>(mode);
   publish_state();
+}
+
+void FakeDaemon::publish_limits() {
+  limits.session_id = state.session_id;
+  connection_.publish(channel(prefix_, joint_, channel_kind::kLimits), encode(limits));
 }
 
 void FakeDaemon::on_order(const ReceivedMessage& message) {
@@ -42,9 +51,11 @@ void FakeDaemon::on_order(const ReceivedMessage& message) {
     if (obeys_moves && reason == Reason::kAccepted)
       state.target_position_rad = state.joint_position_rad = setpoint->position_rad;
     answer(setpoint->sender_id, setpoint->sequence);
+  } else if (const auto path = decode_exactly<path_v1>(bytes)) {
+    answer(path->sender_id, path->sequence);
   } else if (const auto command = decode_exactly<command_v1>(bytes)) {
     answer(command->sender_id, command->sequence);
-  } else if (const auto table = decode_exactly<gain_table_v1>(bytes)) {
+  } else if (const auto table = decode_exactly<gain_table_v2>(bytes)) {
     answer(table->sender_id, table->sequence);
   } else if (const auto injection = decode_exactly<inject_v1>(bytes)) {
     answer(injection->sender_id, injection->sequence);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <strainwave/ack_v1.hpp>
+#include <strainwave/limits_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <string>
 #include <vector>
@@ -30,8 +31,10 @@ class FakeDaemon {
   /// Publishes `state` as it is, or with another mode.
   void publish_state();
   void publish_state(Mode mode);
+  void publish_limits();
 
   state_v1 state{};
+  limits_v1 limits{};
   int drop = 0;  ///< that many orders get no answer
   Reason reason = Reason::kAccepted;
   std::string text;

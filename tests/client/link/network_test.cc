@@ -4,54 +4,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "client/options/command_line.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
-#include "tests/client/link/fake_daemon.h"
+#include "tests/client/link/running_daemon.h"
 #include "tests/support/fragment_attack.h"
 
 namespace strainwave {
 namespace {
-
-/// A port of this process's own, so that tests may run side by side.
-std::string own_url() {
-  return "udpm://239.255.76.67:" + std::to_string(20000 + ::getpid() % 20000) + "?ttl=0";
-}
-
-/// A joint that obeys everything and publishes its state all the time.
-class RunningDaemon {
- public:
-  explicit RunningDaemon(const std::string& url) : connection_(url), daemon_(connection_, "SW", "elbow") {
-    daemon_.state.mode = static_cast<std::int32_t>(Mode::kHolding);
-    thread_ = std::thread([this] { run(); });
-  }
-  ~RunningDaemon() {
-    stop_ = true;
-    thread_.join();
-  }
-  FakeDaemon& daemon() noexcept { return daemon_; }  ///< to be set up before the first order only
-
- private:
-  void run() {
-    while (!stop_) {
-      while (connection_.handle(1)) {
-      }
-      daemon_.publish_state();
-    }
-  }
-
-  Connection connection_;
-  FakeDaemon daemon_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
 
 struct Result {
   ExitStatus status;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
 namespace strainwave {
@@ -17,7 +17,7 @@ TEST(Sender, SequencesRiseOverAllKindsOfMessages) {
   for (int i = 0; i < 10; ++i) {
     for (const std::int64_t sequence :
          {sender.seal("a", setpoint_v2{}, {1, 2}).sequence, sender.seal("b", command_v1{}, {1, 2}).sequence,
-          sender.seal("c", gain_table_v1{}, {1, 2}).sequence}) {
+          sender.seal("c", gain_table_v2{}, {1, 2}).sequence}) {
       EXPECT_GT(sequence, last);
       last = sequence;
     }

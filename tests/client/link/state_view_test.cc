@@ -66,6 +66,32 @@ TEST_F(StateViewTest, DoesNotGrowWithoutBound) {
   EXPECT_EQ(view.find("SW", "j0")->state.session_id, 9);
 }
 
+TEST_F(StateViewTest, ShowsARealDaemonWhoeverHasMadeUpNamesBeforeAndGoesOnDoingSo) {
+  const LcmSource daemon{0x0A000002, 40000};
+  for (const LcmSource& flooder : {LcmSource{0x0A000003, 40000}, LcmSource{0x0A000002, 50000}}) {
+    StateView crowd(connection);
+    const std::vector<std::uint8_t> state = encode(state_v1{});
+    const auto flood = [&](const std::string& first) {
+      for (int i = 0; i < 3000; ++i)
+        crowd.accept("SW." + first + std::to_string(i) + ".STATE", state, flooder);
+    };
+    flood("a");
+    for (int k = 0; k < 64; ++k) crowd.accept("SW.joint" + std::to_string(k) + ".STATE", state, daemon);
+    flood("b");
+    for (int k = 0; k < 64; ++k) EXPECT_NE(crowd.find("SW", "joint" + std::to_string(k)), nullptr) << k;
+    EXPECT_EQ(crowd.joints("SW").size(), StateView::kMaxJoints);
+  }
+}
+
+TEST_F(StateViewTest, WhatIsKeptLosesItsPlaceToNobodyEvenIfTheCrowdsSourceNamedItFirst) {
+  hear("SW.elbow.STATE", 7);
+  view.keep("SW", "elbow");
+  const JointView* const elbow = view.find("SW", "elbow");
+  for (std::size_t i = 0; i < 3 * StateView::kMaxJoints; ++i) hear("SW.j" + std::to_string(i) + ".STATE", 1);
+  EXPECT_EQ(view.find("SW", "elbow"), elbow);
+  EXPECT_EQ(elbow->state.session_id, 7);
+}
+
 TEST_F(StateViewTest, TellsARestartedDaemonFromTwoDaemons) {
   for (const std::int64_t session_id : {1, 1, 2, 2, 3}) hear("SW.elbow.STATE", session_id);
   EXPECT_FALSE(view.find("SW", "elbow")->two_daemons);

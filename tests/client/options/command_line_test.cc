@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -56,7 +57,8 @@ TEST(CommandLine, ThatMakesNoSenseIsAUsageError) {
                                              {"inject", "elbow", "sensor_noisy"},
                                              {"inject", "elbow", "slow_read", "--amount", "2"},
                                              {"enable"},
-                                             {"enable", "elbow", "wrist"},
+                                             {"enable", "elbow", "--all"},
+                                             {"pause", "elbow", "wrist"},
                                              {"--prefix", "a.b", "status"},
                                              {"--timeout_s", "0", "status"},
                                              {"--timeout_s", "inf", "status"},
@@ -84,8 +86,8 @@ TEST(CommandLine, NamesTheNearestRightWord) {
 }
 
 TEST(CommandLine, NamesUnexpectedWordsAsTheyWereTyped) {
-  EXPECT_NE(run({"enable", "elbow", "wrist", "hip"}).err.find("unexpected: 'wrist' 'hip'"), std::string::npos)
-      << run({"enable", "elbow", "wrist", "hip"}).err;
+  EXPECT_NE(run({"pause", "elbow", "wrist", "hip"}).err.find("unexpected: 'wrist' 'hip'"), std::string::npos)
+      << run({"pause", "elbow", "wrist", "hip"}).err;
 }
 
 TEST(CommandLine, RefusesATimeOutTooShortToHearAnything) {
@@ -95,10 +97,16 @@ TEST(CommandLine, RefusesATimeOutTooShortToHearAnything) {
       << result.err;
 }
 
-TEST(CommandLine, DisablesOneJointOrAll) {
-  EXPECT_EQ(run_alone({"disable"}).status, ExitStatus::kUsage);
-  EXPECT_EQ(run_alone({"disable", "elbow", "--all"}).status, ExitStatus::kUsage);
-  EXPECT_EQ(run_alone({"disable", "--all"}).status, ExitStatus::kNoAnswer);
+TEST(CommandLine, OrdersOneJointSeveralOrAll) {
+  for (const char* order : {"enable", "disable", "hold", "clear-fault", "home", "release"}) {
+    EXPECT_EQ(run_alone({order}).status, ExitStatus::kUsage) << order;
+    EXPECT_NE(run_alone({order}).err.find("--all"), std::string::npos) << run_alone({order}).err;
+    EXPECT_EQ(run_alone({order, "elbow", "--all"}).status, ExitStatus::kUsage) << order;
+    EXPECT_EQ(run_alone({order, "--all"}).status, ExitStatus::kNoAnswer) << order;
+  }
+  const Result two = run_alone({"enable", "elbow", "wrist"});
+  EXPECT_EQ(two.status, ExitStatus::kNoAnswer);
+  EXPECT_EQ(std::count(two.err.begin(), two.err.end(), '\n'), 2) << two.err;
 }
 
 TEST(CommandLine, TakesANegativePositionForANumber) {

@@ -6,9 +6,10 @@
 #include <span>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/limits_v1.hpp>
+#include <strainwave/path_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
@@ -48,6 +49,8 @@ setpoint_v2 setpoint() {
   message.position_rad = 0.25;
   message.velocity_rad_s = -1.5;
   message.acceleration_rad_s2 = 1e-300;
+  message.torque_Nm = -3.5;
+  message.load_inertia_kgm2 = 0.125;
   message.at_cycle = 7;
   message.derivatives = 2;
   message.valid_for_s = 0.5;
@@ -62,9 +65,10 @@ setpoint_v2 setpoint() {
 int main() {
   print_counting<ack_v1>("ack_v1");
   print_counting<command_v1>("command_v1");
-  print_counting<gain_table_v1>("gain_table_v1");
+  print_counting<gain_table_v2>("gain_table_v2");
   print_counting<inject_v1>("inject_v1");
   print_counting<limits_v1>("limits_v1");
+  print_counting<path_v1>("path_v1");
   print_counting<setpoint_v2>("setpoint_v2");
   print_counting<state_v1>("state_v1");
   print_counting<temperature_v1>("temperature_v1");

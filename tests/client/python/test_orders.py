@@ -2,11 +2,12 @@
 import threading
 import unittest
 
-from strainwave import (Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, ack_v1, command_v1, limits_v1,
-                        messages, setpoint_v2, state_v1)
+from strainwave import (Action, Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Path, Reason, Refused, ack_v1, command_v1,
+                        limits_v1, messages, path_v1, setpoint_v2, state_v1)
 from strainwave.network import Network, parse_url
 
-COMMAND, SETPOINT = "SW.elbow.COMMAND", "SW.elbow.SETPOINT"
+COMMAND, SETPOINT, PATH = "SW.elbow.COMMAND", "SW.elbow.SETPOINT", "SW.elbow.PATH"
+TYPES = {COMMAND: command_v1, SETPOINT: setpoint_v2, PATH: path_v1}
 
 
 class PlayedNetwork:
@@ -34,7 +35,7 @@ class PlayedNetwork:
 
 
 def published(channel, message):
-    return messages.decode_exactly(command_v1 if channel == COMMAND else setpoint_v2, message)
+    return messages.decode_exactly(TYPES[channel], message)
 
 
 class Orders(unittest.TestCase):
@@ -153,6 +154,9 @@ class Orders(unittest.TestCase):
         self.network.joints = {("SW", "wrist"), ("LAB", "hip")}
         with self.assertRaisesRegex(NoAnswer, "no joint 'elbow' on prefix SW; its joints are: wrist"):
             self.impatient_elbow.enable()
+        self.network.joints = {("SW", "elbow")}  # its name is heard, and no state that is one
+        with self.assertRaisesRegex(NoAnswer, "the daemon on prefix SW speaks another version"):
+            self.impatient_elbow.enable()
         self.network.joints = {("LAB", "hip")}
         with self.assertRaisesRegex(NoAnswer, "Daemons are heard on: LAB"):
             self.impatient_elbow.enable()
@@ -192,6 +196,9 @@ class Orders(unittest.TestCase):
     def test_to_move_that_end_elsewhere_say_so(self):
         moving = dict(mode=Mode.TRACKING, target_position_rad=0.5)
         for end, error, words in ((dict(mode=Mode.FAULTED, fault=14), Faulted, "14: following error"),
+                                  (dict(mode=Mode.FAULTED, fault=5, drive_error=4 << 24 | 50000), Faulted,
+                                   "5: implausible reading: the position jumped by 0.05 rad from one reading to the next"),
+                                  (dict(mode=Mode.FAULTED, fault=5, drive_error=-1), Faulted, "5: implausible reading"),
                                   (dict(mode=Mode.OFF), NotDone, "the joint was disabled"),
                                   (dict(mode=Mode.TRACKING, target_position_rad=0.1), NotDone, "another order replaced"),
                                   (dict(mode=Mode.HOLDING, session_id=12), NotDone, "daemon was restarted")):
@@ -246,6 +253,45 @@ class Orders(unittest.TestCase):
         with self.assertRaisesRegex(Refused, "setpoint stream has ended"):
             stream.put(0.02, 0.1)
 
+    def stream_refused(self, reason, **answer):
+        """A stream whose second sample is refused; the joint holds when it is told to."""
+        def daemon(channel, message):
+            order = published(channel, message)
+            refused = channel == SETPOINT and not order.begins_stream
+            self.answer(order, not refused, reason if refused else Reason.ACCEPTED,
+                        **({name: value(order) for name, value in answer.items()} if refused else {}))
+            if channel == COMMAND:
+                self.publish_state(Mode.HOLDING, cycle=3000)
+
+        self.network.daemon = daemon
+        return self.stream(ahead_s=0.9)
+
+    def test_of_a_stream_that_a_later_one_overtook_are_counted_and_the_stream_goes_on(self):
+        stream = self.stream_refused(Reason.OLD_SEQUENCE, last_sequence=lambda order: order.sequence)
+        for t in (0, 0.01, 0.02):
+            stream.put(t, 0.1)
+        self.assertGreaterEqual(stream.late, 1)
+
+    def test_of_a_stream_that_another_program_is_ahead_of_end_it(self):
+        stream = self.stream_refused(Reason.OLD_SEQUENCE, last_sequence=lambda order: order.sequence + 5)
+        stream.put(0, 0.1)
+        stream.put(0.01, 0.1)
+        with self.assertRaisesRegex(Refused, "sequence not rising"):
+            stream.put(0.02, 0.1)
+
+    def test_of_a_stream_that_are_refused_end_in_a_hold_and_leave_the_next_stream_alone(self):
+        with self.assertRaises(Refused), self.stream_refused(Reason.OUT_OF_RANGE) as stream:
+            for t in (0, 0.01, 0.02):
+                stream.put(t, 0.1)
+        self.assertEqual(self.network.published[-1][0], COMMAND)
+        late_refusal = next(order for order in self.orders() if order.sequence and not getattr(order, "begins_stream", 1))
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.9)
+        stream.put(0, 0.1)
+        self.answer(late_refusal, False, Reason.OUT_OF_RANGE)
+        self.assertTrue(stream.put(0.01, 0.1))
+        self.assertTrue(stream.put(0.02, 0.1))
+
     def test_of_a_stream_stop_with_what_its_program_raises(self):
         def daemon(channel, message):
             order = published(channel, message)
@@ -265,6 +311,8 @@ class Orders(unittest.TestCase):
         for attempt, words in ((lambda: stream.put(0, 1.5), r"position_rad = 1.5: -1.0 to 1.0 is allowed"),
                                (lambda: stream.put(float("nan"), 0), "t = nan"), (lambda: stream.put(0, "there"), "position_rad = 'there'"),
                                (lambda: stream.put(0, 0, acceleration_rad_s2=1), "only with velocity_rad_s"),
+                               (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
+                               (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
                                (lambda: self.elbow.stream(ahead_s=1.5), "ahead_s = 1.5: above 0 to 0.9"),
                                (lambda: self.elbow.move(float("inf")), "position_rad = inf"),
                                (lambda: self.elbow.move(0, tolerance_rad=0), "tolerance_rad = 0"),
@@ -274,6 +322,36 @@ class Orders(unittest.TestCase):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 attempt()
         self.assertEqual(self.network.published, [])
+
+    KNOTS = [(0, 0.25, 0), (0.5, 0.5, 0.75), (1, 0.75, 0)]
+
+    def test_of_paths_are_loaded_and_then_started(self):
+        self.publish_state()
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        path = Path({self.elbow: self.KNOTS})
+        path.start()
+        path.pause()
+        path.resume()
+        part, *commands = self.orders()
+        self.assertNotEqual(part.path_id, 0)
+        self.assertEqual((part.joint_count, part.knot_count), (1, 3))
+        knots = list(zip(part.time_s, part.position_rad, part.velocity_rad_s))
+        self.assertEqual(knots[:3], self.KNOTS)
+        self.assertEqual([order.action for order in commands], [Action.RESUME, Action.PAUSE, Action.RESUME])
+
+    def test_of_paths_that_are_refused_start_nothing(self):
+        self.publish_state()
+        self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE, "elbow, knot 1")
+        with self.assertRaisesRegex(Refused, "elbow: its part of the path refused .3, out of range.: elbow, knot 1"):
+            Path({self.elbow: self.KNOTS}).start()
+        self.assertEqual([channel for channel, _ in self.network.published], [PATH])
+
+    def test_of_paths_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
+        Path({self.elbow: [(i, 0, 0) for i in range(320)]})
+        for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knots"),
+                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1 = 'x'")):
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                Path({self.elbow: knots})
 
 
 class Urls(unittest.TestCase):

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "client/link/exit_status.h"
+#include "client/link/client_error.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -25,6 +25,14 @@ JointView healthy() {
   view.state.mode = static_cast<std::int32_t>(Mode::kHolding);
   view.state.rule_count = 5;
   return view;
+}
+
+TEST(Wrapped, BreaksAtBlanksKeepsEveryWordAndSaysWhatItLeavesOut) {
+  EXPECT_EQ(wrapped("one two three", 7, 9), (std::vector<std::string>{"one two", "three"}));
+  EXPECT_EQ(wrapped("one two three", 8, 9), (std::vector<std::string>{"one two", "three"}));
+  EXPECT_EQ(wrapped("unbreakable", 5, 9), (std::vector<std::string>{"unbre", "akabl", "e"}));
+  EXPECT_EQ(wrapped("one two three four", 7, 2), (std::vector<std::string>{"one two", "thre..."}));
+  EXPECT_EQ(wrapped("", 7, 2), std::vector<std::string>{""});
 }
 
 TEST(Position, IsReadAsAPlainDecimalNumber) {
@@ -70,6 +78,18 @@ TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
        {"elbow", "holding", "+0.100000", "+0.100002", "-2.0e-06", "-3.250", "-10.0", "scheduled"}) {
     EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
   }
+}
+
+TEST(StateRow, ShowsNoNumberForATemperatureThatWasNeverSeen) {
+  JointView view = healthy();
+  view.state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
+  view.state.temperature_status = static_cast<std::int32_t>(TemperatureStatus::kNeverSeen);
+  const std::string row = state_row("elbow", view, 0.0);
+  EXPECT_EQ(row.find("nan"), std::string::npos) << row;
+  EXPECT_NE(row.find("  -  none"), std::string::npos) << row;
+  EXPECT_NE(row.find("temperature never seen"), std::string::npos) << row;
+  const std::string details = state_details("elbow", view, 0.0);
+  EXPECT_NE(details.find("nan (no plausible value yet)"), std::string::npos) << details;
 }
 
 TEST(StateRow, StandsUnderItsHeader) {

@@ -102,6 +102,22 @@ TEST_F(OrderDeskTest, AnOrderThatWasTooOldIsGivenAnewWithTheNewestState) {
   EXPECT_EQ(desk.message(), "ARM2.elbow: enable accepted");
 }
 
+TEST_F(OrderDeskTest, SaysThatThereIsNoFaultInsteadOfClearingIt) {
+  OrderDesk desk(connection_, states_, "", 0.4);
+  daemon_.publish_state(Mode::kHolding);
+  handle(0.05, desk);
+  desk.order({"ARM2", "elbow"}, Action::kClearFault);
+  handle(0.05, desk);
+  EXPECT_TRUE(daemon_.heard().empty());
+  EXPECT_EQ(desk.message(), "ARM2.elbow: has no fault");
+  EXPECT_FALSE(desk.alarm());
+  daemon_.publish_state(Mode::kFaulted);
+  handle(0.05, desk);
+  desk.order({"ARM2", "elbow"}, Action::kClearFault);
+  handle(0.05, desk);
+  EXPECT_EQ(daemon_.heard().size(), 1U);
+}
+
 TEST_F(OrderDeskTest, DoesNotGiveAnewForEverWhatIsAlwaysTooOld) {
   OrderDesk desk(connection_, states_, "", 0.4);
   daemon_.reason = Reason::kTooOld;

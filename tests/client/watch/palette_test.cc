@@ -3,37 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <tuple>
+
+#include "tests/client/watch/screen_picture.h"
 
 namespace strainwave {
 namespace {
 
+using testing::contrast;
+
 constexpr std::array kStyles{Style::kPlain, Style::kDim,     Style::kTitle,
                              Style::kGood,  Style::kWarning, Style::kAlarm};
-
-/// Relative luminance of a colour of xterm's 256 (WCAG 2.1); only its cube and greys, which no user changes.
-double luminance(int colour) {
-  std::array<int, 3> levels{};
-  if (colour >= 232) {
-    levels.fill(8 + 10 * (colour - 232));
-  } else {
-    const int index = colour - 16;
-    const auto level = [](int step) { return step == 0 ? 0 : 55 + 40 * step; };
-    levels = {level(index / 36), level(index / 6 % 6), level(index % 6)};
-  }
-  const auto linear = [](int value) {
-    const double share = value / 255.0;
-    return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(levels[0]) + 0.7152 * linear(levels[1]) + 0.0722 * linear(levels[2]);
-}
-
-double contrast(int a, int b) {
-  const double first = luminance(a);
-  const double second = luminance(b);
-  return (std::max(first, second) + 0.05) / (std::min(first, second) + 0.05);
-}
 
 TEST(Palette, IsReadOnBlackAndOnWhite) {
   constexpr int kBlack = 16;

@@ -138,6 +138,20 @@ TEST(WatchView, ShowsTheNumbersOfAJointOn80By24) {
   }
 }
 
+TEST(WatchView, ShowsNoNumberForATemperatureThatWasNeverSeen) {
+  WatchModel one = model(1);
+  state_v1& state = one.joints[0].view.state;
+  state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
+  state.temperature_status = static_cast<std::int32_t>(TemperatureStatus::kNeverSeen);
+  for (const auto& [rows, columns] : {std::pair(24, 80), std::pair(50, 200)}) {
+    const std::string text = all_text(render(one, rows, columns));
+    EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+    EXPECT_NE(text.find("temperature never seen"), std::string::npos) << text;
+  }
+  EXPECT_NE(render(one, 24, 80).text(row_of(render(one, 24, 80), ">joint0")).find("     -"),
+            std::string::npos);
+}
+
 TEST(WatchView, HasRoomForWhatItKnowsOfTheSelectedJoint) {
   WatchModel one = model(1);
   one.joints[0].limits.emplace();
@@ -152,6 +166,25 @@ TEST(WatchView, HasRoomForWhatItKnowsOfTheSelectedJoint) {
     for (const char* part :
          {"torque 34 N.m", "12 s ago: SW.joint0: enable: refused", "3 ", "error_rad", "torque_Nm"})
       EXPECT_TRUE(shows(screen, part)) << part << "\n" << all_text(screen);
+  }
+}
+
+TEST(WatchView, ShowsTheWholeOfALongRefusalOnEveryTerminal) {
+  WatchModel one = model(1);
+  // As long as ack_v1.text may be.
+  std::string reason = "SW.joint0: enable: refused, drive is not ready:";
+  while (reason.size() < 270) reason += " word" + std::to_string(reason.size());
+  one.message = reason + " END";
+  one.message_alarm = true;
+  one.refusals = {{one.message, 4.0}, {"SW.joint0: older", 60.0}};
+  for (const auto& [rows, columns] : {std::pair(24, 80), std::pair(40, 120), std::pair(50, 200)}) {
+    const Screen screen = render(one, rows, columns);
+    const std::string text = all_text(screen);
+    const auto first = text.find("END");
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_NE(text.find("END", first + 1), std::string::npos) << "in the detail and below it\n" << text;
+    EXPECT_TRUE(shows(screen, "60 s ago: SW.joint0: older")) << text;
+    EXPECT_TRUE(shows(screen, "s stop")) << text;
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/gain_table_v2.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
 #include "daemon/admission/admission.h"
@@ -70,13 +70,13 @@ TEST_F(SignedAdmission, TellsWhoOrderedForTheAnswer) {
 }
 
 TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &operator_)).reason, Reason::kRoleNotAllowed);
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v2>(1, 1), &operator_)).reason, Reason::kRoleNotAllowed);
   const Verdict revert = consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &operator_));
   EXPECT_EQ(revert.reason, Reason::kRoleNotAllowed);
   EXPECT_NE(revert.text.find("Otto"), std::string::npos);
   EXPECT_NE(revert.text.find("needs engineer"), std::string::npos);
   // The empty table passes the role and fails on its own account.
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &engineer_)).reason, Reason::kTableDefect);
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v2>(1, 1), &engineer_)).reason, Reason::kTableDefect);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind,
             Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
@@ -124,7 +124,7 @@ TEST_F(SignedAdmission, SequencesOfOneKeySayNothingAboutAnotherKeys) {
 }
 
 TEST_F(SignedAdmission, ARoleThatIsNotEnoughUsesUpNothing) {
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 100), &operator_)).reason,
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v2>(1, 100), &operator_)).reason,
             Reason::kRoleNotAllowed);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
 }

@@ -12,17 +12,25 @@
 namespace strainwave {
 namespace {
 
+constexpr double kInertia_kgm2 = 0.089;
+constexpr double kTorqueLimit_Nm = 34.0;
 constexpr std::int64_t kSession = 4711;
 constexpr std::int64_t kChallenge = 815;
 
 class AdmissionTest : public ::testing::Test {
  protected:
   AdmissionTest()
-      : admission_("SW", kSession, {{"elbow", {}, -1.0, 1.0, 6.0}, {"wrist", {}, -2.0, 2.0, 6.0}},
+      : admission_("SW", kSession, {{"elbow", expected(), -1.0, 1.0, 6.0}, {"wrist", {}, -2.0, 2.0, 6.0}},
                    {{}, /*unsigned_allowed=*/true}) {
     admission_.advance(0, kChallenge);
   }
 
+  static ExpectedJoint expected() {
+    ExpectedJoint joint;
+    joint.plant.inertia_kgm2 = kInertia_kgm2;
+    joint.torque_limit_Nm = kTorqueLimit_Nm;
+    return joint;
+  }
   setpoint_v2 setpoint(double position_rad) {
     setpoint_v2 message{};
     message.session_id = kSession;
@@ -74,6 +82,33 @@ TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
   message = setpoint(0.5);
   message.speed_limit_rad_s = std::nan("");
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kNotFinite);
+}
+
+TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefusesOthers) {
+  setpoint_v2 sample = setpoint(0.5);
+  sample.stream_id = 7;
+  sample.valid_for_s = 0.1;
+  sample.torque_Nm = -kTorqueLimit_Nm;
+  sample.load_inertia_kgm2 = 10.0 * kInertia_kgm2;
+  const Verdict passed = consider(wire("SW.elbow.SETPOINT", sample));
+  ASSERT_EQ(passed.kind, Verdict::Kind::kOrder) << passed.text;
+  EXPECT_EQ(passed.order.torque_Nm, -kTorqueLimit_Nm);
+  EXPECT_EQ(passed.order.load_inertia_kgm2, 10.0 * kInertia_kgm2);
+  const auto refused = [&](double torque_Nm, double inertia_kgm2, bool streamed) {
+    setpoint_v2 message = streamed ? sample : setpoint(0.5);
+    message.sequence = ++sequence_;
+    message.torque_Nm = torque_Nm;
+    message.load_inertia_kgm2 = inertia_kgm2;
+    return consider(wire("SW.elbow.SETPOINT", message));
+  };
+  EXPECT_NE(refused(1.001 * kTorqueLimit_Nm, 0.0, true).text.find("joint.limits.torque_limit_Nm"),
+            std::string::npos);
+  EXPECT_NE(refused(0.0, -1e-9, true).text.find("joint.inertia_kgm2"), std::string::npos);
+  EXPECT_EQ(refused(0.0, 10.001 * kInertia_kgm2, true).reason, Reason::kOutOfRange);
+  EXPECT_EQ(refused(1.0, 0.0, false).reason, Reason::kOutOfRange) << "a move";
+  EXPECT_EQ(refused(0.0, 0.01, false).reason, Reason::kOutOfRange) << "a move";
+  EXPECT_EQ(refused(std::nan(""), 0.0, true).reason, Reason::kNotFinite);
+  EXPECT_EQ(refused(0.0, std::nan(""), true).reason, Reason::kNotFinite);
 }
 
 TEST_F(AdmissionTest, JudgesTheRangeByTheJointThatIsMeant) {

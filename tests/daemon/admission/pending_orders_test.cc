@@ -10,6 +10,7 @@
 #include <strainwave/ack_v1.hpp>
 #include <string>
 
+#include "control/gain_table_json.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/joint_bench.h"
 
@@ -126,6 +127,51 @@ TEST_F(PendingOrdersTest, OfATableWhoseReplyIsLostLeaveTheBookFreeOnceAStateTell
   record.state.cycle = 3;
   orders_.observe(record);
   EXPECT_EQ(order(OrderKind::kUseTable, true).kind, Verdict::Kind::kOrder);
+}
+
+class TablesWithABox : public PendingOrdersTest {
+ protected:
+  TablesWithABox() { orders_.start(); }
+  Verdict offer(const GainTable& table) {
+    Verdict verdict;
+    verdict.kind = Verdict::Kind::kOrder;
+    verdict.order.kind = OrderKind::kUseTable;
+    verdict.order.expires_cycle = 1;
+    verdict.requester.authentic = true;
+    verdict.requester.sequence = ++sequence_;
+    verdict.table = std::make_unique<GainTable>(table);
+    orders_.handle(verdict, now_ns_);
+    return verdict;
+  }
+  GainTable table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
+};
+
+TEST_F(TablesWithABox, AreProvedWhileStopsPass) {
+  ASSERT_FALSE(table_.box.rigid());
+  ASSERT_EQ(offer(table_).kind, Verdict::Kind::kOrder);
+  order(OrderKind::kDisable, true);
+  Order first;
+  ASSERT_TRUE(loop_.joint(0).orders().pop(first));
+  EXPECT_EQ(first.kind, OrderKind::kDisable);
+  Order second;
+  while (!loop_.joint(0).orders().pop(second)) orders_.take_replies(now_ns_);
+  EXPECT_EQ(second.kind, OrderKind::kUseTable);
+  EXPECT_GE(second.expires_cycle, admission_.order_lifetime_cycles())
+      << "the proof's time is not the order's";
+  EXPECT_EQ(loop_.joint(0).table_slot(static_cast<std::size_t>(second.table_slot)).table.name.view(),
+            table_.name.view());
+}
+
+TEST_F(TablesWithABox, AreRefusedWhenTheirBoxIsNotProvedAndOneAtATime) {
+  GainTable tampered = table_;
+  for (double& entry : tampered.box.cells[0].P) entry = -entry;
+  ASSERT_EQ(offer(tampered).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(offer(table_).reason, Reason::kBusy);
+  const std::size_t refused = static_cast<std::size_t>(Reason::kTableNotCertified);
+  while (admission_.rejects()[refused] == 0) orders_.take_replies(now_ns_);
+  Order none;
+  EXPECT_FALSE(loop_.joint(0).orders().pop(none));
+  EXPECT_EQ(offer(table_).kind, Verdict::Kind::kOrder) << "the prover is free again";
 }
 
 TEST_F(PendingOrdersTest, OfStopsAreAnsweredHoweverManyAnswersStrangersHaveUsedUp) {

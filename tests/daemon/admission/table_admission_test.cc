@@ -87,6 +87,21 @@ TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
   EXPECT_NE(verdict.text.find("static_Nm"), std::string::npos) << verdict.text;
 }
 
+TEST_F(TableAdmission, RefusesSeveralTimesTheFrictionOfTheJointsModelByItsPlace) {
+  for (const auto& [static_Nm, coulomb_Nm] : {std::pair{16.9, 3.4}, {12.0, 3.0}, {8.0, 8.0}, {16.9, 16.9}}) {
+    for (TemperatureRule& rule : table_.friction.rules) {
+      rule.friction.static_Nm = static_Nm;
+      rule.friction.coulomb_Nm = coulomb_Nm;
+    }
+    const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, 1});
+    EXPECT_EQ(verdict.reason, Reason::kTableIdentity) << static_Nm << ", " << coulomb_Nm;
+    EXPECT_NE(verdict.text.find(" rad/s: must be at most "), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("rhs17-6006"), std::string::npos) << verdict.text;
+  }
+  table_.plant.joint_model = joint_.joint_model = FixedString<32>("another");
+  EXPECT_EQ(judge(), Reason::kAccepted) << "the catalogue has no joint of this name";
+}
+
 TEST_F(TableAdmission, TheDigestNamesTheContent) {
   const std::int64_t digest = table_digest(table_);
   EXPECT_NE(digest, 0);
@@ -95,35 +110,64 @@ TEST_F(TableAdmission, TheDigestNamesTheContent) {
   EXPECT_NE(table_digest(table_), digest);
 }
 
+TEST_F(TableAdmission, RefusesATableForTheOtherSideOfTheEncoder) {
+  const auto verdict = [&](EncoderSide of_the_joint) {
+    return judge_table(table_, {joint_, torque_limit_Nm_, {}, 1, of_the_joint});
+  };
+  EXPECT_EQ(verdict(EncoderSide::kMotor).reason, Reason::kAccepted);
+  EXPECT_EQ(verdict(EncoderSide::kLink).reason, Reason::kTableIdentity);
+  EXPECT_NE(verdict(EncoderSide::kLink).text.find("--encoder-side link"), std::string::npos);
+  table_.box.encoder_side = EncoderSide::kLink;
+  EXPECT_EQ(verdict(EncoderSide::kLink).reason, Reason::kAccepted);
+  EXPECT_EQ(verdict(EncoderSide::kMotor).reason, Reason::kTableIdentity);
+}
+
 class TableAdmissionOnASpring : public ::testing::Test {
  protected:
-  /// A table of the study on its joint with the gear csf-17-50.
-  static TableVerdict judge(const std::string& total, double link_kgm2, int delay_periods) {
-    const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/" + total + "/c4.json");
-    const LinkModel link{
-        table.plant.inertia_kgm2 - link_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
-    return judge_table(table, {table.plant, table.torque_limit_Nm, link, delay_periods});
+  GainTable table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
+
+  /// On a joint that is told of its gear, csf-17-50, and a link.
+  TableVerdict judge(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089) const {
+    PlantIdentity plant = table_.plant;
+    plant.inertia_kgm2 = motor_kgm2 + link_kgm2;
+    const LinkModel link{motor_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
+    return judge_table(table_, {plant, table_.torque_limit_Nm, link, delay_periods});
+  }
+  void expect_outside(const TableVerdict& verdict, const char* quantity) const {
+    EXPECT_EQ(verdict.reason, Reason::kTableIdentity) << verdict.text;
+    EXPECT_NE(verdict.text.find(quantity), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("certified for"), std::string::npos) << verdict.text;
   }
 };
 
-TEST_F(TableAdmissionOnASpring, AcceptsWhatDoesNotSwingTheLinkUpAndSaysThatNothingMoreIsProved) {
-  for (const auto& [total, link] : {std::pair{"total-0.119", 0.03}, std::pair{"total-0.178", 0.089},
-                                    std::pair{"total-0.356", 0.267}, std::pair{"total-1.089", 1.0}}) {
-    const TableVerdict verdict = judge(total, link, 1);
+TEST_F(TableAdmissionOnASpring, AcceptsEveryLinkOfTheBoxAndSaysWhatIsProved) {
+  for (const double link_kgm2 : {0.05, 0.3}) {
+    const TableVerdict verdict = judge(link_kgm2, 1);
     EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
-    EXPECT_NE(verdict.text.find("verify says what is proved of the spring"), std::string::npos)
+    EXPECT_NE(verdict.text.find("with the spring (motor 0.089 kg m2, link 0.05..0.3 kg m2"),
+              std::string::npos)
         << verdict.text;
   }
 }
 
-TEST_F(TableAdmissionOnASpring, RefusesGainsUnderWhichTheLinkSwingsUpWithTheConfiguredDelay) {
-  for (const auto& [total, link] : {std::pair{"total-0.178", 0.089}, std::pair{"total-0.356", 0.267}}) {
-    const TableVerdict verdict = judge(total, link, 2);
-    EXPECT_EQ(verdict.reason, Reason::kTableNotCertified) << verdict.text;
-    EXPECT_NE(verdict.text.find("eigenvalue 1.0"), std::string::npos) << verdict.text;
-    EXPECT_NE(verdict.text.find("delay_periods = 2"), std::string::npos) << verdict.text;
-    EXPECT_NE(verdict.text.find("stiffness 13000"), std::string::npos) << verdict.text;
-  }
+TEST_F(TableAdmissionOnASpring, RefusesAJointOnePerCentOutsideTheBoxWithQuantityValueAndRange) {
+  expect_outside(judge(0.303, 1), "load_inertia_kgm2 = 0.303: the table is certified for 0.05..0.3 kg m2");
+  expect_outside(judge(0.0495, 1), "load_inertia_kgm2 = 0.0495");
+  expect_outside(judge(0.1, 1, 0.0899), "= 0.0899");
+  expect_outside(judge(0.1, table_.box.most_delay + 1), "delay_periods");
+}
+
+TEST_F(TableAdmissionOnASpring, RefusesATableOfARigidJoint) {
+  table_.box = {};
+  table_.plant.inertia_kgm2 = 0.189;
+  EXPECT_EQ(judge(0.1, 1).reason, Reason::kTableIdentity);
+}
+
+TEST_F(TableAdmissionOnASpring, RefusesATableWhoseBoxItCannotProve) {
+  table_.box.cells[0].P[0] *= -1.0;
+  const TableVerdict verdict = judge(0.1, 1);
+  EXPECT_EQ(verdict.reason, Reason::kTableNotCertified) << verdict.text;
+  EXPECT_NE(verdict.text.find("box: "), std::string::npos) << verdict.text;
 }
 
 }  // namespace

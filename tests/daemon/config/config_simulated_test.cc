@@ -83,5 +83,21 @@ TEST_F(SimulatedConfigTest, TakesLoadsOverTime) {
                   {"joint[0].simulated.load_torque_Nm", "1000"});
 }
 
+TEST_F(SimulatedConfigTest, FindsTheFilesOfProfilesBesideItselfWhereverItIsReadFrom) {
+  std::ofstream(folder_ / "warm.csv") << "time_s,ambient_temperature_C\n0,31\n";
+  std::ofstream(folder_ / "load.csv") << "time_s,load_torque_Nm\n0,7\n";
+  const std::string text =
+      replaced(joint_with("", "load_torque_Nm = \"hold:load.csv\"\n"), "rigid = false", "rigid = true");
+  const std::string profiled = replaced(replaced(text, "\"steps:-10,5,2,11\"", "\"csv:warm.csv\""),
+                                        "\ngear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n", "\n");
+  ASSERT_NE(std::filesystem::current_path(), folder_);
+  const DaemonConfig config = read(profiled);
+  const SimulatedActuatorConfig& drive = std::get<SimulatedDrive>(config.joints.front().drive).actuator;
+  EXPECT_EQ(drive.ambient.at(1.0), 31.0);
+  EXPECT_EQ(drive.load_torque_Nm.at(1.0), 7.0);
+  expect_mentions(error_of(replaced(profiled, "warm.csv", "cold.csv")),
+                  {"ambient_temperature_C", (folder_ / "cold.csv").c_str()});
+}
+
 }  // namespace
 }  // namespace strainwave

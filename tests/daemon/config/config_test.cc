@@ -92,6 +92,33 @@ TEST_F(ConfigTest, RefusesATemperatureLimitThatNoBelievableReadingReaches) {
       read(replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\ntemperature_limit_C = 89")));
 }
 
+TEST_F(ConfigTest, MovesAtAQuarterOfTheSpeedLimitUnlessToldAndHasNoJerkLimitByItself) {
+  const auto limits = [](const std::string& keys) {
+    return replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\n" + keys);
+  };
+  const JointLoopConfig loop = read(kSound).joints[0].loop;
+  EXPECT_EQ(loop.move_speed_share, 0.25);
+  EXPECT_FALSE(loop.controller.jerk_limit_rad_s3.has_value());
+  EXPECT_EQ(read(limits("move_speed_share = 1")).joints[0].loop.move_speed_share, 1.0);
+  EXPECT_EQ(read(limits("jerk_limit_rad_s3 = 5000")).joints[0].loop.controller.jerk_limit_rad_s3, 5000.0);
+  expect_mentions(error_of(limits("move_speed_share = 1.1")), {"move_speed_share = 1.1", "1"});
+  expect_mentions(error_of(limits("jerk_limit_rad_s3 = 0")), {"jerk_limit_rad_s3 = 0"});
+  expect_mentions(error_of(limits("jerk_limit_rad_s3 = 5000\n[joint.control]\nshaping = false")),
+                  {"control.shaping = false", "jerk_limit_rad_s3"});
+}
+
+TEST_F(ConfigTest, SaysWhenALoadIsHighAndHowTheJointYields) {
+  const auto limits = [](const std::string& keys) {
+    return replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\n" + keys);
+  };
+  const JointLoopConfig loop = read(limits("load_Nm = 20")).joints[0].loop;
+  EXPECT_EQ(loop.limits.load_notice_Nm, 16.0);
+  EXPECT_EQ(loop.overload_stop, OverloadStop::kTorqueOff);
+  EXPECT_EQ(read(limits("on_overload = \"hold_load\"")).joints[0].loop.overload_stop,
+            OverloadStop::kHoldLoad);
+  expect_mentions(error_of(limits("load_Nm = 20\nload_notice_Nm = 21")), {"load_notice_Nm = 21", "20"});
+}
+
 TEST_F(ConfigTest, BoundsTheLoadByTheTorqueUnlessTold) {
   EXPECT_EQ(read(kSound).joints[0].loop.limits.load_Nm, 34.0);
   EXPECT_EQ(read(replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\nload_Nm = 12"))

@@ -49,6 +49,15 @@ void expect_refused(const Ended& ended, const std::vector<std::string>& mentions
   EXPECT_EQ(answer.find(":0:"), std::string::npos) << "no line 0\n" << ended.said;
 }
 
+TEST(WrongConfiguration, BeginsNoLineOfTheAnswer) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "forged.toml";
+  std::ofstream(file) << "[daemon]\nlcm_url = \"udpm://239.255.76.67:7667?ttl=0\\nstrainwaved: all sound\"\n";
+  const Ended ended = run("strainwaved --check --config " + file.string());
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_EQ(ended.said.find("\nstrainwaved: all sound"), std::string::npos) << ended.said;
+}
+
 constexpr const char* kSound = R"([daemon]
 period_s = 0.001
 prefix = "LAB"
@@ -286,6 +295,16 @@ const std::vector<ConfigCase> kDoubtCases{
     {"torque_limit_Nm = 34",
      "torque_limit_Nm = 34\noverspeed_rad_s = 30",
      {":22: joint[0].limits.overspeed_rad_s = 30", "5 times its speed limit"}},
+    {"torque_limit_Nm = 34",
+     "torque_limit_Nm = 34\njerk_limit_rad_s3 = 1",
+     {":22: joint[0].limits.jerk_limit_rad_s3 = 1", "needs 4.899 s", "in one second it is there with 24"}},
+    {"acceleration_rad_s2 = 150",
+     "acceleration_rad_s2 = 0.01",
+     {":19: joint[0].limits.acceleration_rad_s2 = 0.01", "needs 600 s", "in one second it is there with 6"}},
+    {"speed_limit_rad_s = 6.0",
+     "speed_limit_rad_s = 0.001",
+     {":18: joint[0].limits.speed_limit_rad_s = 0.001", "take 3142 s",
+      "in a minute they are done with 0.05236"}},
     {"period_s = 0.001",
      "period_s = 0.001\nmissed_share_limit = 1.0",
      {":3: daemon.missed_share_limit = 1", "the supervision is off", "left out it is 0.1"}},
@@ -366,6 +385,25 @@ TEST_F(WrongInput, ATableThatIsNotThereOrEverybodysIsFoundBeforeTheStart) {
   expect_refused(check(), {":14: joint[0].table", "everyone may write it", "chmod o-w"}, "writable");
 }
 
+TEST_F(WrongInput, ATorqueLimitThatFrictionTakesIsDoubtedWithWhatWouldDo) {
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json", table_);
+  const auto limited = [&](const std::string& torque_Nm) {
+    std::string text = kSound;
+    text.replace(text.find("torque_limit_Nm = 34"), 20, "torque_limit_Nm = " + torque_Nm);
+    write(file_, text, "driver = \"simulated\"\n", "driver = \"simulated\"\ntable = \"t.json\"\n");
+    const Ended ended = check();
+    EXPECT_EQ(ended.status, 0) << ended.said;
+    return ended.said;
+  };
+  const std::string stuck = limited("2");
+  EXPECT_NE(stuck.find("warning: elbow: torque limit 2 N.m"), std::string::npos) << stuck;
+  EXPECT_NE(stuck.find("the joint does not move there; "), std::string::npos) << stuck;
+  // What it says would do, does; a little less does not.
+  const double enough_Nm = std::stod(stuck.substr(stuck.find("not move there; ") + 16));
+  EXPECT_EQ(limited(std::to_string(enough_Nm * 1.001)).find("warning"), std::string::npos);
+  EXPECT_NE(limited(std::to_string(enough_Nm * 0.97)).find("hardly any is left to move"), std::string::npos);
+}
+
 TEST_F(WrongInput, AConfigurationThatOthersMayWriteIsRefusedOrOfASimulatedJointDoubted) {
   std::ofstream(file_) << kSound;
   const auto add = std::filesystem::perm_options::add;
@@ -409,8 +447,8 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwavectl move elbow 90deg", {"90deg", "in rad", "1.5708"}},
     {"strainwavectl move elbow fast", {"'fast' is not a position", "a finite number in rad"}},
     {"strainwavectl move el.bow 1", {"JOINT", "'el.bow' is not a name", "1 to 24"}},
-    {"strainwavectl move elbow 1 --speed_limit_rad_s -2",
-     {"--speed_limit_rad_s", "'-2' is not a number above 0"}},
+    {"strainwavectl move elbow 1 --speed-limit_rad_s -2",
+     {"--speed-limit_rad_s", "'-2' is not a number above 0"}},
     {"strainwavectl move elbow 1 --tolerance_rad 0", {"--tolerance_rad", "'0' is not a number above 0"}},
     {"strainwavectl enable", {"JOINT is required"}},
     {"strainwavectl disable", {"JOINT is required", "--all"}},
@@ -423,14 +461,31 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwave-sim run --controller pid --plant perfect",
      {"--plant", "perfect", "ideal, limited, realistic"}},
     {"strainwave-design verify /nonexistent", {"/nonexistent: cannot be read", "No such file"}},
+    {"strainwave-design fit " STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv --out /tmp/x --gear-ratio inf",
+     {"gear-ratio = inf", "at most 100000"}},
+    {"strainwave-design fit " STRAINWAVE_SOURCE_DIR
+     "/data/no_load_torque.csv --out /tmp/x --starting-torque_Ncm 1e308",
+     {"no_load_torque.csv:4: static friction", "1e+308", "to 1e7"}},
+    {"strainwave-design fit " STRAINWAVE_SOURCE_DIR
+     "/data/no_load_torque.csv --out /tmp/x --starting-torque_Ncm -1",
+     {"starting-torque_Ncm = -1", "must not be negative"}},
+    {"strainwave-design fit " STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv --out /tmp/x --outliers drop",
+     {"--outliers", "drop", "keep", "leave-out"}},
+    {"strainwave-design gains --out /tmp/x --friction " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json",
+     {"rhs17-6006.json: holds gains, not fitted friction"}},
+    {"strainwave-design gains --out /tmp/x --friction " STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv",
+     {"no_load_torque.csv: is a catalogue over temperature", "strainwave-design fit"}},
+    {"strainwave-design gains --out /tmp/x --weights 1,1,1,nane-6 --friction " STRAINWAVE_SOURCE_DIR
+     "/data/tables/rhs17-6006-friction.json",
+     {"--weights", "nane-6", "a number"}},
     {"strainwave-design gains --weights 1,1,1 --friction x --out y", {"--weights", "4 required", "3"}},
     {"strainwavectl statsu", {"'statsu' is not a command", "did you mean status?"}},
     {"strainwavectl banana", {"'banana' is not a command", "there are status"}},
     {"strainwavectl --tiemout_s 1 status", {"--tiemout_s is not an option", "did you mean --timeout_s?"}},
     {"strainwavectl move elbow", {"POSITION_rad is required"}},
     {"strainwavectl move elbow 1 --speed 2",
-     {"--speed is not an option", "did you mean --speed_limit_rad_s?"}},
-    {"strainwavectl enable elbow wrist hip", {"unexpected: 'wrist' 'hip'"}},
+     {"--speed is not an option", "did you mean --speed-limit_rad_s?"}},
+    {"strainwavectl pause elbow wrist hip", {"unexpected: 'wrist' 'hip'"}},
     {"strainwavectl record elbow", {"--out is required"}},
     {"strainwavectl inject elbow gremlins", {"gremlins", "sensor_nan"}},
     {"strainwavectl keygen --out /tmp/x --role king", {"--role", "king", "operator", "engineer"}},

@@ -25,7 +25,7 @@ TEST(OrderLane, GivesDisableAndHoldTheLaneOfStopsAndNothingElse) {
 }
 
 TEST(OrderLane, KnowsTheDaemonsChannels) {
-  for (const char* channel : {"SW.elbow.SETPOINT", "SW.elbow.TABLE", "SW.a-b_c.INJECT"})
+  for (const char* channel : {"SW.elbow.SETPOINT", "SW.elbow.TABLE", "SW.elbow.PATH", "SW.a-b_c.INJECT"})
     EXPECT_EQ(lane_of("SW", channel, {}), OrderLane::kOrder) << channel;
   EXPECT_EQ(lane_of("SW", "SW.elbow.STATE", {}), OrderLane::kState);
 }

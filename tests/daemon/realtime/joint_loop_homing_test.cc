@@ -8,8 +8,7 @@
 namespace strainwave::testing {
 namespace {
 
-/// Limits at -1 and 1, home switch from 0.2 to 0.3; the joint stands at 0.7 and its encoder counts from
-/// there.
+/// Limits at -1 and 1, home switch from 0.2 to 0.3; the joint stands at 0.7 and its encoder counts from there.
 BenchJoint joint_to_be_homed() {
   BenchJoint joint = demo_joint();
   joint.drive.plant.initial_position_rad = 0.7;

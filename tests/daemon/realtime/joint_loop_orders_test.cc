@@ -1,5 +1,4 @@
-// What the loop makes of orders: streams that end, commands before their time, tables, restarts. Virtual
-// time.
+// What the loop makes of orders: streams that end, commands before their time, tables, restarts. Virtual time.
 #include <gtest/gtest.h>
 
 #include <algorithm>

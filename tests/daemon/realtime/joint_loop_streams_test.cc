@@ -1,12 +1,17 @@
 // A sine of 0.5 rad and 0.5 Hz streamed to the whole loop on the simulated joint, at every rate and with what a network does to it: what
-// torque it makes, and where the joint is. Virtual time.
+// torque it makes, and where the joint is. Virtual time. Above 300 lines: the same ride judges all that can happen to a stream.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <tuple>
+#include <vector>
 
+#include "control/gain_table_json.h"
+#include "sim/joint/reference_plant.h"
 #include "tests/support/joint_bench.h"
 
 namespace strainwave::testing {
@@ -23,21 +28,45 @@ constexpr int kEnd = 6000;
 struct Ride {
   double rms_torque_Nm = 0.0;
   double largest_step_Nm = 0.0;  ///< in a period, while the joint does not turn round
-  double rms_error_rad = 0.0;    ///< from the sine, the allowed lag ago
+  double rms_error_rad = 0.0;    ///< of the link, from the sine, the allowed lag ago
   double largest_error_rad = 0.0;
+  double largest_jerk_rad_s3 = 0.0;
   bool off_stream = false;
 };
 
 struct Stream {
   int every = 10;  ///< periods
   int derivatives = 0;
-  double lost = 0.0;   ///< share
-  bool timed = false;  ///< sent 30 periods ahead
+  int ahead = 0;  ///< periods that it is stamped ahead; 0: no stamp
+  bool flexible = false;
+  double lost = 0.0;     ///< share of the samples
+  double doubled = 0.0;  ///< likewise
+  double reordered = 0.0;
+  bool gaps = false;         ///< 30 ms twice a second
+  double jerk_rad_s3 = 0.0;  ///< limit of the joint; 0: none
 };
 
+/// A link as heavy as the motor on the gear's spring, of which the controller is told.
+BenchJoint flexible_joint() {
+  BenchJoint joint = demo_joint();
+  joint.drive.plant = flexible_plant();
+  const Transmission& gear = *joint.drive.plant.effects.transmission;
+  JointControllerConfig& controller = joint.loop.controller;
+  controller.rigid = false;
+  controller.use_observer = false;
+  controller.use_landing = false;
+  controller.link = {
+      joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  return joint;
+}
+
+const GainTable& flexible_table() {
+  static const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
+  return table;
+}
+
 Order sample(const Stream& stream, std::int64_t cycle, std::int64_t period) {
-  const std::int64_t ahead = stream.timed ? 30 : 0;
-  const double phase = kOmega_rad_s * 1e-3 * static_cast<double>(period + ahead);
+  const double phase = kOmega_rad_s * 1e-3 * static_cast<double>(period + stream.ahead);
   Order order;
   order.kind = OrderKind::kSetpoint;
   order.stream_id = 1;
@@ -48,34 +77,77 @@ Order sample(const Stream& stream, std::int64_t cycle, std::int64_t period) {
   if (stream.derivatives > 0) order.velocity_rad_s = kAmplitude_rad * kOmega_rad_s * std::cos(phase);
   if (stream.derivatives > 1)
     order.acceleration_rad_s2 = -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(phase);
-  if (stream.timed) order.at_cycle = cycle + ahead;
+  if (stream.ahead > 0) order.at_cycle = cycle + stream.ahead;
   return order;
 }
 
+/// What of a stream arrives in each period.
+class LossyNetwork {
+ public:
+  explicit LossyNetwork(const Stream& stream) : stream_(stream) {}
+  void send(JointBench& bench, int k) {
+    if (k % stream_.every != 0) return;
+    const bool gap = stream_.gaps && k % 500 >= 200 && k % 500 < 230;
+    const bool lost = k > 0 && (chance() < stream_.lost || gap);
+    // The order is obeyed in the cycle after the bench's present one.
+    const Order order = sample(stream_, bench.cycle() + 1, k);
+    const bool held_back = k > 0 && !late_ && chance() < stream_.reordered;
+    const bool twice = k > 0 && chance() < stream_.doubled;
+    if (held_back) {
+      late_ = order;
+      return;
+    }
+    if (!lost) push(bench, order);
+    if (!lost && twice) push(bench, order);
+    if (late_) push(bench, *late_);
+    late_.reset();
+  }
+
+ private:
+  double chance() { return std::generate_canonical<double, 32>(random_); }
+  static void push(JointBench& bench, const Order& order) {
+    EXPECT_TRUE(bench.joint(0).orders().push(order));
+  }
+
+  Stream stream_;
+  std::mt19937 random_{11};
+  std::optional<Order> late_;
+};
+
 Ride ride(const Stream& stream) {
-  JointBench bench({demo_joint()});
-  bench.bring_to_hold(0);
-  std::mt19937 random(11);
+  BenchJoint joint = stream.flexible ? flexible_joint() : demo_joint();
+  if (stream.jerk_rad_s3 > 0.0) {
+    joint.loop.controller.jerk_limit_rad_s3 = stream.jerk_rad_s3;
+    joint.loop.controller.motion.acceleration_rad_s2 = 20.0;
+    joint.loop.controller.motion.deceleration_rad_s2 = 20.0;
+  }
+  JointBench bench({joint});
+  bench.bring_to_hold(0, stream.flexible ? flexible_table() : demo_table());
+  LossyNetwork network(stream);
   Ride result;
   double last_Nm = 0.0;
+  double last_rad_s = 0.0;
+  double last_rad_s2 = 0.0;
   for (int k = 0; k < kEnd; ++k) {
-    const bool sent =
-        k % stream.every == 0 && (k == 0 || std::generate_canonical<double, 32>(random) >= stream.lost);
-    // The order is obeyed in the cycle after the bench's present one.
-    if (!sent) bench.step();
-    if (sent) {
-      EXPECT_EQ(bench.order(0, sample(stream, bench.cycle() + 1, k)), Reason::kAccepted) << k;
-    }
-    const double torque_Nm = bench.state(0).torque_commanded_Nm;
+    network.send(bench, k);
+    bench.step();
+    const state_v1& state = bench.state(0);
+    const double torque_Nm = state.torque_commanded_Nm;
+    const double reference_rad_s2 = (state.setpoint_velocity_rad_s - last_rad_s) / 1e-3;
+    if (k >= 2)
+      result.largest_jerk_rad_s3 =
+          std::max(result.largest_jerk_rad_s3, std::abs(reference_rad_s2 - last_rad_s2) / 1e-3);
+    last_rad_s = state.setpoint_velocity_rad_s;
+    last_rad_s2 = reference_rad_s2;
     if (k >= kBegin) {
-      // What was commanded a period ago, the joint shows now; positions alone lag one sample.
-      const double lag = 1.0 + (stream.derivatives == 0 && !stream.timed ? stream.every : 0);
-      const double error_rad =
-          bench.state(0).joint_position_rad - kAmplitude_rad * std::sin(kOmega_rad_s * 1e-3 * (k - lag));
+      // Positions alone lag one sample.
+      const double lag = stream.derivatives == 0 && stream.ahead == 0 ? stream.every : 0;
+      const double link_rad = bench.drive(0).simulated().plant().link_state().position_rad;
+      const double error_rad = link_rad - kAmplitude_rad * std::sin(kOmega_rad_s * 1e-3 * (k - lag));
       result.rms_torque_Nm += torque_Nm * torque_Nm;
       result.rms_error_rad += error_rad * error_rad;
       result.largest_error_rad = std::max(result.largest_error_rad, std::abs(error_rad));
-      if (std::abs(bench.state(0).setpoint_velocity_rad_s) > kTurning_rad_s)
+      if (std::abs(state.setpoint_velocity_rad_s) > kTurning_rad_s)
         result.largest_step_Nm = std::max(result.largest_step_Nm, std::abs(torque_Nm - last_Nm));
       result.off_stream = result.off_stream || bench.has_notice(0, Notice::kOffStream);
     }
@@ -83,44 +155,139 @@ Ride ride(const Stream& stream) {
   }
   result.rms_torque_Nm = std::sqrt(result.rms_torque_Nm / (kEnd - kBegin));
   result.rms_error_rad = std::sqrt(result.rms_error_rad / (kEnd - kBegin));
+  EXPECT_EQ(bench.mode(0), Mode::kTracking);
   EXPECT_EQ(bench.fault(0), Fault::kNone);
   EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
   return result;
 }
 
 /// The sine itself: a setpoint for each period, all derivatives, each for its own cycle.
-const Ride& smooth_sine() {
-  static const Ride smooth = ride({1, 2, 0.0, true});
-  return smooth;
+const Ride& smooth_sine(bool flexible) {
+  static const Ride rigid = ride({.every = 1, .derivatives = 2, .ahead = 30});
+  static const Ride on_a_spring = ride({.every = 1, .derivatives = 2, .ahead = 30, .flexible = true});
+  return flexible ? on_a_spring : rigid;
 }
 
-class JointLoopStreams : public ::testing::TestWithParam<Stream> {};
+class JointLoopStreams : public ::testing::TestWithParam<std::tuple<Stream, bool>> {};
 
 TEST_P(JointLoopStreams, TakeTheTorqueOfTheMotionAndNoMore) {
-  const Ride streamed = ride(GetParam());
-  EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth_sine().rms_torque_Nm);
-  EXPECT_LT(streamed.largest_step_Nm, smooth_sine().largest_step_Nm + 1.0);
+  Stream stream = std::get<Stream>(GetParam());
+  stream.flexible = std::get<bool>(GetParam());
+  const Ride streamed = ride(stream);
+  const Ride& smooth = smooth_sine(stream.flexible);
+  std::printf(
+      "%3d Hz, %d derivatives, %2d ahead, %s: rms %.3f N.m (%.3f), step %.3f (%.3f), error rms %.3f mrad\n",
+      1000 / stream.every, stream.derivatives, stream.ahead, stream.flexible ? "spring" : "rigid ",
+      streamed.rms_torque_Nm, smooth.rms_torque_Nm, streamed.largest_step_Nm, smooth.largest_step_Nm,
+      1e3 * streamed.rms_error_rad);
+  EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth.rms_torque_Nm);
+  EXPECT_LT(streamed.largest_step_Nm, smooth.largest_step_Nm + 1.0);
   EXPECT_LT(streamed.rms_error_rad, 1e-3);
   EXPECT_FALSE(streamed.off_stream);
 }
 
 INSTANTIATE_TEST_SUITE_P(AtEveryRate, JointLoopStreams,
-                         ::testing::Values(Stream{50, 0}, Stream{50, 1}, Stream{50, 2}, Stream{20, 0},
-                                           Stream{20, 1}, Stream{10, 0}, Stream{10, 1}, Stream{10, 2},
-                                           Stream{5, 0}, Stream{5, 1}, Stream{3, 0}, Stream{3, 1},
-                                           Stream{2, 0}, Stream{2, 1}, Stream{10, 1, 0.0, true},
-                                           Stream{20, 0, 0.0, true}),
-                         [](const ::testing::TestParamInfo<Stream>& stream) {
-                           return std::to_string(1000 / stream.param.every) + "Hz" +
-                                  std::to_string(stream.param.derivatives) +
-                                  (stream.param.timed ? "Timed" : "");
+                         ::testing::Combine(::testing::Values(Stream{50, 0}, Stream{50, 1}, Stream{50, 2},
+                                                              Stream{20, 0}, Stream{20, 1}, Stream{10, 0},
+                                                              Stream{10, 1}, Stream{10, 2}, Stream{5, 0},
+                                                              Stream{5, 1}, Stream{3, 0}, Stream{3, 1},
+                                                              Stream{2, 0}, Stream{2, 1}, Stream{10, 1, 30},
+                                                              Stream{20, 0, 30}, Stream{50, 1, 10}),
+                                            ::testing::Bool()),
+                         [](const ::testing::TestParamInfo<std::tuple<Stream, bool>>& instance) {
+                           const Stream& stream = std::get<Stream>(instance.param);
+                           return std::to_string(1000 / stream.every) + "Hz" +
+                                  std::to_string(stream.derivatives) +
+                                  (stream.ahead > 0 ? "Ahead" + std::to_string(stream.ahead) : "") +
+                                  (std::get<bool>(instance.param) ? "OnASpring" : "");
                          });
 
-TEST(JointLoopStreaming, BridgeATenthOfTheirSamplesLost) {
-  for (const int derivatives : {0, 1, 2}) {
-    const Ride streamed = ride({10, derivatives, 0.1});
-    EXPECT_LT(streamed.largest_error_rad, 5e-3) << derivatives;
-    EXPECT_LT(streamed.rms_torque_Nm, 1.5 * smooth_sine().rms_torque_Nm) << derivatives;
+/// What a network does to a stream at 100 Hz.
+std::vector<Stream> hurt_streams(bool flexible) {
+  return {{.flexible = flexible, .lost = 0.1},
+          {.derivatives = 1, .flexible = flexible, .lost = 0.1},
+          {.derivatives = 2, .flexible = flexible, .lost = 0.1},
+          {.derivatives = 1, .flexible = flexible, .gaps = true},
+          {.derivatives = 1, .ahead = 30, .flexible = flexible, .doubled = 0.1, .reordered = 0.1},
+          {.derivatives = 1,
+           .ahead = 30,
+           .flexible = flexible,
+           .lost = 0.1,
+           .doubled = 0.1,
+           .reordered = 0.1,
+           .gaps = true}};
+}
+
+TEST(JointLoopStreaming, BridgeWhatIsLostDoubledReorderedAndGapsOf30ms) {
+  for (const bool flexible : {false, true})
+    for (const Stream& stream : hurt_streams(flexible)) {
+      const Ride streamed = ride(stream);
+      const auto what = ::testing::Message()
+                        << (flexible ? "spring, " : "rigid, ") << stream.derivatives << " derivatives, lost "
+                        << stream.lost << ", gaps " << stream.gaps << ", reordered " << stream.reordered;
+      EXPECT_LT(streamed.largest_error_rad, 5e-3) << what;
+      EXPECT_LT(streamed.rms_torque_Nm, 1.5 * smooth_sine(flexible).rms_torque_Nm) << what;
+    }
+}
+
+TEST(JointLoopStreaming, KeepTheJerkLimitWhateverTheNetworkDoes) {
+  constexpr double kJerk_rad_s3 = 2000.0;
+  for (Stream stream : hurt_streams(false)) {
+    stream.jerk_rad_s3 = kJerk_rad_s3;
+    const Ride streamed = ride(stream);
+    EXPECT_LT(streamed.largest_jerk_rad_s3, 1.001 * kJerk_rad_s3) << stream.derivatives << " " << stream.lost;
+    EXPECT_LT(streamed.largest_error_rad, 5e-3) << stream.derivatives << " " << stream.lost;
+  }
+  const Ride calm = ride({.derivatives = 1, .jerk_rad_s3 = kJerk_rad_s3});
+  EXPECT_LT(calm.rms_error_rad, 1e-3) << "and lag by nothing";
+}
+
+TEST(JointLoopStreaming, KeepTheJerkLimitWhenTheyAreInfeasibleAndSaySo) {
+  constexpr double kJerk_rad_s3 = 2000.0;
+  BenchJoint joint = demo_joint();
+  joint.loop.controller.motion = {6.0, 20.0, 20.0};
+  joint.loop.controller.jerk_limit_rad_s3 = kJerk_rad_s3;
+  joint.loop.limits.following_error_rad = 1.0;
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  std::mt19937 random(3);
+  double last_rad_s = 0.0, last_rad_s2 = 0.0, largest_rad_s3 = 0.0;
+  bool told = false;
+  for (int k = 0; k < 4000; ++k) {
+    if (k % 20 == 0) {
+      Order order = sample({}, bench.cycle() + 1, k);
+      order.position_rad = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+      EXPECT_TRUE(bench.joint(0).orders().push(order));
+    }
+    bench.step();
+    const double rad_s2 = (bench.state(0).setpoint_velocity_rad_s - last_rad_s) / 1e-3;
+    if (k >= 2) largest_rad_s3 = std::max(largest_rad_s3, std::abs(rad_s2 - last_rad_s2) / 1e-3);
+    last_rad_s = bench.state(0).setpoint_velocity_rad_s;
+    last_rad_s2 = rad_s2;
+    told = told || bench.has_notice(0, Notice::kOffStream);
+  }
+  EXPECT_EQ(bench.fault(0), Fault::kNone);
+  EXPECT_LT(largest_rad_s3, 1.001 * kJerk_rad_s3);
+  EXPECT_GT(largest_rad_s3, 0.3 * kJerk_rad_s3) << "it is used";
+  EXPECT_TRUE(told);
+}
+
+TEST(JointLoopMoves, GoAtTheCalmShareOfTheSpeedLimitUnlessTheyNameASpeed) {
+  BenchJoint joint = demo_joint();
+  joint.loop.move_speed_share = 0.25;
+  for (const double named_rad_s : {0.0, 5.0}) {
+    JointBench bench({joint});
+    bench.bring_to_hold(0);
+    ASSERT_EQ(
+        bench.order(
+            0, Order{.kind = OrderKind::kSetpoint, .position_rad = 2.0, .speed_limit_rad_s = named_rad_s}),
+        Reason::kAccepted);
+    double fastest_rad_s = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      bench.step();
+      fastest_rad_s = std::max(fastest_rad_s, bench.state(0).setpoint_velocity_rad_s);
+    }
+    EXPECT_NEAR(fastest_rad_s, named_rad_s == 0.0 ? 0.25 * 6.0 : named_rad_s, 1e-9);
   }
 }
 
@@ -145,7 +312,7 @@ TEST(JointLoopStreaming, ShowTheirLastSampleAsTheTarget) {
 TEST(JointLoopStreaming, RefuseASampleForACycleThatIsOverOrFarAway) {
   JointBench bench({demo_joint()});
   bench.bring_to_hold(0);
-  Order order = sample({10, 1, 0.0, true}, bench.cycle() + 1, 0);
+  Order order = sample({.derivatives = 1, .ahead = 30}, bench.cycle() + 1, 0);
   ASSERT_EQ(bench.order(0, order), Reason::kAccepted);
   order.begins_stream = false;
   order.at_cycle = bench.cycle();

@@ -36,6 +36,22 @@ TEST(OrderedTarget, IsValidForTheTimeOfTheNewestSetpoint) {
   EXPECT_TRUE(target.expire((990 + 50) * kMillisecond_ns));
 }
 
+TEST(OrderedTarget, OfAPathGoesOnWithoutATimeUntilSomethingEndsIt) {
+  OrderedTarget target;
+  target.begin_path(0.5, 0.7);
+  EXPECT_TRUE(target.on_path());
+  EXPECT_TRUE(target.goes_on());
+  EXPECT_FALSE(target.streamed());
+  EXPECT_FALSE(target.expire(INT64_MAX));
+  EXPECT_FALSE(target.takes(7, false)) << "a setpoint of a stream is none of the path's";
+  EXPECT_EQ(target.shown_rad(0.7, JointZero(false)), 0.5);
+  target.end();
+  EXPECT_FALSE(target.on_path());
+  target.begin_path(0.5, 0.7);
+  target.accept(kMove, 0);
+  EXPECT_FALSE(target.goes_on());
+}
+
 TEST(OrderedTarget, TakesOfStreamsOnlyTheFirstSetpointAndThatWhichIsUnderWay) {
   OrderedTarget target;
   EXPECT_FALSE(target.takes(7, false)) << "nobody has begun it";

@@ -77,6 +77,42 @@ TEST_F(ReadingWatchTest, CallsWhatIsNoNumberImplausibleAndGoesOnWithNumbers) {
   }
 }
 
+TEST_F(ReadingWatchTest, SaysWhichOfItsCausesAnImplausibleReadingHas) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  take();
+  reading_.joint_position_rad = nan;
+  EXPECT_EQ(take().drive_error, doubt_number(ReadingDoubt::kPositionNotFinite));
+  reading_.joint_position_rad = 0.0;
+  reading_.torque_applied_Nm = nan;
+  EXPECT_EQ(take().drive_error, doubt_number(ReadingDoubt::kTorqueNotFinite));
+  reading_.torque_applied_Nm = 0.0;
+  reading_.has_velocity = true;
+  reading_.joint_velocity_rad_s = nan;
+  EXPECT_EQ(take().drive_error, doubt_number(ReadingDoubt::kVelocityNotFinite));
+  reading_.joint_velocity_rad_s = 0.0;
+  EXPECT_EQ(take().drive_error, 0U);
+  reading_.joint_position_rad = 0.5;
+  EXPECT_EQ(take().drive_error, doubt_number(ReadingDoubt::kJump, 0.5));
+  reading_.has_position = false;
+  reading_.fault = ActuatorFault::kImplausible;
+  EXPECT_EQ(take().drive_error, doubt_number(ReadingDoubt::kCountsMissing)) << "the drive's own finding";
+  reading_.fault = ActuatorFault::kDriveFault;
+  reading_.drive_error = 0x2310;
+  EXPECT_EQ(take().drive_error, 0x2310U) << "no doubt takes the place of the drive's own number";
+}
+
+TEST_F(ReadingWatchTest, SaysHowFarAStuckSensorMustHaveMoved) {
+  watch_.set_joint(0.1, 1.0);
+  take();
+  for (int i = 0; i < 100 && watch_.reading().fault == ActuatorFault::kNone; ++i) {
+    if (i == 10) reading_.torque_applied_Nm = 20.0;
+    take();
+  }
+  EXPECT_EQ(watch_.reading().fault, ActuatorFault::kImplausible);
+  EXPECT_EQ(watch_.reading().drive_error >> 24U, static_cast<std::uint32_t>(ReadingDoubt::kStuck));
+  EXPECT_GE(watch_.reading().drive_error & 0xFFFFFFU, 200U) << "ten counts";
+}
+
 TEST_F(ReadingWatchTest, IgnoresAVelocityThatNobodyVouchesFor) {
   reading_.joint_velocity_rad_s = std::numeric_limits<double>::quiet_NaN();
   take();

@@ -101,6 +101,8 @@ TEST_F(StateRecordTest, HasTheCycleTheTableItsWeightsAndTheNotices) {
 TEST_F(StateRecordTest, TellsTheAgeOfTheTemperatureAndThatThereWasNone) {
   filled();
   EXPECT_EQ(record_.temperature_age_s, -1.0);
+  EXPECT_TRUE(std::isnan(record_.state.temperature_used_C));
+  EXPECT_TRUE(std::isnan(record_.temperature_measured_C));
   temperature_.update(true, 21.5, 1'000'000'000, time_.now_ns);
   filled();
   EXPECT_EQ(record_.state.temperature_used_C, 21.5);

@@ -23,8 +23,8 @@ TEST(Debounce, BelievesALevelOnceItHasBeenSteadyForItsTime) {
   EXPECT_EQ(debounce.step(0, now_ns), 0U);
   int periods = 0;
   while (debounce.step(kHome, now_ns += kPeriod_ns) == 0) ++periods;
-  EXPECT_EQ(periods, 4);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(debounce.step(0, now_ns += kPeriod_ns), kHome) << "both ways";
+  EXPECT_EQ(periods, 5) << "from the first reading on, since nobody knows when before it the level came";
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(debounce.step(0, now_ns += kPeriod_ns), kHome) << "both ways";
   EXPECT_EQ(debounce.step(0, now_ns += kPeriod_ns), 0U);
 }
 
@@ -38,6 +38,13 @@ TEST(Debounce, NeverBelievesAContactThatBouncesFasterThanItsTime) {
     const bool on = i % 5 != 0 && random() % 2 == 0;
     ASSERT_EQ(debounce.step(on ? kHome : 0, now_ns += kPeriod_ns), 0U) << i;
   }
+}
+
+TEST(Debounce, WaitsForASecondReadingHoweverShortItsTime) {
+  Debounce debounce = of_home(1);
+  (void)debounce.step(0, 0);
+  EXPECT_EQ(debounce.step(kHome, kPeriod_ns), 0U);
+  EXPECT_EQ(debounce.step(kHome, 2 * kPeriod_ns), kHome);
 }
 
 TEST(Debounce, BelievesAtOnceWhatHasNoTimeAndWhatItBeginsWith) {

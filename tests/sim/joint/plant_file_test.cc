@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave {
@@ -84,7 +87,8 @@ TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
   names("[simulation]\ninitial_position_rad = 2\n[contact]\nposition_rad = 1.5\nstiffness_Nm_rad = 100",
         {"contact.position_rad = 1.5", "from 2 to"});
   names("base = \"flexible\"\n[kinematic_error]\nonce_rad = 0.0201", {"once_rad = 0.0201"});
-  names("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.01", {"twice_rad = 0.01", "turn back", "1.0"});
+  names("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.01",
+        {"twice_rad = 0.01", "turn back", "below 1 of"});
   EXPECT_EQ(refusal("base = \"flexible\"\n[kinematic_error]\ntwice_rad = 0.0099"), "accepted");
   EXPECT_EQ(refusal("base = \"flexible\"\n[kinematic_error]\nonce_rad = 0.0099\ntwice_rad = 0.0066"),
             "accepted")
@@ -92,6 +96,36 @@ TEST(PlantFile, NamesLineKeyAndWhatIsAllowed) {
   names("[friction]\nasymptote_viscous_Nms_rad = 2500", {"substeps = 10", "at least 15", "viscous"});
   EXPECT_NE(refusal("[simulation]\nsubsteps = 2.5").find("substeps"), std::string::npos);
   EXPECT_NE(refusal("[joint\n").find("joint.toml:1:"), std::string::npos);
+}
+
+TEST(PlantFile, RefusesFrictionThatIsLessAtRestThanInMotion) {
+  EXPECT_NE(refusal("[friction]\nasymptote_static_Nm = 0.5").find("asymptote_static_Nm = 0.5"),
+            std::string::npos);
+  const std::string cold = refusal("[friction]\namplitude_static_Nm = 0.1");
+  EXPECT_NE(cold.find("amplitude_static_Nm = 0.1"), std::string::npos) << cold;
+  EXPECT_NE(cold.find("-40 degC"), std::string::npos) << cold;
+}
+
+TEST(PlantFile, RefusesCreepThatIsTooShortForItsSubstepsAndWhatItAllowsStaysFinite) {
+  const std::string shortest = "base = \"flexible\"\n[sliding]\npresliding_rad = ";
+  const std::string message = refusal(shortest + "1e-9");
+  EXPECT_NE(message.find("presliding_rad = 1e-09"), std::string::npos) << message;
+  const std::string before = "at least ";
+  ASSERT_NE(message.find(before), std::string::npos) << message;
+  const double least_rad = std::stod(message.substr(message.find(before) + before.size()));
+  EXPECT_NE(refusal(shortest + number_text(0.99 * least_rad)), "accepted");
+  for (const double temperature_C : {-40.0, 20.0}) {
+    JointPlant plant(plant_from_toml(shortest + number_text(1.01 * least_rad), "joint.toml"));
+    plant.set_ambient_temperature(temperature_C);
+    for (int k = 0; k < 2000; ++k) plant.step(k < 1000 ? 30.0 : -30.0);
+    EXPECT_LT(std::abs(plant.state().position_rad), 10.0) << temperature_C;
+    EXPECT_LT(std::abs(plant.state().velocity_rad_s), 10.0) << temperature_C;
+  }
+  EXPECT_NE(
+      refusal("base = \"ideal\"\n[sliding]\npresliding_rad = 1e-4\n[friction]\nasymptote_static_Nm = 0\n"
+              "asymptote_coulomb_Nm = 0")
+          .find("asymptote_static_Nm = 0"),
+      std::string::npos);
 }
 
 TEST(PlantFile, KnowsTheBuiltInPlantsByName) {

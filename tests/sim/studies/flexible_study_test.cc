@@ -6,13 +6,13 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "base/parallel.h"
 #include "control/scheduled_controller.h"
+#include "sim/studies/link_limit.h"
 
 namespace strainwave {
 namespace {
@@ -85,51 +85,6 @@ TEST(FlexibleStudy, FindsTheOscillationsOfEveryPartOnWithoutTheMonitorOnHeavyLin
   EXPECT_LE(oscillating(light, unwatched_contender(tables())), 3);
   EXPECT_GE(oscillating(heavy, unwatched_contender(tables())), 24);
   EXPECT_EQ(oscillating(heavy, contender("declared rigid")), 0);
-}
-
-/// The numbers of README's table row `name`, as multiples of the limit: one per step of the grid.
-std::vector<double> readme_row(const std::string& name) {
-  std::ifstream readme(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "README.md");
-  std::vector<double> numbers;
-  for (std::string line; numbers.empty() && std::getline(readme, line);) {
-    if (line.rfind("| " + name + " |", 0) != 0) continue;
-    std::istringstream fields(line.substr(name.size() + 4));
-    for (std::string field; numbers.size() < 4 && std::getline(fields, field, '|');)
-      numbers.push_back(std::stod(field));
-  }
-  return numbers;
-}
-
-// README's geometric means over the limit, above 40 urad, are of the whole grid; here at its middle damping and stiffness.
-TEST(FlexibleStudy, FindsInTheMiddleOfTheGridWhatTheReadmeSaysOfAllOfIt) {
-  std::vector<FlexibleCell> middle;
-  for (const FlexibleCell& cell : flexible_grid())
-    if (cell.damping_ratio == 0.03 && cell.stiffness_scale == 1.0) middle.push_back(cell);
-  const std::vector<std::pair<const char*, const char*>> said = {
-      {"PID", "PID of the source"},
-      {"C4", "scheduled controller alone (C4)"},
-      {"daemon", "the daemon's controller, as it is by default"},
-      {"daemon told of its spring", "the daemon's controller told of its spring"},
-      {"declared rigid", "the daemon's with every part on, as for a rigid joint"}};
-  std::vector<Contender> contenders;
-  for (const auto& [name, row] : said) contenders.push_back(contender(name));
-  const auto rows = run_flexible(middle, contenders, [](std::size_t) {});
-  for (std::size_t c = 0; c < said.size(); ++c) {
-    std::map<double, std::vector<double>> logarithms;
-    for (const FlexibleRow& row : rows)
-      logarithms[row.cell.step_rad].push_back(std::log(row.results[c].link_counted_ratio));
-    const std::vector<double> of_readme = readme_row(said[c].second);
-    ASSERT_EQ(of_readme.size(), logarithms.size()) << said[c].second;
-    auto printed = of_readme.begin();
-    for (const auto& [step_rad, of_step] : logarithms) {
-      const double mean = std::exp(std::accumulate(of_step.begin(), of_step.end(), 0.0) /
-                                   static_cast<double>(of_step.size()));
-      // What chatters until the monitor ends it differs by a factor of ten from cell to cell.
-      const double tolerance = said[c].first == std::string("declared rigid") ? 0.5 : 0.25;
-      EXPECT_NEAR(mean / *printed, 1.0, tolerance) << said[c].first << ", " << step_rad << " rad: " << mean;
-      ++printed;
-    }
-  }
 }
 
 /// The number in column `column` of the page's row of contender `name`, from 1.
@@ -250,6 +205,7 @@ TEST(FlexibleStudy, ReachesTheLimitOfTheLinkWhereFrictionIsKnown) {
       cells.push_back(with_friction_known(cell));
   std::map<double, std::vector<double>> over_limit;
   std::map<double, std::vector<double>> overshoot_rad;
+  std::vector<double> over_least_time;  // of a milliradian
   for (const FlexibleRow& row :
        run_flexible(cells, {contender("daemon told of its spring")}, [](std::size_t) {})) {
     const FlexibleResult& result = row.results.front();
@@ -257,7 +213,14 @@ TEST(FlexibleStudy, ReachesTheLimitOfTheLinkWhereFrictionIsKnown) {
     overshoot_rad[row.cell.step_rad].push_back(result.overshoot_rad);
     EXPECT_EQ(result.monitor, MonitorState::kWatching);
     EXPECT_GT(result.settling_time_s, 0.0);
+    if (row.cell.step_rad != 0.001) continue;
+    const LinkLimitConfig motion =
+        link_limit_config(row.cell.plant, row.cell.temperature_C, row.cell.step_rad);
+    over_least_time.push_back(result.settling_time_s / least_settling_time_s(motion, kCountedError_rad));
   }
+  std::sort(over_least_time.begin(), over_least_time.end());
+  EXPECT_LE(over_least_time[over_least_time.size() / 2], 1.4);
+  EXPECT_LE(over_least_time[over_least_time.size() * 9 / 10], 3.5);
   struct Goal {
     double step_rad, median, worst, overshoot_median_rad, overshoot_worst_rad;
   };

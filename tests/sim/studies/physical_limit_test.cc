@@ -71,7 +71,7 @@ TEST(PhysicalLimit, NamesEveryEffectThatItCannotTake) {
          e.contact = {1.0, 100.0, 0.0};
        }},
       {"sliding.presliding_rad = 0.1", [](JointEffects& e) { e.friction.presliding_rad = 0.1; }},
-      {"drive.current_loop_s = 0.0005", [](JointEffects& e) { e.drive.current_loop_s = 5e-4; }},
+      {"drive.current_loop_s = 5e-04", [](JointEffects& e) { e.drive.current_loop_s = 5e-4; }},
       {"drive.ripple_share = 0.02", [](JointEffects& e) { e.drive.ripple_share = 0.02; }}};
   for (const JointPlantConfig& plant : {realistic_plant(), flexible_plant()})
     for (const auto& [named, change] : both) {
@@ -101,7 +101,7 @@ TEST(PhysicalLimit, OfALinkRefusesWhatChangesDuringTheRunAndTakesAConstantLoad) 
   config.load_torque_Nm = TimeProfile::constant(5.0, {"load_torque_Nm"});
   EXPECT_GT(physical_limit(config).pi2, free);
   config.load_torque_Nm = TimeProfile::steps(0.0, 5.0, 0.1, 1.0, {"load_torque_Nm"});
-  EXPECT_NE(refusal(config).find("load_torque_Nm = 5.000000 at 0.1"), std::string::npos) << refusal(config);
+  EXPECT_NE(refusal(config).find("load_torque_Nm = 5 at 0.1"), std::string::npos) << refusal(config);
   config = step_of(flexible_plant(), 0.1);
   config.setpoint_rad = TimeProfile::ramp(0.0, 1.0, 0.0, 1.0, {"setpoint_position_rad"});
   EXPECT_NE(refusal(config).find("reference_rad"), std::string::npos) << refusal(config);
@@ -112,7 +112,7 @@ TEST(PhysicalLimit, OfALinkRefusesWhatChangesDuringTheRunAndTakesAConstantLoad) 
 
 TEST(PhysicalLimit, SaysHowFarAMotionMayGoThatTakesTooLongToSolve) {
   const std::string far = refusal(step_of(flexible_plant(), 10.0));
-  EXPECT_NE(far.find("step_rad = 10.0"), std::string::npos) << far;
+  EXPECT_NE(far.find("step_rad = 10:"), std::string::npos) << far;
   EXPECT_NE(far.find("must be below 5."), std::string::npos) << far;
   ClosedLoopConfig sticky = step_of(flexible_plant(), 1.0);
   sticky.plant.joint.friction.asymptote.viscous_Nms_rad = 1000.0;

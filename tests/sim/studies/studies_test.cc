@@ -5,13 +5,16 @@
 #include <filesystem>
 
 #include "base/input_error.h"
+#include "base/text_file.h"
 #include "control/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/chapter6.h"
+#include "sim/studies/chapter6_figures.h"
 #include "sim/studies/figure.h"
 #include "sim/studies/heat.h"
 #include "sim/studies/performance_tables.h"
 #include "sim/studies/robustness.h"
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -171,6 +174,49 @@ TEST(Figure, KeepsEveryExtremeWhenItThins) {
   EXPECT_NE(std::find(kept.begin(), kept.end(), points[5003]), kept.end());
   EXPECT_NE(std::find(kept.begin(), kept.end(), points[7007]), kept.end());
   EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+}
+
+TEST(Chapter6Figures, ShowEveryErrorAboveTheAxis) {
+  int panels = 0;
+  for (const Figure& figure : response_figures(chapter6())) {
+    if (!figure.id.starts_with("errors_")) continue;
+    for (const Panel& panel : figure.panels) {
+      ++panels;
+      ASSERT_EQ(panel.y_range.size(), 2U) << figure.id;
+      for (const Series& series : panel.series) {
+        for (const auto& [time_s, value] : series.points) {
+          ASSERT_GT(value, 1.5 * panel.y_range[0]) << figure.id << " " << series.name << " at " << time_s;
+          ASSERT_LE(value, panel.y_range[1]) << figure.id << " " << series.name << " at " << time_s;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(panels, 16);
+}
+
+TEST(Chapter6Figures, DrawTheTwoControllersOfNearlyEqualGainsSoThatBothAreSeen) {
+  for (const Figure& figure : response_figures(chapter6())) {
+    for (const Panel& panel : figure.panels) {
+      for (const Series& series : panel.series)
+        EXPECT_EQ(series.mark == Mark::kDashed, series.name == "C3" || series.name == "time-optimal")
+            << figure.id << " " << series.name;
+    }
+  }
+}
+
+TEST(Figure, IsAsLargeAsItsPanelsAndKeepsTinyRanges) {
+  const TemporaryFolder folder;
+  Panel panel{"title", "time (s)", "error (rad)", "", {{"a", {{0, 1e-9}, {1, 1e-3}}}}, true, {}, {1e-10, 1}};
+  const auto drawn = [&](int columns, const std::string& id) {
+    draw_figures({{id, "", columns, std::vector<Panel>(static_cast<std::size_t>(columns), panel)}},
+                 folder.path());
+    return read_text_file(folder.path() / (id + ".svg"));
+  };
+  // A width of its own, so that one panel is not stretched to the width of three.
+  EXPECT_NE(drawn(1, "one").find("width=\"460\""), std::string::npos);
+  const std::string three = drawn(3, "three");
+  EXPECT_NE(three.find("width=\"1380\""), std::string::npos);
+  EXPECT_NE(three.find("1e-10"), std::string::npos);
 }
 
 TEST(TextTable, WritesMarkdownCsvAndHtml) {

@@ -1,5 +1,4 @@
-// What a simulated drive can be told to do wrong, one line each; numbers in C's notation (0x.. is
-// hexadecimal):
+// What a simulated drive can be told to do wrong, one line each; numbers in C's notation (0x.. is hexadecimal):
 //
 //   cut | reconnect               the cable: no frame in or out; the drive lives on
 //   reboot [MS]                   power off and on; silent for MS (default: its boot time)

@@ -1,5 +1,4 @@
-// cia402-node INTERFACE --node-id N ...: a simulated CiA 402 servo drive with a joint behind it, on a CAN
-// interface.
+// cia402-node INTERFACE --node-id N ...: a simulated CiA 402 servo drive with a joint behind it, on a CAN interface.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -44,7 +43,7 @@ void add_options(CLI::App& app, Options& options, Cia402NodeConfig& config) {
   app.add_option("--rated-current_A", drive.rated_current_A, "6075h");
   app.add_flag("--reversed", options.reversed, "the drive's positive direction is the joint's negative one");
   app.add_option("--modes", options.modes, "of 6502h: cst, tq")->delimiter(',');
-  app.add_option("--ambient_temperature_C", options.ambient,
+  app.add_option("--ambient-temperature_C", options.ambient,
                  "temperature over time, as in the configuration of a simulated joint");
   app.add_option("--temperature-object", options.temperature_object, "index and sub-index")->expected(2);
   app.add_option("--temperature-type", options.temperature_type)->check(CLI::IsMember({"int16", "real32"}));
@@ -73,8 +72,7 @@ int run(int argc, char** argv) {
   CLI::App app("A simulated CiA 402 servo drive with a joint behind it.", "cia402-node");
   Options options;
   Cia402NodeConfig config;
-  // The bus brings the period of delay that the plant has elsewhere: what is read was sampled with the last
-  // SYNC.
+  // The bus brings the period of delay that the plant has elsewhere: what is read was sampled with the last SYNC.
   config.drive.plant = realistic_plant();
   config.drive.plant.delay.periods = 0.0;
   add_options(app, options, config);

@@ -50,8 +50,7 @@ class Cia402Node final : public Node {
   void advance(std::int64_t now_us) override;
   std::int64_t next_deadline_us() const override;
 
-  /// One line of what to do wrong; cia402_commands.cc lists them. Returns what was wrong with the line, or
-  /// nothing.
+  /// One line of what to do wrong; cia402_commands.cc lists them. Returns what was wrong with the line, or nothing.
   std::string command(std::string_view line, std::int64_t now_us) override;
 
   NmtState nmt() const { return nmt_; }

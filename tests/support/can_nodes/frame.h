@@ -1,5 +1,4 @@
-// A CAN frame as the simulated nodes see it. Classic CAN, 11-bit identifiers. No sockets: can_port.h
-// translates.
+// A CAN frame as the simulated nodes see it. Classic CAN, 11-bit identifiers. No sockets: can_port.h translates.
 #pragma once
 
 #include <array>

@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
   app.add_flag("--reversed", reversed, "the drive's positive direction is the joint's negative one");
   app.add_option("--counts-per-revolution", config.counts_per_joint_revolution, "per turn of the joint");
   app.add_option("--firmware", config.version.firmware, "three numbers")->expected(3);
-  app.add_option("--ambient_temperature_C", ambient,
+  app.add_option("--ambient-temperature_C", ambient,
                  "temperature over time, as in the configuration of a simulated joint");
   app.add_option("--watchdog_s", config.watchdog_timeout_s, "its time-out");
   app.add_option("--watchdog-enabled", config.watchdog_enabled);

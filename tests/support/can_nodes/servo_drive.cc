@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStandstill_rad_s = 1e-3;
 /// Share of the newest difference in the drive's velocity estimate: a low-pass of about three periods.
-constexpr double kVelocityShare = 0.3;
+constexpr double kVelocityFilterShare = 0.3;
 /// Share of the momentum that a quick stop takes away in each period, torque permitting.
 constexpr double kBrakingShare = 0.2;
 
@@ -163,7 +163,7 @@ void ServoDrive::step() {
   plant_.set_ambient_temperature(config_.ambient.at(plant_.time_s()));
   const double moved_counts = (plant_.measured_position_rad() - before_rad) / (2.0 * std::numbers::pi) *
                               config_.counts_per_joint_revolution;
-  velocity_counts_s_ += kVelocityShare * (moved_counts / plant_.config().period_s - velocity_counts_s_);
+  velocity_counts_s_ += kVelocityFilterShare * (moved_counts / plant_.config().period_s - velocity_counts_s_);
 
   probe_index(before_counts, drive_counts());
   since_temperature_us_ += period_us_;

@@ -13,8 +13,7 @@ namespace strainwave::can_nodes {
 
 std::vector<std::string> words_of(std::string_view line);
 
-/// Whether `words` are a verb and `count` whole numbers in C's notation, which are then appended to
-/// `numbers`.
+/// Whether `words` are a verb and `count` whole numbers in C's notation, which are then appended to `numbers`.
 bool numbers_of(const std::vector<std::string>& words, std::size_t count, std::vector<std::int64_t>& numbers);
 
 /// Whether `words` are a verb and one finite number.

@@ -28,6 +28,7 @@ position_min_rad = -3.2
 position_max_rad = 3.2
 speed_limit_rad_s = 6.0
 acceleration_rad_s2 = 150
+move_speed_share = 1
 following_error_rad = 0.2
 torque_limit_Nm = 34
 '''

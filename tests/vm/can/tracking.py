@@ -50,7 +50,7 @@ class Tracking(unittest.TestCase):
     def test_a_joint_over_can_is_as_good_as_the_simulated_one_with_the_same_delay(self):
         simulated, stairs = self.climb('simulated', joint_toml(driver='simulated', section=SIMULATED))
         make_bus()
-        drive = Drive(options=['--ambient_temperature_C', AMBIENT])
+        drive = Drive(options=['--ambient-temperature_C', AMBIENT])
         wait_until(lambda: drive.report()['nmt'] == 'pre-operational', 1, 'the drive has booted')
         over_can, _ = self.climb('can', joint_toml())
         drive.end()

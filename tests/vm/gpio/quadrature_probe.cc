@@ -1,7 +1,7 @@
 // Counts edges of the lines quadrature_a and quadrature_b of the chip "joint-board" with the driver's own
 // thread, as the daemon would, until standard input ends; then prints the count and the fault's number.
 //
-//   quadrature_probe MAX_RATE_HZ
+//   quadrature_probe MAX_RATE_HZ DEBOUNCE_S
 #include <time.h>
 #include <unistd.h>
 
@@ -22,9 +22,9 @@ std::int64_t monotonic_ns() noexcept {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  if (argc != 3) return 2;
   strainwave::QuadratureConfig config;
-  config.a = {"joint-board", "quadrature_a", strainwave::LineBias::kAsIs, false};
+  config.a = {"joint-board", "quadrature_a", strainwave::LineBias::kAsIs, false, std::atof(argv[2])};
   config.b = {"joint-board", "quadrature_b", strainwave::LineBias::kAsIs, false};
   config.max_rate_Hz = std::atof(argv[1]);
   config.clock_ns = &monotonic_ns;

@@ -1,12 +1,11 @@
 // Reads an MCAP file with the reader of the format's inventors and prints what it found as one line of JSON.
 //
 //   node read.mjs FILE [--stream]     --stream: from the beginning, as far as whole chunks go (a file that was cut off)
-import { readFile, open } from 'node:fs/promises';
-import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-import * as fzstd from 'fzstd';
+import { readFile } from 'node:fs/promises';
+import { McapStreamReader } from '@mcap/core';
+import { decompressHandlers, openIndexed } from './mcap_file.mjs';
 
 const [file, mode] = process.argv.slice(2);
-const decompressHandlers = { zstd: (bytes, size) => fzstd.decompress(bytes, new Uint8Array(Number(size))) };
 const found = { topics: {}, schemas: {}, keys: {}, wrong: 0, last: {} };
 const channels = new Map();
 const schemas = new Map();
@@ -39,16 +38,7 @@ if (mode === '--stream') {
     if (record.type === 'Message') take(record);
   }
 } else {
-  const handle = await open(file);
-  const readable = {
-    size: async () => BigInt((await handle.stat()).size),
-    read: async (offset, length) => {
-      const bytes = new Uint8Array(Number(length));
-      await handle.read(bytes, 0, Number(length), Number(offset));
-      return bytes;
-    },
-  };
-  const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+  const reader = await openIndexed(file);
   for (const [id, schema] of reader.schemasById) schemas.set(id, schema);
   for (const [id, channel] of reader.channelsById) channels.set(id, channel);
   found.statistics = Number(reader.statistics.messageCount);

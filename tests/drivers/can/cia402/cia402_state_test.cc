@@ -79,9 +79,9 @@ TEST_F(PowerSequenceTest, GivesEachStepItsOwnTime) {
 }
 
 TEST_F(PowerSequenceTest, TakesTheVoltageOffWhenAQuickStopLasts) {
-  EXPECT_EQ(period(Goal::kQuickStop, 0x27), kQuickStop);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(period(Goal::kQuickStop, 0x07), kQuickStop);
-  EXPECT_EQ(period(Goal::kQuickStop, 0x07), kDisableVoltage);
+  EXPECT_EQ(period(Goal::kQuickStop, 0x27), controlword::kQuickStop);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(period(Goal::kQuickStop, 0x07), controlword::kQuickStop);
+  EXPECT_EQ(period(Goal::kQuickStop, 0x07), controlword::kDisableVoltage);
 }
 
 TEST_F(PowerSequenceTest, ResetsAFaultByRisingEdgesAndNoLongerThanItMay) {
@@ -97,7 +97,7 @@ TEST_F(PowerSequenceTest, ResetsAFaultByRisingEdgesAndNoLongerThanItMay) {
   EXPECT_GE(edges, 2) << "one may be lost";
   period(Goal::kDisabled, 0x08);
   EXPECT_FALSE(power_.resetting());
-  EXPECT_EQ(period(Goal::kDisabled, 0x08), kDisableVoltage);
+  EXPECT_EQ(period(Goal::kDisabled, 0x08), controlword::kDisableVoltage);
 }
 
 TEST_F(PowerSequenceTest, EndsTheResetWithTheFault) {

@@ -1,0 +1,30 @@
+// One order to several joints: each outcome is told, and none keeps it from the others. Not real-time.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/link/client.h"
+#include "client/link/client_error.h"
+
+namespace strainwave {
+
+/// `joints`, or when there are none every joint that is heard of the prefix. Throws NoAnswer when none is.
+std::vector<std::string> joints_or_all(Client& client, const std::vector<std::string>& joints);
+
+/// What went wrong with some of several joints, to be told as one error.
+class Failures {
+ public:
+  /// Whether `step` ended without a ClientError. An interruption ends everything: it is thrown on, behind what had failed.
+  bool attempt(const std::function<void()>& step);
+  /// Throws what has failed, a line for each, with the status of the worst: no answer before a refusal.
+  void rethrow() const;
+
+ private:
+  void add(const ClientError& error);
+  std::optional<ClientError> failure_;
+};
+
+}  // namespace strainwave

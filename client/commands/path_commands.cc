@@ -1,0 +1,145 @@
+// path, pause, resume, and move of several joints: motions in which joints leave and arrive together.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "client/commands/commands.h"
+#include "client/link/client_error.h"
+#include "client/link/motion.h"
+#include "client/link/orders.h"
+#include "client/link/published_limits.h"
+#include "lcmtypes/calm_speed.h"
+
+namespace strainwave {
+
+namespace {
+
+// Of what a joint may do, for a motion that nobody wants to be the fastest: friction and load take their torque besides.
+constexpr double kShareOfAcceleration = 0.8;
+
+/// Returns once all joints are where the path ends: the last one's time, and the largest error.
+Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, double tolerance_rad) {
+  try {
+    Arrival all;
+    for (const Arrival& one : wait_for_path(client, path, tolerance_rad)) {
+      all.duration_s = std::max(all.duration_s, one.duration_s);
+      if (std::abs(one.error_rad) > std::abs(all.error_rad)) all.error_rad = one.error_rad;
+    }
+    return all;
+  } catch (const ClientError& error) {
+    if (error.status() != ExitStatus::kInterrupted) throw;
+    throw ClientError(
+        error.status(),
+        fmt::format("stopped waiting; the path goes on. To stop all of its joints: strainwavectl hold {}",
+                    path.front().joint));
+  }
+}
+
+void travel(Client& client, const Output& output, const std::vector<JointPath>& path, bool wait,
+            double tolerance_rad) {
+  load_path(client, path);
+  start_path(client, path);
+  std::vector<std::string> joints;
+  double path_s = 0.0;
+  for (const JointPath& part : path) {
+    joints.push_back(part.joint);
+    path_s = std::max(path_s, part.knots.back().time_s);
+  }
+  const std::string names = fmt::format("{}", fmt::join(joints, ", "));
+  if (!wait)
+    return say(output, fmt::format("{}: on a path of {:.3f} s", names, path_s),
+               {{"joints", joints}, {"path_s", path_s}, {"arrived", false}});
+  const Arrival arrival = wait_for_all(client, path, tolerance_rad);
+  say(output,
+      fmt::format("{}: arrived in {:.3f} s, largest error {:.2e} rad", names, arrival.duration_s,
+                  arrival.error_rad),
+      {{"joints", joints},
+       {"path_s", path_s},
+       {"arrived", true},
+       {"duration_s", arrival.duration_s},
+       {"error_rad", arrival.error_rad}});
+}
+
+void require_in_range(const JointTarget& target, const limits_v1& limits) {
+  if (target.position_rad >= limits.position_min_rad && target.position_rad <= limits.position_max_rad)
+    return;
+  const std::string hint = degrees_hint(target.position_rad);
+  throw InvalidInput(
+      fmt::format("{0}: position_rad = {1}: from {2} to {3} is allowed "
+                  "(joint.limits.position_min_rad and position_max_rad of {0}){4}{5}",
+                  target.joint, target.position_rad, limits.position_min_rad, limits.position_max_rad,
+                  hint.empty() ? "" : "; ", hint));
+}
+
+StraightMove straight_move(const JointTarget& target, const state_v1& state, const limits_v1& limits,
+                           double speed_limit_rad_s) {
+  const double by_torque_rad_s2 = limits.torque_limit_Nm / limits.inertia_kgm2;
+  return {target.joint,
+          state.target_position_rad,
+          target.position_rad,
+          speed_limit_rad_s > 0.0 ? std::min(speed_limit_rad_s, limits.speed_limit_rad_s)
+                                  : kCalmShare * limits.speed_limit_rad_s,
+          kShareOfAcceleration * std::min(limits.acceleration_rad_s2, by_torque_rad_s2),
+          kShareOfAcceleration * std::min(limits.deceleration_rad_s2, by_torque_rad_s2)};
+}
+
+}  // namespace
+
+std::vector<JointPath> read_path(const std::filesystem::path& file) {
+  const CsvText csv = read_csv_text(file);
+  csv.require_columns({"joint", "time_s", "position_rad", "velocity_rad_s"});
+  std::vector<JointPath> path;
+  for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+    const std::vector<std::string>& fields = csv.rows[row];
+    if (!is_valid_name(fields[0]))
+      throw InputError(fmt::format("{}: joint = {}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed",
+                                   csv.place(row), fields[0]));
+    auto part = std::find_if(path.begin(), path.end(),
+                             [&](const JointPath& candidate) { return candidate.joint == fields[0]; });
+    if (part == path.end()) part = path.insert(path.end(), JointPath{fields[0], {}});
+    const auto number = [&](std::size_t column) {
+      return parse_number(fields[column], csv.place(row), csv.columns[column]);
+    };
+    part->knots.push_back({number(1), number(2), number(3)});
+  }
+  try {
+    check_path(path);
+  } catch (const InvalidInput& error) {
+    throw InputError(csv.source + ": " + error.what());
+  }
+  return path;
+}
+
+void follow_path(Client& client, const Output& output, const PathArguments& arguments) {
+  travel(client, output, read_path(arguments.file), arguments.wait, arguments.tolerance_rad);
+}
+
+void move_together(Client& client, const Output& output, const MoveTogetherArguments& arguments) {
+  std::vector<std::string> joints;
+  for (const JointTarget& target : arguments.targets) joints.push_back(target.joint);
+  PublishedLimits published_limits(client, joints);
+  std::vector<StraightMove> moves;
+  for (const JointTarget& target : arguments.targets) {
+    const state_v1& state = client.wait_for_joint(target.joint).state;
+    const limits_v1& limits = published_limits.wait_for(target.joint);
+    require_in_range(target, limits);
+    moves.push_back(straight_move(target, state, limits, arguments.speed_limit_rad_s));
+  }
+  travel(client, output, straight_path(moves), arguments.wait, arguments.tolerance_rad);
+}
+
+void pause_path(Client& client, const Output& output, const std::string& joint) {
+  order_accepted(client, joint, Action::kPause);
+  say(output, joint + ": its path pauses, with all of its joints", {{"joint", joint}, {"accepted", true}});
+}
+
+void resume_path(Client& client, const Output& output, const std::string& joint) {
+  order_accepted(client, joint, Action::kResume);
+  say(output, joint + ": its path goes on, with all of its joints", {{"joint", joint}, {"accepted", true}});
+}
+
+}  // namespace strainwave

@@ -1,0 +1,131 @@
+#include "client/joint/joint.h"
+
+#include <utility>
+
+#include "client/joint/joint_link.h"
+#include "client/link/motion.h"
+#include "client/link/orders.h"
+
+namespace strainwave {
+
+namespace {
+
+MoveOrder checked(const MoveOrder& order) {
+  checked_number("position_rad", order.position_rad, "a finite number of rad");
+  checked_number("speed_limit_rad_s", order.speed_limit_rad_s, "0 (none) or above",
+                 order.speed_limit_rad_s >= 0.0);
+  checked_number("tolerance_rad", order.tolerance_rad, "a number above 0", order.tolerance_rad > 0.0);
+  return order;
+}
+
+/// Gets every state as long as it lives.
+class OpenInbox {
+ public:
+  explicit OpenInbox(JointLink& link) : link_(link) { link_.open(states_); }
+  ~OpenInbox() { link_.close(states_); }
+  OpenInbox(const OpenInbox&) = delete;
+  OpenInbox& operator=(const OpenInbox&) = delete;
+
+  /// The next one. Throws NoAnswer.
+  State take() {
+    Client& client = link_.client();
+    if (!client.wait_until([&] { return !states_.empty(); }, Deadline(client.options().timeout_s))) {
+      client.wait_for_joint(link_.name());  // says more when there never was one
+      throw NoAnswer(link_.name() + ": fell silent");
+    }
+    const State next = states_.front();
+    states_.pop_front();
+    return next;
+  }
+
+ private:
+  JointLink& link_;
+  JointLink::Inbox states_;
+};
+
+}  // namespace
+
+Joint::Joint(const std::string& name, const JointOptions& options)
+    : link_(std::make_shared<JointLink>(name, options)) {}
+Joint::~Joint() = default;
+Joint::Joint(Joint&&) noexcept = default;
+Joint& Joint::operator=(Joint&&) noexcept = default;
+
+const std::string& Joint::name() const noexcept {
+  return link_->name();
+}
+
+State Joint::state() {
+  const auto held = link_->lock();
+  const JointView& view = link_->view();
+  return {view.state, view.received};
+}
+
+Limits Joint::limits() {
+  const auto held = link_->lock();
+  return Limits(link_->limits());
+}
+
+void Joint::states(double duration_s, const std::function<void(const State&)>& visit) {
+  checked_number("duration_s", duration_s, "0 or above", duration_s >= 0.0);
+  const auto held = link_->lock();
+  OpenInbox inbox(*link_);
+  const State first = inbox.take();
+  for (State next = first; seconds_between(first.received, next.received) <= duration_s; next = inbox.take())
+    visit(next);
+}
+
+void Joint::enable() {
+  const auto held = link_->lock();
+  link_->view();
+  enable_joint(link_->client(), name());
+}
+
+void Joint::disable() {
+  const auto held = link_->lock();
+  send_stop(link_->client(), name(), Action::kDisable);
+  wait_until_off(link_->client(), name());
+}
+
+void Joint::hold() {
+  const auto held = link_->lock();
+  send_stop(link_->client(), name(), Action::kHold);
+  wait_until_holding(link_->client(), name());
+}
+
+void Joint::clear_fault() {
+  const auto held = link_->lock();
+  link_->view();
+  if (clear_joint_fault(link_->client(), name())) wait_until_cleared(link_->client(), name());
+}
+
+void Joint::home() {
+  const auto held = link_->lock();
+  home_joint(link_->client(), name());
+}
+
+void Joint::take_over() {
+  const auto held = link_->lock();
+  order_accepted(link_->client(), name(), Action::kTakeOver);
+}
+
+void Joint::release() {
+  const auto held = link_->lock();
+  order_accepted(link_->client(), name(), Action::kRelease);
+}
+
+Arrival Joint::move(const MoveOrder& order) {
+  const auto held = link_->lock();
+  return move_joint(link_->client(), name(), checked(order));
+}
+
+void Joint::start_move(const MoveOrder& order) {
+  const auto held = link_->lock();
+  strainwave::start_move(link_->client(), name(), checked(order));
+}
+
+Stream Joint::stream(const StreamOptions& options) {
+  return {link_, options};
+}
+
+}  // namespace strainwave

@@ -1,0 +1,63 @@
+// What Joint and its Streams share: one connection, what is heard of the joint on it, and a thread that listens while the program does
+// something else, so that what the system keeps of the network never grows old. Not real-time.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <strainwave/limits_v1.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "client/joint/joint.h"
+#include "client/link/client.h"
+#include "client/link/cycle_clock.h"
+#include "client/link/published_limits.h"
+
+namespace strainwave {
+
+class JointLink {
+ public:
+  /// States that wait for whoever asked for every one; the oldest are lost when nobody takes them.
+  static constexpr std::size_t kInbox = 4096;
+  using Inbox = std::deque<State>;
+
+  /// Throws InvalidInput, NoAnswer.
+  JointLink(const std::string& name, const JointOptions& options);
+
+  const std::string& name() const noexcept { return name_; }
+
+  /// To be held while anything below is used.
+  std::unique_lock<std::recursive_mutex> lock() { return std::unique_lock(mutex_); }
+
+  Client& client() noexcept { return client_; }
+  /// The latest, with what came by now; waits for the first. Throws NoAnswer when there is none that is new enough.
+  const JointView& view();
+  const limits_v1& limits();
+  /// The cycle that the daemon is in by now, see CycleClock; a state must have come.
+  double cycle_now(double period_s) const { return clock_.cycle_at(now(), period_s); }
+
+  void open(Inbox& inbox) { inboxes_.push_back(&inbox); }
+  void close(const Inbox& inbox) { std::erase(inboxes_, &inbox); }
+
+ private:
+  void on_state(const ReceivedMessage& message);
+  void listen(const std::stop_token& end);
+
+  std::string name_;
+  Connection connection_;
+  Client client_;
+  PublishedLimits limits_;
+  CycleClock clock_;
+  std::int64_t session_id_ = 0;
+  std::vector<Inbox*> inboxes_;
+  Subscription states_;
+  std::recursive_mutex mutex_;
+  std::jthread listener_;  ///< the last, so that it ends first
+};
+
+/// `value`, if it is finite and `is_allowed`. Throws InvalidInput.
+double checked_number(const std::string& name, double value, const std::string& allowed,
+                      bool is_allowed = true);
+
+}  // namespace strainwave

@@ -1,0 +1,58 @@
+#include "client/joint/path.h"
+
+#include <fmt/format.h>
+
+#include "client/joint/joint_link.h"
+#include "client/link/joint_path.h"
+#include "client/link/motion.h"
+#include "client/link/orders.h"
+
+namespace strainwave {
+
+Path::Path(const std::vector<PathPart>& parts) {
+  for (const auto& [joint, knots] : parts) {
+    links_.push_back(joint.link_);
+    parts_.push_back({joint.name(), knots});
+    const std::string& prefix = joint.link_->client().options().prefix;
+    if (const std::string& of_first = first().client().options().prefix; prefix != of_first)
+      throw InvalidInput(fmt::format("{} has prefix {}, {} has {}: the joints of a path are of one daemon",
+                                     joint.name(), prefix, parts_.front().joint, of_first));
+  }
+  check_path(parts_);
+}
+Path::~Path() = default;
+Path::Path(Path&&) noexcept = default;
+Path& Path::operator=(Path&&) noexcept = default;
+
+void Path::start() {
+  const auto held = first().lock();
+  first().view();
+  load_path(first().client(), parts_);
+  start_path(first().client(), parts_);
+}
+
+void Path::pause() {
+  const auto held = first().lock();
+  order_accepted(first().client(), first().name(), Action::kPause);
+}
+
+void Path::resume() {
+  const auto held = first().lock();
+  order_accepted(first().client(), first().name(), Action::kResume);
+}
+
+void Path::hold() {
+  const auto held = first().lock();
+  for (const JointPath& part : parts_) send_stop(first().client(), part.joint, Action::kHold);
+  for (const JointPath& part : parts_) wait_until_holding(first().client(), part.joint);
+}
+
+std::vector<Arrival> Path::wait(double tolerance_rad) {
+  checked_number("tolerance_rad", tolerance_rad, "a number above 0", tolerance_rad > 0.0);
+  const auto held = first().lock();
+  first().view();
+  for (const JointPath& part : parts_) first().client().wait_for_joint(part.joint);
+  return wait_for_path(first().client(), parts_, tolerance_rad);
+}
+
+}  // namespace strainwave

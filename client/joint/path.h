@@ -1,0 +1,57 @@
+// A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths". Not real-time.
+//
+//     strainwave::Path path({{elbow, {{0, 0, 0}, {0.5, 0.2, 0.6}, {1, 0.4, 0}}}, {wrist, {{0, 0, 0}, {1, -0.2, 0}}}});
+//     path.start();
+//     path.wait();
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "client/joint/joint.h"
+#include "client/link/joint_knot.h"
+#include "client/link/move_order.h"
+
+namespace strainwave {
+
+/// What one joint does on a path.
+struct PathPart {
+  const Joint& joint;
+  /// 2 to 320: time_s from 0 on, position_rad, velocity_rad_s, 0 in the first and the last. Between them it goes along cubics.
+  std::vector<JointKnot> knots;
+};
+
+struct JointPath;
+
+/// Orders go out with the options of its first joint. Goes on when this object or the program ends. Throws ClientError.
+class Path {
+ public:
+  /// Nothing moves before start(). Throws InvalidInput: no joint, one twice, joints of two daemons, numbers that are none.
+  explicit Path(const std::vector<PathPart>& parts);
+  ~Path();
+  Path(Path&&) noexcept;
+  Path& operator=(Path&&) noexcept;
+  Path(const Path&) = delete;
+  Path& operator=(const Path&) = delete;
+
+  /// All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Throws Refused, which names knot and limit when
+  /// the path asks for more than a joint can do.
+  void start();
+  /// Stops on the path, with all joints, as quickly as their accelerations allow.
+  void pause();
+  /// Goes on after a pause.
+  void resume();
+  /// Ends the path, with all joints, and returns once they hold. Needs no key.
+  void hold();
+  /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Throws
+  /// Faulted, NotDone, NoAnswer.
+  std::vector<Arrival> wait(double tolerance_rad = 1e-3);
+
+ private:
+  JointLink& first() { return *links_.front(); }
+
+  std::vector<std::shared_ptr<JointLink>> links_;
+  std::vector<JointPath> parts_;
+};
+
+}  // namespace strainwave

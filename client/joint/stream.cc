@@ -1,0 +1,193 @@
+#include "client/joint/stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "client/joint/joint_link.h"
+#include "client/link/motion.h"
+#include "client/link/orders.h"
+
+namespace strainwave {
+
+namespace {
+
+// The daemon takes a second; the way there takes some of it.
+constexpr double kFarthestAhead_s = 0.9;
+constexpr double kLongestValid_s = 3600.0;
+
+StreamOptions checked(const StreamOptions& options) {
+  checked_number("ahead_s", options.ahead_s, "above 0 to 0.9",
+                 options.ahead_s > 0.0 && options.ahead_s <= kFarthestAhead_s);
+  checked_number("valid_for_s", options.valid_for_s, "above 0 to 3600",
+                 options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValid_s);
+  checked_number("speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
+                 options.speed_limit_rad_s >= 0.0);
+  StreamOptions kept = options;
+  kept.beside = nullptr;  // it may end before this one
+  return kept;
+}
+
+double period_of(JointLink& link) {
+  const auto held = link.lock();
+  return link.limits().period_s;
+}
+
+std::int64_t new_stream(JointLink& link) {
+  const auto held = link.lock();
+  return link.client().new_stream();
+}
+
+}  // namespace
+
+/// Which cycle of the daemon the time t of a stream is; joints that move together share one.
+struct Stream::TimeBase {
+  std::optional<double> origin_t_s;
+  std::int64_t origin_cycle = 0;
+
+  std::int64_t cycle_of(double t_s, double period_s) const {
+    return origin_cycle + std::llround((t_s - *origin_t_s) / period_s);
+  }
+};
+
+Stream::Stream(std::shared_ptr<JointLink> link, const StreamOptions& options)
+    : link_(std::move(link)),
+      base_(options.beside != nullptr ? options.beside->base_ : std::make_shared<TimeBase>()),
+      options_(checked(options)),
+      period_s_(period_of(*link_)),
+      stream_id_(new_stream(*link_)),
+      exceptions_(std::uncaught_exceptions()) {}
+
+Stream::Stream(Stream&& other) noexcept = default;
+
+Stream::~Stream() {
+  if (link_ && last_cycle_) end();
+}
+
+// After an exception the joint shall not go on to the last sample.
+void Stream::end() noexcept {
+  try {
+    if (std::uncaught_exceptions() == exceptions_) return close();
+    const auto held = link_->lock();
+    send_stop(link_->client(), link_->name(), Action::kHold);
+  } catch (const std::exception&) {
+    // The stream expires by itself.
+  }
+}
+
+bool Stream::put(double t_s, double position_rad, std::optional<double> velocity_rad_s,
+                 std::optional<double> acceleration_rad_s2) {
+  checked_number("t_s", t_s, "a finite time in s, above the last one", !last_t_s_ || t_s > *last_t_s_);
+  const auto held = link_->lock();
+  setpoint_v2 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2);
+  last_t_s_ = t_s;
+  if (!last_cycle_) {
+    begin(t_s, message);
+    return true;
+  }
+  message.at_cycle = base_->cycle_of(t_s, period_s_);
+  if (message.at_cycle <= *last_cycle_)
+    throw InvalidInput(fmt::format(
+        "t_s = {}: at least a period of the daemon, {} s, after the last one is allowed", t_s, period_s_));
+  wait_until_due(message.at_cycle);
+  check_refusals();
+  if (static_cast<double>(message.at_cycle) <= link_->cycle_now(period_s_)) {
+    leave_out(message.at_cycle);
+    return false;
+  }
+  link_->client().send(link_->name(), channel_kind::kSetpoint, message);
+  last_cycle_ = message.at_cycle;
+  return true;
+}
+
+void Stream::close() {
+  if (!last_cycle_) return;
+  const auto held = link_->lock();
+  Client& client = link_->client();
+  check_refusals();
+  const JointView& view = link_->view();
+  if (!client.wait_until([&] { return view.state.cycle >= *last_cycle_; },
+                         Deadline(options_.ahead_s + client.options().timeout_s)))
+    throw NoAnswer(link_->name() + ": fell silent before the stream's end");
+  check_refusals();
+  last_cycle_.reset();
+  send_stop(client, link_->name(), Action::kHold);
+  wait_until_holding(client, link_->name());
+}
+
+setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_rad_s,
+                           std::optional<double> acceleration_rad_s2) const {
+  const limits_v1& limits = link_->limits();
+  setpoint_v2 message{};
+  message.position_rad = checked_number(
+      "position_rad", position_rad, fmt::format("{} to {}", limits.position_min_rad, limits.position_max_rad),
+      position_rad >= limits.position_min_rad && position_rad <= limits.position_max_rad);
+  if (acceleration_rad_s2 && !velocity_rad_s)
+    throw InvalidInput(
+        fmt::format("acceleration_rad_s2 = {}: only with velocity_rad_s", *acceleration_rad_s2));
+  if (velocity_rad_s) {
+    message.velocity_rad_s = checked_number("velocity_rad_s", *velocity_rad_s, "a finite number");
+    message.derivatives = 1;
+  }
+  if (acceleration_rad_s2) {
+    message.acceleration_rad_s2 =
+        checked_number("acceleration_rad_s2", *acceleration_rad_s2, "a finite number");
+    message.derivatives = 2;
+  }
+  message.stream_id = stream_id_;
+  message.valid_for_s = options_.valid_for_s;
+  message.speed_limit_rad_s = options_.speed_limit_rad_s;
+  return message;
+}
+
+void Stream::begin(double t_s, setpoint_v2 message) {
+  message.begins_stream = 1;
+  message.acknowledge = 1;
+  const bool sets_the_base = !base_->origin_t_s;
+  const auto prepare = [&](setpoint_v2& next) {
+    if (sets_the_base) {
+      base_->origin_t_s = t_s;
+      base_->origin_cycle =
+          static_cast<std::int64_t>(std::ceil(link_->cycle_now(period_s_) + options_.ahead_s / period_s_));
+    }
+    next.at_cycle = base_->cycle_of(t_s, period_s_);
+  };
+  Client& client = link_->client();
+  client.forget_sent();
+  const Answer answer = client.request(link_->name(), channel_kind::kSetpoint, message, prepare);
+  require_accepted(answer, link_->name(), fmt::format("to begin a stream at {} rad", message.position_rad));
+  last_cycle_ = message.at_cycle;
+}
+
+// A refusal needs no waiting for the time that it is too late for.
+void Stream::wait_until_due(std::int64_t cycle) {
+  Client& client = link_->client();
+  client.catch_up();
+  const double wait_s =
+      (static_cast<double>(cycle) - link_->cycle_now(period_s_)) * period_s_ - options_.ahead_s;
+  client.wait_until([&] { return client.has_refusals(); }, Deadline(std::max(0.0, wait_s)));
+}
+
+void Stream::check_refusals() {
+  while (const auto refusal = link_->client().take_refusal()) {
+    if (refusal->reason != Reason::kTooOld && !refusal->overtaken) {
+      if (refusal->reason == Reason::kStreamEnded) last_cycle_.reset();  // whoever ended it has the joint
+      require_accepted(*refusal, link_->name(), "a setpoint of the stream");
+    }
+    ++late_;
+  }
+}
+
+void Stream::leave_out(std::int64_t cycle) {
+  ++late_;
+  if (static_cast<double>(cycle - *last_cycle_) * period_s_ > options_.valid_for_s)
+    throw NotDone(fmt::format(
+        "{}: no sample came in time for valid_for_s = {} s: the stream is over; compute faster, or "
+        "farther ahead with ahead_s",
+        link_->name(), options_.valid_for_s));
+}
+
+}  // namespace strainwave

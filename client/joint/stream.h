@@ -1,0 +1,70 @@
+// A stream of setpoints: where a joint shall be at which time. docs/messages.md, "Streams". Not real-time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <strainwave/setpoint_v2.hpp>
+
+namespace strainwave {
+
+class JointLink;
+class Stream;
+
+struct StreamOptions {
+  /// How long before its time a sample is sent: what the network and this program may be late by. Above 0 to 0.9.
+  double ahead_s = 0.1;
+  /// The stream ends when no sample comes for so long; the joint comes to rest before that. Above 0 to 3600.
+  double valid_for_s = 2.0;
+  double speed_limit_rad_s = 0.0;  ///< 0: as fast as the joint may
+  /// The stream of another joint of this daemon: the same time is the same cycle then.
+  const Stream* beside = nullptr;
+};
+
+/// Made by Joint::stream(). Its destructor closes it; after an exception the joint is told to hold at once.
+class Stream {
+ public:
+  ~Stream();
+  Stream(Stream&&) noexcept;
+  Stream& operator=(Stream&&) = delete;
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+
+  /// The joint shall be at `position_rad` at time `t_s` (rising; the first is `ahead_s` from now), with the velocity and
+  /// acceleration then if they are known. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
+  /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, NotDone, NoAnswer, InvalidInput.
+  bool put(double t_s, double position_rad, std::optional<double> velocity_rad_s = {},
+           std::optional<double> acceleration_rad_s2 = {});
+
+  /// Waits for the last sample's time, ends the stream and waits until the joint holds. The destructor does the same, but cannot
+  /// tell of what went wrong.
+  void close();
+
+  /// Samples that came after their time and were left out.
+  long late() const noexcept { return late_; }
+
+ private:
+  friend class Joint;
+  struct TimeBase;
+  Stream(std::shared_ptr<JointLink> link, const StreamOptions& options);
+
+  setpoint_v2 sample(double position_rad, std::optional<double> velocity_rad_s,
+                     std::optional<double> acceleration_rad_s2) const;
+  void begin(double t_s, setpoint_v2 message);
+  void wait_until_due(std::int64_t cycle);
+  void check_refusals();
+  void leave_out(std::int64_t cycle);
+  void end() noexcept;
+
+  std::shared_ptr<JointLink> link_;
+  std::shared_ptr<TimeBase> base_;
+  StreamOptions options_;
+  double period_s_;
+  std::int64_t stream_id_;
+  std::optional<double> last_t_s_;
+  std::optional<std::int64_t> last_cycle_;  ///< of the last sample that was sent; nothing: not begun, or over
+  long late_ = 0;
+  int exceptions_;  ///< under way when it was made
+};
+
+}  // namespace strainwave

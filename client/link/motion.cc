@@ -1,0 +1,190 @@
+#include "client/link/motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <strainwave/setpoint_v2.hpp>
+#include <utility>
+#include <vector>
+
+#include "client/link/client_error.h"
+#include "client/link/orders.h"
+
+namespace strainwave {
+
+namespace {
+
+/// A motion that is waited for.
+struct Motion {
+  Mode mode;            ///< while it lasts
+  std::string purpose;  ///< in words, after "did not"
+  std::function<bool(const JointView&)> replaced =
+      nullptr;  ///< by another order of this kind; null: cannot be
+};
+
+/// What ends the wait before the joint is there, in words; empty while it is on its way.
+std::string motion_ended(const JointView& view, const Motion& motion, std::int64_t session_id) {
+  if (view.state.session_id != session_id) return "the daemon was restarted";
+  const Mode mode = mode_of(view);
+  if (mode == Mode::kOff || mode == Mode::kStopping) return "the joint was disabled";
+  if (motion.replaced && motion.replaced(view)) return "another order replaced this one";
+  return "";
+}
+
+/// A joint's motion, looked at again and again once its order is in force.
+class MotionWatch {
+ public:
+  /// `done`: whether it came to its end.
+  MotionWatch(Client& client, const std::string& joint, Motion motion,
+              std::function<bool(const JointView&)> done)
+      : joint_(joint),
+        view_(client.find(joint)),
+        motion_(std::move(motion)),
+        done_(std::move(done)),
+        session_id_(view_->state.session_id) {}
+
+  const JointView& view() const noexcept { return *view_; }
+
+  /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise.
+  bool look(double silence_s) {
+    if (seconds_between(view_->received, now()) > silence_s)
+      throw NoAnswer(joint_ + ": the daemon fell silent during the motion; the joint's state is not known");
+    const Mode mode = mode_of(*view_);
+    if (mode == Mode::kFaulted) throw faulted(joint_, *view_);
+    seen_ = seen_ || mode == motion_.mode;
+    if (!seen_ && !old_states_.passed()) return false;
+    if (const std::string end = motion_ended(*view_, motion_, session_id_); !end.empty())
+      throw NotDone(fmt::format("{}: did not {}: {}", joint_, motion_.purpose, end));
+    return done_(*view_);
+  }
+
+ private:
+  std::string joint_;
+  const JointView* view_;
+  Motion motion_;
+  std::function<bool(const JointView&)> done_;
+  std::int64_t session_id_;
+  Deadline old_states_{kOldStates_s};
+  bool seen_ = false;
+};
+
+/// Returns once all of them are done.
+void wait_for_motions(Client& client, std::vector<MotionWatch> motions) {
+  constexpr double kLook_s = 0.01;
+  while (!motions.empty()) {
+    const JointView& view = motions.front().view();
+    const std::int64_t seen = view.messages;
+    client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
+    std::erase_if(motions, [&](MotionWatch& motion) { return motion.look(client.options().timeout_s); });
+  }
+}
+
+/// Inside a tolerance of a target, and staying there.
+class ArrivalWatch {
+ public:
+  ArrivalWatch(double target_rad, double tolerance_rad, double patience_s)
+      : target_rad_(target_rad), tolerance_rad_(tolerance_rad), patience_s_(patience_s), start_(now()) {}
+
+  /// True once the joint has been inside for long enough. Throws ClientError (refused) when it holds outside.
+  bool reached(const std::string& joint, const JointView& view) {
+    constexpr double kStay_s = 0.1;
+    if (!(std::abs(error_rad(view)) <= tolerance_rad_))
+      inside_.reset();
+    else if (!inside_)
+      inside_ = view.received;
+    if (mode_of(view) != Mode::kHolding) {
+      holding_.reset();
+      return false;
+    }
+    if (!holding_) holding_ = now();
+    if (inside_ && seconds_between(*inside_, now()) >= kStay_s) return true;
+    if (seconds_between(*holding_, now()) > patience_s_)
+      throw NotDone(fmt::format("{}: holds {:.2e} rad away from {} rad, outside of tolerance_rad {}", joint,
+                                error_rad(view), target_rad_, tolerance_rad_));
+    return false;
+  }
+  /// From the order to when it was inside for good.
+  double duration_s() const { return std::max(0.0, seconds_between(start_, *inside_)); }
+  double error_rad(const JointView& view) const { return target_rad_ - view.state.joint_position_rad; }
+
+ private:
+  double target_rad_;
+  double tolerance_rad_;
+  double patience_s_;
+  Instant start_;
+  std::optional<Instant> inside_;
+  std::optional<Instant> holding_;
+};
+
+bool holds(const JointView& view) {
+  return mode_of(view) == Mode::kHolding;
+}
+
+}  // namespace
+
+std::string degrees_hint(double position_rad) {
+  if (std::abs(position_rad) <= 2.0 * std::numbers::pi) return "";
+  return fmt::format("positions are in rad: {} degrees would be {:.6g}", position_rad,
+                     position_rad * std::numbers::pi / 180.0);
+}
+
+void start_move(Client& client, const std::string& joint, const MoveOrder& order) {
+  setpoint_v2 message{};
+  message.position_rad = order.position_rad;
+  message.speed_limit_rad_s = order.speed_limit_rad_s;
+  message.acknowledge = 1;
+  const Answer answer = client.request(joint, channel_kind::kSetpoint, message);
+  require_accepted(answer, joint, fmt::format("move to {} rad", order.position_rad),
+                   answer.reason == Reason::kOutOfRange ? degrees_hint(order.position_rad) : "");
+}
+
+Arrival move_joint(Client& client, const std::string& joint, const MoveOrder& order) {
+  start_move(client, joint, order);
+  return wait_until_arrived(client, {{joint, order.position_rad}}, order.tolerance_rad).front();
+}
+
+std::vector<Arrival> wait_until_arrived(Client& client, const std::vector<JointTarget>& targets,
+                                        double tolerance_rad) {
+  std::vector<ArrivalWatch> arrivals;
+  arrivals.reserve(targets.size());
+  for (const JointTarget& target : targets)
+    arrivals.emplace_back(target.position_rad, tolerance_rad, client.options().timeout_s);
+  std::vector<MotionWatch> motions;
+  motions.reserve(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const JointTarget& target = targets[i];
+    const auto replaced = [target](const JointView& view) {
+      return view.state.target_position_rad != target.position_rad;
+    };
+    const auto done = [target, &arrival = arrivals[i]](const JointView& view) {
+      return arrival.reached(target.joint, view);
+    };
+    motions.emplace_back(
+        client, target.joint,
+        Motion{Mode::kTracking, fmt::format("arrive at {} rad", target.position_rad), replaced}, done);
+  }
+  wait_for_motions(client, std::move(motions));
+  std::vector<Arrival> arrived;
+  arrived.reserve(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    arrived.push_back({arrivals[i].duration_s(), arrivals[i].error_rad(*client.find(targets[i].joint))});
+  return arrived;
+}
+
+void home_joint(Client& client, const std::string& joint) {
+  order_accepted(client, joint, Action::kHome);
+  wait_for_motions(client, {{client, joint, {Mode::kHoming, "find home"}, holds}});
+  if ((client.find(joint)->state.notices & static_cast<std::int32_t>(Notice::kNotHomed)) != 0)
+    throw NotDone(joint + ": homing was stopped before it found home");
+}
+
+void wait_until_holding(Client& client, const std::string& joint) {
+  client.wait_for_joint(joint);
+  wait_for_motions(client, {{client, joint, {Mode::kTracking, "hold"}, holds}});
+}
+
+}  // namespace strainwave

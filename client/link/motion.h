@@ -1,0 +1,40 @@
+// Motions that are waited for: to a position, to the home position, to a stop. Throw ClientError: Refused, NoAnswer, Faulted, NotDone.
+// Not real-time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/link/client.h"
+#include "client/link/move_order.h"
+
+namespace strainwave {
+
+/// Where one of several joints goes, joint side.
+struct JointTarget {
+  std::string joint;
+  double position_rad = 0.0;
+};
+
+/// What to say of a position that was refused and may be meant in degrees; empty when it cannot be.
+std::string degrees_hint(double position_rad);
+
+/// Orders the move; the joint is on its way.
+void start_move(Client& client, const std::string& joint, const MoveOrder& order);
+
+/// Returns once the joint is inside the tolerance and has stayed there for a tenth of a second. An exception does
+/// not end the motion.
+Arrival move_joint(Client& client, const std::string& joint, const MoveOrder& order);
+
+/// Of joints that are on their way: returns once each is inside the tolerance of its target and has stayed there. In the order of `targets`,
+/// timed from the call.
+std::vector<Arrival> wait_until_arrived(Client& client, const std::vector<JointTarget>& targets,
+                                        double tolerance_rad);
+
+/// Finds the home position; returns once the joint holds there.
+void home_joint(Client& client, const std::string& joint);
+
+/// After a hold was accepted: returns once the joint holds.
+void wait_until_holding(Client& client, const std::string& joint);
+
+}  // namespace strainwave

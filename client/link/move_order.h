@@ -1,0 +1,19 @@
+// A move, and how it ended. Not real-time.
+#pragma once
+
+namespace strainwave {
+
+/// Where to, joint side.
+struct MoveOrder {
+  double position_rad = 0.0;
+  double speed_limit_rad_s =
+      0.0;  ///< no faster than this; 0: calmly, joint.limits.move_speed_share of its limit
+  double tolerance_rad = 1e-3;  ///< what the wait takes for there
+};
+
+struct Arrival {
+  double duration_s = 0.0;  ///< from the order to when the joint was inside the tolerance for good
+  double error_rad = 0.0;   ///< target minus position, at the end
+};
+
+}  // namespace strainwave

@@ -1,0 +1,100 @@
+#include "client/link/orders.h"
+
+#include <fmt/format.h>
+
+#include "lcmtypes/reading_doubt.h"
+
+namespace strainwave {
+
+namespace {
+
+bool is_enabled(Mode mode) {
+  return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
+}
+
+command_v1 command_message(Action action) {
+  command_v1 message{};
+  message.action = static_cast<std::int32_t>(action);
+  return message;
+}
+
+/// Waits for what an accepted order leads to.
+template <typename Decided>
+void wait_for_mode(Client& client, const std::string& joint, const Decided& decided) {
+  if (client.wait_until(decided, Deadline(client.options().timeout_s))) return;
+  throw NoAnswer(fmt::format("{}: accepted, but still {} after {} s", joint,
+                             to_text(mode_of(*client.find(joint))), client.options().timeout_s));
+}
+
+}  // namespace
+
+Mode mode_of(const JointView& view) {
+  return static_cast<Mode>(view.state.mode);
+}
+
+Faulted faulted(const std::string& joint, const JointView& view) {
+  const auto fault = static_cast<Fault>(view.state.fault);
+  return {fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
+                      view.state.fault, fault_words(fault, view.state.drive_error), joint),
+          fault};
+}
+
+void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
+                      const std::string& hint) {
+  if (answer.accepted) return;
+  std::string message = fmt::format("{}: {} refused ({}, {})", joint, what, static_cast<int>(answer.reason),
+                                    to_text(answer.reason));
+  if (!answer.text.empty()) message += ": " + answer.text;
+  if (!hint.empty()) message += "; " + hint;
+  throw Refused(message, answer.reason);
+}
+
+void order_accepted(Client& client, const std::string& joint, Action action) {
+  const Answer answer = client.request(joint, channel_kind::kCommand, command_message(action));
+  require_accepted(answer, joint, std::string(to_text(action)));
+}
+
+bool enable_joint(Client& client, const std::string& joint) {
+  const bool already = is_enabled(mode_of(client.wait_for_joint(joint)));
+  if (!already) order_accepted(client, joint, Action::kEnable);
+  const JointView& view = *client.find(joint);
+  const Deadline old_states(kOldStates_s);
+  wait_for_mode(client, joint, [&] {
+    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
+    if (mode_of(view) == Mode::kOff && old_states.passed())
+      throw NotDone(joint + ": went back to off while it was starting; see the daemon's log");
+    return is_enabled(mode_of(view));
+  });
+  return !already;
+}
+
+bool clear_joint_fault(Client& client, const std::string& joint) {
+  if (mode_of(client.wait_for_joint(joint)) != Mode::kFaulted) return false;
+  order_accepted(client, joint, Action::kClearFault);
+  return true;
+}
+
+void wait_until_cleared(Client& client, const std::string& joint) {
+  const JointView& view = client.wait_for_joint(joint);
+  wait_for_mode(client, joint, [&] { return mode_of(view) != Mode::kFaulted; });
+}
+
+void send_stop(Client& client, const std::string& joint, Action stop) {
+  try {
+    const Answer answer = client.request_unseen(joint, channel_kind::kCommand, command_message(stop));
+    require_accepted(answer, joint, std::string(to_text(stop)));
+  } catch (const NoAnswer& error) {
+    throw NoAnswer(fmt::format("{}: the stop was sent {} times, and nothing answered: {}", joint,
+                               1 + PendingOrder::kRepetitions, error.what()));
+  }
+}
+
+void wait_until_off(Client& client, const std::string& joint) {
+  const JointView& view = client.wait_for_joint(joint);
+  wait_for_mode(client, joint, [&] {
+    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
+    return mode_of(view) == Mode::kOff;
+  });
+}
+
+}  // namespace strainwave

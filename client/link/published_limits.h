@@ -1,0 +1,27 @@
+// The limits that daemons publish of their joints, for who has to know them before he orders. Not real-time.
+#pragma once
+
+#include <strainwave/limits_v1.hpp>
+#include <string>
+#include <vector>
+
+#include "client/link/client.h"
+#include "client/link/latest_messages.h"
+
+namespace strainwave {
+
+class PublishedLimits {
+ public:
+  /// Starts to listen for `joints`, under the client's prefix. `client` outlives this.
+  PublishedLimits(Client& client, const std::vector<std::string>& joints);
+
+  /// The limits of `joint`, one of those that are listened for, from the daemon whose states are heard: waits until both have come.
+  /// Lasts as long as this; later limits take its place. Throws NoAnswer.
+  const limits_v1& wait_for(const std::string& joint);
+
+ private:
+  Client& client_;
+  LatestMessages<Latest<limits_v1>> heard_;
+};
+
+}  // namespace strainwave

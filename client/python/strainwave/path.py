@@ -1,0 +1,74 @@
+"""A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths"."""
+from .errors import InvalidInput
+from .messages import blank
+from .motion import ArrivalWatch, wait_for_motion
+from .path_v1 import path_v1
+from .stream import check_number
+from .vocabulary import Action, Mode
+
+MOST_KNOTS = 320
+
+
+class Path:
+    """knots: {joint: [(time_s, position_rad, velocity_rad_s), ...]} with 2 to 320 knots for each Joint; the first at time 0, the first and the
+    last with velocity 0. Between them it goes along cubics. Nothing moves before start().
+    """
+
+    def __init__(self, knots):
+        if not knots:
+            raise InvalidInput("a path has at least one joint")
+        self._knots = {joint: self._checked(joint.name, of_joint) for joint, of_joint in knots.items()}
+        self._joints = list(self._knots)
+
+    def start(self):
+        """All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Raises Refused, which names knot and limit
+        when the path asks for more than a joint can do, NoAnswer, InvalidInput.
+        """
+        path_id = self._joints[0]._conversation.sender.next_sequence()
+        for joint, knots in self._knots.items():
+            message = blank(path_v1)
+            message.path_id, message.joint_count, message.knot_count = path_id, len(self._knots), len(knots)
+            padding = [0.0] * (MOST_KNOTS - len(knots))
+            message.time_s = [knot[0] for knot in knots] + padding
+            message.position_rad = [knot[1] for knot in knots] + padding
+            message.velocity_rad_s = [knot[2] for knot in knots] + padding
+            joint._conversation.request("PATH", message, "its part of the path")
+        self.resume()
+
+    def pause(self):
+        """Stops on the path, with all joints, as quickly as their accelerations allow."""
+        self._joints[0]._order(Action.PAUSE)
+
+    def resume(self):
+        """Goes on after a pause."""
+        self._joints[0]._order(Action.RESUME)
+
+    def hold(self):
+        """Ends the path, with all joints, and returns once they hold. Needs no key."""
+        for joint in self._joints:
+            joint.hold()
+
+    def wait(self, tolerance_rad=1e-3):
+        """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Raises
+        Faulted, NotDone, NoAnswer.
+        """
+        tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
+        return {joint: self._wait_for(joint, knots[-1][1], tolerance_rad) for joint, knots in self._knots.items()}
+
+    @staticmethod
+    def _wait_for(joint, end_rad, tolerance_rad):
+        watch = ArrivalWatch(joint.name, end_rad, tolerance_rad, joint._timeout_s)
+        wait_for_motion(joint._conversation, Mode.TRACKING, f"arrive at {end_rad:g} rad", watch.reached,
+                        lambda state: state.target_position_rad != end_rad)
+        return watch.arrival
+
+    @staticmethod
+    def _checked(name, knots):
+        knots = list(knots)
+        if not 2 <= len(knots) <= MOST_KNOTS:
+            raise InvalidInput(f"{name}: {len(knots)} knots: 2 to {MOST_KNOTS} are allowed")
+        for index, knot in enumerate(knots):
+            if len(knot) != 3:
+                raise InvalidInput(f"{name}: knot {index} = {knot!r}: (time_s, position_rad, velocity_rad_s) is allowed")
+        return [tuple(check_number(f"{name}: knot {index}", number, "a finite number", lambda _: True) for number in knot)
+                for index, knot in enumerate(knots)]

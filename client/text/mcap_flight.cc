@@ -1,0 +1,121 @@
+#include "client/text/mcap_flight.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/csv.h"
+#include "base/input_error.h"
+#include "client/text/flight_record.h"
+#include "client/text/mcap_writer.h"
+#include "lcmtypes/cycle_fields.h"
+#include "lcmtypes/message_json.h"
+#include "lcmtypes/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr const char* kSchemaName = "strainwave.flight_record_1";
+
+std::string head_of(const FlightRecordInfo& info, const std::string& key, const std::string& source) {
+  const auto found = info.head.find(key);
+  if (found == info.head.end()) throw InputError(source + " does not say its " + key + ": it is incomplete");
+  return found->second;
+}
+
+std::int64_t fault_ns(const FlightRecordInfo& info, const std::string& source) {
+  const std::string text = head_of(info, "fault_utc", source);
+  int year = 0;
+  unsigned month = 0;
+  unsigned day = 0;
+  int hour = 0;
+  int minute = 0;
+  int second = 0;
+  std::istringstream stream(text);
+  std::array<char, 6> marks{};
+  // "2026-11-21T03:04:05Z"; the marks keep their signs from the numbers.
+  stream >> year >> marks[0] >> month >> marks[1] >> day >> marks[2] >> hour >> marks[3] >> minute >>
+      marks[4] >> second >> marks[5];
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
+                                         std::chrono::day(day)};
+  if (!stream || std::string_view(marks.data(), marks.size()) != "--T::Z" || !date.ok())
+    throw InputError(source, "fault_utc", text, "a time as 2026-11-21T03:04:05Z is allowed");
+  const auto at = std::chrono::sys_days(date) + std::chrono::hours(hour) + std::chrono::minutes(minute) +
+                  std::chrono::seconds(second);
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(at.time_since_epoch()).count();
+}
+
+std::string schema_of(const CsvText& csv) {
+  json::Schema schema(kSchemaName);
+  for (const std::string& column : csv.columns) {
+    if (json::names_somebody(column))
+      schema.text(column);
+    else
+      schema.number(column);
+  }
+  schema.text("mode_text");
+  schema.text("fault_text");
+  schema.number("tracking_error_rad");
+  return std::move(schema).end();
+}
+
+/// "nan" is a number here.
+double number_of(const CsvText& csv, std::size_t row, std::size_t column) {
+  const std::string& text = csv.rows[row][column];
+  if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
+  return parse_number(text, csv.place(row), csv.columns[column]);
+}
+
+std::string message_of(const CsvText& csv, std::size_t row, double period_s) {
+  json::Object object;
+  for (std::size_t c = 0; c < csv.columns.size(); ++c) {
+    if (json::names_somebody(csv.columns[c]))
+      object.add(csv.columns[c], std::string_view(csv.rows[row][c]));
+    else
+      object.add(csv.columns[c], number_of(csv, row, c));
+  }
+  const auto value = [&](const char* name) { return number_of(csv, row, csv.column(name)); };
+  object.add("mode_text", std::string_view(to_text(static_cast<Mode>(std::lround(value("mode"))))));
+  object.add("fault_text", std::string_view(to_text(static_cast<Fault>(std::lround(value("fault"))))));
+  const struct {
+    double setpoint_position_rad, setpoint_velocity_rad_s, joint_position_rad;
+  } cycle{value("setpoint_position_rad"), value("setpoint_velocity_rad_s"), value("joint_position_rad")};
+  object.add("tracking_error_rad", tracking_error_rad(cycle, period_s));
+  return std::move(object).end();
+}
+
+}  // namespace
+
+bool is_flight_record(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  return std::getline(stream, line) && line.starts_with("# strainwave-flight-record ");
+}
+
+FlightMcap write_flight_mcap(const std::filesystem::path& file, const std::filesystem::path& mcap) {
+  const FlightRecordInfo info = read_flight_record(file);
+  const std::int64_t at_ns = fault_ns(info, file.string());
+  const CsvText csv = read_csv_text(file);
+  const std::size_t time = csv.column("time_s");
+  FlightMcap written{head_of(info, "joint", file.string()) + ".FLIGHT", csv.rows.size()};
+  McapWriter writer(mcap, "strainwave " STRAINWAVE_VERSION);
+  const std::uint16_t channel = writer.add_channel(written.topic, kSchemaName, schema_of(csv));
+  for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+    const double time_s = number_of(csv, row, time);
+    if (!(std::abs(time_s) < 1e6))
+      throw InputError(csv.place(row), "time_s", csv.rows[row][time], "seconds from the fault are allowed");
+    const auto ns = static_cast<std::uint64_t>(at_ns + std::llround(1e9 * time_s));
+    writer.write(channel, ns, ns, message_of(csv, row, info.period_s));
+  }
+  writer.finish();
+  return written;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,66 @@
+// What JointController takes for the load that pushes the joint, and how it yields to one.
+#include <algorithm>
+#include <cmath>
+
+#include "control/joint_controller.h"
+
+namespace strainwave {
+
+namespace {
+
+// Without an observer the load is what the feedback has asked for in the mean over about this time: longer than a count's torque lasts.
+constexpr double kWeigh_s = 0.01;
+// So long the joint stands, or what pushed it has let go, before it is brought to rest.
+constexpr double kLetGo_s = 0.02;
+// A joint that stays within so many counts of a place stands there.
+constexpr double kStillCounts = 3.0;
+
+}  // namespace
+
+// At rest the held torque has it all in it.
+void JointController::weigh(const ControllerOutput& output, int elapsed_periods) noexcept {
+  const JointDisturbance& known = state_.now().disturbance;
+  if (observing()) {
+    shown_load_Nm_ = known.load_Nm;
+    return;
+  }
+  // Without an observer nobody sees what still pushes a joint that yields.
+  if (yields()) {
+    shown_load_Nm_ = yield_load_Nm_;
+    return;
+  }
+  const double besides_Nm = phase_ == MotionPhase::kTracking ? output.torque_Nm - output.feedforward_torque_Nm
+                                                             : hold_torque_Nm_ - estimated_load_Nm();
+  const double share = 1.0 - std::exp(-elapsed_periods * config_.period_s / kWeigh_s);
+  shown_load_Nm_ += share * (known.load_Nm + besides_Nm - shown_load_Nm_);
+}
+
+void JointController::yield(double load_Nm, double let_go_Nm) noexcept {
+  streamed_ = false;
+  yield_load_Nm_ = load_Nm;
+  let_go_Nm_ = let_go_Nm;
+  yielding_periods_ = 0;
+  stands_at_rad_ = state_.now().position_rad;
+  replan_ = false;
+  outgoing_.reset();
+  enter(MotionPhase::kYielding);
+}
+
+// The reference is where the joint is.
+void JointController::go_on_yielding(int elapsed_periods) noexcept {
+  const double position_rad = state_.now().position_rad;
+  const double velocity_rad_s = state_.now().velocity_rad_s;
+  const double still_rad = kStillCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  const bool moves = std::abs(position_rad - stands_at_rad_) > still_rad;
+  if (moves) stands_at_rad_ = position_rad;
+  const bool let_go = observing() && std::abs(shown_load_Nm_ - yield_load_Nm_) <= let_go_Nm_;
+  yielding_periods_ = let_go || !moves ? yielding_periods_ + elapsed_periods : 0;
+  if (yielding_periods_ * config_.period_s < kLetGo_s) {
+    reference_ = {position_rad, 0.0, 0.0};
+    ordered_reference_ = reference_;
+    return;
+  }
+  start(position_rad, velocity_rad_s, yield_load_Nm_ + config_.gravity.at(position_rad));
+}
+
+}  // namespace strainwave

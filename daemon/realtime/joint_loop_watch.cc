@@ -1,0 +1,65 @@
+// What JointLoop makes of its motion each period: limits that it is at, and faults. Real-time safe.
+#include <cmath>
+
+#include "daemon/realtime/joint_loop.h"
+
+namespace strainwave {
+
+namespace {
+
+/// A speed this close to its limit is at it.
+constexpr double kAtLimit = 1.0 - 1e-9;
+
+}  // namespace
+
+void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
+  if (motion_.output.saturated) notice(Notice::kTorqueLimited);
+  if (motion_.monitor != MonitorState::kWatching) notice(Notice::kPlainLaw);
+  if (motion_.off_stream) notice(Notice::kOffStream);
+  const FuzzyFriction& friction = table_->table.friction;
+  if (motion_.gains_in_use == GainsInUse::kFallback)
+    notice(Notice::kFallbackGains);
+  else if (measurement.temperature_C < friction.temperature_min_C ||
+           measurement.temperature_C > friction.temperature_max_C)
+    notice(Notice::kTemperatureClamped);
+  const double speed_limit_rad_s = config_.controller.motion.velocity_rad_s;
+  if (std::abs(motion_.reference.velocity_rad_s) >= kAtLimit * speed_limit_rad_s)
+    notice(Notice::kSpeedLimited);
+}
+
+void JointLoop::check_motion(const CycleTime& time) noexcept {
+  if (!mode_.controlled()) return;
+  const JointLimits& limits = config_.limits;
+  const double position_rad = reading().joint_position_rad;
+  const double joint_rad = zero_.to_joint_rad(position_rad);
+  if (zero_.known() && (joint_rad < limits.position_min_rad - limits.position_margin_rad ||
+                        joint_rad > limits.position_max_rad + limits.position_margin_rad))
+    return raise_fault(Fault::kPositionLimit, time);
+  if (!mode_.is(Mode::kHoming) && into_limit_switch(motion_.reference.velocity_rad_s))
+    return raise_fault(Fault::kLimitSwitch, time);
+  if (motion_.monitor == MonitorState::kFaultDue) return raise_fault(Fault::kChatter, time);
+  if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
+    return raise_fault(Fault::kSpeedLimit, time);
+  // Until the brake is open the joint stands whatever it is ordered.
+  if (mode_.is(Mode::kReleasing)) return motion_watch_.begin(position_rad, time.now_ns);
+  const Fault fault = motion_watch_.judge(motion_, position_rad, time.now_ns);
+  if (motion_watch_.high_load()) notice(Notice::kLoadHigh);
+  if (fault == Fault::kOverload)
+    stop_overloaded(time);
+  else if (fault != Fault::kNone)
+    raise_fault(fault, time);
+  if (motion_watch_.off_target(mode_.is(Mode::kHolding), position_rad - controller_.rest_position_rad(),
+                               time.now_ns))
+    notice(Notice::kOffTarget);
+}
+
+// It yields once to what pushes it: a load that does not let go is a fault.
+void JointLoop::stop_overloaded(const CycleTime& time) noexcept {
+  const bool may_hold = config_.overload_stop == OverloadStop::kHoldLoad && !mode_.is(Mode::kHoming);
+  if (!may_hold || controller_.yields()) return raise_fault(Fault::kOverload, time);
+  ordered_.end();
+  drop_path();
+  controller_.yield(motion_watch_.usual_load_Nm(), config_.limits.load_notice_Nm);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,166 @@
+#include "daemon/realtime/path_follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/realtime/joint_loop.h"
+
+namespace strainwave {
+
+namespace {
+
+// For coming to rest along the path: a multiple of what the slowest joint needs on its own, and what the clock needs of the slowest path.
+constexpr double kPatience = 2.0;
+constexpr double kLeastPatience_s = 2.0 / PathClock::kFastestChange_1_s;
+
+}  // namespace
+
+PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s)
+    : joints_(joints), period_s_(period_s), members_(joints.size()), travels_(joints.size()) {
+  for (const auto& joint : joints_) joint->follow_paths_of(*this);
+}
+
+template <typename Act>
+void PathFollower::for_each_member(std::size_t travel, const Act& act) noexcept {
+  for (std::size_t joint = 0; joint < members_.size(); ++joint)
+    if (members_[joint].travel == travel) act(*joints_[joint], members_[joint]);
+}
+
+Ruling PathFollower::resume(std::size_t joint) noexcept {
+  const std::size_t travel = members_[joint].travel;
+  if (travel == kNoTravel) return begin(joint);
+  if (travels_[travel].phase == Phase::kEnding) return Reason::kWrongMode;
+  travels_[travel].clock.run();
+  return Reason::kAccepted;
+}
+
+Ruling PathFollower::begin(std::size_t first) noexcept {
+  const LoadedPath* path = joints_[first]->path();
+  if (path == nullptr) return Reason::kWrongMode;
+  const auto takes_part = [&](std::size_t joint) {
+    const LoadedPath* part = joints_[joint]->path();
+    return part != nullptr && members_[joint].travel == kNoTravel && part->id == path->id &&
+           part->joint_count == path->joint_count;
+  };
+  std::int32_t parts = 0;
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    if (!takes_part(joint)) continue;
+    const Ruling ruling = joints_[joint]->may_begin(*joints_[joint]->path());
+    if (ruling.reason != Reason::kAccepted) return ruling;
+    ++parts;
+  }
+  if (parts != path->joint_count)
+    return {Reason::kWrongMode, static_cast<double>(parts), static_cast<double>(path->joint_count)};
+  Travel& travel = travels_[first];
+  travel = {};
+  travel.phase = Phase::kBeginning;
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    if (!takes_part(joint)) continue;
+    members_[joint] = {first, {}};
+    travel.duration_s = std::max(travel.duration_s, joints_[joint]->path()->path.duration_s());
+  }
+  return Reason::kAccepted;
+}
+
+Ruling PathFollower::pause(std::size_t joint) noexcept {
+  const std::size_t travel = members_[joint].travel;
+  if (travel == kNoTravel || travels_[travel].phase == Phase::kEnding) return Reason::kWrongMode;
+  travels_[travel].clock.rest();
+  return Reason::kAccepted;
+}
+
+bool PathFollower::end(std::size_t joint) noexcept {
+  const std::size_t travel = members_[joint].travel;
+  if (travel == kNoTravel) return false;
+  if (travels_[travel].phase == Phase::kBeginning) {
+    free(travel);
+    return false;
+  }
+  bring_to_rest(travel);
+  return true;
+}
+
+void PathFollower::advance(const CycleTime& time) noexcept {
+  for (std::size_t travel = 0; travel < travels_.size(); ++travel)
+    if (travels_[travel].phase != Phase::kFree) advance(travel, time);
+}
+
+// Orders and faults of the cycle in which it was told to begin may have come between.
+bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept {
+  bool all = true;
+  for_each_member(travel, [&](JointLoop& joint, Member&) {
+    all = all && joint.path() != nullptr && joint.may_begin(*joint.path()).reason == Reason::kAccepted;
+  });
+  if (!all) return false;
+  for_each_member(travel, [&](JointLoop& joint, Member&) { joint.begin_path(time); });
+  travels_[travel].phase = Phase::kUnderWay;
+  return true;
+}
+
+void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
+  Travel& travel = travels_[index];
+  const bool begins = travel.phase == Phase::kBeginning;
+  if (begins && !begin_all(index, time)) return free(index);
+  release_lost(index);
+  for (std::int64_t period = 0; period < time.elapsed_periods; ++period)
+    travel.clock.advance(period_s_, travel.clock.steady() ? PathClock::kMostRoom : room(index));
+  for_each_member(index, [&](JointLoop& joint, Member& member) {
+    const PathPoint point = member.reader.at(joint.path()->path, travel.clock.time_s());
+    joint.follow_path(in_clock_time(point, travel.clock), time.elapsed_periods, begins);
+  });
+  const bool ending = travel.phase == Phase::kEnding;
+  if (travel.clock.time_s() >= travel.duration_s || (ending && travel.clock.rests())) {
+    for_each_member(index, [](JointLoop& joint, Member&) { joint.end_path(); });
+    return free(index);
+  }
+  if (!ending || (travel.rest_cycles -= time.elapsed_periods) > 0) return;
+  for_each_member(index, [](JointLoop& joint, Member&) { joint.stop_beside_path(); });
+  free(index);
+}
+
+// One that faulted, was disabled or got another order is no longer on it, and the others do not go on without it.
+void PathFollower::release_lost(std::size_t travel) noexcept {
+  bool lost = false;
+  for_each_member(travel, [&](JointLoop& joint, Member& member) {
+    if (joint.on_path()) return;
+    member.travel = kNoTravel;
+    lost = true;
+  });
+  if (lost) bring_to_rest(travel);
+}
+
+void PathFollower::bring_to_rest(std::size_t index) noexcept {
+  Travel& travel = travels_[index];
+  travel.clock.rest();
+  if (travel.phase == Phase::kEnding) return;
+  double longest_s = 0.0;
+  for_each_member(index, [&](JointLoop& joint, Member& member) {
+    if (joint.path() == nullptr) return;
+    PathReader reader = member.reader;
+    const PathPoint here = reader.at(joint.path()->path, travel.clock.time_s());
+    longest_s =
+        std::max(longest_s, std::abs(here.velocity_rad_s) / joint.motion_limits().deceleration_rad_s2);
+  });
+  travel.rest_cycles = std::llround((kPatience * longest_s + kLeastPatience_s) / period_s_);
+  travel.phase = Phase::kEnding;
+}
+
+RateRoom PathFollower::room(std::size_t index) noexcept {
+  const PathClock& clock = travels_[index].clock;
+  RateRoom all = PathClock::kMostRoom;
+  for_each_member(index, [&](JointLoop& joint, Member& member) {
+    PathReader ahead = member.reader;
+    const KnotPath& path = joint.path()->path;
+    const PathPoint here = ahead.at(path, clock.time_s());
+    const PathPoint next = ahead.at(path, clock.time_s() + period_s_ * clock.rate());
+    all = all.both(rate_room(here, next, clock.rate(), joint.motion_limits()));
+  });
+  return all;
+}
+
+void PathFollower::free(std::size_t travel) noexcept {
+  for_each_member(travel, [](JointLoop&, Member& member) { member.travel = kNoTravel; });
+  travels_[travel].phase = Phase::kFree;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,54 @@
+// The way of a path from the supervisor's thread to a joint's loop: two places, of which the loop uses one at most while the supervisor
+// fills the other. No number of paths takes more memory. The loop's side is real-time safe.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "control/knot_path.h"
+
+namespace strainwave {
+
+/// One joint's part of a path.
+struct LoadedPath {
+  std::int64_t id = 0;           ///< of the path, the same for all of its joints
+  std::int32_t joint_count = 0;  ///< that it has
+  KnotPath path;
+};
+
+class PathSlots {
+ public:
+  // Supervisor's thread.
+  /// The place to name in the order that brings `path`; nothing while the loop has not looked at the last one.
+  std::optional<std::int32_t> hand_over(const LoadedPath& path) {
+    if (handed_ != judged_.load(std::memory_order_acquire)) return std::nullopt;
+    const std::int32_t slot = used_.load(std::memory_order_acquire) == 0 ? 1 : 0;
+    slots_[static_cast<std::size_t>(slot)] = path;
+    ++handed_;
+    return slot;
+  }
+  /// The order could not be given.
+  void take_back() { --handed_; }
+
+  // Real-time thread.
+  const LoadedPath& at(std::int32_t slot) const noexcept { return slots_[static_cast<std::size_t>(slot)]; }
+  /// In use until the next use() or drop().
+  void use(std::int32_t slot) noexcept { used_.store(slot, std::memory_order_release); }
+  void drop() noexcept { used_.store(kNone, std::memory_order_release); }
+  /// The order was obeyed or refused; use() comes before.
+  void judged() noexcept {
+    judged_.store(judged_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  std::array<LoadedPath, 2> slots_{};
+  std::int64_t handed_ = 0;
+  std::atomic<std::int64_t> judged_{0};
+  std::atomic<std::int32_t> used_{kNone};
+};
+
+}  // namespace strainwave

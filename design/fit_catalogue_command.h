@@ -1,0 +1,31 @@
+// `strainwave-design fit CATALOGUE`: friction over temperature from the manufacturer's catalogue, with what is doubtful
+// of it said. Offline.
+#pragma once
+
+#include <string>
+
+#include "base/exit_status.h"
+
+namespace strainwave {
+
+struct FitCatalogueOptions {
+  std::string catalogue;
+  std::string out;
+  std::string model = "both";
+  std::string method = "epgs";
+  std::string weighting = "torque";
+  bool unconstrained = false;
+  std::string non_increasing = "curve";
+  std::string rules_from = "auto";
+  std::string outliers = "keep";
+  unsigned long long seed = 1;
+  int threads = 0;
+  int rules = 5;
+  double gear_ratio = 50.0;
+  double starting_torque_Ncm = 1.6;
+};
+
+/// Fits, reports and writes the friction file; the exit status. Throws InputError.
+ExitStatus fit_catalogue(const FitCatalogueOptions& options);
+
+}  // namespace strainwave

@@ -1,0 +1,35 @@
+// What a fit cannot say of itself: whether a temperature of the catalogue spoils it, and how good it is
+// between the temperatures. Offline.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "design/friction_fit.h"
+
+namespace strainwave {
+
+/// The problem without the temperature of row `row`.
+FitProblem without_row(const FitProblem& problem, Eigen::Index row);
+
+/// A temperature without which the exponential law fits the others far better: by a factor of kOutlierFactor in the cost. The
+/// catalogue of the source has none above 3.
+struct Outlier {
+  Eigen::Index row = 0;
+  double cost = 0.0;          ///< of all that was given
+  double cost_without = 0.0;  ///< of the others alone
+  Eigen::RowVector3d error;   ///< its parameters less the law of the others, motor side
+};
+inline constexpr double kOutlierFactor = 6.0;
+
+/// The worst, then the worst of what is left, and so on; at most a quarter of the temperatures, and at least four are kept. Rows count
+/// in `problem` as it was given. `low_C`, `high_C`: the range of the law's decay.
+std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, double high_C);
+
+/// Friction between the temperatures of the data: each but the first and the last is left out in turn and foretold from the others.
+/// Root of the mean square of the error over the friction there, both in the metric of the problem; NaN where less than four
+/// temperatures leave nothing to tell.
+using Prediction = std::function<Eigen::RowVector3d(const FitProblem& others, double temperature_C)>;
+double error_between(const FitProblem& problem, const Prediction& predicted);
+
+}  // namespace strainwave

@@ -1,0 +1,45 @@
+#include "base/strict_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+#include "base/printable.h"
+
+namespace strainwave {
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    const auto document = parse_strict_json(text, "a.json");
+    StrictObject object(document, "a.json");
+    (void)object.number("torque_Nm");
+    object.finish();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(StrictJson, RefusesWhatNestsTooDeepForWhoeverWalksThroughIt) {
+  const std::string open(1'000'000, '[');
+  EXPECT_EQ(refusal("{\"torque_Nm\": " + open + std::string(1'000'000, ']') + "}"),
+            "a.json: lists and objects lie in each other more than 32 deep: no file of ours does");
+  EXPECT_EQ(refusal("{\"torque_Nm\": 1, \"torque\": 2}"), "a.json: torque: unknown key");
+}
+
+TEST(StrictJson, ShowsNothingThatCommandsATerminal) {
+  const std::string hostile = R"("\u001b[2J\u202e\nsound")";
+  for (const std::string& text :
+       {"{\"torque_Nm\": " + hostile + "}", "{\"torque_Nm\": 1, " + hostile + ": 1}",
+        "{" + hostile + ": 1, " + hostile + ": 1}", std::string("{\"torque_Nm\": \u202e"),
+        "{" + hostile + ": 1}"}) {
+    const std::string said = refusal(text);
+    EXPECT_EQ(said, printable(said));
+    EXPECT_NE(said, "accepted");
+  }
+}
+
+}  // namespace
+}  // namespace strainwave

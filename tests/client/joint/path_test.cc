@@ -1,0 +1,81 @@
+// Paths of libstrainwave-client before a daemon of the test's own. What they do with strainwaved, docs/cpp.md shows.
+#include "client/joint/path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/path_v1.hpp>
+
+#include "lcmtypes/wire.h"
+#include "tests/client/link/running_daemon.h"
+
+namespace strainwave {
+namespace {
+
+class PathTest : public ::testing::Test {
+ protected:
+  static Joint joint(const std::string& name, const std::string& prefix = "SW") {
+    return Joint(name, {.key = "", .prefix = prefix, .lcm_url = own_url(), .timeout_s = 20.0});
+  }
+  static std::string refusal_of(const std::vector<PathPart>& parts) {
+    try {
+      const Path path(parts);
+      return "was not refused";
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+  }
+
+  RunningDaemon daemon{own_url()};
+};
+
+TEST_F(PathTest, LoadsItsKnotsAndStartsThemAndArrives) {
+  Joint elbow = joint("elbow");
+  Path path({{elbow, {{0, 0, 0}, {0.5, 0.2, 0.6}, {1, 0.4, 0}}}});
+  daemon.daemon().after_answer = [this] {
+    daemon.daemon().state.target_position_rad = 0.4;
+    daemon.daemon().state.joint_position_rad = 0.3999;
+  };
+  path.start();
+  const std::vector<Arrival> arrivals = path.wait();
+  path.pause();
+  path.resume();
+  daemon.stop();
+  ASSERT_EQ(arrivals.size(), 1U);
+  EXPECT_NEAR(arrivals[0].error_rad, 1e-4, 1e-12);
+  const auto& heard = daemon.daemon().heard();
+  ASSERT_EQ(heard.size(), 4U);
+  const auto part = decode_exactly<path_v1>(heard[0].bytes);
+  ASSERT_TRUE(part);
+  EXPECT_NE(part->path_id, 0);
+  EXPECT_EQ(part->joint_count, 1);
+  EXPECT_EQ(part->knot_count, 3);
+  EXPECT_EQ(part->velocity_rad_s[1], 0.6);
+  const auto action = [&](std::size_t i) { return decode_exactly<command_v1>(heard[i].bytes)->action; };
+  EXPECT_EQ(action(1), static_cast<std::int32_t>(Action::kResume));
+  EXPECT_EQ(action(2), static_cast<std::int32_t>(Action::kPause));
+  EXPECT_EQ(action(3), static_cast<std::int32_t>(Action::kResume));
+}
+
+TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
+  const Joint elbow = joint("elbow");
+  const Joint of_another_daemon = joint("wrist", "LEFT");
+  const std::vector<JointKnot> knots{{0, 0, 0}, {1, 0.1, 0}};
+  const std::vector<std::pair<std::vector<PathPart>, std::string>> cases{
+      {{}, "at least one joint"},
+      {{{elbow, knots}, {elbow, knots}}, "elbow is named twice"},
+      {{{elbow, knots}, {of_another_daemon, knots}}, "wrist has prefix LEFT, elbow has SW"},
+      {{{elbow, {{0, 0, 0}}}}, "elbow: 1 knots: 2 to 320"},
+      {{{elbow, std::vector<JointKnot>(321)}}, "elbow: 321 knots: 2 to 320"},
+      {{{elbow, {{0, 0, 0}, {1, std::nan(""), 0}}}}, "elbow: knot 1 = nan"}};
+  for (const auto& [parts, words] : cases) {
+    const std::string refusal = refusal_of(parts);
+    EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
+  }
+  daemon.stop();
+  EXPECT_TRUE(daemon.daemon().heard().empty());
+}
+
+}  // namespace
+}  // namespace strainwave

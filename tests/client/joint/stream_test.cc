@@ -1,0 +1,152 @@
+// What a stream sends, and what becomes of answers to it.
+#include "client/joint/stream.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
+
+#include "client/joint/joint.h"
+#include "lcmtypes/wire.h"
+#include "tests/client/link/running_daemon.h"
+
+namespace strainwave {
+namespace {
+
+class StreamTest : public ::testing::Test {
+ protected:
+  /// What was heard, without repetitions, once the daemon is silent.
+  template <typename Message>
+  std::vector<Message> heard() {
+    daemon.stop();
+    std::vector<Message> messages;
+    for (const FakeDaemon::Heard& order : daemon.daemon().heard()) {
+      const auto message = decode_exactly<Message>(order.bytes);
+      if (message && (messages.empty() || messages.back().sequence != message->sequence))
+        messages.push_back(*message);
+    }
+    return messages;
+  }
+
+  RunningDaemon daemon{own_url()};
+  Joint joint{"elbow", {.key = "", .lcm_url = own_url(), .timeout_s = 20.0}};
+};
+
+TEST_F(StreamTest, SendsEachSampleForTheCycleThatItsTimeIs) {
+  auto stream = joint.stream({.ahead_s = 0.9, .valid_for_s = 5.0, .speed_limit_rad_s = 0.5});
+  std::vector<double> sent;
+  for (int i = 0; i < 40; ++i)
+    if (stream.put(100.0 + 0.01 * i, 0.02 * i, 2.0)) sent.push_back(0.02 * i);
+  stream.close();
+  const auto setpoints = heard<setpoint_v2>();
+  ASSERT_EQ(setpoints.size(), sent.size());
+  const setpoint_v2& first = setpoints.front();
+  EXPECT_EQ(first.begins_stream, 1);
+  EXPECT_NE(first.stream_id, 0);
+  for (std::size_t i = 0; i < setpoints.size(); ++i) {
+    EXPECT_EQ(setpoints[i].position_rad, sent[i]);
+    EXPECT_EQ(setpoints[i].at_cycle - first.at_cycle, std::llround(500.0 * sent[i]));
+    EXPECT_EQ(setpoints[i].begins_stream, i == 0 ? 1 : 0);
+    EXPECT_EQ(setpoints[i].stream_id, first.stream_id);
+    EXPECT_EQ(setpoints[i].velocity_rad_s, 2.0);
+    EXPECT_EQ(setpoints[i].derivatives, 1);
+    EXPECT_EQ(setpoints[i].valid_for_s, 5.0);
+    EXPECT_EQ(setpoints[i].speed_limit_rad_s, 0.5);
+  }
+}
+
+TEST_F(StreamTest, EndsInAHoldOnceItsLastSamplesTimeHasCome) {
+  {
+    auto stream = joint.stream();
+    stream.put(0.0, 0.1);
+    stream.put(0.2, 0.1);
+  }
+  const std::int64_t end = daemon.cycle();
+  const auto setpoints = heard<setpoint_v2>();
+  const auto commands = heard<command_v1>();
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
+  EXPECT_GE(end, setpoints.back().at_cycle);
+}
+
+TEST_F(StreamTest, HoldsAtOnceAfterAnException) {
+  struct Trouble {};
+  try {
+    auto stream = joint.stream({.ahead_s = 0.9});
+    stream.put(0.0, 0.1);
+    stream.put(0.5, 0.1);
+    throw Trouble{};
+  } catch (const Trouble&) {
+  }
+  const auto setpoints = heard<setpoint_v2>();
+  const auto commands = heard<command_v1>();
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
+  EXPECT_LT(daemon.cycle(), setpoints.back().at_cycle);
+}
+
+TEST_F(StreamTest, HoldsAfterARefusal) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kOutOfRange; };
+  const auto ride = [this] {
+    auto stream = joint.stream({.ahead_s = 0.9});
+    for (int i = 0; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+  };
+  EXPECT_THROW(ride(), Refused);
+  const auto commands = heard<command_v1>();
+  ASSERT_FALSE(commands.empty());
+  EXPECT_EQ(commands.back().action, static_cast<std::int32_t>(Action::kHold));
+}
+
+TEST_F(StreamTest, BesideAnotherHasTheSameCycleForTheSameTime) {
+  Joint same{"elbow", {.key = "", .lcm_url = own_url(), .timeout_s = 20.0}};
+  auto first = joint.stream({.ahead_s = 0.9});
+  auto second = same.stream({.ahead_s = 0.9, .beside = &first});
+  first.put(5.0, 0.1);
+  second.put(5.0, 0.2);
+  first.put(5.1, 0.1);
+  second.put(5.1, 0.2);
+  first.close();
+  second.close();
+  std::map<double, std::vector<std::int64_t>> cycles;
+  for (const setpoint_v2& setpoint : heard<setpoint_v2>())
+    cycles[setpoint.position_rad].push_back(setpoint.at_cycle);
+  EXPECT_EQ(cycles.at(0.1), cycles.at(0.2));
+}
+
+TEST_F(StreamTest, LeavesOutWhatComesAfterItsTime) {
+  auto stream = joint.stream({.ahead_s = 0.05});
+  EXPECT_TRUE(stream.put(0.0, 0.1));
+  const std::int64_t first = joint.state().cycle;
+  while (joint.state().cycle < first + 300) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_FALSE(stream.put(0.1, 0.2));
+  EXPECT_EQ(stream.late(), 1);
+  stream.close();
+  for (const setpoint_v2& setpoint : heard<setpoint_v2>()) EXPECT_EQ(setpoint.position_rad, 0.1);
+}
+
+TEST_F(StreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kStreamEnded; };
+  auto stream = joint.stream();
+  stream.put(0.0, 0.1);
+  try {
+    for (int i = 1; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+    FAIL() << "went on";
+  } catch (const Refused& error) {
+    EXPECT_EQ(error.reason(), Reason::kStreamEnded);
+  }
+}
+
+TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
+  auto stream = joint.stream();
+  EXPECT_THROW(stream.put(0.0, 3.5), InvalidInput);
+  EXPECT_THROW(stream.put(0.0, 0.1, std::nan("")), InvalidInput);
+  EXPECT_THROW(stream.put(0.0, 0.1, {}, 1.0), InvalidInput);
+  EXPECT_THROW(stream.put(std::nan(""), 0.1), InvalidInput);
+  stream.close();
+  EXPECT_TRUE(heard<setpoint_v2>().empty());
+}
+
+}  // namespace
+}  // namespace strainwave

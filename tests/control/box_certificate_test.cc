@@ -1,0 +1,181 @@
+#include "control/box_certificate.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/input_error.h"
+#include "control/gain_table_json.h"
+#include "control/gear_catalogue.h"
+#include "control/ts_plant.h"
+
+namespace strainwave {
+namespace {
+
+GainTable shipped() {
+  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
+}
+
+LinkModel joint_with(double link_kgm2, double motor_kgm2 = 0.089) {
+  return {motor_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
+}
+
+TEST(BoxCertificate, ProvesTheShippedTable) {
+  const BoxReport report = certify_box(shipped());
+  EXPECT_TRUE(report.certified) << report.text;
+  EXPECT_NE(report.text.find("margin"), std::string::npos) << report.text;
+  EXPECT_LE(report.inequalities, kMostBoxInequalities);
+}
+
+// Not by the proof's own interpolation or matrices: the loop written down by hand, sampled in 100 steps, at any place of the box.
+TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
+  const GainTable table = shipped();
+  const CertifiedBox& box = table.box;
+  std::mt19937_64 random(21);
+  const auto any = [&](const BoxRange& range) {
+    return std::uniform_real_distribution<double>(range.from, range.to)(random);
+  };
+  const double h = table.plant.period_s;
+  double largest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double K = any(box.stiffness_Nm_rad);
+    const double Jl = any(box.link_inertia_kgm2);
+    const double Jm = box.motor_inertia_kgm2;
+    const double D = any(box.damping_Nms_rad);
+    const double b = any({0.0, largest_viscous_Nms_rad(table.friction)});
+    // Motor and link positions and velocities, and the torque: d/dt.
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(5, 5);
+    M.row(0) << 0, 1, 0, 0, 0;
+    M.row(1) << -K / Jm, -(D + b) / Jm, K / Jm, D / Jm, 1 / Jm;
+    M.row(2) << 0, 0, 0, 1, 0;
+    M.row(3) << K / Jl, D / Jl, -K / Jl, -D / Jl, 0;
+    const Eigen::MatrixXd step = M * (h / 128.0);
+    Eigen::MatrixXd sampled = Eigen::MatrixXd::Identity(5, 5) + step + step * step / 2 +
+                              step * step * step / 6 + step * step * step * step / 24;
+    for (int k = 0; k < 7; ++k) sampled = (sampled * sampled).eval();
+    for (const GainRow& gain : gains_of(table)) {
+      for (int delay = box.least_delay; delay <= box.most_delay; ++delay) {
+        // [integral, thm, wm, thl, wl, last thm, torques under way]
+        const int n = 6 + delay;
+        Eigen::RowVectorXd u = Eigen::RowVectorXd::Zero(n);
+        u(0) = gain(0);
+        u(1) = gain(1) + gain(2) / h;
+        u(5) = -gain(2) / h;
+        Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+        H(0, 0) = 1.0;
+        H(0, 1) = h;
+        H(5, 1) = 1.0;
+        H.block(1, 1, 4, 4) = sampled.topLeftCorner(4, 4);
+        if (delay == 0) {
+          H.middleRows(1, 4) += sampled.topRightCorner(4, 1) * u;
+        } else {
+          H.block(1, n - 1, 4, 1) = sampled.topRightCorner(4, 1);
+          H.row(6) = u;
+          for (int k = 1; k < delay; ++k) H(6 + k, 5 + k) = 1.0;
+        }
+        largest = std::max(largest, H.eigenvalues().cwiseAbs().maxCoeff());
+      }
+    }
+  }
+  EXPECT_LT(largest, 1.0);
+  EXPECT_GT(largest, 0.9) << "a loop that forgets within ten periods is not this one";
+}
+
+TEST(BoxCertificate, RefusesATableWithOneMatrixOrOneGainChanged) {
+  const GainTable sound = shipped();
+  for (const int i : {0, 1, 3}) {
+    GainTable table = sound;
+    table.box.cells[static_cast<std::size_t>(i)].P[0] *= -1.0;
+    const BoxReport report = certify_box(table);
+    EXPECT_FALSE(report.certified) << i;
+  }
+  GainTable table = sound;
+  table.primary.F[2][1] *= -1.0;
+  EXPECT_FALSE(certify_box(table).certified);
+  table = sound;
+  table.fallback.F[0][2] *= 4.0;
+  const BoxReport report = certify_box(table);
+  EXPECT_FALSE(report.certified);
+  EXPECT_NE(report.text.find("stiffness"), std::string::npos) << report.text;
+  EXPECT_NE(report.text.find("delay"), std::string::npos) << report.text;
+}
+
+TEST(BoxCertificate, RefusesABoxThatIsOnePerCentWiderThanItsCells) {
+  const auto text_with = [](const auto& change) {
+    GainTable table = shipped();
+    change(table.box);
+    EXPECT_EQ(find_defect(table), std::nullopt);
+    const BoxReport report = certify_box(table);
+    EXPECT_FALSE(report.certified);
+    return report.text;
+  };
+  const auto says = [](const std::string& text) {
+    return text.find("no cell for a delay") != std::string::npos;
+  };
+  EXPECT_TRUE(says(text_with([](CertifiedBox& box) { box.link_inertia_kgm2.to *= 1.01; })));
+  EXPECT_TRUE(says(text_with([](CertifiedBox& box) { box.link_inertia_kgm2.from *= 0.99; })));
+  EXPECT_TRUE(says(text_with([](CertifiedBox& box) { box.stiffness_Nm_rad.to *= 1.01; })));
+  EXPECT_TRUE(says(text_with([](CertifiedBox& box) { box.stiffness_Nm_rad.from *= 0.99; })));
+  EXPECT_TRUE(says(text_with([](CertifiedBox& box) { box.least_delay = 0; })));
+}
+
+TEST(BoxCertificate, RefusesABoxWithAnyCellLeftOut) {
+  const GainTable sound = shipped();
+  for (int i = 0; i < sound.box.cell_count; ++i) {
+    GainTable table = sound;
+    CertifiedBox& box = table.box;
+    box.cells[static_cast<std::size_t>(i)] = box.cells[static_cast<std::size_t>(--box.cell_count)];
+    box.cells[static_cast<std::size_t>(box.cell_count)] = {};
+    EXPECT_FALSE(certify_box(table).certified) << i;
+  }
+}
+
+TEST(BoxCertificate, ACellThatIsMadeMuchWiderIsNotProvedByItsMatrix) {
+  GainTable table = shipped();
+  table.box.stiffness_Nm_rad = {1000.0, 60000.0};
+  for (int i = 0; i < table.box.cell_count; ++i)
+    table.box.cells[static_cast<std::size_t>(i)].stiffness_Nm_rad = {1000.0, 60000.0};
+  EXPECT_FALSE(certify_box(table).certified);
+}
+
+TEST(BoxCertificate, HoldsJointsUpToItsEdgesAndNamesWhatIsOutside) {
+  const GainTable table = shipped();
+  const BoxRange& link = table.box.link_inertia_kgm2;
+  const int delay = table.box.most_delay;
+  EXPECT_EQ(find_outside_box(table, joint_with(link.from), delay), std::nullopt);
+  EXPECT_EQ(find_outside_box(table, joint_with(link.to), delay), std::nullopt);
+  const auto names = [&](const LinkModel& joint, int delay_periods, const char* quantity) {
+    const std::string text = find_outside_box(table, joint, delay_periods).value_or("");
+    EXPECT_NE(text.find(quantity), std::string::npos) << text;
+    EXPECT_NE(text.find("certified for"), std::string::npos) << text;
+  };
+  names(joint_with(1.01 * link.to), delay, "load_inertia_kgm2");
+  names(joint_with(0.99 * link.from), delay, "load_inertia_kgm2");
+  names(joint_with(link.to, 0.0899), delay, "motor's inertia");
+  names(joint_with(link.to), kMaxBoxDelay + 1, "delay_periods");
+  LinkModel stiff = joint_with(link.to);
+  stiff.spring = stiff.spring.scaled(1.01);
+  names(stiff, delay, "stiffness");
+  GainTable rigid = table;
+  rigid.box = {};
+  EXPECT_NE(find_outside_box(rigid, joint_with(link.to), delay).value_or("").find("rigid joint"),
+            std::string::npos);
+}
+
+TEST(BoxCertificate, AnEncoderOnTheLinkAndARigidBoxWithANumberAreDefects) {
+  GainTable table = shipped();
+  table.box.encoder_side = EncoderSide::kLink;
+  EXPECT_NE(find_defect(table).value_or("").find("box.encoder_side"), std::string::npos);
+  table = shipped();
+  table.box.cells[static_cast<std::size_t>(table.box.cell_count)].P[3] = 1.0;
+  EXPECT_NE(find_defect(table).value_or("").find("beyond cell_count"), std::string::npos);
+  table = shipped();
+  table.box.cell_count = 0;
+  EXPECT_NE(find_defect(table).value_or("").find("rigid"), std::string::npos);
+  table = shipped();
+  table.box.cells[0].delay_periods = kMaxBoxDelay + 1;
+  EXPECT_NE(find_defect(table), std::nullopt);
+}
+
+}  // namespace
+}  // namespace strainwave

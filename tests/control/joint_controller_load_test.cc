@@ -1,0 +1,170 @@
+// What a stream tells of its load: what the controller makes of it, on the simulated joint.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/control/controlled_joint.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
+constexpr double kAmplitude_rad = 0.5;
+
+StreamSample sine(double t_s, const ToldLoad& load) {
+  return {kAmplitude_rad * std::sin(kOmega_rad_s * t_s),
+          kAmplitude_rad * kOmega_rad_s * std::cos(kOmega_rad_s * t_s),
+          -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(kOmega_rad_s * t_s),
+          2,
+          0,
+          load};
+}
+
+/// How a load of 12 N.m comes, and what the stream says of it.
+struct Coming {
+  double over_s = 0.0;  ///< evenly
+  int ahead = 0;        ///< periods that samples are stamped ahead; 0: no stamp
+  double told = 0.0;    ///< share
+};
+
+/// The largest error from 0.1 s before the load comes until 0.5 s later.
+double error_when_a_load_comes(const Coming& coming) {
+  constexpr int kComes = 3000;
+  const auto load_Nm = [&](int k) {
+    return 12.0 * std::clamp((k - kComes) * 1e-3 / coming.over_s, 0.0, 1.0);
+  };
+  ControlledJoint loop;
+  double largest_rad = 0.0;
+  for (int k = 0; k < kComes + 500; ++k) {
+    loop.load_torque_Nm = load_Nm(k);
+    if (k % 10 == 0) {
+      const int then = k + coming.ahead;
+      StreamSample sample = sine(then * 1e-3, {coming.told * load_Nm(then), 0.0});
+      sample.in_periods = coming.ahead;
+      loop.controller().follow(sample, k == 0, 0.0, {});
+    }
+    const JointStep step = loop.step();
+    if (k >= kComes - 100)
+      largest_rad =
+          std::max(largest_rad, std::abs(step.ordered_reference.position_rad - loop.position_rad()));
+  }
+  return largest_rad;
+}
+
+TEST(JointControllerLoad, OneThatIsToldForItsTimeDisturbsLess) {
+  const double untold_rad = error_when_a_load_comes({0.01, 30, 0.0});
+  EXPECT_LT(error_when_a_load_comes({0.01, 30, 1.0}), 0.25 * untold_rad);
+  EXPECT_GT(error_when_a_load_comes({0.01, 30, -1.0}), 1.3 * untold_rad) << "it is the torque that helps";
+}
+
+// The observer finds a load in some 10 ms, and a sample without a time tells of it as late.
+TEST(JointControllerLoad, OneThatIsToldWhenItComesDisturbsLessWhereItComesSlowly) {
+  EXPECT_LT(error_when_a_load_comes({0.2, 0, 1.0}), 0.5 * error_when_a_load_comes({0.2, 0, 0.0}));
+}
+
+TEST(JointControllerLoad, IsNotTakenTwiceByWhatEstimatesTheLoad) {
+  ControlledJoint loop;
+  loop.load_torque_Nm = 8.0;
+  JointStep step;
+  for (int k = 0; k < 3000; ++k) {
+    if (k % 10 == 0) loop.controller().follow(sine(k * 1e-3, {8.0, 0.0}), k == 0, 0.0, {});
+    step = loop.step();
+  }
+  EXPECT_NEAR(step.estimate.disturbance.load_Nm, 0.0, 2.0) << "what is told is not estimated";
+  EXPECT_NEAR(step.ordered_reference.position_rad, loop.position_rad(), 1e-3);
+}
+
+TEST(JointControllerLoad, TorqueStaysWithinItsLimitWhateverIsTold) {
+  ControlledJoint loop;
+  bool saturated = false;
+  for (int k = 0; k < 1000; ++k) {
+    const double torque_Nm = k % 200 < 100 ? 3.0 * kReferencePeakTorque_Nm : -3.0 * kReferencePeakTorque_Nm;
+    if (k % 10 == 0) loop.controller().follow(sine(k * 1e-3, {torque_Nm, 5.0}), k == 0, 0.0, {});
+    const JointStep step = loop.step();
+    ASSERT_LE(std::abs(step.output.torque_Nm), kReferencePeakTorque_Nm);
+    saturated = saturated || step.output.saturated;
+  }
+  EXPECT_TRUE(saturated);
+}
+
+// Friction holds what the torque is late for: 0.4 N.m in an interval.
+TEST(JointControllerLoad, FollowsTheTorqueThatIsToldWhileTheJointRests) {
+  ControlledJoint loop;
+  JointStep step;
+  const auto follow_one_period = [&](int k, double torque_Nm) {
+    if (k % 10 == 0) loop.controller().follow({0.1, 0.0, 0.0, 0, 0, {torque_Nm, 0.0}}, k == 0, 0.0, {});
+    loop.load_torque_Nm = torque_Nm;
+    step = loop.step();
+  };
+  for (int k = 0; k < 500; ++k) follow_one_period(k, 0.0);
+  ASSERT_EQ(step.phase, MotionPhase::kResting);
+  const double before_Nm = step.output.torque_Nm;
+  for (int k = 500; k < 1000; ++k) {
+    follow_one_period(k, std::min(4.0, 0.04 * (k - 500)));
+    ASSERT_EQ(step.phase, MotionPhase::kResting) << k;
+    ASSERT_NEAR(loop.position_rad(), 0.1, 3.0 * kCount_rad) << k;
+  }
+  EXPECT_NEAR(step.output.torque_Nm - before_Nm, 4.0, 1e-9);
+}
+
+// The load stays what it is when the stream ends: nothing steps, neither then nor when the next motion begins.
+TEST(JointControllerLoad, MakesNoStepWhenTheStreamIsOver) {
+  ControlledJoint loop;
+  loop.load_torque_Nm = 8.0;
+  for (int k = 0; k < 3000; ++k) {
+    if (k % 10 == 0)
+      loop.controller().follow({1e-4 * std::min(k, 2000), k < 2000 ? 0.1 : 0.0, 0.0, 1, 0, {8.0, 0.0}},
+                               k == 0, 0.0, {});
+    loop.step();
+  }
+  loop.controller().stop();
+  double farthest_rad = 0.0;
+  const double rest_rad = loop.position_rad();
+  for (int k = 0; k < 1000; ++k) {
+    loop.step();
+    farthest_rad = std::max(farthest_rad, std::abs(loop.position_rad() - rest_rad));
+  }
+  EXPECT_LT(farthest_rad, 3.0 * kCount_rad);
+  loop.controller().set_target(0.4, 0.2);
+  double error_rad = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const JointStep step = loop.step();
+    error_rad = std::max(error_rad, std::abs(step.ordered_reference.position_rad - loop.position_rad()));
+  }
+  EXPECT_LT(error_rad, 1e-3);
+  EXPECT_NEAR(loop.position_rad(), 0.4, 3.0 * kCount_rad);
+}
+
+/// Root of the mean square error of a joint that carries 0.3 kg m2 besides its own, over the first 0.6 s of a motion.
+double error_with_a_payload(double told_kgm2) {
+  constexpr double kQuick_rad_s = 2.0 * std::numbers::pi * 2.0;
+  JointPlantConfig plant = realistic_plant();
+  plant.joint.inertia_kgm2 += 0.3;
+  ControlledJoint loop(plant);
+  double squares = 0.0;
+  for (int k = 0; k < 600; ++k) {
+    const double phase = kQuick_rad_s * (k + 30) * 1e-3;
+    if (k % 10 == 0)
+      loop.controller().follow({0.05 * (1.0 - std::cos(phase)),
+                                0.05 * kQuick_rad_s * std::sin(phase),
+                                0.05 * kQuick_rad_s * kQuick_rad_s * std::cos(phase),
+                                2,
+                                30,
+                                {0.0, told_kgm2}},
+                               k == 0, 0.0, {});
+    const JointStep step = loop.step();
+    squares += std::pow(step.ordered_reference.position_rad - loop.position_rad(), 2);
+  }
+  return std::sqrt(squares / 600);
+}
+
+TEST(JointControllerLoad, AnInertiaThatIsToldIsAcceleratedFromTheFirstSampleOn) {
+  const double untold_rad = error_with_a_payload(0.0);
+  EXPECT_LT(error_with_a_payload(0.3), 0.4 * untold_rad);
+  EXPECT_GT(error_with_a_payload(0.6), 1.5 * error_with_a_payload(0.3)) << "it is the inertia that helps";
+}
+
+}  // namespace
+}  // namespace strainwave::testing

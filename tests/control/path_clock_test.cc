@@ -1,0 +1,147 @@
+#include "control/path_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+constexpr MotionLimits kLimits{2.0, 8.0, 12.0};
+
+/// A path that keeps kLimits, by taking its time.
+KnotPath possible_path(std::mt19937& random) {
+  std::uniform_real_distribution<double> position(-1.0, 1.0);
+  std::uniform_real_distribution<double> velocity(-1.0, 1.0);
+  KnotPath path;
+  path.count = 12;
+  for (std::size_t i = 0; i < path.count; ++i) path.knots[i] = {0.0, position(random), velocity(random)};
+  path.knots[0].velocity_rad_s = path.knots[path.count - 1].velocity_rad_s = 0.0;
+  const PathLimits limits{{-1e6, 1e6}, kLimits, 1e9, 1.0, kPeriod_s};
+  for (double interval_s = 0.2;; interval_s *= 1.05) {
+    for (std::size_t i = 0; i < path.count; ++i) path.knots[i].time_s = static_cast<double>(i) * interval_s;
+    if (!find_defect(path, limits)) return path;
+    for (std::size_t i = 0; i < path.count; ++i) path.knots[i].velocity_rad_s *= 0.97;
+  }
+}
+
+/// Joints on one clock, as the loop has them.
+struct Followers {
+  std::vector<KnotPath> paths;
+  std::vector<PathReader> readers = std::vector<PathReader>(paths.size());
+  PathClock clock{};
+
+  std::vector<PathPoint> step() {
+    RateRoom room = PathClock::kMostRoom;
+    for (std::size_t i = 0; i < paths.size() && !clock.steady(); ++i) {
+      PathReader ahead = readers[i];
+      const PathPoint here = ahead.at(paths[i], clock.time_s());
+      room = room.both(rate_room(here, ahead.at(paths[i], clock.time_s() + kPeriod_s * clock.rate()),
+                                 clock.rate(), kLimits));
+    }
+    clock.advance(kPeriod_s, room);
+    std::vector<PathPoint> points;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      points.push_back(in_clock_time(readers[i].at(paths[i], clock.time_s()), clock));
+    return points;
+  }
+};
+
+TEST(PathClock, GoesWithTheClockUntilItIsToldOtherwise) {
+  PathClock clock{};
+  for (int i = 0; i < 1000; ++i) clock.advance(kPeriod_s, {0.0, 0.0});
+  EXPECT_NEAR(clock.time_s(), 1.0, 1e-12);
+  EXPECT_EQ(clock.rate(), 1.0);
+  EXPECT_TRUE(clock.steady());
+}
+
+TEST(PathClock, TakesATenthOfASecondToRestWhereAccelerationsAllowMore) {
+  PathClock clock{};
+  clock.rest();
+  int periods = 0;
+  for (; !clock.rests() && periods < 1000; ++periods) clock.advance(kPeriod_s, {1e9, 1e9});
+  EXPECT_NEAR(periods, 100, 1);
+  EXPECT_NEAR(clock.time_s(), 0.05, 1e-3);
+  clock.run();
+  for (periods = 0; !clock.steady() && periods < 1000; ++periods) clock.advance(kPeriod_s, {1e9, 1e9});
+  EXPECT_NEAR(periods, 100, 1);
+}
+
+TEST(PathClock, DoesNotSlowDownWithoutRoom) {
+  PathClock clock{};
+  clock.rest();
+  clock.advance(kPeriod_s, {0.0, 5.0});
+  EXPECT_EQ(clock.rate(), 1.0);
+  EXPECT_TRUE(clock.is_to_rest());
+}
+
+// Three joints, paused and resumed at every instant that a seed brings: between two periods nobody accelerates more than allowed, but for
+// what a period's change of the path's own acceleration is.
+TEST(PathClock, PausesAndResumesWithinTheAccelerationsOfEveryJoint) {
+  std::mt19937 random(6);
+  std::uniform_int_distribution<int> periods(20, 900);
+  for (int round = 0; round < 40; ++round) {
+    Followers group{{possible_path(random), possible_path(random), possible_path(random)}};
+    double duration_s = 0.0;
+    for (const KnotPath& path : group.paths) duration_s = std::max(duration_s, path.duration_s());
+    std::vector<PathPoint> last(3);
+    int wait = periods(random);
+    double most_growing = 0.0;
+    double most_falling = 0.0;
+    int total = 0;
+    for (; group.clock.time_s() < duration_s && total < 1'000'000; ++total) {
+      if (--wait == 0) {
+        wait = periods(random);
+        group.clock.is_to_rest() ? group.clock.run() : group.clock.rest();
+      }
+      const std::vector<PathPoint> now = group.step();
+      for (std::size_t i = 0; i < now.size() && total > 0; ++i) {
+        const double change =
+            (std::abs(now[i].velocity_rad_s) - std::abs(last[i].velocity_rad_s)) / kPeriod_s;
+        most_growing = std::max(most_growing, change);
+        most_falling = std::max(most_falling, -change);
+      }
+      last = now;
+    }
+    ASSERT_LT(total, 1'000'000);
+    EXPECT_LE(most_growing, 1.02 * kLimits.acceleration_rad_s2) << round;
+    EXPECT_LE(most_falling, 1.02 * kLimits.deceleration_rad_s2) << round;
+  }
+}
+
+// However hard the path is, resting comes before it is over, or with it.
+TEST(PathClock, ComesToRestFromEveryInstantOfAPath) {
+  std::mt19937 random(7);
+  double longest_s = 0.0;
+  for (int round = 0; round < 10; ++round) {
+    const KnotPath path = possible_path(random);
+    for (double from_s = 0.0; from_s < path.duration_s(); from_s += 0.05) {
+      Followers one{{path}};
+      while (one.clock.time_s() < from_s) one.step();
+      one.clock.rest();
+      int periods = 0;
+      for (; !one.clock.rests() && one.clock.time_s() < path.duration_s(); ++periods) one.step();
+      longest_s = std::max(longest_s, periods * kPeriod_s);
+    }
+  }
+  // On its own a joint stops from full speed in 2 / 12 s.
+  EXPECT_LE(longest_s, 0.5);
+}
+
+TEST(PathClock, LeavesTheVelocityOfAPathThatRunsAsItIs) {
+  PathClock clock{};
+  const PathPoint point{0.3, 1.5, -4.0};
+  const PathPoint same = in_clock_time(point, clock);
+  EXPECT_EQ(same.velocity_rad_s, point.velocity_rad_s);
+  EXPECT_EQ(same.acceleration_rad_s2, point.acceleration_rad_s2);
+  clock.rest();
+  clock.advance(kPeriod_s, PathClock::kMostRoom);
+  EXPECT_NEAR(in_clock_time(point, clock).velocity_rad_s, 0.99 * 1.5, 1e-9);
+  EXPECT_NEAR(in_clock_time(point, clock).acceleration_rad_s2, -0.99 * 0.99 * 4.0 - 10.0 * 1.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,175 @@
+// A joint that runs into a wall, rigid and with a link on a spring: how hard it pushes, how soon it yields, and that it stays away.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "control/gain_table_json.h"
+#include "sim/joint/reference_plant.h"
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr double kWall_rad = 0.5;
+constexpr double kSpeed_rad_s = 1.0;
+constexpr double kLoad_Nm = 12.0;
+constexpr double kNotice_Nm = 8.0;
+constexpr int kOverloadPeriods = 20;
+
+/// In periods since the wall is touched; -1: never.
+struct Blow {
+  double peak_contact_Nm = 0.0;
+  double peak_torque_Nm = 0.0;
+  int overloaded = -1;  ///< the wall pushes with more than the load that is allowed
+  int noticed = -1;
+  int yielded = -1;  ///< the torque is what it yields with
+  int held = -1;     ///< it rests under control
+  int left = -1;     ///< the last period in which the wall is touched
+  int touches = 0;
+  double last_speed_rad_s = 0.0;  ///< the largest in the last half second
+};
+
+BenchJoint joint_before_a_wall(double stiffness_Nm_rad, bool flexible, OverloadStop stop) {
+  BenchJoint joint = demo_joint();
+  JointControllerConfig& controller = joint.loop.controller;
+  if (flexible) {
+    joint.drive.plant = flexible_plant();
+    const Transmission& gear = *joint.drive.plant.effects.transmission;
+    controller.rigid = false;
+    controller.use_observer = false;
+    controller.use_landing = false;
+    controller.link = {
+        joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  }
+  const double moving_kgm2 =
+      flexible ? controller.link->link_inertia_kgm2 : joint.drive.plant.joint.inertia_kgm2;
+  joint.drive.plant.effects.contact = {kWall_rad, stiffness_Nm_rad,
+                                       0.2 * std::sqrt(stiffness_Nm_rad * moving_kgm2)};
+  joint.loop.limits.load_Nm = kLoad_Nm;
+  joint.loop.limits.load_notice_Nm = kNotice_Nm;
+  joint.loop.overload_s = kOverloadPeriods * 1e-3;
+  joint.loop.overload_stop = stop;
+  return joint;
+}
+
+class RunsIntoAWall : public ::testing::TestWithParam<std::tuple<double, bool>> {
+ protected:
+  Blow run_into_it(OverloadStop stop) {
+    const auto [stiffness_Nm_rad, flexible] = GetParam();
+    static const GainTable spring_table =
+        read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
+    const BenchJoint joint = joint_before_a_wall(stiffness_Nm_rad, flexible, stop);
+    bench_.emplace(std::vector<BenchJoint>{joint});
+    bench_->bring_to_hold(0, flexible ? spring_table : demo_table());
+    EXPECT_EQ(bench_->order(0, Order{.kind = OrderKind::kSetpoint,
+                                     .position_rad = 2.0 * kWall_rad,
+                                     .speed_limit_rad_s = kSpeed_rad_s}),
+              Reason::kAccepted);
+    Blow blow;
+    int touched = -1;
+    for (int k = 0; k < 3000; ++k) {
+      bench_->step();
+      look(joint.drive.plant.effects.contact, touched < 0 ? 0 : k - touched, blow);
+      if (touched < 0 && blow.touches > 0) touched = k;
+      if (k >= 2500)
+        blow.last_speed_rad_s =
+            std::max(blow.last_speed_rad_s,
+                     std::abs(bench_->drive(0).simulated().plant().link_state().velocity_rad_s));
+    }
+    std::printf(
+        "%5.0f N.m/rad, %s, %s: %.1f N.m at the wall, torque %.1f N.m, %d ms until overloaded, notice after "
+        "%d, yields after %d, "
+        "off the wall after %d, holds after %d\n",
+        stiffness_Nm_rad, flexible ? "spring" : "rigid", stop == OverloadStop::kHoldLoad ? "hold" : "off",
+        blow.peak_contact_Nm, blow.peak_torque_Nm, blow.overloaded, blow.noticed, blow.yielded, blow.left,
+        blow.held);
+    return blow;
+  }
+
+  std::optional<JointBench> bench_;
+
+ private:
+  void look(const Contact& wall, int since, Blow& blow) {
+    const JointState link = bench_->drive(0).simulated().plant().link_state();
+    const double push_Nm = wall.torque_Nm(link.position_rad, link.velocity_rad_s);
+    const double torque_Nm = bench_->state(0).torque_commanded_Nm;
+    if (push_Nm > 0.0) {
+      if (!touching_) ++blow.touches;
+      blow.left = since;
+    }
+    touching_ = push_Nm > 0.0;
+    if (blow.touches == 0) return;
+    blow.peak_contact_Nm = std::max(blow.peak_contact_Nm, push_Nm);
+    blow.peak_torque_Nm = std::max(blow.peak_torque_Nm, std::abs(torque_Nm));
+    const auto first = [since](int& when, bool now) {
+      if (when < 0 && now) when = since;
+    };
+    first(blow.overloaded, push_Nm > kLoad_Nm);
+    first(blow.noticed, bench_->has_notice(0, Notice::kLoadHigh));
+    // No feedback has a part in the torque of a joint that yields, rests or is off.
+    const bool yields = bench_->state(0).torque_feedback_Nm == 0.0;
+    first(blow.yielded, blow.overloaded >= 0 && yields);
+    first(blow.held, blow.yielded >= 0 && bench_->mode(0) == Mode::kHolding &&
+                         bench_->state(0).setpoint_velocity_rad_s == 0.0 &&
+                         std::abs(link.velocity_rad_s) < 1e-3);
+  }
+
+  bool touching_ = false;
+};
+
+/// The estimate is so much later than the wall's push.
+constexpr int kShowsPeriods = 30;
+
+TEST_P(RunsIntoAWall, AndIsOffInTime) {
+  const Blow blow = run_into_it(OverloadStop::kTorqueOff);
+  EXPECT_EQ(bench_->fault(0), Fault::kOverload);
+  ASSERT_GE(blow.overloaded, 0);
+  EXPECT_LE(blow.yielded, blow.overloaded + kOverloadPeriods + kShowsPeriods);
+  EXPECT_LE(blow.noticed, blow.yielded);
+  EXPECT_EQ(blow.touches, 1) << "it does not bounce";
+}
+
+TEST_P(RunsIntoAWall, AndHoldsBeforeItHavingYielded) {
+  const Blow blow = run_into_it(OverloadStop::kHoldLoad);
+  EXPECT_EQ(bench_->fault(0), Fault::kNone);
+  EXPECT_EQ(bench_->mode(0), Mode::kHolding);
+  ASSERT_GE(blow.overloaded, 0);
+  EXPECT_LE(blow.yielded, blow.overloaded + kOverloadPeriods + kShowsPeriods);
+  EXPECT_EQ(blow.touches, 1) << "it does not bounce";
+  EXPECT_LT(bench_->drive(0).simulated().plant().link_state().position_rad, kWall_rad);
+  EXPECT_LT(blow.last_speed_rad_s, 0.05);
+  EXPECT_LE(blow.peak_torque_Nm, kReferencePeakTorque_Nm);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryStiffness, RunsIntoAWall,
+                         ::testing::Combine(::testing::Values(200.0, 2000.0, 20000.0), ::testing::Bool()),
+                         [](const ::testing::TestParamInfo<std::tuple<double, bool>>& instance) {
+                           return std::to_string(static_cast<int>(std::get<double>(instance.param))) +
+                                  (std::get<bool>(instance.param) ? "OnASpring" : "");
+                         });
+
+TEST(Contact, AJointThatYieldsTakesNoSetpointUntilItHolds) {
+  JointBench bench({joint_before_a_wall(2000.0, false, OverloadStop::kHoldLoad)});
+  bench.bring_to_hold(0);
+  Order sample{.kind = OrderKind::kSetpoint,
+               .position_rad = 2.0 * kWall_rad,
+               .valid_for_s = 10.0,
+               .speed_limit_rad_s = kSpeed_rad_s,
+               .stream_id = 1,
+               .begins_stream = true};
+  ASSERT_EQ(bench.order(0, sample), Reason::kAccepted);
+  ASSERT_GE(bench.step_until([&] { return bench.has_notice(0, Notice::kLoadHigh); }, 2000), 0);
+  ASSERT_GE(bench.step_until([&] { return bench.state(0).torque_feedback_Nm == 0.0; }, 100), 0);
+  sample.begins_stream = false;
+  EXPECT_EQ(bench.order(0, sample), Reason::kStreamEnded) << "its stream is over";
+  EXPECT_EQ(bench.move(0, 0.1), Reason::kMoving);
+  bench.run(0.5);
+  EXPECT_EQ(bench.move(0, 0.1), Reason::kAccepted);
+  bench.run(1.0);
+  EXPECT_NEAR(bench.state(0).joint_position_rad, 0.1, 1e-4);
+}
+
+}  // namespace
+}  // namespace strainwave::testing

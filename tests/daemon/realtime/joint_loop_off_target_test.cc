@@ -1,0 +1,112 @@
+// A joint that holds elsewhere than it was sent, in the daemon's loop: what keeps it there, and that it is said. The joint is not
+// declared rigid and told of no spring, so that nothing but the law's feedback brings it back.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr double kTarget_rad = 0.1;
+constexpr double kTolerance_rad = 1e-3;
+
+BenchJoint plain_joint() {
+  BenchJoint joint = demo_joint();
+  joint.loop.controller.rigid = false;
+  joint.loop.controller.use_observer = false;
+  joint.loop.controller.use_landing = false;
+  joint.loop.rest_tolerance_rad = kTolerance_rad;
+  return joint;
+}
+
+/// With so many times the friction that its table declares.
+BenchJoint sticky_joint(double times) {
+  BenchJoint joint = plain_joint();
+  ExponentialTemperatureLaw& friction = joint.drive.plant.joint.friction;
+  for (FrictionParameters* part : {&friction.asymptote, &friction.amplitude}) {
+    part->static_Nm *= times;
+    part->coulomb_Nm *= times;
+  }
+  return joint;
+}
+
+void bring_to_rest(JointBench& bench) {
+  bench.bring_to_hold(0);
+  ASSERT_EQ(bench.move(0, kTarget_rad), Reason::kAccepted);
+  ASSERT_GE(bench.step_until([&] { return bench.mode(0) == Mode::kHolding; }, 1000), 0);
+}
+double off_rad(const JointBench& bench) {
+  return std::abs(bench.state(0).joint_position_rad - kTarget_rad);
+}
+bool told(const JointBench& bench) {
+  return bench.has_notice(0, Notice::kOffTarget);
+}
+/// Periods until it is told, while each of them is held against the tolerance: so many of the last ones were off the place.
+int periods_off_when_told(JointBench& bench, int limit) {
+  int off = 0;
+  for (int k = 0; k < limit; ++k) {
+    bench.step();
+    off = bench.mode(0) == Mode::kHolding && off_rad(bench) > kTolerance_rad ? off + 1 : 0;
+    if (told(bench)) return off;
+  }
+  return 0;
+}
+
+TEST(JointLoopOffTarget, ALoadThatFeedbackCarriesMilliradiansOffIsToldAfterASecondAndIsNoFault) {
+  JointBench bench({plain_joint()});
+  bring_to_rest(bench);
+  bench.run(1.5);
+  ASSERT_FALSE(told(bench));
+  bench.drive(0).simulated().set_load_torque_Nm(10.0);
+  EXPECT_NEAR(periods_off_when_told(bench, 3000), 1000, 1);
+  EXPECT_GT(off_rad(bench), 2e-3);
+  EXPECT_EQ(bench.mode(0), Mode::kHolding);
+  bench.drive(0).simulated().set_load_torque_Nm(0.0);
+  ASSERT_EQ(bench.move(0, kTarget_rad + 0.1), Reason::kAccepted);
+  bench.step_until([&] { return bench.mode(0) == Mode::kHolding; }, 1000);
+  EXPECT_FALSE(told(bench)) << "a second anew";
+}
+
+TEST(JointLoopOffTarget, FrictionOfSeveralTimesTheTablesIsTold) {
+  JointBench bench({sticky_joint(4.0)});
+  bring_to_rest(bench);
+  EXPECT_NEAR(periods_off_when_told(bench, 3000), 1000, 1);
+  EXPECT_NEAR(bench.state(0).joint_velocity_rad_s, 0.0, 1e-3) << "it sticks there";
+  ASSERT_EQ(bench.move(0, -0.5), Reason::kAccepted);
+  bench.run(0.1);
+  EXPECT_EQ(bench.mode(0), Mode::kTracking);
+  EXPECT_FALSE(told(bench)) << "on its way it is nowhere to hold";
+}
+
+TEST(JointLoopOffTarget, ALoadBelowTheBreakawayMovesNothingAndIsNotTold) {
+  JointBench bench({plain_joint()});
+  bring_to_rest(bench);
+  bench.run(1.5);
+  bench.drive(0).simulated().set_load_torque_Nm(1.0);
+  EXPECT_EQ(periods_off_when_told(bench, 3000), 0);
+}
+
+TEST(JointLoopOffTarget, TheToleranceIsTheConfigurations) {
+  BenchJoint joint = plain_joint();
+  joint.loop.rest_tolerance_rad = 5e-3;
+  JointBench bench({joint});
+  bring_to_rest(bench);
+  bench.drive(0).simulated().set_load_torque_Nm(10.0);
+  bench.run(3.0);
+  EXPECT_GT(off_rad(bench), 2e-3);
+  EXPECT_FALSE(told(bench));
+}
+
+TEST(JointLoopOffTarget, AJointWhoseObserverCarriesTheLoadIsWhereItWasSent) {
+  JointBench bench({demo_joint()});
+  bring_to_rest(bench);
+  bench.drive(0).simulated().set_load_torque_Nm(10.0);
+  bench.run(3.0);
+  EXPECT_LT(off_rad(bench), 1e-4);
+  EXPECT_FALSE(told(bench));
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,170 @@
+// A rigid joint that is what table and configuration say, on a drive that shares no line with ours (tests/support/strict_drive.h): its
+// SYNCs are not even, its torques and positions late, some of the positions lost. That is no reason to fall back to the plain law, and
+// the joint arrives all the same. Virtual time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <ostream>
+#include <random>
+
+#include "tests/support/joint_bench.h"
+#include "tests/support/strict_drive.h"
+
+namespace strainwave::testing {
+namespace {
+
+struct Uneven {
+  int torque_lag = 0;
+  int position_lag = 0;  ///< whole periods
+  double sync_jitter_s = 0.0;
+  double lost_share = 0.0;
+};
+
+std::ostream& operator<<(std::ostream& out, const Uneven& uneven) {
+  return out << "torque " << uneven.torque_lag << " and position " << uneven.position_lag
+             << " periods late, SYNC uneven by " << uneven.sync_jitter_s << " s, " << uneven.lost_share
+             << " of the positions lost";
+}
+
+struct Moves {
+  int fallbacks = 0;
+  int faults = 0;
+  double overshoot_rad = 0.0;  ///< the largest
+  double off_rad = 0.0;        ///< of the target, at rest, the farthest
+};
+
+class UnevenJoint {
+ public:
+  UnevenJoint(const Uneven& uneven, std::uint64_t seed) : random_(seed) {
+    StrictDriveData data;
+    data.torque_lag = uneven.torque_lag;
+    data.position_delay_s += uneven.position_lag * 1e-3;
+    data.sync_jitter_s = uneven.sync_jitter_s;
+    data.lost_share = uneven.lost_share;
+    data.seed = seed;
+    auto drive = std::make_unique<StrictDrive>(data);
+    drive_ = drive.get();
+    JointLoopConfig config = demo_joint().loop;
+    config.controller.delay_periods = 1 + uneven.torque_lag + uneven.position_lag;
+    config.controller.encoder_resolution_rad = 2.0 * std::numbers::pi / data.counts_per_revolution;
+    config.controller.sampling_deviation_s = 3e-5;
+    config.controller.motor = {1e9, 150.0, 19.1};
+    config.missed_readings_limit = 1000;
+    loop_ = std::make_unique<JointLoop>(0, config, std::move(drive), *replies_, *events_);
+    loop_->table_slot(0) = {demo_table(), 1};
+    order({.kind = OrderKind::kUseTable});
+    run(50);
+    order({.kind = OrderKind::kEnable});
+    run(300);
+    EXPECT_EQ(loop_->mode(), Mode::kHolding);
+  }
+
+  Moves move(int count) {
+    Moves moves;
+    for (int i = 0; i < count; ++i) {
+      const double far_rad = i % 3 == 0 ? 0.02 : 0.4;
+      move_to(std::uniform_real_distribution<double>(-far_rad, far_rad)(random_), moves);
+    }
+    return moves;
+  }
+
+  /// There and back.
+  Moves swing(int count) {
+    Moves moves;
+    for (int i = 0; i < 2 * count; ++i) move_to(i % 2 == 0 ? 0.3 : 0.0, moves);
+    return moves;
+  }
+
+  /// Likewise; the loop is away for so many periods somewhere on each way.
+  Moves swing_with_stalls(int count, int periods) {
+    stall_periods_ = periods;
+    return swing(count);
+  }
+
+ private:
+  void move_to(double target_rad, Moves& moves) {
+    const int stall_at = std::uniform_int_distribution<int>(1, 150)(random_);
+    const double side = target_rad > position_rad() ? 1.0 : -1.0;
+    order({.kind = OrderKind::kSetpoint, .position_rad = target_rad});
+    bool fell_back = false;
+    for (int k = 0; k < 1000; ++k) {
+      step(stall_periods_ > 0 && k == stall_at ? stall_periods_ : 0);
+      moves.overshoot_rad = std::max(moves.overshoot_rad, side * (position_rad() - target_rad));
+      fell_back =
+          fell_back || (loop_->record().state.notices & static_cast<std::int32_t>(Notice::kPlainLaw)) != 0;
+    }
+    moves.fallbacks += fell_back ? 1 : 0;
+    moves.faults += loop_->mode() == Mode::kFaulted ? 1 : 0;
+    moves.off_rad = std::max(moves.off_rad, std::abs(position_rad() - target_rad));
+  }
+  void order(Order order) {
+    order.id = ++time_.cycle;
+    loop_->orders().push(order);
+    step();
+  }
+  void run(int periods) {
+    for (int k = 0; k < periods; ++k) step();
+  }
+  void step(int skipped = 0) {
+    time_.elapsed_periods = 1 + skipped;
+    time_.cycle += time_.elapsed_periods;
+    time_.now_ns += time_.elapsed_periods * 1'000'000;
+    loop_->step(time_);
+  }
+  double position_rad() const { return drive_->joint().position_rad(); }
+
+  std::mt19937_64 random_;
+  std::unique_ptr<ReplyQueue> replies_ = std::make_unique<ReplyQueue>();
+  std::unique_ptr<EventQueue> events_ = std::make_unique<EventQueue>();
+  StrictDrive* drive_ = nullptr;
+  std::unique_ptr<JointLoop> loop_;
+  int stall_periods_ = 0;
+  CycleTime time_{1'000'000'000, 0, 1};
+};
+
+void expect_sound(const Uneven& uneven, std::uint64_t seed) {
+  const Moves moves = UnevenJoint(uneven, seed).move(100);
+  EXPECT_EQ(moves.fallbacks, 0) << uneven;
+  EXPECT_LT(moves.off_rad, 1e-4) << uneven;
+  EXPECT_LT(moves.overshoot_rad, 4e-3) << uneven;
+}
+
+TEST(UnevenDrive, WhoseSyncComesUpToATenthOfAPeriodLateMakesNoSoundJointFallBack) {
+  for (const int lag : {0, 1, 2})
+    for (const double jitter_s : {0.0, 1e-5, 3e-5, 1e-4}) {
+      expect_sound({lag, 0, jitter_s, 0.0}, 11);
+      expect_sound({0, lag, jitter_s, 0.0}, 12);
+    }
+}
+
+TEST(UnevenDrive, WhosePositionsAreLostNowAndThenMakesNoSoundJointFallBack) {
+  for (const int lag : {0, 1, 2})
+    for (const double share : {1e-3, 1e-2, 5e-2}) expect_sound({lag, 0, 3e-5, share}, 13);
+}
+
+TEST(UnevenDrive, SwingsALongWayWithinAFifthOfAMilliradianWithTorquesOrPositionsUpToTwoPeriodsLate) {
+  for (const Uneven& uneven :
+       {Uneven{0, 0, 3e-5, 0.0}, {1, 0, 3e-5, 0.0}, {2, 0, 3e-5, 0.0}, {0, 2, 3e-5, 0.0}}) {
+    const Moves moves = UnevenJoint(uneven, 14).swing(50);
+    EXPECT_EQ(moves.fallbacks, 0) << uneven;
+    EXPECT_LT(moves.off_rad, 1e-4) << uneven;
+    EXPECT_LT(moves.overshoot_rad, 2e-4) << uneven;
+  }
+}
+
+// Nobody sends a SYNC over a stall: what is read after it is the position of before.
+TEST(UnevenDrive, WhosePositionAfterAStallIsOfTheTimeBeforeMakesNoFaultAndNoFallBack) {
+  for (const int lag : {0, 1})
+    for (const int periods : {1, 3}) {
+      const Moves moves = UnevenJoint({lag, 0, 3e-5, 0.0}, 15).swing_with_stalls(60, periods);
+      EXPECT_EQ(moves.faults, 0) << lag << ", " << periods;
+      EXPECT_EQ(moves.fallbacks, 0) << lag << ", " << periods;
+      EXPECT_LT(moves.off_rad, 1e-4) << lag << ", " << periods;
+    }
+}
+
+}  // namespace
+}  // namespace strainwave::testing

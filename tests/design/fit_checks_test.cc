@@ -1,0 +1,83 @@
+#include "design/fit_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace strainwave {
+namespace {
+
+constexpr double kLow_C = 1.0;
+constexpr double kHigh_C = 500.0;
+
+FitProblem source_problem() {
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  return {fit_targets(data), friction_metric(FitWeighting::kTorque, data.motor_speeds_rpm), true};
+}
+
+ExponentialFit some_law() {
+  ExponentialFit law;
+  law.reference_C = -10.0;
+  law.decay_C = 12.0;
+  law.p0 << 3.0, 1.4, 1e-3;
+  law.p1 << 5.0, 4.0, 9e-3;
+  return law;
+}
+
+TEST(FitChecks, FindNoOutlierInTheSourcesCatalogueNorInTheLawItself) {
+  EXPECT_TRUE(find_outliers(source_problem(), kLow_C, kHigh_C).empty());
+  FitProblem exact = source_problem();
+  exact.targets.parameters = predict(some_law(), exact.targets.temperature_C);
+  EXPECT_TRUE(find_outliers(exact, kLow_C, kHigh_C).empty());
+}
+
+// A cell of the catalogue, ten times too large, changes the intercept and the slope of its line over speed.
+TEST(FitChecks, FindTheTemperatureOfAnyCellThatIsTenTimesTooLarge) {
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  const std::vector<double>& speeds = data.motor_speeds_rpm;
+  double mean = 0.0;
+  double squares = 0.0;
+  for (const double speed : speeds) mean += speed / 4.0;
+  for (const double speed : speeds) squares += (speed - mean) * (speed - mean);
+  for (Eigen::Index row = 0; row < 21; ++row) {
+    for (const double speed : speeds) {
+      FitProblem problem = source_problem();
+      const double excess =
+          9.0 * (problem.targets.parameters(row, 1) + speed * problem.targets.parameters(row, 2));
+      const double slope = excess * (speed - mean) / squares;
+      const double intercept = excess / 4.0 - slope * mean;
+      problem.targets.parameters.row(row) += Eigen::RowVector3d(intercept, intercept, slope);
+      const auto outliers = find_outliers(problem, kLow_C, kHigh_C);
+      ASSERT_EQ(outliers.size(), 1U) << row << " at " << speed;
+      EXPECT_EQ(outliers[0].row, row) << speed;
+      EXPECT_GT(outliers[0].cost, kOutlierFactor * outliers[0].cost_without);
+    }
+  }
+}
+
+TEST(FitChecks, TellHowFarAFitIsOffBetweenTheData) {
+  FitProblem problem = source_problem();
+  problem.targets.parameters = predict(some_law(), problem.targets.temperature_C);
+  const auto by = [&](double factor) {
+    return error_between(problem, [factor](const FitProblem& others, double temperature_C) {
+      EXPECT_EQ(others.targets.temperature_C.size(), 20);
+      for (const double known_C : others.targets.temperature_C) EXPECT_NE(known_C, temperature_C);
+      return Eigen::RowVector3d(factor *
+                                predict(some_law(), Eigen::VectorXd::Constant(1, temperature_C)).row(0));
+    });
+  };
+  EXPECT_NEAR(by(1.0), 0.0, 1e-12);
+  EXPECT_NEAR(by(1.07), 0.07, 1e-12);
+}
+
+TEST(FitChecks, SaySoWhenThereAreTooFewTemperaturesToTell) {
+  FitProblem problem = source_problem();
+  while (problem.targets.temperature_C.size() > 3) problem = without_row(problem, 1);
+  EXPECT_EQ(problem.targets.temperature_C(0), -10.0);
+  EXPECT_EQ(problem.targets.temperature_C(2), 40.0);
+  EXPECT_TRUE(std::isnan(error_between(
+      problem, [](const FitProblem&, double) { return Eigen::RowVector3d(Eigen::RowVector3d::Zero()); })));
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,21 @@
+// A table of data/ for a joint of another inertia.
+#pragma once
+
+#include <string>
+
+#include "control/gain_table_json.h"
+
+namespace strainwave::testing {
+
+/// The table of `data/tables/NAME`, its gains in proportion to the inertia: the same closed loop on a rigid joint of it.
+inline GainTable scaled_table(const std::string& name, double inertia_kgm2) {
+  GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/" + name);
+  const double scale = inertia_kgm2 / table.plant.inertia_kgm2;
+  table.plant.inertia_kgm2 = inertia_kgm2;
+  for (FeedbackGains* gains : {&table.primary, &table.fallback})
+    for (int rule = 0; rule < gains->rule_count; ++rule)
+      gains->set(rule, scale * gains->gain(rule), gains->lyapunov(rule));
+  return table;
+}
+
+}  // namespace strainwave::testing

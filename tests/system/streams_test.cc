@@ -1,0 +1,166 @@
+// A sine of 0.5 rad and 0.5 Hz streamed to the running daemon over LCM, on a rigid joint and on a link on a spring, with what a network does
+// to it; every cycle's state. For the virtual machine of tests/vm.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "control/gain_table_json.h"
+#include "tests/support/daemon_fixture.h"
+
+namespace strainwave::testing {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
+constexpr double kAmplitude_rad = 0.5;
+// Cycles that a sample is stamped ahead: the longest interval, the controller's lead, and the way.
+constexpr std::int64_t kAhead = 60;
+constexpr std::int64_t kBegin = 1000;
+constexpr std::int64_t kEnd = 5000;
+
+struct Ride {
+  double rms_torque_Nm = 0.0;
+  double rms_error_rad = 0.0;  ///< of the position in a cycle, from the sine in that cycle
+  double largest_error_rad = 0.0;
+  double largest_step_Nm = 0.0;
+  std::int64_t cycles = 0;
+};
+
+class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bool> {
+ protected:
+  void SetUp() override {
+    if (!in_virtual_time()) GTEST_SKIP() << "for the virtual machine: ctest -L vm";
+    const bool flexible = GetParam();
+    const GainTable table = flexible ? read_gain_table(programs_folder() / "c4.json") : shipped_table();
+    daemon_.emplace(folder_, joint(flexible, table.plant.inertia_kgm2));
+    client_.emplace();
+    ASSERT_TRUE(client_->wait_for_state("elbow", [](const state_v1&) { return true; })) << daemon_->log();
+    const Answer loaded = client_->load("elbow", table);
+    ASSERT_TRUE(loaded.accepted) << loaded.text;
+    ASSERT_TRUE(client_->command("elbow", Action::kEnable).accepted) << daemon_->log();
+    ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
+    client_->pump(milliseconds(3000));  // the temperature must have been good for a while
+  }
+
+  static std::string joint(bool flexible, double inertia_kgm2) {
+    const std::string limits =
+        "[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\nspeed_limit_rad_s = 6\n"
+        "acceleration_rad_s2 = 150\nfollowing_error_rad = 0.1\ntorque_limit_Nm = 34\n";
+    const std::string spring =
+        "[joint.control]\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.089\n[joint.simulated]\n"
+        "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n[joint.simulated.link]\ninertia_kgm2 = 0.089\n"
+        "[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n";
+    return "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = "
+           "\"allow\"\n"
+           "[[joint]]\nname = \"elbow\"\njoint_model = \"rhs17-6006\"\ngear_ratio = 50\ndriver = "
+           "\"simulated\"\n"
+           "inertia_kgm2 = " +
+           std::to_string(inertia_kgm2) + "\n" + limits +
+           (flexible ? spring : std::string("[joint.control]\nrigid = true\n"));
+  }
+
+  /// A sample every `every` cycles, of which the network loses, doubles and reorders a tenth each and has gaps of 30 ms if it is `bad`.
+  Ride ride(std::int64_t every, int derivatives, bool bad) {
+    EXPECT_TRUE(client_->move("elbow", 0.0).accepted);
+    client_->pump(milliseconds(2000));
+    client_->begin_stream();
+    client_->forget_states();
+    client_->pump(milliseconds(10));
+    const std::int64_t base = client_->state("elbow")->cycle + 10;
+    std::mt19937 random(5);
+    const auto chance = [&] { return bad && random() % 10 == 0; };
+    std::optional<setpoint_v2> late;
+    for (std::int64_t k = 0; k < kEnd; k += every) {
+      while (client_->state("elbow")->cycle < base + k) client_->pump(milliseconds(1));
+      const setpoint_v2 sample = sample_for(base, k + kAhead, derivatives);
+      const bool gap = bad && k % 500 >= 200 && k % 500 < 230;
+      const bool reordered = k > 0 && !late && chance();
+      if (reordered) {
+        late = sample;
+        continue;
+      }
+      const bool lost = k > 0 && (chance() || gap);
+      for (int copies = lost ? 0 : chance() ? 2 : 1; copies > 0; --copies)
+        client_->lcm().publish("SW.elbow.SETPOINT", &sample);
+      if (late) client_->lcm().publish("SW.elbow.SETPOINT", &*late);
+      late.reset();
+    }
+    client_->pump(milliseconds(100));
+    const Ride result = judge(base);
+    EXPECT_TRUE(client_->command("elbow", Action::kHold).accepted);
+    EXPECT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding));
+    return result;
+  }
+
+  setpoint_v2 sample_for(std::int64_t base, std::int64_t k, int derivatives) {
+    const double phase = kOmega_rad_s * 1e-3 * static_cast<double>(k);
+    setpoint_v2 sample = client_->make_setpoint("elbow", kAmplitude_rad * std::sin(phase), 0.3);
+    sample.derivatives = derivatives;
+    if (derivatives > 0) sample.velocity_rad_s = kAmplitude_rad * kOmega_rad_s * std::cos(phase);
+    sample.at_cycle = base + k;
+    sample.acknowledge = 0;
+    return sample;
+  }
+
+  Ride judge(std::int64_t base) {
+    Ride result;
+    const state_v1* last = nullptr;
+    for (const state_v1& state : client_->history("elbow")) {
+      const std::int64_t k = state.cycle - base;
+      if (k < kBegin || k >= kEnd) continue;
+      EXPECT_EQ(state.mode, static_cast<std::int32_t>(Mode::kTracking));
+      const double error_rad =
+          state.joint_position_rad - kAmplitude_rad * std::sin(kOmega_rad_s * 1e-3 * static_cast<double>(k));
+      ++result.cycles;
+      result.rms_torque_Nm += state.torque_commanded_Nm * state.torque_commanded_Nm;
+      result.rms_error_rad += error_rad * error_rad;
+      result.largest_error_rad = std::max(result.largest_error_rad, std::abs(error_rad));
+      // Where the joint turns round, friction changes its sign.
+      if (last != nullptr && std::abs(state.setpoint_velocity_rad_s) > 0.3)
+        result.largest_step_Nm =
+            std::max(result.largest_step_Nm, std::abs(state.torque_commanded_Nm - last->torque_commanded_Nm));
+      last = &state;
+    }
+    result.rms_torque_Nm = std::sqrt(result.rms_torque_Nm / static_cast<double>(result.cycles));
+    result.rms_error_rad = std::sqrt(result.rms_error_rad / static_cast<double>(result.cycles));
+    return result;
+  }
+
+  std::optional<DaemonProcess> daemon_;
+  std::optional<TestClient> client_;
+};
+
+TEST_P(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes) {
+  const Ride smooth = ride(5, 1, false);
+  const auto print = [&](const char* what, const Ride& one) {
+    std::printf("%s: %lld cycles, torque rms %.3f N.m, step %.3f N.m, error rms %.3f, largest %.3f mrad\n",
+                what, static_cast<long long>(one.cycles), one.rms_torque_Nm, one.largest_step_Nm,
+                1e3 * one.rms_error_rad, 1e3 * one.largest_error_rad);
+  };
+  print("200 Hz with velocity", smooth);
+  for (const int derivatives : {0, 1})
+    for (const std::int64_t every : {50, 10, 2}) {
+      const Ride streamed = ride(every, derivatives, false);
+      print(("every " + std::to_string(every) + " ms, derivatives " + std::to_string(derivatives)).c_str(),
+            streamed);
+      EXPECT_GT(streamed.cycles, 3900);
+      EXPECT_LT(streamed.rms_error_rad, 1e-3) << every << " ms, derivatives " << derivatives;
+      EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth.rms_torque_Nm)
+          << every << " ms, derivatives " << derivatives;
+      EXPECT_LT(streamed.largest_step_Nm, smooth.largest_step_Nm + 1.0) << every << " ms, " << derivatives;
+    }
+  const Ride hurt = ride(10, 1, true);
+  print("lost, doubled, reordered, gaps", hurt);
+  EXPECT_LT(hurt.largest_error_rad, 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(OnBothJoints, DaemonStreams, ::testing::Bool(),
+                         [](const ::testing::TestParamInfo<bool>& instance) {
+                           return instance.param ? "Spring" : "Rigid";
+                         });
+
+}  // namespace
+}  // namespace strainwave::testing
