@@ -19,4 +19,10 @@ class InputError : public std::runtime_error {
       : InputError(where + ": " + key + " = " + printable(value) + ": " + allowed) {}
 };
 
+/// What was asked for makes sense and was tried, and was not found: gains, a friction curve. Programs end with ExitStatus::kRefused.
+class NoSolution : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 }  // namespace strainwave

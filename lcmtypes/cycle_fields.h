@@ -35,6 +35,7 @@ constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
   if constexpr (requires { cycle.rule_count; }) visit(FieldName{"rule_count", "1"}, cycle.rule_count);
   visit(FieldName{"mode", "1"}, cycle.mode);
   visit(FieldName{"fault", "1"}, cycle.fault);
+  visit(FieldName{"drive_error", "1"}, cycle.drive_error);
   visit(FieldName{"notices", "1"}, cycle.notices);
   visit(FieldName{"gains_in_use", "1"}, cycle.gains_in_use);
   visit(FieldName{"temperature_status", "1"}, cycle.temperature_status);

@@ -24,7 +24,6 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
       visit(field.name.data(), value);
   });
   visit("faults_total", state.faults_total);
-  visit("drive_error", state.drive_error);
   visit("link_position_rad", state.link_position_rad);
 }
 

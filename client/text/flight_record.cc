@@ -16,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::string_view kFirstLine = "# strainwave-flight-record 1";
+constexpr std::string_view kFirstLine = "# strainwave-flight-record 2";
 constexpr std::array<std::string_view, 9> kNeeded{"time_s",
                                                   "mode",
                                                   "setpoint_position_rad",
@@ -81,7 +81,7 @@ FlightRecordInfo read_flight_record(const std::filesystem::path& file) {
   if (!stream || std::filesystem::is_directory(file))
     throw InputError(file.string() + " cannot be read: is the name right, is it yours to read?");
   if (!std::getline(stream, line) || line != kFirstLine)
-    throw InputError(file.string() + " is not a flight record of format 1: its first line is not '" +
+    throw InputError(file.string() + " is not a flight record of format 2: its first line is not '" +
                      std::string(kFirstLine) + "'");
   FlightRecordInfo info;
   while (std::getline(stream, line) && line.starts_with("# ")) read_head_line(line, info);

@@ -16,6 +16,7 @@
 #include "client/text/mcap_writer.h"
 #include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/message_json.h"
+#include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -83,7 +84,8 @@ std::string message_of(const CsvText& csv, std::size_t row, double period_s) {
   }
   const auto value = [&](const char* name) { return number_of(csv, row, csv.column(name)); };
   object.add("mode_text", std::string_view(to_text(static_cast<Mode>(std::lround(value("mode"))))));
-  object.add("fault_text", std::string_view(to_text(static_cast<Fault>(std::lround(value("fault"))))));
+  object.add("fault_text", fault_words(static_cast<Fault>(std::lround(value("fault"))),
+                                       std::llround(value("drive_error"))));
   const struct {
     double setpoint_position_rad, setpoint_velocity_rad_s, joint_position_rad;
   } cycle{value("setpoint_position_rad"), value("setpoint_velocity_rad_s"), value("joint_position_rad")};

@@ -83,11 +83,11 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
   section.refuse_unknown_keys();
 }
 
-// A tenth of a millisecond from the earliest to the latest is what an operating system and a bus make of an instant. Simulated joints
-// are sampled evenly.
+// A tenth of a millisecond from the earliest to the latest is what an operating system and a bus make of an instant. A simulated joint
+// lives by the clock as well, so it is sampled as unevenly as the loop wakes.
 constexpr double kSamplingDeviation_s = 3e-5;
 
-void read_features(TomlSection section, bool simulated, PlantIdentity& plant, JointLoopConfig& loop) {
+void read_features(TomlSection section, PlantIdentity& plant, JointLoopConfig& loop) {
   JointControllerConfig& controller = loop.controller;
   controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
   controller.use_rest = section.boolean_or("rest", controller.use_rest);
@@ -102,7 +102,7 @@ void read_features(TomlSection section, bool simulated, PlantIdentity& plant, Jo
   controller.encoder_deviation_counts =
       section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
   controller.sampling_deviation_s =
-      section.number_or("sampling_deviation_s", simulated ? 0.0 : kSamplingDeviation_s, {0.0, 1e-3});
+      section.number_or("sampling_deviation_s", kSamplingDeviation_s, {0.0, 1e-3});
   const double torque_limit_Nm = controller.torque_limit_Nm;
   loop.initial_load_Nm =
       section.number_or("initial_load_Nm", loop.initial_load_Nm, {-torque_limit_Nm, torque_limit_Nm});
@@ -154,7 +154,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
     section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
-  read_features(section.section_or_empty("control"), joint.driver == "simulated", joint.plant, joint.loop);
+  read_features(section.section_or_empty("control"), joint.plant, joint.loop);
   if (section.has("thermometer"))
     joint.thermometer = read_thermometer(section.section("thermometer"), folder);
   if (joint.thermometer && joint.driver == "simulated")

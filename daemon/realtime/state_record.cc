@@ -70,6 +70,7 @@ FlightSample flight_sample(const StateRecord& record, const CycleTime& time, Dri
   sample.temperature_used_C = state.temperature_used_C;
   sample.temperature_measured_C = record.temperature_measured_C;
   sample.zero_velocity_weight = state.zero_velocity_weight;
+  sample.drive_error = static_cast<std::uint32_t>(state.drive_error);
   sample.notices = static_cast<std::uint16_t>(state.notices);
   sample.mode = static_cast<std::uint8_t>(state.mode);
   sample.fault = static_cast<std::uint8_t>(state.fault);

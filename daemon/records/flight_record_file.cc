@@ -7,7 +7,7 @@
 
 #include "base/durations.h"
 #include "lcmtypes/cycle_fields.h"
-#include "lcmtypes/vocabulary.h"
+#include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 
@@ -54,8 +54,9 @@ void append_line(std::string& text, std::string_view key, const std::string& val
   text.append("# ").append(key).append(": ").append(value).append("\n");
 }
 
-std::string with_text(std::uint8_t fault) {
-  return std::to_string(fault) + " " + std::string(to_text(static_cast<Fault>(fault)));
+std::string with_text(const FlightSample& sample) {
+  return std::to_string(sample.fault) + " " +
+         fault_words(static_cast<Fault>(sample.fault), sample.drive_error);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ std::string flight_record_text(const FlightRecordHeader& header, const FlightRec
   append_line(text, "joint", header.joint);
   append_line(text, "joint_model", header.joint_model);
   append_line(text, "session_id", std::to_string(header.session_id));
-  append_line(text, "fault", with_text(fault.fault));
+  append_line(text, "fault", with_text(fault));
   append_line(text, "fault_cycle", std::to_string(fault.cycle));
   append_line(text, "fault_utc", utc(header.fault_unix_us));
   append_line(text, "period_s", period);

@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-inline constexpr int kFlightRecordFormat = 1;
+inline constexpr int kFlightRecordFormat = 2;
 /// End of the names of all flight records; only files with this ending are ever removed.
 inline constexpr const char* kFlightRecordSuffix = ".flight.csv";
 

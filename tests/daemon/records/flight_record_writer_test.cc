@@ -15,6 +15,7 @@
 
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/records/flight_record_file.h"
+#include "lcmtypes/reading_doubt.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -99,7 +100,7 @@ TEST_F(FlightRecordWriterTest, WritesTheDocumentedFormat) {
   EXPECT_TRUE(name.ends_with("-c51-f13.flight.csv")) << name;
   const auto lines = lines_of(files().front());
   ASSERT_GT(lines.size(), 12U);
-  EXPECT_EQ(lines[0], "# strainwave-flight-record 1");
+  EXPECT_EQ(lines[0], "# strainwave-flight-record 2");
   EXPECT_EQ(lines[1], "# joint: elbow");
   EXPECT_EQ(lines[2], "# joint_model: rhs17-6006");
   EXPECT_EQ(lines[3], "# session_id: 4711");
@@ -124,6 +125,22 @@ TEST_F(FlightRecordWriterTest, WritesTheDocumentedFormat) {
   EXPECT_EQ(value("cycle"), "51");
   EXPECT_EQ(value("time_s"), "0");
   EXPECT_EQ(value("fault"), "13") << "a byte is printed as a number";
+}
+
+TEST_F(FlightRecordWriterTest, NamesTheCauseOfAReadingThatCannotBeTrue) {
+  FlightSample sample;
+  sample.time_ns = now_ns_;
+  elbow_.write(sample);
+  sample.fault = static_cast<std::uint8_t>(Fault::kImplausibleReading);
+  sample.drive_error = doubt_number(ReadingDoubt::kJump, 0.5);
+  while (!elbow_.frozen()) elbow_.write(sample);
+  writer().turn(now_ns_);
+  ASSERT_EQ(files().size(), 1U);
+  const auto lines = lines_of(files().front());
+  EXPECT_EQ(lines.at(4), "# fault: 5 " + fault_words(Fault::kImplausibleReading, sample.drive_error));
+  EXPECT_NE(lines.at(4).find("the position jumped by"), std::string::npos) << lines.at(4);
+  EXPECT_NE(lines.back().find(",5," + std::to_string(sample.drive_error) + ","), std::string::npos)
+      << lines.back();
 }
 
 TEST_F(FlightRecordWriterTest, DocumentsEveryColumn) {
