@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kRefusalsKept = 8;
 constexpr int kRenewals = 3;
+constexpr double kSaidFor_s = 10.0;
 
 command_v1 command(Action action) {
   command_v1 message{};
@@ -77,9 +78,7 @@ void OrderDesk::post(const Name& joint, std::string_view kind, const Message& me
 void OrderDesk::order(const Name& joint, Action action) {
   const JointView* view = states_.find(joint.first, joint.second);
   if (action == Action::kClearFault && view != nullptr && mode_of(*view) != Mode::kFaulted) {
-    message_ = full_name(joint) + ": has no fault";
-    alarm_ = false;
-    return;
+    return say(full_name(joint) + ": has no fault", false);
   }
   post(joint, channel_kind::kCommand, command(action), std::string(to_text(action)));
 }
@@ -128,14 +127,24 @@ void OrderDesk::fail(const Waiting& waiting, const std::string& why) {
   report(*waiting.batch);
 }
 
+std::string OrderDesk::message(Instant at) const {
+  return waiting_.empty() && seconds_between(said_, at) > kSaidFor_s ? "" : message_;
+}
+
+void OrderDesk::say(std::string message, bool alarm) {
+  message_ = std::move(message);
+  alarm_ = alarm;
+  said_ = now();
+}
+
 void OrderDesk::report(const Batch& batch) {
-  alarm_ = !batch.failures.empty();
-  message_ = batch.whose + ": " + batch.what;
-  if (batch.accepted == 0 && batch.failures.empty()) message_ += " sent";
+  const bool alarm = !batch.failures.empty();
+  std::string text = batch.whose + ": " + batch.what;
+  if (batch.accepted == 0 && !alarm) text += " sent";
   if (batch.accepted > 0)
-    message_ += batch.accepted == batch.joints ? " accepted" : fmt::format(", {} accepted", batch.accepted);
-  if (alarm_)
-    message_ += fmt::format("{}{}", batch.joints == 1 ? ": " : "; ", fmt::join(batch.failures, "; "));
+    text += batch.accepted == batch.joints ? " accepted" : fmt::format(", {} accepted", batch.accepted);
+  if (alarm) text += fmt::format("{}{}", batch.joints == 1 ? ": " : "; ", fmt::join(batch.failures, "; "));
+  say(std::move(text), alarm);
 }
 
 void OrderDesk::on_ack(const ReceivedMessage& message) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/link/clock.h"
 #include "client/link/connection.h"
 #include "client/link/pending_order.h"
 #include "client/link/sender.h"
@@ -37,8 +38,8 @@ class OrderDesk {
   /// Repeats what was not answered. Call often.
   void tick();
 
-  /// What there is to say, the latest: "SW.elbow: enable accepted".
-  const std::string& message() const noexcept { return message_; }
+  /// What there is to say, the latest: "SW.elbow: enable accepted". Nothing any more ten seconds later, when it need not be true.
+  std::string message(Instant at = now()) const;
   bool alarm() const noexcept { return alarm_; }
 
   struct Refusal {
@@ -73,6 +74,7 @@ class OrderDesk {
   bool renew(Waiting& waiting, const ack_v1& refusal);
   void fail(const Waiting& waiting, const std::string& why);
   void report(const Batch& batch);
+  void say(std::string message, bool alarm);
   void on_ack(const ReceivedMessage& message);
 
   Connection& connection_;
@@ -81,6 +83,7 @@ class OrderDesk {
   double timeout_s_;
   std::vector<Waiting> waiting_;
   std::string message_;
+  Instant said_{};  ///< when `message_` was
   bool alarm_ = false;
   std::deque<Refusal> refusals_;
   Subscription acknowledgements_;

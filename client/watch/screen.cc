@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "client/text/text.h"
+
 namespace strainwave {
 
 Screen::Screen(int rows, int columns)
@@ -25,6 +27,11 @@ int Screen::put(int row, int column, std::string_view text, Style style, bool ma
     i += length;
   }
   return column;
+}
+
+void Screen::put_fitting(int row, int column, std::string_view text, Style style) {
+  const int room = columns_ - column;
+  if (room > 3) put(row, column, wrapped(text, static_cast<std::size_t>(room), 1).front(), style);
 }
 
 std::string Screen::text(int row) const {

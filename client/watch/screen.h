@@ -27,6 +27,8 @@ class Screen {
 
   /// Writes `text` (UTF-8) from a place on; what lies outside is left out. Returns the column behind it.
   int put(int row, int column, std::string_view text, Style style = Style::kPlain, bool marked = false);
+  /// Likewise; what the row has no room for ends in dots, since a number that is cut would be another one.
+  void put_fitting(int row, int column, std::string_view text, Style style = Style::kPlain);
   /// A row as text, without the blanks at its end.
   std::string text(int row) const;
   bool operator==(const Screen&) const = default;

@@ -2,7 +2,6 @@
 // clock. Not real-time.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
@@ -11,17 +10,10 @@
 #include <vector>
 
 #include "client/link/state_view.h"
+#include "client/watch/history.h"
 #include "client/watch/screen.h"
 
 namespace strainwave {
-
-/// Over time, the latest last.
-struct WatchHistory {
-  std::deque<double> position_rad;
-  std::deque<double> error_rad;
-  std::deque<double> torque_Nm;
-  std::deque<double> temperature_C;
-};
 
 struct WatchedJoint {
   std::string prefix;

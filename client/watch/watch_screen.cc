@@ -14,8 +14,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::size_t kHistory = 512;  // two for each character of the widest terminal
-constexpr double kKeyDelay_s = 0.05;   // keys are looked for this often
+constexpr double kKeyDelay_s = 0.05;  // keys are looked for this often
 
 /// Steps of the jog keys, in rad.
 constexpr std::array kJogSteps_rad{0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01,
@@ -45,7 +44,7 @@ class WatchScreen {
         sample();
         next = Deadline(arguments_.interval_s);
       }
-      model_.message = desk_.message();
+      model_.message = desk_.message(now());
       model_.message_alarm = desk_.alarm();
       model_.jog_rad = kJogSteps_rad.at(jog_);
       model_.refusals.clear();
@@ -97,20 +96,11 @@ class WatchScreen {
     if (before != model_.joints.end()) result = *before;
     result.view = *client_.states().find(prefix, joint);
     result.age_s = seconds_between(result.view.received, now());
-    const state_v1& state = result.view.state;
-    remember(result.history.error_rad, tracking_error_rad(result.view));
-    remember(result.history.torque_Nm, state.torque_applied_Nm);
-    remember(result.history.position_rad, state.joint_position_rad);
-    remember(result.history.temperature_C, state.temperature_used_C);
+    remember(result.view, result.age_s, result.history);
     if (const auto* temperature = temperatures_.find(prefix, joint))
       result.temperature = temperature->message;
     if (const auto* limits = limits_.find(prefix, joint)) result.limits = limits->message;
     return result;
-  }
-
-  static void remember(std::deque<double>& history, double value) {
-    history.push_back(value);
-    if (history.size() > kHistory) history.pop_front();
   }
 
   const WatchedJoint* selected() const {

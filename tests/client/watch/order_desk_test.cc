@@ -118,6 +118,21 @@ TEST_F(OrderDeskTest, SaysThatThereIsNoFaultInsteadOfClearingIt) {
   EXPECT_EQ(daemon_.heard().size(), 1U);
 }
 
+TEST_F(OrderDeskTest, WhatWasTrueLongAgoIsNotSaidAnyMore) {
+  OrderDesk desk(connection_, states_, "", 20.0);
+  const auto later = [](double seconds) {
+    return now() + std::chrono::duration_cast<Instant::duration>(std::chrono::duration<double>(seconds));
+  };
+  daemon_.publish_state(Mode::kHolding);
+  handle(0.05, desk);
+  desk.order({"ARM2", "elbow"}, Action::kClearFault);
+  EXPECT_EQ(desk.message(later(9.0)), "ARM2.elbow: has no fault");
+  EXPECT_EQ(desk.message(later(11.0)), "") << "it may have one by now";
+  daemon_.drop = 1;
+  desk.stop({{"ARM2", "elbow"}});
+  EXPECT_EQ(desk.message(later(15.0)), "ARM2.elbow: disable sent") << "and is not answered yet";
+}
+
 TEST_F(OrderDeskTest, DoesNotGiveAnewForEverWhatIsAlwaysTooOld) {
   OrderDesk desk(connection_, states_, "", 0.4);
   daemon_.reason = Reason::kTooOld;

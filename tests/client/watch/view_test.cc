@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "lcmtypes/vocabulary.h"
 
@@ -77,6 +78,55 @@ TEST(WatchView, KeepsTheSelectedJointInSight) {
   }
 }
 
+TEST(WatchView, NamesWhoIsInTroubleOutOfSight) {
+  WatchModel many = model(40);
+  EXPECT_FALSE(shows(render(many, 24, 80), "FAULT"));
+  many.joints[39].view.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+  many.joints[38].age_s = 2.5;
+  const Screen screen = render(many, 24, 80);
+  ASSERT_EQ(row_of(screen, " joint39 "), -1) << "it would be seen\n" << all_text(screen);
+  const std::string title = screen.text(0);
+  const auto place = title.find("FAULT or SILENCE: joint38, joint39");
+  ASSERT_NE(place, std::string::npos) << title;
+  EXPECT_EQ(screen.at(0, static_cast<int>(place)).style, Style::kAlarm);
+  for (WatchedJoint& joint : many.joints) joint.age_s = 2.5;
+  EXPECT_TRUE(render(many, 24, 80).text(0).ends_with("...")) << "there are more";
+}
+
+TEST(WatchView, TellsJointsWithLongNamesApart) {
+  WatchModel two = model(0);
+  for (const char* name : {"shoulder_left_front_roll", "shoulder_left_front_yaw"})
+    two.joints.push_back(joint("SW", name, Mode::kHolding));
+  const Screen screen = render(two, 24, 80);
+  EXPECT_TRUE(shows(screen, ">shoulder_left_front_roll holding")) << all_text(screen);
+  EXPECT_TRUE(shows(screen, " shoulder_left_front_yaw  holding")) << all_text(screen);
+  EXPECT_TRUE(shows(screen, "joint    shoulder_left_front_roll holding, target")) << all_text(screen);
+  const Screen narrow = render(two, 24, 40);
+  EXPECT_TRUE(shows(narrow, ">shoulder_..ront_roll")) << all_text(narrow);
+  EXPECT_TRUE(shows(narrow, " shoulder_..front_yaw")) << all_text(narrow);
+}
+
+TEST(WatchView, CutsNoNumber) {
+  WatchModel one = model(1);
+  timing_v1& timing = one.daemons[0].timing;
+  timing.overruns = 123456;
+  timing.wakeup_latency_max_ns = 234567000;
+  timing.execution_time_max_ns = 345678000;
+  timing.rejects[static_cast<int>(Reason::kOldSequence)] = 456789;
+  for (const double age_s : {0.1, 12345.0}) {
+    one.daemons[0].age_s = age_s;
+    for (int columns = 30; columns < 140; ++columns) {
+      const std::string line = render(one, 24, columns).text(1);
+      EXPECT_TRUE(line.ends_with("...") || line.ends_with(" ms") || line.ends_with(" us") ||
+                  line.ends_with(" overruns") || line.ends_with(" refused"))
+          << line;
+      if (columns >= 80 && age_s < 1.0) {
+        EXPECT_NE(line.find("456789 refused"), std::string::npos) << line;
+      }
+    }
+  }
+}
+
 TEST(WatchView, SetsAFaultASilenceAndALimitApart) {
   WatchModel three = model(4);
   three.joints[1].view.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
@@ -84,7 +134,9 @@ TEST(WatchView, SetsAFaultASilenceAndALimitApart) {
   three.joints[2].age_s = 2.5;
   three.joints[3].view.state.notices = static_cast<std::int32_t>(Notice::kTorqueLimited);
   const Screen screen = render(three, 24, 160);
-  const auto style = [&](const std::string& name) { return screen.at(row_of(screen, name), 1).style; };
+  const auto style = [&](const std::string& name) {
+    return screen.at(row_of(screen, " " + name + " "), 1).style;
+  };
   EXPECT_EQ(style("joint1"), Style::kAlarm);
   EXPECT_EQ(style("joint2"), Style::kAlarm);
   EXPECT_EQ(style("joint3"), Style::kWarning);
@@ -194,6 +246,21 @@ TEST(WatchView, ExplainsItsKeys) {
   const Screen screen = render(asked, 24, 80);
   for (const char* part : {"jog", "clear a fault", "needs no key", "error_rad"})
     EXPECT_TRUE(shows(screen, part)) << part << "\n" << all_text(screen);
+}
+
+TEST(WatchView, ExplainsAllOfThemOnSmallTerminals) {
+  WatchModel asked = model(1);
+  asked.help = true;
+  asked.message = "SW.joint0: enable: refused, joint is faulted: " + std::string(200, 'x');
+  EXPECT_TRUE(shows(render(asked, 24, 80), "a daemon may refuse them"))
+      << all_text(render(asked, 24, 80)) << "the last of it";
+  std::istringstream words(all_text(render(asked, 60, 40)));
+  std::string narrow;
+  for (std::string word; words >> word;) narrow += word + " ";
+  for (const char* part :
+       {"needs no key and no session", "when the position was measured", "docs/faults.md explains each"})
+    EXPECT_NE(narrow.find(part), std::string::npos) << part << "\n" << narrow;
+  EXPECT_TRUE(shows(render(asked, 24, 40), "a larger terminal has more"));
 }
 
 TEST(WatchView, ShowsWhereTheTemperatureComesFrom) {
