@@ -82,6 +82,8 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
                  std::optional<double> acceleration_rad_s2) {
   checked_number("t_s", t_s, "a finite time in s, above the last one", !last_t_s_ || t_s > *last_t_s_);
   const auto held = link_->lock();
+  // Not begun anew by the next sample: somebody may have ended it for a reason.
+  if (over_) throw NotDone(link_->name() + ": this stream is over; Joint::stream() makes another one");
   setpoint_v2 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2);
   last_t_s_ = t_s;
   if (!last_cycle_) {
@@ -104,6 +106,7 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
 }
 
 void Stream::close() {
+  over_ = true;
   if (!last_cycle_) return;
   const auto held = link_->lock();
   Client& client = link_->client();
@@ -174,7 +177,10 @@ void Stream::wait_until_due(std::int64_t cycle) {
 void Stream::check_refusals() {
   while (const auto refusal = link_->client().take_refusal()) {
     if (refusal->reason != Reason::kTooOld && !refusal->overtaken) {
-      if (refusal->reason == Reason::kStreamEnded) last_cycle_.reset();  // whoever ended it has the joint
+      if (refusal->reason == Reason::kStreamEnded) {
+        over_ = true;
+        last_cycle_.reset();  // whoever ended it has the joint
+      }
       require_accepted(*refusal, link_->name(), "a setpoint of the stream");
     }
     ++late_;

@@ -1,5 +1,9 @@
 """A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths"."""
+import reprlib
+from collections.abc import Iterable, Mapping, Sized
+
 from .errors import InvalidInput
+from .joint import Joint
 from .messages import blank
 from .motion import ArrivalWatch, wait_for_motion
 from .path_v1 import path_v1
@@ -17,6 +21,11 @@ class Path:
     def __init__(self, knots):
         if not knots:
             raise InvalidInput("a path has at least one joint")
+        if not isinstance(knots, Mapping):
+            raise InvalidInput(f"{reprlib.repr(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
+        for joint in knots:
+            if not isinstance(joint, Joint):
+                raise InvalidInput(f"{joint!r}: a Joint is allowed, as Joint({joint!r})")
         self._knots = {joint: self._checked(joint.name, of_joint) for joint, of_joint in knots.items()}
         self._joints = list(self._knots)
 
@@ -64,11 +73,13 @@ class Path:
 
     @staticmethod
     def _checked(name, knots):
+        if not isinstance(knots, Iterable):
+            raise InvalidInput(f"{name}: {knots!r}: a list of knots (time_s, position_rad, velocity_rad_s) is allowed")
         knots = list(knots)
         if not 2 <= len(knots) <= MOST_KNOTS:
             raise InvalidInput(f"{name}: {len(knots)} knots: 2 to {MOST_KNOTS} are allowed")
         for index, knot in enumerate(knots):
-            if len(knot) != 3:
+            if not isinstance(knot, Sized) or len(knot) != 3:
                 raise InvalidInput(f"{name}: knot {index} = {knot!r}: (time_s, position_rad, velocity_rad_s) is allowed")
         return [tuple(check_number(f"{name}: knot {index}", number, "a finite number", lambda _: True) for number in knot)
                 for index, knot in enumerate(knots)]

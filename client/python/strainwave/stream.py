@@ -44,14 +44,18 @@ class Stream:
         self._base = beside._base if beside else TimeBase()
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None
-        self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun
+        self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun, or is over
+        self._over = False  # closed, or ended by somebody
 
     def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None, *, torque_Nm=0.0, load_inertia_kgm2=0.0):
         """The joint shall be at `position_rad` at time `t` (s; rising; the first is in `ahead_s` from now), with the velocity and
         acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
         carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
-        runs at the joint's pace. False: it came after its time and was left out. Raises Refused, NotDone, NoAnswer, InvalidInput.
+        runs at the joint's pace. False: it came after its time and was left out. Raises Refused, NotDone (also when the stream is over),
+        NoAnswer, InvalidInput.
         """
+        if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
+            raise NotDone(f"{self._joint.name}: this stream is over; Joint.stream() makes another one")
         t = check_number("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
         message.torque_Nm = check_number("torque_Nm", torque_Nm, "a finite number", lambda _: True)
@@ -72,6 +76,7 @@ class Stream:
 
     def close(self):
         """Waits for the last sample's time, ends the stream and waits until the joint holds."""
+        self._over = True
         if self._last_cycle is None:
             return
         network, conversation = self._conversation.network, self._conversation
@@ -92,6 +97,7 @@ class Stream:
         if error is None:
             self.close()
             return
+        self._over = True
         try:
             if self._last_cycle is not None:
                 self._joint.hold()
@@ -147,7 +153,7 @@ class Stream:
             reason, text, overtaken = refusal
             if reason != Reason.TOO_OLD and not overtaken:
                 if reason == Reason.STREAM_ENDED:
-                    self._last_cycle = None  # whoever ended it has the joint
+                    self._over, self._last_cycle = True, None  # whoever ended it has the joint
                 raise Refused(self._joint.name, "a setpoint of the stream", reason, text)
             self.late += 1
 

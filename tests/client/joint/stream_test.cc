@@ -138,6 +138,24 @@ TEST_F(StreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
   }
 }
 
+TEST_F(StreamTest, IsNotBegunAnewByASampleAfterItsEnd) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kStreamEnded; };
+  auto ended = joint.stream({.ahead_s = 0.9});
+  ended.put(0.0, 0.1);
+  double t_s = 0.0;
+  EXPECT_THROW(while (t_s < 10.0) ended.put(t_s += 0.01, 0.1), Refused);
+  daemon.daemon().after_answer = nullptr;
+  daemon.daemon().reason = Reason::kAccepted;
+  EXPECT_THROW(ended.put(t_s + 0.5, 0.1), NotDone) << "somebody else has ended it";
+  auto closed = joint.stream({.ahead_s = 0.9});
+  closed.put(0.0, 0.2);
+  closed.close();
+  EXPECT_THROW(closed.put(0.5, 0.2), NotDone);
+  int begun = 0;
+  for (const setpoint_v2& setpoint : heard<setpoint_v2>()) begun += setpoint.begins_stream;
+  EXPECT_EQ(begun, 2);
+}
+
 TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   auto stream = joint.stream();
   EXPECT_THROW(stream.put(0.0, 3.5), InvalidInput);

@@ -252,6 +252,22 @@ class Orders(unittest.TestCase):
         stream.put(0.01, 0.1)
         with self.assertRaisesRegex(Refused, "setpoint stream has ended"):
             stream.put(0.02, 0.1)
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.03, 0.1)
+        self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
+
+    def test_of_a_stream_after_its_close_are_refused_and_begin_nothing(self):
+        def daemon(channel, message):
+            self.answer(published(channel, message))
+            self.publish_state(Mode.HOLDING, cycle=3000)
+
+        self.network.daemon = daemon
+        with self.stream(ahead_s=0.9) as stream:
+            stream.put(0, 0.1)
+        sent = len(self.network.published)
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.5, 0.1)
+        self.assertEqual(len(self.network.published), sent)
 
     def stream_refused(self, reason, **answer):
         """A stream whose second sample is refused; the joint holds when it is told to."""
@@ -349,9 +365,13 @@ class Orders(unittest.TestCase):
     def test_of_paths_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
         Path({self.elbow: [(i, 0, 0) for i in range(320)]})
         for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knots"),
-                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1 = 'x'")):
+                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1 = 'x'"),
+                             ([0, 0.25, 0], "knot 0 = 0: .time_s"), (None, "None: a list of knots")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path({self.elbow: knots})
+        for wrong, words in (({"elbow": self.KNOTS}, "'elbow': a Joint is allowed, as Joint\\('elbow'\\)"), (self.KNOTS, "{joint: ")):
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                Path(wrong)
 
 
 class Urls(unittest.TestCase):
