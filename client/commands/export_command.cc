@@ -187,11 +187,15 @@ template <typename Export>
 void export_into(Export into, const Output& output, const std::filesystem::path& log) {
   EventLogReader reader(log);
   long others = 0;
+  long taken = 0;
   for (LogEvent event; reader.next(event);) {
     const auto name = parse_channel(event.channel);
-    if (!name || !into.take(*name, event)) ++others;
+    ++(name && into.take(*name, event) ? taken : others);
   }
   into.finish(output);
+  if (taken == 0)
+    say(output, fmt::format("nothing in {} could be exported", log.string()),
+        {{"exported", std::int64_t{0}}});
   if (others > 0)
     say(output, fmt::format("{} other messages were left out", others), {{"left_out", std::int64_t{others}}});
   if (reader.truncated()) say(output, "the log's last message is cut off", {{"truncated", true}});
@@ -213,6 +217,10 @@ void export_flight_record(const Output& output, const ExportArguments& arguments
 }  // namespace
 
 void export_log(const Output& output, const ExportArguments& arguments) {
+  refuse_name_of_mcap(arguments.out, arguments.mcap);
+  std::error_code neither_is_there;
+  if (std::filesystem::equivalent(arguments.log, arguments.out, neither_is_there))
+    throw ClientError(ExitStatus::kUsage, arguments.out.string() + " is what is read: choose another name");
   if (is_flight_record(arguments.log)) return export_flight_record(output, arguments);
   const LogSpan span = span_of(arguments.log);  // before anything is created
   if (arguments.mcap)

@@ -63,6 +63,11 @@ void record_into(Log& log, Client& client, const Output& output, const RecordArg
 }  // namespace
 
 void record(Client& client, const Output& output, const RecordArguments& arguments) {
+  refuse_name_of_mcap(arguments.file, arguments.mcap);
+  if (arguments.file.extension() == ".csv")
+    throw ClientError(ExitStatus::kUsage, arguments.file.string() +
+                                              " would be no CSV file: record an LCM log, and strainwavectl "
+                                              "export makes CSV of it");
   for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
   if (arguments.joints.empty()) client.wait_for_joints();
   if (arguments.mcap) {

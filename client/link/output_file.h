@@ -13,6 +13,13 @@ inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite)
     throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
 }
 
+/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one.
+inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
+  if (!mcap && file.extension() == ".mcap")
+    throw ClientError(ExitStatus::kUsage,
+                      file.string() + " would be no MCAP file: say --mcap, or choose another name");
+}
+
 /// That `file` could not be created or opened for writing.
 inline ClientError not_writable(const std::filesystem::path& file) {
   return {ExitStatus::kUsage, file.string() + " cannot be written: does its folder exist, is it yours?"};

@@ -102,6 +102,55 @@ TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
             ExitStatus::kUsage);
 }
 
+TEST_F(CommandsTest, NoFileIsNamedForAFormatThatItIsNot) {
+  const TemporaryFolder folder;
+  daemon.publish_state();
+  for (const char* name : {"a.mcap", "a.csv"}) {
+    EXPECT_EQ(status_of([&] {
+                record(client, output, {{"elbow"}, folder.path() / name, 0.01});
+              }),
+              ExitStatus::kUsage);
+    EXPECT_TRUE(message_has(name)) << message;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / name));
+  }
+  const auto log = folder.path() / "a.lcm";
+  record(client, output, {{"elbow"}, log, 0.01});
+  EXPECT_EQ(status_of([&] { export_log(output, {log, folder.path() / "b.mcap"}); }), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("--mcap")) << message;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.mcap"));
+}
+
+TEST_F(CommandsTest, ExportDoesNotDestroyWhatItReads) {
+  const TemporaryFolder folder;
+  const auto log = folder.path() / "a.lcm";
+  daemon.publish_state();
+  client.wait_for_joint("elbow");
+  daemon.publish_state();
+  record(client, output, {{"elbow"}, log, 0.05});
+  const auto size = std::filesystem::file_size(log);
+  ASSERT_GT(size, 0U);
+  std::filesystem::create_symlink(log, folder.path() / "same.lcm");
+  for (const char* name : {"a.lcm", "same.lcm"}) {
+    EXPECT_EQ(status_of([&] {
+                export_log(output, {log, folder.path() / name, true, true});
+              }),
+              ExitStatus::kUsage);
+    EXPECT_TRUE(message_has("is what is read")) << message;
+    EXPECT_EQ(std::filesystem::file_size(log), size);
+  }
+}
+
+TEST_F(CommandsTest, ExportSaysThatThereWasNothing) {
+  const TemporaryFolder folder;
+  const auto log = folder.path() / "empty.lcm";
+  std::ofstream{log};
+  for (const char* name : {"states.csv", "folder"}) {
+    stream.str("");
+    export_log(output, {log, folder.path() / name});
+    EXPECT_TRUE(output_has("nothing in")) << name << ": " << stream.str();
+  }
+}
+
 /// memq:// drops what nobody has subscribed to yet: sends the message once a first one, the trigger, is dispatched.
 class LaterTiming {
  public:
