@@ -185,6 +185,12 @@ TEST(FaultWords, SayWhichOfTheCausesOfFaultFiveItWas) {
             "0.0002 rad");
   EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kPositionNotFinite)),
             "implausible reading: the position is not a number");
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kVelocityNotFinite)),
+            "implausible reading: the velocity is not a number");
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kTorqueNotFinite)),
+            "implausible reading: the torque is not a number");
+  EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kCountsMissing)),
+            "implausible reading: counts of the encoder are missing or wrong");
   EXPECT_EQ(fault_words(fault, doubt_number(ReadingDoubt::kJump, std::numeric_limits<double>::infinity())),
             "implausible reading: the position jumped by 16.7772 rad or more from one reading to the next");
   EXPECT_EQ(fault_words(fault, 0), "implausible reading");

@@ -7,6 +7,8 @@
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v2.hpp>
+#include <strainwave/inject_v1.hpp>
+#include <strainwave/limits_v1.hpp>
 #include <strainwave/path_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 #include <strainwave/state_v1.hpp>
@@ -119,6 +121,23 @@ TEST(Fingerprint, TellsAnotherVersionFromATornMessageAndFromOurs) {
     other[i] ^= 1;
     EXPECT_TRUE(is_of_another_version(channel_kind::kCommand, other)) << i;
   }
+}
+
+TEST(Fingerprint, OfEachKindOfChannelIsThatOfItsOwnTypeAlone) {
+  const std::vector<std::pair<std::string_view, std::vector<std::uint8_t>>> kinds{
+      {channel_kind::kState, encode(state_v1{})},
+      {channel_kind::kTemperature, encode(temperature_v1{})},
+      {channel_kind::kLimits, encode(limits_v1{})},
+      {channel_kind::kTiming, encode(timing_v1{})},
+      {channel_kind::kSetpoint, encode(setpoint_v2{})},
+      {channel_kind::kCommand, encode(command_v1{})},
+      {channel_kind::kInject, encode(inject_v1{})},
+      {channel_kind::kAck, encode(ack_v1{})},
+      {channel_kind::kPath, encode(path_v1{})},
+      {channel_kind::kTable, encode(gain_table_v2{})}};
+  for (const auto& [kind, own] : kinds)
+    for (const auto& [other, bytes] : kinds)
+      EXPECT_EQ(is_of_another_version(kind, bytes), kind != other) << kind << " and " << other;
 }
 
 }  // namespace
