@@ -1,45 +1,13 @@
 """Our driver against a drive that shares no line with our own (strict_node.py): a foreign one stays untouched, a slow or late one is
 started all the same, two with one id are noticed."""
-import os
-import pathlib
 import signal
-import subprocess
 import time
-import unittest
 
-from bench import (BUS, FAULTS, JOINT, MODES, Daemon, ctl, daemon_toml, joint_state, joint_toml, make_bus, must, now_us, remove_bus,
-                   show_and_exit, wait_until)
-
-# An interpreter does not answer every millisecond.
-PATIENT = 'zero_torque_after = 100\nquick_stop_after = 1000\n'
-SUPERVISION = '\n[joint.supervision]\nmissed_readings_limit = 1000\n'
-POSITION_LATE = 1024
+from bench import FAULTS, JOINT, MODES, ctl, joint_state, must, show_and_exit, wait_until
+from strict_bench import StrictBench
 
 
-class StrictPeer(unittest.TestCase):
-    def setUp(self):
-        make_bus()
-        self.addCleanup(remove_bus)
-
-    def start_node(self, *options, log='strict.log'):
-        process = subprocess.Popen(['chrt', '-f', '50', 'python3', '-B', 'strict_node.py', BUS, '3', '--log', log, *options])
-        self.addCleanup(lambda: (process.kill(), process.wait()))
-        wait_until(lambda: os.path.exists(log) and ' off' in pathlib.Path(log).read_text(), 10, 'the node runs')
-        return process
-
-    def start_daemon(self, can='', **more):
-        daemon = Daemon(daemon_toml([joint_toml(can=PATIENT + can) + SUPERVISION]), name=self.id().split('.')[-1], **more)
-        self.addCleanup(lambda: daemon.process.poll() is None and daemon.kill())
-        return daemon
-
-    @staticmethod
-    def done_to(log='strict.log'):
-        return [line.split(' ', 1)[1] for line in pathlib.Path(log).read_text().splitlines()]
-
-    def enable(self):
-        must('enable', JOINT, timeout_s=10)
-        self.assertEqual(joint_state()['mode'], MODES['holding'])
-
+class StrictPeer(StrictBench):
     def test_a_drive_of_another_vendor_is_read_and_left_alone(self):
         self.start_node('--vendor', '0xABC')
         wait_until(lambda: 'boot' in self.done_to(), 2, 'it boots')
@@ -99,61 +67,6 @@ class StrictPeer(unittest.TestCase):
         self.start_node('--tpdo-delay', '0.0104')
         said = self.start_daemon('delay_periods = 2\n', wait_for=None).refusal(30)
         self.assertIn('delay_periods', said)
-
-
-    def swing(self):
-        """There and back: how far the joint itself came beyond its targets, and how far from them it held, in mrad."""
-        beyond_mrad, off_mrad = 0.0, 0.0
-        for target_rad, side in ((0.3, 1), (0.0, -1)):
-            at_us = now_us()
-            must('move', JOINT, str(target_rad))
-            time.sleep(1.5)
-            for line in pathlib.Path('track').read_text().splitlines():
-                utime, position_rad = int(line.split()[0]), float(line.split()[1])
-                if utime > at_us:
-                    beyond_mrad = max(beyond_mrad, 1e3 * side * (position_rad - target_rad))
-                if utime > at_us + 1000000:
-                    off_mrad = max(off_mrad, 1e3 * abs(position_rad - target_rad))
-        return beyond_mrad, off_mrad
-
-    def expect_exact_swings(self, notices, on_time=False, count=5):
-        # Pushes that are not answered until they are over may go a milliradian too far; the next one comes back.
-        for number in range(count):
-            beyond_mrad, off_mrad = self.swing()
-            state = joint_state()
-            told = (f'swing {number}: beyond the target by {beyond_mrad:.3f} mrad, holds {off_mrad:.3f} mrad off it, '
-                    f'notices {state["notices"]}')
-            print(told)
-            self.assertLess(beyond_mrad, 0.2 if on_time else 2, told)
-            self.assertLess(off_mrad, 0.1, told)
-            self.assertEqual(state['notices'], notices, told)
-
-    def test_a_joint_whose_positions_are_on_time_is_exact(self):
-        self.start_node('--track', 'track')
-        self.start_daemon()
-        self.enable()
-        self.expect_exact_swings(notices=0, on_time=True)
-
-    def test_a_joint_whose_torques_act_a_period_late_is_exact(self):
-        self.start_node('--torque-lag', '1', '--track', 'track')
-        self.start_daemon('delay_periods = 2\n')
-        self.enable()
-        self.expect_exact_swings(notices=0)
-
-    def test_a_joint_whose_positions_are_2_4_ms_late_from_the_start_is_exact(self):
-        self.start_node('--tpdo-delay', '0.0024', '--track', 'track')
-        self.start_daemon('delay_periods = 3\n')
-        self.enable()
-        self.expect_exact_swings(notices=POSITION_LATE)
-
-    def test_a_joint_whose_positions_become_2_4_ms_late_in_operation_is_exact_and_says_so(self):
-        process = self.start_node('--late', '0.0024', '--torque-lag', '2', '--track', 'track')
-        self.start_daemon('delay_periods = 3\n')
-        self.enable()
-        self.expect_exact_swings(notices=0)
-        process.send_signal(signal.SIGUSR2)
-        time.sleep(0.5)
-        self.expect_exact_swings(notices=POSITION_LATE)
 
     def test_positions_that_become_later_than_is_allowed_for_are_a_fault(self):
         process = self.start_node('--late', '0.0104', '--torque-lag', '2', '--track', 'track')
