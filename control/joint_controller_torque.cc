@@ -69,6 +69,10 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     const bool resting = rest_detector_.update(distance_rad, state_.now().velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
+  // A push that is planned to its end has become another over periods that were left out.
+  const bool planned = config_.delay_periods > 1;
+  if (phase_ == MotionPhase::kLanding && planned && measurement.elapsed_periods > 1)
+    enter(MotionPhase::kTracking);
   if (!landing_possible()) {
     ask_for_new_plan();
     return enter(MotionPhase::kTracking);

@@ -34,8 +34,9 @@ void StateEstimator::step(const JointMeasurement& measurement, const JointModel&
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   // Before the first period nothing has acted yet.
   const int most_late = kMaxControlDelay - config_.delay_periods;
-  let_torque_act(first_ ? 0 : elapsed_periods, std::clamp(measurement.late_periods, 0, most_late), model,
-                 source);
+  const int waiting = waiting_torques(measurement);
+  let_torque_act(first_ ? 0 : elapsed_periods, std::clamp(measurement.late_periods, 0, most_late), waiting,
+                 model, source);
   first_ = false;
   const double position_rad = measurement.joint_position_rad;
   still_periods_ = position_rad == previous_position_rad_
@@ -71,9 +72,24 @@ void StateEstimator::remember(double torque_Nm) noexcept {
   torques_Nm_.front() = torque_Nm;
 }
 
+// A drive that has not sampled its position over periods that were left out was not told to, nor to take the next torque. What is left of the
+// delay once positions have theirs is what its torques wait.
+int StateEstimator::waiting_torques(const JointMeasurement& measurement) const noexcept {
+  const int skipped = measurement.elapsed_periods - 1;
+  const int later = measurement.late_periods - late_periods_;
+  if (skipped <= 0 || later <= 0) return 0;
+  const int of_positions = std::max(0, skipped - later);
+  return std::max(0, config_.delay_periods - 1 - of_positions);
+}
+
+// By a period: the torque that acts, which is the newest but so many.
+void StateEstimator::prolong(int waiting) noexcept {
+  std::copy_backward(torques_Nm_.begin() + waiting, torques_Nm_.end() - 1, torques_Nm_.end());
+}
+
 // From the last position's sampling to this one's, fewer periods have passed when positions become late, and more when they
 // catch up.
-void StateEstimator::let_torque_act(int periods, int late_periods, const JointModel& model,
+void StateEstimator::let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
                                     EstimateSource source) noexcept {
   const auto predict = [&](int late) {
     if (source != EstimateSource::kObserver) return;
@@ -81,7 +97,7 @@ void StateEstimator::let_torque_act(int periods, int late_periods, const JointMo
   };
   const int later = late_periods - late_periods_;
   for (int period = 0; period < periods; ++period) {
-    if (period > 0) remember(torques_Nm_.front());
+    if (period > 0) prolong(waiting);
     if (period < periods - later) predict(late_periods_);
   }
   for (int late = late_periods_ - 1; late >= late_periods; --late) predict(late);

@@ -4,7 +4,8 @@
 //   now    the encoder's reading and what the observer, or the difference of two readings, makes of it
 //   then   now, carried over the torques that are under way
 //
-// Over periods that the loop left out the last torque stayed applied.
+// Over periods that the loop left out the last torque stayed applied: by the clock the newest, as late as it is; with a drive that samples and
+// takes torques only when it is told to, the one that acted before, and those that were under way act one by one afterwards.
 #pragma once
 
 #include <array>
@@ -70,7 +71,10 @@ class StateEstimator {
   void count_still_anew() noexcept { still_periods_ = 0; }
 
  private:
-  void let_torque_act(int periods, int late_periods, const JointModel& model, EstimateSource source) noexcept;
+  int waiting_torques(const JointMeasurement& measurement) const noexcept;
+  void prolong(int waiting) noexcept;
+  void let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
+                      EstimateSource source) noexcept;
   void observe(const JointMeasurement& measurement) noexcept;
   void read(const JointMeasurement& measurement) noexcept;
   void begin_anew(const JointMeasurement& measurement, const JointModel& model) noexcept;

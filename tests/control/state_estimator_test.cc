@@ -115,6 +115,32 @@ TEST(StateEstimator, OverPeriodsThatWereLeftOutTheLastTorqueWentOn) {
   EXPECT_NEAR(state.now().position_rad, true_rad[kPeriods - 1], kCount_rad);
 }
 
+// Order k acts from the sample k + kDelay on. The drive is not asked for a sample over the stall, and takes no torque.
+TEST(StateEstimator, OverAStallInWhichTheDriveWaitsTheTorquesUnderWayWaitToo) {
+  constexpr std::size_t kDelay = 3;
+  constexpr std::size_t kStall = 4;
+  constexpr std::size_t kAfter = 51;  // the first period after it
+  const auto order_Nm = [](std::size_t k) { return k % 2 == 0 ? 4.0 : 10.0; };
+  std::vector<double> torques_Nm(kDelay, 0.0);
+  for (std::size_t k = 0; k < kPeriods; ++k)
+    torques_Nm.insert(torques_Nm.end(), k + kDelay == kAfter ? 1 + kStall : 1, order_Nm(k));
+  const std::vector<double> true_rad = path(torques_Nm);
+  StateEstimator state = estimator(kDelay);
+  bool surprised = false;
+  for (std::size_t k = 0; k < kPeriods; ++k) {
+    const bool after = k == kAfter;
+    state.step(at(read(true_rad[k > kAfter ? k + kStall : k]), after ? 1 + kStall : 1, after ? kStall : 0),
+               model(), EstimateSource::kObserver);
+    surprised = surprised || state.now().surprised;
+    if (after) {
+      EXPECT_NEAR(state.then().position_rad, true_rad[k + kStall + kDelay], 3.0 * kCount_rad);
+    }
+    state.remember(order_Nm(k));
+  }
+  EXPECT_FALSE(surprised);
+  EXPECT_NEAR(state.now().position_rad, true_rad[kPeriods - 1 + kStall], kCount_rad);
+}
+
 TEST(StateEstimator, ALatePositionIsTakenForOneOfThePast) {
   StateEstimator state = estimator(1);
   std::vector<double> torques_Nm(1, 0.0);

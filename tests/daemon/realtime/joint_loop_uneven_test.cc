@@ -166,5 +166,49 @@ TEST(UnevenDrive, WhosePositionAfterAStallIsOfTheTimeBeforeMakesNoFaultAndNoFall
     }
 }
 
+// Nor does the drive take a torque over a stall: what was under way acts afterwards.
+TEST(UnevenDrive, WhoseTorquesWaitForTheLoopMakesNoFaultAndNoFallBackAfterAStallOfItsLanding) {
+  for (const Uneven& uneven : {Uneven{1, 0, 3e-5, 0.0}, {2, 0, 3e-5, 0.0}, {1, 1, 3e-5, 0.0}})
+    for (const int periods : {3, 6, 8})
+      for (const std::uint64_t seed : {102U, 105U, 109U, 118U}) {
+        const Moves moves = UnevenJoint(uneven, seed).swing_with_stalls(30, periods);
+        EXPECT_EQ(moves.faults, 0) << uneven << ", " << periods << ", " << seed;
+        EXPECT_EQ(moves.fallbacks, 0) << uneven << ", " << periods << ", " << seed;
+        EXPECT_LT(moves.off_rad, 1e-4) << uneven << ", " << periods << ", " << seed;
+      }
+}
+
+/// A joint whose drive acts by the clock, by so many periods late: how far off it gets when the loop is away for three of them, so many after
+/// its reference has come to rest.
+double off_after_a_stall_rad(int delay_periods, int landing_for, double target_rad) {
+  BenchJoint joint = demo_joint();
+  joint.drive.plant.delay.periods = delay_periods;
+  joint.loop.controller.delay_periods = delay_periods;
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  EXPECT_EQ(bench.move(0, target_rad), Reason::kAccepted);
+  const auto rests = [&] { return std::abs(bench.state(0).setpoint_position_rad - target_rad) < 1e-12; };
+  EXPECT_GE(bench.step_until(rests, 2000), 0);
+  for (int k = 0; k < landing_for; ++k) bench.step();
+  bench.stall(3);
+  bench.step();
+  double off_rad = 0.0;
+  for (int k = 0; k < 600; ++k) {
+    bench.step();
+    off_rad = std::max(off_rad, std::abs(bench.state(0).joint_position_rad - target_rad));
+  }
+  EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
+  return off_rad;
+}
+
+// What three periods more of the push make of it is 0.5 mrad; when the rest of it followed, it was 0.87.
+TEST(StalledLanding, PlansAnewThePushThatWasUnderWay) {
+  for (const int delay_periods : {2, 3})
+    for (const double target_rad : {0.02, 0.3})
+      for (int landing_for = 0; landing_for < 40; ++landing_for)
+        EXPECT_LT(off_after_a_stall_rad(delay_periods, landing_for, target_rad), 6.5e-4)
+            << delay_periods << ", " << landing_for << ", " << target_rad;
+}
+
 }  // namespace
 }  // namespace strainwave::testing
