@@ -24,6 +24,7 @@ void JointController::forget_told_load(int elapsed_periods) noexcept {
 
 void JointController::advance_reference(int elapsed_periods) noexcept {
   forget_told_load(elapsed_periods);
+  if (!streamed_) stream_.wait(elapsed_periods);
   if (linked()) return advance_link(elapsed_periods);
   if (!config_.use_shaping) {
     if (streamed_) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace strainwave {
 
@@ -10,28 +11,42 @@ namespace {
 constexpr double kFirstInterval_s = 0.01;
 // An untimed knot lies at least so far ahead.
 constexpr double kLeastAhead_s = 0.02;
-constexpr double kLongestAhead_s = 0.1;
 // What is bridged when samples are missing.
 constexpr double kBridgedIntervals = 2.0;
 constexpr double kLongestBridge_s = 0.2;
 }  // namespace
 
-void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead_periods) noexcept {
+void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead_periods,
+                         const ToldLoad& load) noexcept {
   lead_ = lead_periods;
   now_ = lead_periods;
   mean_s_ = 0.0;
   state_ = {position_rad, velocity_rad_s, 0.0};
-  load_ = {};
-  load_from_ = {};
-  load_to_ = {};
+  load_ = load;
+  load_from_ = load;
+  load_to_ = load;
   load_from_at_ = now_;
   load_to_at_ = now_;
   to_ = {now_, position_rad, velocity_rad_s, 0.0};
+  to_.due = now_;
   from_ = to_;
   waiting_count_ = 0;
   interval_ = 0.0;
   arrivals_ = 0;
+  caught_up_at_ = now_;
   past_count_ = 0;
+  missed_ = false;
+  ended_ = false;
+}
+
+void StreamTarget::resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept {
+  missed_ = true;
+  state_ = {position_rad, velocity_rad_s, 0.0};
+  load_ = load;
+  // A sample that is late has nothing to add: then it ends again at once.
+  to_ = {now_, position_rad, velocity_rad_s, 0.0};
+  to_.carried = true;
+  to_.due = now_ - kLongestBridge_s / period_s_;
   ended_ = false;
 }
 
@@ -39,7 +54,6 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   reach_ = reach;
   StreamSample sample = sent;
   Knot knot{present(), sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2};
-  const double last_arrival = arrival_;
   if (sample.in_periods > 0) {
     knot.at += static_cast<double>(sample.in_periods);
   } else {
@@ -48,11 +62,14 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   }
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
+  if (waiting_count_ == 0 && now_ > to_.at && !to_.rests()) missed_ = true;
+  if (std::exchange(missed_, false) && past_count_ > 0) catch_up_in(knot.at - past_[0].at);
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
   const Knot* last = sample_before(knot.at);
   const Before before{last, last != nullptr ? sample_before(last->at) : nullptr};
   mean_s_ = last != nullptr ? seconds(knot.at - last->at) : 0.0;
   mean_rad_s_ = last != nullptr ? (knot.position_rad - last->position_rad) / mean_s_ : 0.0;
+  knot.due = knot.at;
   knot.load = sample.load;
   knot.sent_rad_s = sample.velocity_rad_s;
   if (sample.derivatives > 0 && contradicts_itself(knot, before)) sample.derivatives = 0;
@@ -64,7 +81,7 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   remember(knot);
   if (sample.in_periods > 0) return queue(sample, knot);
   waiting_count_ = 0;
-  lead_to(carried_forward(sample, knot, lead_ + least_ahead(arrivals_ > 1 ? arrival_ - last_arrival : 0.0)));
+  lead_to(carried_forward(sample, knot, lead_ + least_ahead()));
 }
 
 // Between samples, in periods.
@@ -72,23 +89,29 @@ double StreamTarget::expected_interval() const noexcept {
   return interval_ > 0.0 ? interval_ : kFirstInterval_s / period_s_;
 }
 
-// Farther after a gap, so that what was missed is caught up with in the time that it took.
-double StreamTarget::least_ahead(double since_last) const noexcept {
-  return std::max(
-      {expected_interval(), kLeastAhead_s / period_s_, std::min(since_last, kLongestAhead_s / period_s_)});
+// By how much a knot lies ahead of now at least.
+double StreamTarget::least_ahead() const noexcept {
+  return std::max(expected_interval(), kLeastAhead_s / period_s_);
 }
 
-// By `ahead` periods from its time.
+// Whatever comes meanwhile.
+void StreamTarget::catch_up_in(double periods) noexcept {
+  caught_up_at_ = std::max(caught_up_at_, now_ + std::min(periods, kLongestBridge_s / period_s_));
+}
+
+// By `least_ahead` periods from its time, or until what was missed is caught up with.
 StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, const Knot& knot,
-                                                 double ahead) const noexcept {
+                                                 double least_ahead) const noexcept {
   const double interval = expected_interval();
-  const double lag = sample.derivatives == 0 ? std::min(interval, ahead) : 0.0;
+  const double ahead = std::max(least_ahead, caught_up_at_ - knot.at);
+  const double lag = sample.derivatives == 0 ? std::clamp(least_ahead, 0.0, interval) : 0.0;
   const double carried_s = knot.velocity_rad_s == 0.0 ? 0.0 : seconds(ahead - lag);
   // The jerk matters to slow streams; in fast ones it would be their noise.
   const double jerk_rad_s3 = ahead <= interval + lead_ ? knot.jerk_rad_s3 : 0.0;
   Knot carried = knot;
   carried.carried = true;
   carried.at = std::max(knot.at + ahead, now_ + 1.0);
+  carried.due = std::max(knot.at + least_ahead, now_ + 1.0);
   carried.acceleration_rad_s2 += carried_s * jerk_rad_s3;
   carried.velocity_rad_s += carried_s * (knot.acceleration_rad_s2 + 0.5 * carried_s * jerk_rad_s3);
   carried.position_rad +=
@@ -104,11 +127,13 @@ StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, con
 // What the motion went wrong where it was carried on is put right as slowly as for an untimed knot.
 void StreamTarget::queue(const StreamSample& sample, const Knot& knot) noexcept {
   interval_ = past_count_ >= 2 ? past_[0].at - past_[1].at : knot.at - present();
+  if (past_count_ >= 3) interval_ = std::min(interval_, past_[1].at - past_[2].at);
   arrivals_ = 0;
   const bool follows = !to_.carried && knot.at > to_.at && now_ <= to_.at + 0.5 && knot.at >= now_ + 1.0;
   if (waiting_count_ == 0 && !follows) {
-    const double ahead = now_ + least_ahead(0.0) - knot.at;
-    return lead_to(ahead > 0.0 ? carried_forward(sample, knot, ahead) : knot);
+    const double ahead = now_ + least_ahead() - knot.at;
+    return lead_to(std::max(ahead, caught_up_at_ - knot.at) > 0.0 ? carried_forward(sample, knot, ahead)
+                                                                  : knot);
   }
   if (waiting_count_ == 0 && now_ >= to_.at) return lead_to(knot);
   if (waiting_count_ == kKnots) return;  // the sender is too far ahead; the knots it sends later will do
@@ -146,8 +171,12 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
   const int moves = (velocity_rad_s > 0.0) - (velocity_rad_s < 0.0);
   if (moves != way) way = 0;
   if (past_count_ == 0 || moves == 0) return target;
-  const double fastest_rad_s = std::min(hull_.fastest_rad_s, reach_.velocity_rad_s);
-  const double since_s = std::max(0.0, seconds(now_ - past_[0].at));
+  // Where the motion was carried on, and until it has caught up, it has the speed that its acceleration made of the samples'.
+  const double carried_rad_s = now_ > to_.at          ? std::abs(target.velocity_rad_s)
+                               : now_ < caught_up_at_ ? std::abs(to_.velocity_rad_s)
+                                                      : 0.0;
+  const double fastest_rad_s = std::min(std::max(hull_.fastest_rad_s, carried_rad_s), reach_.velocity_rad_s);
+  const double since_s = std::max(0.0, seconds(std::max(now_, caught_up_at_) - past_[0].at));
   // Who catches up with the target is faster than it, and brakes to its speed only.
   const double speed_rad_s = std::abs(velocity_rad_s);
   const double with_rad_s = std::clamp(moves * target.velocity_rad_s, 0.0, speed_rad_s);
@@ -189,7 +218,12 @@ StreamTarget::State StreamTarget::at(double period) noexcept {
               waiting_.begin());
     --waiting_count_;
   }
+  ended_ = ended_ || (to_.velocity_rad_s != 0.0 && seconds(period - to_.due) > longest_bridge_s());
   return period <= to_.at ? between(period) : beyond(period);
+}
+
+double StreamTarget::longest_bridge_s() const noexcept {
+  return std::min(std::max(bridge_s_, kBridgedIntervals * seconds(expected_interval())), kLongestBridge_s);
 }
 
 StreamTarget::State StreamTarget::between(double period) const noexcept {
@@ -211,14 +245,12 @@ StreamTarget::State StreamTarget::between(double period) const noexcept {
 }
 
 // As it was: with its acceleration for one interval, and then with the velocity that this gave.
-StreamTarget::State StreamTarget::beyond(double period) noexcept {
+StreamTarget::State StreamTarget::beyond(double period) const noexcept {
   const double interval_s = seconds(expected_interval());
   const double since_s = seconds(period - to_.at);
   const double speeding_s = std::min(since_s, interval_s);
   const double velocity_rad_s = to_.velocity_rad_s + speeding_s * to_.acceleration_rad_s2;
   if (to_.velocity_rad_s == 0.0) return {to_.position_rad, 0.0, 0.0};
-  if (since_s > std::min(std::max(bridge_s_, kBridgedIntervals * interval_s), kLongestBridge_s))
-    ended_ = true;
   return {to_.position_rad + 0.5 * (to_.velocity_rad_s + velocity_rad_s) * speeding_s +
               velocity_rad_s * (since_s - speeding_s),
           velocity_rad_s, since_s < interval_s ? to_.acceleration_rad_s2 : 0.0};

@@ -19,9 +19,13 @@
 //                       the last it stays
 //   no new sample       the motion goes on as it was for `bridge_s`, two intervals at least, 0.2 s at most, and then has
 //                       ended: the joint is to come to rest. A target that stands still stays where it is
+//   missed              a motion that was carried on, or has ended, and goes on, is caught up with in the time since its last sample, 0.2 s at
+//                       most: until then every knot is carried forward to the end of that time
 //   confined            who follows at speed v and could not come to rest before it is farther out than the last samples and what
 //                       their speed V takes since the last of them is led to rest there until it has turned:
 //                         V (now - t) + V T / 2 + max(V^2, w (2 v - w)) / 2A,  w the target's speed
+//                       where the motion was carried on and has not caught up yet, V is no less than what it was carried on with, and `now` the
+//                       end of catching up
 //                       What is always late, near the limits, would else be driven farther with each swing
 //   out of reach        a knot that needs more than twice the limit of speed, or positions that need more than twice
 //                       that of acceleration, are a new place, not a motion: the target is there, at rest, and
@@ -72,8 +76,14 @@ class StreamTarget {
     double acceleration_rad_s2 = 1.0;
   };
 
-  /// A stream begins where the joint is to be now; from now on the target is ahead of its samples' times by `lead_periods` >= 0.
-  void begin(double position_rad, double velocity_rad_s, double lead_periods) noexcept;
+  /// A stream begins where the joint is to be now, with this load; from now on the target is ahead of its samples' times by
+  /// `lead_periods` >= 0.
+  void begin(double position_rad, double velocity_rad_s, double lead_periods,
+             const ToldLoad& load = {}) noexcept;
+  /// The stream that has ended goes on with the next sample: who followed it is here by now, with this load.
+  void resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept;
+  /// So many periods went by since it ended.
+  void wait(int periods) noexcept { now_ += periods; }
   void take(const StreamSample& sample, const Reach& reach) noexcept;
   /// The target of the period that begins now; time goes on by one period.
   MovingTarget step() noexcept;
@@ -82,7 +92,7 @@ class StreamTarget {
   /// `target`, the one of this period, for a follower that is at this place with this velocity.
   MovingTarget confined(const MovingTarget& target, double position_rad, double velocity_rad_s,
                         Confinement& way) const noexcept;
-  /// The samples have stopped coming while the target moved. Until the next begin().
+  /// The samples have stopped coming while the target moved. Until the next begin() or resume().
   bool ended() const noexcept { return ended_; }
 
  private:
@@ -99,6 +109,7 @@ class StreamTarget {
     ToldLoad load{};
     double sent_rad_s = 0.0;  ///< the velocity that came with it, believed or not
     bool carried = false;     ///< forward: not what was sent
+    double due = 0.0;  ///< period: from then on the next sample is missed; before `at` only while catching up
     bool rests() const noexcept { return velocity_rad_s == 0.0 && acceleration_rad_s2 == 0.0; }
   };
   struct State {
@@ -126,7 +137,8 @@ class StreamTarget {
   const Knot* sample_before(double period) const noexcept;
   void estimate_derivatives(const StreamSample& sample, const Before& before, Knot& knot) noexcept;
   Knot carried_forward(const StreamSample& sample, const Knot& knot, double ahead) const noexcept;
-  double least_ahead(double since_last) const noexcept;
+  double least_ahead() const noexcept;
+  void catch_up_in(double periods) noexcept;
   void queue(const StreamSample& sample, const Knot& knot) noexcept;
   double present() const noexcept { return now_ - lead_; }
   void derive_from_positions(const Before& before, Knot& knot) noexcept;
@@ -134,7 +146,8 @@ class StreamTarget {
   void lead_load_to(const Knot& knot) noexcept;
   State at(double period) noexcept;
   State between(double period) const noexcept;
-  State beyond(double period) noexcept;
+  State beyond(double period) const noexcept;
+  double longest_bridge_s() const noexcept;
 
   double period_s_;
   double bridge_s_;
@@ -155,10 +168,12 @@ class StreamTarget {
   double mean_s_ = 0.0;             ///< the time between them; 0: there is but one
   double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come
   double arrival_ = 0.0;            ///< of the last sample, smoothed
+  double caught_up_at_ = 0.0;       ///< period: until then what was missed is caught up with
   int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
-  Hull hull_;  ///< of past_
+  Hull hull_;            ///< of past_
+  bool missed_ = false;  ///< the motion was carried on, or ended, and not by what was known of it
   bool ended_ = false;
 };
 

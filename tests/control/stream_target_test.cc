@@ -39,13 +39,24 @@ struct Sent {
 /// A reference that follows a stream, period by period.
 class Following {
  public:
-  explicit Following(const MotionLimits& limits = kLimits) { shaper_.set_limits(limits); }
+  explicit Following(const MotionLimits& limits = kLimits, const StreamTarget::Reach& reach = kReach)
+      : reach_(reach) {
+    shaper_.set_limits(limits);
+  }
   void begin(double position_rad) {
     shaper_.reset(position_rad, 0.0);
     target_.begin(position_rad, 0.0, 0.0);
   }
-  void take(const StreamSample& sample) { target_.take(sample, kReach); }
+  void take(const StreamSample& sample) {
+    if (target_.ended()) target_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), {});
+    target_.take(sample, reach_);
+  }
   Reference step(const PositionRange& range = {}) {
+    if (target_.ended()) {
+      shaper_.stop();
+      target_.wait(1);
+      return shaper_.step();
+    }
     const MovingTarget target = target_.step();
     return shaper_.follow(
         target_.confined(target, shaper_.position_rad(), shaper_.velocity_rad_s(), confined_), range);
@@ -53,6 +64,7 @@ class Following {
   const StreamTarget& target() const { return target_; }
 
  private:
+  StreamTarget::Reach reach_;
   StreamTarget target_{kPeriod_s, 0.05};
   ReferenceShaper shaper_{kPeriod_s};
   StreamTarget::Confinement confined_ = 0;
@@ -133,6 +145,99 @@ TEST(StreamTarget, BridgesLostSamplesAndGaps) {
     EXPECT_LT(tracked.largest_error_rad, 5e-3) << derivatives;
     EXPECT_LT(tracked.rms_acceleration, 1.5) << derivatives;
   }
+}
+
+/// What becomes of a sine whose samples, `ahead` periods before their time (0: not stamped), do not come for a while.
+struct Recovery {
+  double largest_rad_s2 = 0.0;       ///< from the first sample on that comes again
+  double largest_step_rad_s2 = 0.0;  ///< of the acceleration, between two periods, from the second on
+  double left_rad = 0.0;             ///< error from 0.3 s after it on
+};
+
+Recovery recover(int begins, int lasts, int every, int ahead, int derivatives) {
+  constexpr MotionLimits limits{6.0, 150.0, 150.0};
+  Following following(limits, {6.0, 150.0});
+  following.begin(0.0);
+  Recovery result;
+  double last_rad_s2 = 0.0;
+  for (int k = begins - 1000, again = 0; k < begins + lasts + 800; ++k) {
+    if (k % every == 0 && (k < begins || k >= begins + lasts)) {
+      StreamSample sample = sine((k + ahead) * kPeriod_s, derivatives);
+      sample.in_periods = ahead;
+      following.take(sample);
+      if (k >= begins && again == 0) again = k;
+    }
+    const Reference reference = following.step();
+    if (again != 0) {
+      result.largest_rad_s2 = std::max(result.largest_rad_s2, std::abs(reference.acceleration_rad_s2));
+      if (k > again + 1)
+        result.largest_step_rad_s2 =
+            std::max(result.largest_step_rad_s2, std::abs(reference.acceleration_rad_s2 - last_rad_s2));
+      const int lag = derivatives == 0 ? std::clamp(std::max(20, every) - ahead, 0, every) : 0;
+      if (k > again + 300)
+        result.left_rad = std::max(
+            result.left_rad, std::abs(reference.position_rad - sine((k - lag) * kPeriod_s, 0).position_rad));
+    }
+    last_rad_s2 = reference.acceleration_rad_s2;
+  }
+  return result;
+}
+
+// The sine's own acceleration is 4.9 rad/s^2; at its limits the joint would make 150, and as much again with every turn round.
+TEST(StreamTarget, CatchesUpAfterAGapInTheTimeThatWasMissed) {
+  for (const int derivatives : {0, 1, 2})
+    for (const int every : {10, 25})
+      for (const int ahead : {0, 20, 100})
+        for (const int lasts : {30, 50, 100, 150, 200, 300}) {
+          const bool bridged = lasts <= 50;
+          for (int begins = 3000; begins < 4000; begins += 100) {
+            const Recovery recovery = recover(begins, lasts, every, ahead, derivatives);
+            const auto when = [&] {
+              return ::testing::Message() << derivatives << " derivatives every " << every << " ms, " << ahead
+                                          << " ms ahead, from " << begins << " for " << lasts << " ms";
+            };
+            EXPECT_LT(recovery.largest_rad_s2, bridged ? 20.0 : 90.0) << when();
+            EXPECT_LT(recovery.largest_step_rad_s2, 10.0) << when();
+            EXPECT_LT(recovery.left_rad, 1e-3) << when();
+          }
+        }
+}
+
+// Whoever sends once more and then no more is not waited for any longer than else.
+TEST(StreamTarget, EndsAsSoonWhileItCatchesUp) {
+  Following following;
+  following.begin(0.0);
+  int ended_at = -1;
+  for (int k = 0; k < 600; ++k) {
+    if (k % 10 == 0 && (k <= 200 || k == 400)) following.take({0.001 * k, 1.0, 0.0, 1});
+    (void)following.step();
+    if (k > 400 && ended_at < 0 && following.target().ended()) ended_at = k;
+  }
+  EXPECT_NEAR(ended_at, 400 + 20 + 50, 3);
+}
+
+// What has nothing to add does not set a motion going again that has ended.
+TEST(StreamTarget, StaysEndedWhereALateSampleComes) {
+  StreamTarget target(kPeriod_s, 0.05);
+  target.begin(0.0, 1.0, 80.0);
+  const auto take = [&](int in_periods) {
+    StreamSample sample{0.001 * in_periods, 1.0, 0.0, 1};
+    sample.in_periods = in_periods;
+    target.take(sample, kReach);
+  };
+  take(90);
+  take(100);
+  int ended_after = 0;
+  for (; ended_after < 300 && !target.ended(); ++ended_after) (void)target.step();
+  ASSERT_LT(ended_after, 100) << "the last sample's time is not over, but the target is ahead of it";
+  target.resume(0.2, 0.5, {});
+  take(100 - ended_after - 1);
+  (void)target.step();
+  EXPECT_TRUE(target.ended());
+  target.resume(0.2, 0.5, {});
+  take(100 - ended_after);
+  (void)target.step();
+  EXPECT_FALSE(target.ended());
 }
 
 TEST(StreamTarget, AveragesTheJitterOfTheNetwork) {
