@@ -185,38 +185,11 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   if (link_motion_) plan_link_motion(reference_.position_rad);
 }
 
-void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
-                             const PositionRange& range, OnTime on_time) noexcept {
-  limit_speed(speed_limit_rad_s);
-  stream_range_ = range;
-  if (!streamed_ && !begins && stream_.ended()) {
-    stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), told_load_);
-  } else if (!streamed_ || begins) {
-    const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
-    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_s / config_.period_s, told_load_);
-  }
-  if (!streamed_ || begins) {
-    plans_ = 0;
-    confined_ = ordered_confined_ = 0;
-  }
-  streamed_ = true;
-  sample_position_rad_ = sample.position_rad;
-  stream_.take(sample,
-               {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
-}
-
 void JointController::stop() noexcept {
   streamed_ = false;
   shaper_.stop();
   ordered_ = shaper_;
   ordered_jerk_ = jerk_limit_;
-}
-
-double JointController::stream_lead_s() const noexcept {
-  if (!config_.use_shaping) return 0.0;
-  const double delay_s = config_.delay_periods * config_.period_s;
-  const double jerk_s = jerk_limit_ ? jerk_limit_->lag_s() : 0.0;
-  return delay_s + jerk_s + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
 }
 
 // The plan goes on from there.

@@ -1,4 +1,5 @@
-// What JointController does each period to find out what the joint is to track: limits of the motion, and its next sample.
+// What JointController does to find out what the joint is to track: the samples of a stream, and each period the limits of the motion and
+// its next sample.
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +21,33 @@ void JointController::forget_told_load(int elapsed_periods) noexcept {
   const double kept = std::exp(-elapsed_periods * config_.period_s / kForget_s);
   told_load_.torque_Nm *= kept;
   told_load_.inertia_kgm2 *= kept;
+}
+
+void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
+                             const PositionRange& range, OnTime on_time) noexcept {
+  limit_speed(speed_limit_rad_s);
+  stream_range_ = range;
+  if (!streamed_ && !begins && stream_.ended()) {
+    stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), told_load_);
+  } else if (!streamed_ || begins) {
+    const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
+    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_s / config_.period_s, told_load_);
+  }
+  if (!streamed_ || begins) {
+    plans_ = 0;
+    confined_ = ordered_confined_ = 0;
+  }
+  streamed_ = true;
+  sample_position_rad_ = sample.position_rad;
+  stream_.take(sample,
+               {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
+}
+
+double JointController::stream_lead_s() const noexcept {
+  if (!config_.use_shaping) return 0.0;
+  const double delay_s = config_.delay_periods * config_.period_s;
+  const double jerk_s = jerk_limit_ ? jerk_limit_->lag_s() : 0.0;
+  return delay_s + jerk_s + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
 }
 
 void JointController::advance_reference(int elapsed_periods) noexcept {
