@@ -27,13 +27,12 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
                              const PositionRange& range, OnTime on_time) noexcept {
   limit_speed(speed_limit_rad_s);
   stream_range_ = range;
-  if (!streamed_ && !begins && stream_.ended()) {
-    stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), told_load_);
-  } else if (!streamed_ || begins) {
-    const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
-    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_s / config_.period_s, told_load_);
-  }
   if (!streamed_ || begins) {
+    const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
+    if (!begins && stream_.ended())
+      stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), told_load_);
+    else
+      stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_s / config_.period_s, told_load_);
     plans_ = 0;
     confined_ = ordered_confined_ = 0;
   }

@@ -6,6 +6,9 @@
 
 namespace strainwave {
 
+/// Of flight records; another list of fields is another format. Written by daemon/records, read by client/text.
+inline constexpr int kFlightRecordFormat = 2;
+
 struct FieldName {
   std::string_view name;
   std::string_view unit;  ///< "1" for counts, numbers, bit sets and shares
@@ -35,10 +38,11 @@ constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
   if constexpr (requires { cycle.rule_count; }) visit(FieldName{"rule_count", "1"}, cycle.rule_count);
   visit(FieldName{"mode", "1"}, cycle.mode);
   visit(FieldName{"fault", "1"}, cycle.fault);
-  visit(FieldName{"drive_error", "1"}, cycle.drive_error);
   visit(FieldName{"notices", "1"}, cycle.notices);
   visit(FieldName{"gains_in_use", "1"}, cycle.gains_in_use);
   visit(FieldName{"temperature_status", "1"}, cycle.temperature_status);
+  if constexpr (requires { cycle.faults_total; }) visit(FieldName{"faults_total", "1"}, cycle.faults_total);
+  visit(FieldName{"drive_error", "1"}, cycle.drive_error);
   if constexpr (requires { cycle.drive_state; }) visit(FieldName{"drive_state", "1"}, cycle.drive_state);
   if constexpr (requires { cycle.reading_fresh; })
     visit(FieldName{"reading_fresh", "1"}, cycle.reading_fresh);

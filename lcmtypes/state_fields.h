@@ -18,14 +18,11 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("owner_id", state.owner_id);
   visit("lease_s", state.lease_s);
   visit_cycle_fields(state, [&](const FieldName& field, const auto& value) {
-    if (field.name == "drive_error") return;  // a flight record has it beside the fault
     if constexpr (std::is_array_v<std::remove_cvref_t<decltype(value)>>)
       visit(field.name.data(), std::span<const double>(value));
     else
       visit(field.name.data(), value);
   });
-  visit("faults_total", state.faults_total);
-  visit("drive_error", state.drive_error);
   visit("link_position_rad", state.link_position_rad);
 }
 

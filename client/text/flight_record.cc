@@ -10,13 +10,13 @@
 #include "base/csv.h"
 #include "base/gnuplot.h"
 #include "base/input_error.h"
+#include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
 
 namespace {
 
-constexpr std::string_view kFirstLine = "# strainwave-flight-record 2";
 constexpr std::array<std::string_view, 9> kNeeded{"time_s",
                                                   "mode",
                                                   "setpoint_position_rad",
@@ -80,9 +80,10 @@ FlightRecordInfo read_flight_record(const std::filesystem::path& file) {
   std::string line;
   if (!stream || std::filesystem::is_directory(file))
     throw InputError(file.string() + " cannot be read: is the name right, is it yours to read?");
-  if (!std::getline(stream, line) || line != kFirstLine)
-    throw InputError(file.string() + " is not a flight record of format 2: its first line is not '" +
-                     std::string(kFirstLine) + "'");
+  const std::string first_line = fmt::format("# strainwave-flight-record {}", kFlightRecordFormat);
+  if (!std::getline(stream, line) || line != first_line)
+    throw InputError(fmt::format("{} is not a flight record of format {}: its first line is not '{}'",
+                                 file.string(), kFlightRecordFormat, first_line));
   FlightRecordInfo info;
   while (std::getline(stream, line) && line.starts_with("# ")) read_head_line(line, info);
   read_columns(line, info);

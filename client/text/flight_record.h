@@ -15,7 +15,7 @@ struct FlightRecordInfo {
   double period_s = 0.0;
 };
 
-/// Reads the head. Throws InputError when the file cannot be read or is no flight record of format 2 with the
+/// Reads the head. Throws InputError when the file cannot be read or is no flight record of kFlightRecordFormat with the
 /// columns that the drawing needs.
 FlightRecordInfo read_flight_record(const std::filesystem::path& file);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "client/link/orders.h"
 #include "client/text/text.h"
 #include "client/watch/plot.h"
 #include "lcmtypes/vocabulary.h"
@@ -96,8 +97,8 @@ void put_text(const WatchModel& model, const WatchedJoint& joint, Lines& lines) 
   const state_v1& state = joint.view.state;
   lines.put("joint",
             fmt::format("{} {}, target {:+.6f} rad, setpoint {:+.6f} rad, speed {:+.4f} rad/s",
-                        name_of(model, joint), to_text(static_cast<Mode>(state.mode)),
-                        state.target_position_rad, state.setpoint_position_rad, state.joint_velocity_rad_s));
+                        name_of(model, joint), to_text(mode_of(joint.view)), state.target_position_rad,
+                        state.setpoint_position_rad, state.joint_velocity_rad_s));
   if (const std::string notes = state_notes(joint.view, joint.age_s); !notes.empty())
     lines.put("notes", notes, style_of(joint));
   for (std::size_t i = 0; i < std::min(kRefusalsShown, model.refusals.size()); ++i)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/link/orders.h"
 #include "client/text/text.h"
 #include "client/watch/joint_detail.h"
 #include "client/watch/plot.h"
@@ -31,9 +32,7 @@ struct Column {
 const std::array<Column, 10> kColumns{{
     {"joint", kNameWidth, 0, [](const WatchModel& m, const WatchedJoint& j) { return name_of(m, j); }},
     {"mode", 8, 0,
-     [](const WatchModel&, const WatchedJoint& j) {
-       return std::string(to_text(static_cast<Mode>(j.view.state.mode)));
-     }},
+     [](const WatchModel&, const WatchedJoint& j) { return std::string(to_text(mode_of(j.view))); }},
     {"setpoint_rad", 12, 6,
      [](const WatchModel&, const WatchedJoint& j) {
        return fmt::format("{:+12.6f}", j.view.state.setpoint_position_rad);

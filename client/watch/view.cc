@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "client/link/orders.h"
 #include "client/text/text.h"
 #include "client/watch/help.h"
 #include "client/watch/joint_detail.h"
@@ -17,10 +18,6 @@ namespace {
 
 constexpr double kDaemonSilence_s = 3.0;  // TIMING comes once a second
 constexpr int kLeastDetail = 10;          // rows below the joints that are worth drawing
-
-Mode mode_of(const WatchedJoint& joint) {
-  return static_cast<Mode>(joint.view.state.mode);
-}
 
 /// The first part, and of the others as many as fit as a whole.
 template <std::size_t kCount>
@@ -107,10 +104,10 @@ std::string name_of(const WatchModel& model, const WatchedJoint& joint) {
 }
 
 Style style_of(const WatchedJoint& joint) {
-  if (mode_of(joint) == Mode::kFaulted || joint.age_s > kStateSilence_s || joint.view.two_daemons)
+  if (mode_of(joint.view) == Mode::kFaulted || joint.age_s > kStateSilence_s || joint.view.two_daemons)
     return Style::kAlarm;
   if (joint.view.state.notices != 0 || joint.view.state.temperature_status != 0) return Style::kWarning;
-  return mode_of(joint) == Mode::kOff ? Style::kDim : Style::kGood;
+  return mode_of(joint.view) == Mode::kOff ? Style::kDim : Style::kGood;
 }
 
 std::string temperature_source(const WatchedJoint& joint) {

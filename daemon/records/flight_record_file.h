@@ -1,5 +1,5 @@
 // The file of a flight record: a few lines about it, then one CSV row per cycle. The format is fixed by
-// kFlightRecordFormat; docs/flight-recorder.md explains every line and column. Not real-time.
+// kFlightRecordFormat (lcmtypes/cycle_fields.h); docs/flight-recorder.md explains every line and column. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 
 namespace strainwave {
 
-inline constexpr int kFlightRecordFormat = 2;
 /// End of the names of all flight records; only files with this ending are ever removed.
 inline constexpr const char* kFlightRecordSuffix = ".flight.csv";
 
