@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "base/durations.h"
 #include "base/utime.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/gain_table_message.h"
@@ -32,9 +33,11 @@ TestClient::TestClient(std::string prefix, const std::string& lcm_url)
 void TestClient::pump(std::chrono::milliseconds duration) {
   const auto deadline = Clock::now() + duration;
   do {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    // To the nanosecond: a wait in whole milliseconds would spin through the last of them.
+    const std::chrono::nanoseconds left = deadline - Clock::now();
+    const std::timespec timeout = to_timespec(std::max<std::int64_t>(0, left.count()));
     pollfd descriptor{lcm_.getFileno(), POLLIN, 0};
-    if (::poll(&descriptor, 1, std::max(0, static_cast<int>(left.count()))) > 0) lcm_.handle();
+    if (::ppoll(&descriptor, 1, &timeout, nullptr) > 0) lcm_.handle();
   } while (Clock::now() < deadline);
 }
 

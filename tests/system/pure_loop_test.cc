@@ -21,6 +21,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
+constexpr seconds kWatched{20};  ///< some thirty rounds of all that an operator may do
 
 /// The counts of loop_trap.cc, shared with the daemon by a file.
 class LoopTrap {
@@ -119,7 +120,7 @@ TEST_F(PureLoop, IsWatchedByATrapThatSees) {
   EXPECT_GT(trap.counts().locks, 0);
 }
 
-TEST_F(PureLoop, NeitherAllocatesNorLocksNorTouchesANewPageInAMinuteOfEverything) {
+TEST_F(PureLoop, NeitherAllocatesNorLocksNorTouchesANewPageInSecondsOfEverything) {
   LoopTrap trap(folder_ / "trap");
   start(programs_folder() / "loop_trap.so");
   ASSERT_EQ(trap.counts().loaded.load(), 1) << "the library was not loaded: nothing would be counted";
@@ -131,7 +132,7 @@ TEST_F(PureLoop, NeitherAllocatesNorLocksNorTouchesANewPageInAMinuteOfEverything
 
   const auto start_time = Clock::now();
   int rounds = 0;
-  while (Clock::now() - start_time < seconds(60)) {
+  while (Clock::now() - start_time < kWatched) {
     live_through_a_round(++rounds);
     if (HasFatalFailure()) return;
   }
@@ -145,7 +146,7 @@ TEST_F(PureLoop, NeitherAllocatesNorLocksNorTouchesANewPageInAMinuteOfEverything
               static_cast<long long>(after.page_faults - before.page_faults),
               static_cast<long long>(after.overruns - before.overruns));
   EXPECT_EQ(after.real_time, 1);
-  EXPECT_GE(cycles, 60'000);
+  EXPECT_GE(cycles, 1000 * kWatched.count());
   EXPECT_EQ(trap.counts().allocations, allocations);
   EXPECT_EQ(trap.counts().locks, locks);
   EXPECT_EQ(after.page_faults, before.page_faults);

@@ -41,7 +41,7 @@ bool is_there(const char* program) {
 class Manual : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(kBin + GetParam())) GTEST_SKIP() << "not built";
+    if (!std::filesystem::exists(kBin + GetParam())) GTEST_SKIP() << "not built, as under a sanitizer";
   }
   std::string print(const std::string& kind) const {
     const Result result = shell(kBin + GetParam() + " --manual " + kind);
@@ -140,7 +140,7 @@ TEST(Page, ShowsWhatMayBeLeftOutInBrackets) {
 
 TEST(Page, OfTheViewerNamesTheOptionsOfItsLauncher) {
   const std::string page = STRAINWAVE_BINARY_DIR "/man/strainwave-spy.1";
-  if (!std::filesystem::exists(page)) GTEST_SKIP() << "not built";
+  if (!std::filesystem::exists(page)) GTEST_SKIP() << "not built, as under a sanitizer";
   const std::string help = shell(kBin + "strainwave-spy --help").output;
   const std::regex option("--[a-z-]+");
   const std::string text = shell("sed 's/\\\\-/-/g' " + page).output;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
@@ -495,8 +496,10 @@ const std::vector<CommandCase> kCommandCases{
 };
 
 TEST(WrongCommandLine, IsNamedByWhatWasGivenAndWhatIsAllowed) {
+  const bool with_design = std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-design");
   for (const CommandCase& wrong : kCommandCases)
-    expect_refused(run(wrong.command), wrong.mentions, wrong.command);
+    if (with_design || !std::string_view(wrong.command).starts_with("strainwave-design"))
+      expect_refused(run(wrong.command), wrong.mentions, wrong.command);
 }
 
 TEST(WrongInputs, AreMany) {

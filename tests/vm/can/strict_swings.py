@@ -25,7 +25,7 @@ class StrictSwings(StrictBench):
                     off_mrad = max(off_mrad, 1e3 * abs(position_rad - target_rad))
         return beyond_mrad, off_mrad
 
-    def expect_exact_swings(self, notices, on_time=False, count=3):
+    def expect_exact_swings(self, notices, on_time=False, count=2):
         # Pushes that are not answered until they are over may go a milliradian too far; the next one comes back.
         for number in range(count):
             beyond_mrad, off_mrad = self.swing()
