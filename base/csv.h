@@ -2,7 +2,9 @@
 // Not real-time.
 #pragma once
 
+#include <concepts>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +39,15 @@ CsvTable read_csv(const std::filesystem::path& path);
 
 /// The number that `text` is, whole; throws InputError "<where>: <key> = <text>: must be a finite number".
 double parse_number(std::string_view text, const std::string& where, const std::string& key);
+
+/// `value` as it is written: NaN without its sign, which says nothing and which readers stumble over ("-nan").
+template <typename Number>
+constexpr Number csv_number(Number value) noexcept {
+  if constexpr (std::floating_point<Number>)
+    return value == value ? value : std::numeric_limits<Number>::quiet_NaN();
+  else
+    return value;
+}
 
 /// `text` split at every `separator`; never empty.
 std::vector<std::string_view> split(std::string_view text, char separator);

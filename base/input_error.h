@@ -19,8 +19,9 @@ class InputError : public std::runtime_error {
       : InputError(where + ": " + key + " = " + printable(value) + ": " + allowed) {}
 };
 
-/// What was asked for makes sense and was tried, and was not found: gains, a friction curve. Programs end with ExitStatus::kRefused.
-class NoSolution : public InputError {
+/// What was asked for makes sense and was tried, and did not come about: there are no such gains, the disk was full. Programs end with
+/// ExitStatus::kRefused.
+class NotAchieved : public InputError {
  public:
   using InputError::InputError;
 };

@@ -1,5 +1,6 @@
 #include "base/strict_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
@@ -14,6 +15,27 @@ namespace {
 
 /// Beyond it whoever walks through a document runs out of stack.
 constexpr int kDeepest = 32;
+constexpr std::size_t kShown = 40;
+
+/// Where reading stopped and what stands there, in words that need no knowledge of a parser; `byte` counts from 1.
+std::string malformed(std::string_view text, const std::string& source, std::size_t byte) {
+  const auto shown = [&](std::size_t from) {
+    const std::string_view rest = text.substr(from);
+    return "'" + printable(rest.substr(0, std::min(rest.find_first_of("\r\n"), kShown))) + "'";
+  };
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return source + ": is empty: JSON is expected, an object in braces";
+  if (text[first] != '{')
+    return source + ": is no JSON: begins with " + shown(first) + ", where JSON of ours begins with {";
+  const std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  const std::string_view before = text.substr(0, at);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::string place = source + ":" + std::to_string(line) + ": not valid JSON: ";
+  if (at == text.size()) return place + "ends before everything that was opened is closed";
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+  return place + "column " + std::to_string(at - line_begin + 1) + " of " + shown(line_begin) +
+         " is not what JSON has there";
+}
 
 }  // namespace
 
@@ -35,8 +57,12 @@ ordered_json parse_strict_json(std::string_view text, const std::string& source)
   };
   try {
     return ordered_json::parse(text, refuse_repeated_keys);
+  } catch (const ordered_json::parse_error& error) {
+    throw InputError(malformed(text, source, error.byte));
   } catch (const ordered_json::exception& error) {
-    throw InputError(source + ": not valid JSON: " + error.what());
+    // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+    const std::string_view what = error.what();
+    throw InputError(source + ": not valid JSON: " + std::string(what.substr(what.find("] ") + 2)));
   }
 }
 

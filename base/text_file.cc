@@ -18,6 +18,11 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
 
+// A name that was given wrongly is one thing, a disk that is full or fails another.
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
+  throw NotAchieved(path.string() + ": cannot write: " + std::generic_category().message(error));
+}
+
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int error) {
   throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(error));
 }
@@ -40,7 +45,7 @@ class TemporaryFile {
     while (!text.empty()) {
       const ssize_t written = ::write(descriptor_, text.data(), text.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(target_, "cannot write", errno);
+      if (written < 0) fail_to_write(target_, errno);
       text.remove_prefix(static_cast<std::size_t>(written));
     }
   }
@@ -48,8 +53,7 @@ class TemporaryFile {
     // mkstemp makes a private file; a table is for everyone to read, as far as the umask allows.
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0)
-      fail(target_, "cannot write", errno);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0) fail_to_write(target_, errno);
     if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "cannot replace", errno);
     renamed_ = true;
     sync_folder();

@@ -186,7 +186,11 @@ std::string TomlSection::choice_or(std::string_view key, std::string fallback,
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, Range allowed) {
-  const toml::array* array = Reader::require(*this, key).as_array();
+  const toml::node* node = Reader::find(*this, key);
+  if (node == nullptr)
+    fail(key, "one table or more, each begun with [[" + full_name(key) + "]], is required" +
+                  Reader::instead(*this, key));
+  const toml::array* array = node->as_array();
   if (array == nullptr || array->empty()) fail(key, "a list of numbers is allowed");
   std::vector<double> values;
   for (const toml::node& node : *array) values.push_back(Reader::checked(*this, key, node, allowed));
@@ -206,7 +210,11 @@ TomlSection TomlSection::section_or_empty(std::string_view key) {
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) {
-  const toml::array* array = Reader::require(*this, key).as_array();
+  const toml::node* node = Reader::find(*this, key);
+  if (node == nullptr)
+    fail(key, "one table or more, each begun with [[" + full_name(key) + "]], is required" +
+                  Reader::instead(*this, key));
+  const toml::array* array = node->as_array();
   if (array == nullptr || array->empty() || !array->is_homogeneous(toml::node_type::table))
     fail(key, "one or more tables are allowed, each written [[" + full_name(key) + "]] with two brackets");
   std::vector<TomlSection> result;

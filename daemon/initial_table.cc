@@ -19,9 +19,7 @@ std::optional<InitialTable> read_initial_table(const JointConfig& joint) {
     if (judged.reason != Reason::kAccepted)
       throw InputError(joint.table.string() + ": refused for joint " + joint.name + ": " + judged.text);
     initial.verdict = judged.text;
-    const JointControllerConfig& controller = joint.loop.controller;
-    initial.doubts =
-        doubt_torque(joint.name, controller.torque_limit_Nm, controller.gravity.torque_Nm, initial.table);
+    initial.doubts = doubt_torque(joint.name, joint.loop.controller, initial.table);
     return initial;
   } catch (const InputError& error) {
     throw InputError(joint.table_place + ": " + error.what());

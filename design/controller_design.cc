@@ -212,7 +212,8 @@ void check_request(const DesignRequest& request) {
 DesignedGains solve_gains(Controller controller, const DesignRequest& request) {
   check_request(request);
   const ControllerSolution solution = solve_controller(make_problem(controller, request));
-  if (solution.status != SdpStatus::kSolved) throw NoSolution(failure_message(controller, request, solution));
+  if (solution.status != SdpStatus::kSolved)
+    throw NotAchieved(failure_message(controller, request, solution));
   DesignedGains designed;
   FeedbackGains& gains = designed.gains;
   gains.controller = std::string_view(name_of(controller));
@@ -247,12 +248,12 @@ DesignedGains design_gains(Controller controller, const DesignRequest& request) 
       attempt.mistaken_share = std::max(kFirstMistakenShare, 10.0 * attempt.mistaken_share);
       continue;
     }
-    throw NoSolution(std::string("gains: ") + name_of(controller) + " was designed but " +
-                     (designed.certificate.certified
-                          ? "its limits are not proved"
-                          : "is not certified (margin " + describe(designed.certificate.worst) + ")") +
-                     " at margin " + number(attempt.margin) +
-                     "; nothing is written. Use a larger --margin (0.01 is the default).");
+    throw NotAchieved(std::string("gains: ") + name_of(controller) + " was designed but " +
+                      (designed.certificate.certified
+                           ? "its limits are not proved"
+                           : "is not certified (margin " + describe(designed.certificate.worst) + ")") +
+                      " at margin " + number(attempt.margin) +
+                      "; nothing is written. Use a larger --margin (0.01 is the default).");
   }
 }
 
@@ -261,10 +262,10 @@ namespace {
 FeedbackGains design_fallback(Controller primary, const DesignRequest& request) {
   try {
     return design_gains(fallback_of(primary), request).gains;
-  } catch (const NoSolution& error) {
-    throw NoSolution(std::string(error.what()) + " " + name_of(fallback_of(primary)) +
-                     " is the fallback of " + name_of(primary) +
-                     ", which was found: one gain for every temperature.");
+  } catch (const NotAchieved& error) {
+    throw NotAchieved(std::string(error.what()) + " " + name_of(fallback_of(primary)) +
+                      " is the fallback of " + name_of(primary) +
+                      ", which was found: one gain for every temperature.");
   }
 }
 

@@ -61,11 +61,11 @@ struct DesignedGains {
       false;  ///< P_j of every rule proves the requested limits (true when none were requested)
 };
 
-/// Solves the LMIs. Throws NoSolution: that there is none, where that is proved, else that the solver
+/// Solves the LMIs. Throws NotAchieved: that there is none, where that is proved, else that the solver
 /// failed. Does not insist on the certificate.
 DesignedGains solve_gains(Controller controller, const DesignRequest& request);
 
-/// The same, and throws NoSolution unless certificate and limits hold. The first attempt asks for the pairs of
+/// The same, and throws NotAchieved unless certificate and limits hold. The first attempt asks for the pairs of
 /// the certificate only. Where others fail, the next ask for mistaken rules, too, with a hundredth, a tenth and
 /// at last all of the cost: from that everything follows, and every rule has the same gain.
 DesignedGains design_gains(Controller controller, const DesignRequest& request);

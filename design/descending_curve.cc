@@ -48,7 +48,7 @@ class GrowingProgram {
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (multipliers_(static_cast<Index>(i)) > 0.0) kept.push_back(rows_[i]);
     if (kept.size() == rows_.size())
-      throw NoSolution("fit: no friction that falls with temperature everywhere was found");
+      throw NotAchieved("fit: no friction that falls with temperature everywhere was found");
     rows_ = std::move(kept);
   }
 
@@ -122,7 +122,7 @@ FuzzyFit fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& 
       holds = false;
     }
   }
-  if (!holds) throw NoSolution("fit: no friction that falls with temperature everywhere was found");
+  if (!holds) throw NotAchieved("fit: no friction that falls with temperature everywhere was found");
   for (Index p = 0; p < 3; ++p)
     fit.consequents.col(p) = U * program.x().segment(p * m, m).cwiseMax(0.0) / unit(p);
   fit.cost =

@@ -10,7 +10,7 @@
 
 namespace strainwave {
 
-/// The best consequents for given memberships. The range may be wider than the data's. Throws NoSolution when none is found
+/// The best consequents for given memberships. The range may be wider than the data's. Throws NotAchieved when none is found
 /// within the number of steps that every well-posed fit needs many times less of.
 FuzzyFit fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& center_C,
                               const Eigen::VectorXd& width_C, double min_C, double max_C);

@@ -132,7 +132,7 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command) 
 }
 
 // The most aggressive gains that are certified on the joint's spring: of a family over the torque's weight, from the one that is asked for
-// on, to a quarter of a decade. Throws NoSolution with the last refusal when the softest is none.
+// on, to a quarter of a decade. Throws NotAchieved with the last refusal when the softest is none.
 GainTable design_on_spring(Controller controller, TableRequest& request, const GainsOptions& options) {
   const SpringRequest spring = spring_request(options.spring, "gains");
   if (spring.most_delay > kMaxBoxDelay)
@@ -158,8 +158,8 @@ GainTable design_on_spring(Controller controller, TableRequest& request, const G
     refused = certified;
     certified += kQuarters;
     if (certified > kSoftest * kQuarters)
-      throw NoSolution("gains: no gains are certified on this spring, down to a torque weight of " +
-                       number_text(request.design.weights.torque) + ": " + verdict.text);
+      throw NotAchieved("gains: no gains are certified on this spring, down to a torque weight of " +
+                        number_text(request.design.weights.torque) + ": " + verdict.text);
     best = try_weight(certified);
   }
   std::string text = verdict.text;
@@ -173,7 +173,7 @@ GainTable design_on_spring(Controller controller, TableRequest& request, const G
   }
   std::printf("torque weight %g\n%s", best.primary.weights.torque, text.c_str());
   const BoxReport report = certify_box(best);
-  if (!report.certified) throw NoSolution("gains: the box's cells do not prove it: " + report.text);
+  if (!report.certified) throw NotAchieved("gains: the box's cells do not prove it: " + report.text);
   std::printf("the table's box: %s\n", describe(best.box).c_str());
   return best;
 }

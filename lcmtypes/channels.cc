@@ -11,7 +11,7 @@ constexpr std::string_view kNameCharacters =
 }  // namespace
 
 bool is_valid_name(std::string_view name) {
-  return !name.empty() && name.size() <= kMaxNameLength &&
+  return !name.empty() && name.size() <= kMaxNameLength && name.front() != '-' &&
          name.find_first_not_of(kNameCharacters) == std::string_view::npos;
 }
 

@@ -30,7 +30,7 @@ struct ChannelName {
   std::string kind;
 };
 
-/// A prefix or joint name: 1 to 24 of A-Z a-z 0-9 _ and -.
+/// A prefix or joint name: 1 to 24 of A-Z a-z 0-9 _ and -, of which - does not come first: a joint "--all" would be an option.
 bool is_valid_name(std::string_view name);
 
 std::string channel(std::string_view prefix, std::string_view joint, std::string_view kind);

@@ -29,7 +29,7 @@ do for [i = 1:4] {
   if (i == 1) { set key top right } else { unset key }
   set title "its distance from the target" offset 0,-0.6
   set ylabel "|error|, µrad"
-  plot 2 * pi / 320000 * 1e6 with lines dashtype 2 lc rgb "#888888" title "one count of the encoder", \
+  plot 2 * 2 * pi / 320000 * 1e6 with lines dashtype 2 lc rgb "#888888" title "two counts of the encoder", \
        sprintf("%s/blind%d.dat", folder, i) using 1:(at_least(1, $3)) with lines lc rgb blind notitle, \
        sprintf("%s/aware%d.dat", folder, i) using 1:(at_least(1, $3)) with lines lc rgb aware notitle
   unset logscale y

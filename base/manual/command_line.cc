@@ -140,7 +140,7 @@ int run_program(CLI::App& app, int argc, const char* const* argv, const CommandB
     if (const auto status = parse_command_line(app, {argv + 1, argv + argc}, std::cout, std::cerr))
       return static_cast<int>(*status);
     return static_cast<int>(action());
-  } catch (const NoSolution& error) {
+  } catch (const NotAchieved& error) {
     return fail(ExitStatus::kRefused, error.what());
   } catch (const InputError& error) {
     return fail(ExitStatus::kUsage, error.what());

@@ -28,7 +28,7 @@ std::ofstream create(const std::filesystem::path& path, bool overwrite) {
 
 void require_complete(std::ofstream& file, const std::filesystem::path& path) {
   if (!file.flush())
-    throw ClientError(ExitStatus::kUsage,
+    throw ClientError(ExitStatus::kRefused,
                       path.string() + " is incomplete: writing failed; is the disk full?");
 }
 

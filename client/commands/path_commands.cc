@@ -96,8 +96,9 @@ std::vector<JointPath> read_path(const std::filesystem::path& file) {
   for (std::size_t row = 0; row < csv.rows.size(); ++row) {
     const std::vector<std::string>& fields = csv.rows[row];
     if (!is_valid_name(fields[0]))
-      throw InputError(fmt::format("{}: joint = {}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed",
-                                   csv.place(row), fields[0]));
+      throw InputError(
+          fmt::format("{}: joint = {}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first",
+                      csv.place(row), fields[0]));
     auto part = std::find_if(path.begin(), path.end(),
                              [&](const JointPath& candidate) { return candidate.joint == fields[0]; });
     if (part == path.end()) part = path.insert(path.end(), JointPath{fields[0], {}});

@@ -1,6 +1,9 @@
 // timing: the daemon's own account of its loop.
 #include <fmt/format.h>
 
+#include <map>
+#include <string>
+
 #include "client/commands/commands.h"
 #include "client/link/client_error.h"
 #include "client/link/latest_messages.h"
@@ -37,8 +40,10 @@ std::string describe(const timing_v1& timing) {
 }
 
 std::vector<ResultField> fields_of(const timing_v1& timing) {
-  std::int64_t refused = 0;
-  for (const std::int64_t count : timing.rejects) refused += count;
+  std::map<std::string, std::int64_t> refused;
+  for (int reason = 1; reason < kReasonCount; ++reason)
+    if (timing.rejects[reason] > 0)
+      refused.emplace(to_text(static_cast<Reason>(reason)), timing.rejects[reason]);
   return {{"real_time", timing.real_time == 1},
           {"period_s", timing.period_s},
           {"joint_count", std::int64_t{timing.joint_count}},

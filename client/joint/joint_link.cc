@@ -45,7 +45,7 @@ std::filesystem::path key_of(const JointOptions& options) {
 std::string checked_name(const std::string& what, const std::string& name) {
   if (!is_valid_name(name))
     throw InvalidInput(
-        fmt::format("{} = '{}': 1 to 24 characters of A-Z a-z 0-9 _ - are allowed", what, name));
+        fmt::format("{} = '{}': 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first", what, name));
   return name;
 }
 

@@ -50,7 +50,7 @@ void EventLogWriter::on_message(const ReceivedMessage& message) {
 void EventLogWriter::finish() {
   good_ = good_ && std::fflush(log_->f) == 0;
   if (!good_)
-    throw ClientError(ExitStatus::kUsage, name_ + " is incomplete: writing failed; is the disk full?");
+    throw ClientError(ExitStatus::kRefused, name_ + " is incomplete: writing failed; is the disk full?");
 }
 
 }  // namespace strainwave

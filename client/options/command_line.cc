@@ -51,6 +51,8 @@ ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out
     return ExitStatus::kDone;
   } catch (const ClientError& error) {
     return report(err, error.status(), error.what());
+  } catch (const NotAchieved& error) {
+    return report(err, ExitStatus::kRefused, error.what());
   } catch (const InputError& error) {
     return report(err, ExitStatus::kUsage, error.what());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -13,7 +13,7 @@ CLI::Validator name_validator() {
   return {[](const std::string& name) {
             return is_valid_name(name)
                        ? std::string()
-                       : "'" + name + "' is not a name: 1 to 24 of A-Z a-z 0-9 _ and - are allowed";
+                       : "'" + name + "' is not a name: 1 to 24 of A-Z a-z 0-9 _ - are allowed, not - first";
           },
           ""};
 }

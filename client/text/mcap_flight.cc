@@ -70,7 +70,7 @@ std::string schema_of(const CsvText& csv) {
 /// "nan" is a number here.
 double number_of(const CsvText& csv, std::size_t row, std::size_t column) {
   const std::string& text = csv.rows[row][column];
-  if (text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
   return parse_number(text, csv.place(row), csv.columns[column]);
 }
 

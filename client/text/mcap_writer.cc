@@ -229,7 +229,7 @@ void McapWriter::finish() {
   put(Content().number(data_crc_).as(Opcode::kDataEnd));
   write_summary(offset_);
   put(kMagic);
-  if (!file_.flush()) throw InputError(name_ + " is incomplete: writing failed; is the disk full?");
+  if (!file_.flush()) throw NotAchieved(name_ + " is incomplete: writing failed; is the disk full?");
 }
 
 }  // namespace strainwave

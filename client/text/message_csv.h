@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/csv.h"
 #include "base/printable.h"
 #include "lcmtypes/message_fields.h"
 
@@ -44,9 +45,9 @@ std::string csv_values(const Message& message) {
     if constexpr (std::same_as<std::decay_t<decltype(value)>, std::string_view>) {
       line += "," + csv_quoted(value);
     } else if constexpr (requires { value.size(); }) {
-      for (const auto entry : value) line += fmt::format(",{}", entry);
+      for (const auto entry : value) line += fmt::format(",{}", csv_number(entry));
     } else {
-      line += fmt::format(",{}", value);
+      line += fmt::format(",{}", csv_number(value));
     }
   });
   return line;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -19,7 +20,8 @@ struct Output {
 
 /// Names carry units, as everywhere. A number that is not finite becomes null.
 using ResultField =
-    std::pair<const char*, std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>>;
+    std::pair<const char*, std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
+                                        std::map<std::string, std::int64_t>>>;
 
 /// Writes one line: `text`, or the fields as a JSON object.
 void say(const Output& output, const std::string& text, const std::vector<ResultField>& fields);

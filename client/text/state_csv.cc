@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/csv.h"
 #include "client/text/message_csv.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -31,9 +32,9 @@ std::string state_csv_values(const state_v1& state, int weights) {
   visit_state_fields(state, [&](std::string_view name, const auto& value) {
     if constexpr (requires { value.size(); }) {
       for (int i = 0; i < weights; ++i)
-        line += i < used ? fmt::format(",{}", value[static_cast<std::size_t>(i)]) : ",";
+        line += i < used ? fmt::format(",{}", csv_number(value[static_cast<std::size_t>(i)])) : ",";
     } else {
-      line += fmt::format(",{}", value);
+      line += fmt::format(",{}", csv_number(value));
       if (name == "mode") line += fmt::format(",{}", to_text(static_cast<Mode>(state.mode)));
       if (name == "fault") line += fmt::format(",{}", to_text(static_cast<Fault>(state.fault)));
     }

@@ -88,26 +88,42 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
                                         " times its speed limit; left out it is a quarter above it");
 }
 
-std::vector<std::string> doubt_torque(const std::string& joint, double torque_limit_Nm, double gravity_Nm,
+std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table) {
-  const double holds_Nm = std::min(torque_limit_Nm, table.torque_limit_Nm);
+  std::vector<std::string> doubts;
+  const double holds_Nm = std::min(controller.torque_limit_Nm, table.torque_limit_Nm);
+  const auto note = [&](const auto& write) {
+    std::ostringstream doubt;
+    doubt.precision(4);
+    doubt << joint << ": torque limit " << holds_Nm
+          << " N.m (of joint.limits.torque_limit_Nm = " << controller.torque_limit_Nm << " and the table's "
+          << table.torque_limit_Nm << "): ";
+    write(doubt);
+    doubts.push_back(doubt.str());
+  };
   const auto rules =
       std::span(table.friction.rules).first(static_cast<std::size_t>(table.friction.rule_count));
   const TemperatureRule& hardest = *std::max_element(
       rules.begin(), rules.end(),
       [](const auto& a, const auto& b) { return a.friction.static_Nm < b.friction.static_Nm; });
+  const double gravity_Nm = controller.gravity.torque_Nm;
   const double needed_Nm = hardest.friction.static_Nm + gravity_Nm;
-  if (holds_Nm * (1.0 - kLeastSpare) >= needed_Nm) return {};
-  std::ostringstream doubt;
-  doubt.precision(4);
-  doubt << joint << ": torque limit " << holds_Nm
-        << " N.m (of joint.limits.torque_limit_Nm = " << torque_limit_Nm << " and the table's "
-        << table.torque_limit_Nm << "): at " << hardest.center_C << " degC " << hardest.friction.static_Nm
-        << " N.m of it are static friction";
-  if (gravity_Nm > 0.0) doubt << " and " << gravity_Nm << " N.m gravity";
-  doubt << (holds_Nm > needed_Nm ? ", and hardly any is left to move" : ": the joint does not move there")
-        << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would do";
-  return {doubt.str()};
+  if (holds_Nm * (1.0 - kLeastSpare) < needed_Nm)
+    note([&](std::ostream& doubt) {
+      doubt << "at " << hardest.center_C << " degC " << hardest.friction.static_Nm
+            << " N.m of it are static friction";
+      if (gravity_Nm > 0.0) doubt << " and " << gravity_Nm << " N.m gravity";
+      doubt << (holds_Nm > needed_Nm ? ", and hardly any is left to move" : ": the joint does not move there")
+            << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would do";
+    });
+  const double inertia_kgm2 = table.plant.inertia_kgm2;
+  if (controller.motion.acceleration_rad_s2 * inertia_kgm2 > holds_Nm)
+    note([&](std::ostream& doubt) {
+      doubt << "gives " << inertia_kgm2 << " kg m2 at most " << holds_Nm / inertia_kgm2
+            << " rad/s2, never joint.limits.acceleration_rad_s2 = " << controller.motion.acceleration_rad_s2
+            << ": motions take what the torque allows and last longer than that limit promises";
+    });
+  return doubts;
 }
 
 void doubt_loop(const TomlSection& section, const LoopConfig& loop) {

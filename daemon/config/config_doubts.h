@@ -21,9 +21,9 @@ void doubt_angle(const TomlSection& section, std::string_view key, double angle_
 /// Of [joint.limits], already read into `loop`, of a joint behind such a gear.
 void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio);
 
-/// Of a joint's torque limit beside what its table says of its friction: where the joint hardly moves or does not move at all. With
-/// `torque_limit_Nm` of the configuration, of which and the table's the smaller holds, and the most that gravity is told to ask for.
-std::vector<std::string> doubt_torque(const std::string& joint, double torque_limit_Nm, double gravity_Nm,
+/// Of a joint's torque limit, of the configuration or the table, whichever is smaller: where the table's friction and the gravity that is told
+/// leave so little that the joint hardly moves or does not move at all, and an acceleration that its inertia can never have.
+std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table);
 
 /// Of [daemon], already read into `loop`.

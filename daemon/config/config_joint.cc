@@ -129,7 +129,8 @@ FixedString<32> read_model(TomlSection& section) {
 
 std::string read_name(TomlSection& section, std::string_view key, std::string fallback) {
   std::string name = fallback.empty() ? section.text(key) : section.text_or(key, std::move(fallback));
-  if (!is_valid_name(name)) section.fail(key, "1 to 24 of the characters A-Z a-z 0-9 _ - are allowed");
+  if (!is_valid_name(name))
+    section.fail(key, "1 to 24 of the characters A-Z a-z 0-9 _ - are allowed, not - first");
   return name;
 }
 

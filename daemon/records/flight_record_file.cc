@@ -5,6 +5,7 @@
 #include <ctime>
 #include <string_view>
 
+#include "base/csv.h"
 #include "base/durations.h"
 #include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/reading_doubt.h"
@@ -16,7 +17,7 @@ namespace {
 template <typename Number>
 void append_number(std::string& text, Number number) {
   std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), csv_number(number)).ptr;
   text.append(buffer.data(), end);
 }
 

@@ -29,6 +29,19 @@ TEST(StrictJson, RefusesWhatNestsTooDeepForWhoeverWalksThroughIt) {
   EXPECT_EQ(refusal("{\"torque_Nm\": 1, \"torque\": 2}"), "a.json: torque: unknown key");
 }
 
+TEST(StrictJson, SaysWhereReadingStoppedAndWhatStandsThere) {
+  EXPECT_EQ(refusal(""), "a.json: is empty: JSON is expected, an object in braces");
+  EXPECT_EQ(refusal("\n speed_rpm,torque\n"),
+            "a.json: is no JSON: begins with 'speed_rpm,torque', where JSON of ours begins with {");
+  EXPECT_EQ(refusal("{\n  \"torque_Nm\": 1,\n}"),
+            "a.json:3: not valid JSON: column 1 of '}' is not what JSON has there");
+  EXPECT_EQ(refusal("{\"torque_Nm\": 0x1}"),
+            "a.json:1: not valid JSON: column 15 of '{\"torque_Nm\": 0x1}' is not what JSON has there");
+  EXPECT_EQ(refusal("{\"torque_Nm\": 1"),
+            "a.json:1: not valid JSON: ends before everything that was opened is closed");
+  EXPECT_EQ(refusal("{\"torque_Nm\": 1e999}"), "a.json: not valid JSON: number overflow parsing '1e999'");
+}
+
 TEST(StrictJson, ShowsNothingThatCommandsATerminal) {
   const std::string hostile = R"("\u001b[2J\u202e\nsound")";
   for (const std::string& text :

@@ -1,6 +1,8 @@
 #include "base/text_file.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "base/input_error.h"
@@ -21,6 +23,27 @@ TEST_F(TextFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read_text_file(folder_ / "a"), text);
   write_text_file(folder_ / "a", "short");
   EXPECT_EQ(read_text_file(folder_ / "a"), "short");
+}
+
+// A limit of the process stands for the end of the disk; root has none of the quotas that would do as well.
+TEST_F(TextFile, ThatDoesNotFitIsNotTheUsersMistake) {
+  write_text_file(folder_ / "a", "kept");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{64, before.rlim_max};
+  ::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(write_text_file(folder_ / "a", std::string(1000, 'x')), NotAchieved);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  ::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_EQ(read_text_file(folder_ / "a"), "kept");
+  try {
+    write_text_file(folder_ / "missing" / "a", "text");
+    FAIL() << "there is no such folder";
+  } catch (const NotAchieved&) {
+    FAIL() << "a wrong name is the user's";
+  } catch (const InputError&) {
+  }
 }
 
 TEST_F(TextFile, LeavesNoTemporaryFiles) {

@@ -15,7 +15,7 @@ constexpr std::string_view kKinds[] = {
 TEST(ChannelName, ReadsBackAsItWasMade) {
   for (const std::string_view kind : kKinds) {
     for (const char* prefix : {"SW", "a", "Lab_2-x", "ABCDEFGHIJKLMNOPQRSTUVWX"}) {
-      for (const char* joint : {"elbow", "0", "-", "_", "abcdefghijklmnopqrstuvwx"}) {
+      for (const char* joint : {"elbow", "0", "a-", "_-", "abcdefghijklmnopqrstuvwx"}) {
         const auto parts = parse_channel(channel(prefix, joint, kind));
         ASSERT_TRUE(parts) << channel(prefix, joint, kind);
         EXPECT_EQ(parts->prefix, prefix);
@@ -48,6 +48,8 @@ TEST(ChannelName, FromAHostileSenderIsNoneOfOurs) {
                                   std::string("..."),
                                   std::string("SW"),
                                   std::string("SW."),
+                                  std::string("-SW.elbow.STATE"),
+                                  std::string("SW.--all.STATE"),
                                   std::string("SW.STATE"),
                                   std::string(".elbow.STATE"),
                                   std::string("SW..STATE"),

@@ -19,14 +19,14 @@ DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 MAX_NAMES = 1024  # more joints than any network of ours has
 _QUEUE_BYTES = 1 << 20
 _LARGEST_DATAGRAM = 65536
-_NAME = re.compile(r"[A-Za-z0-9_-]{1,24}")
-_STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_-]{1,24})\.([A-Za-z0-9_-]{1,24})\.STATE")
+_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,23}")
+_STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.STATE")
 
 
 def check_name(what, name):
     """`name` if it can be a joint's or a prefix."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        raise InvalidInput(f"{what} = {name!r}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed")
+        raise InvalidInput(f"{what} = {name!r}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first")
     return name
 
 

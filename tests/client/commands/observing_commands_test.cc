@@ -179,6 +179,16 @@ TEST_F(CommandsTest, TimingSaysWhetherRealTimeIsUsedAndWhatWasRefused) {
   EXPECT_TRUE(output_has("3 (another session of the daemon)")) << stream.str();
 }
 
+TEST_F(CommandsTest, TimingTellsScriptsWhatWasRefusedForEachReason) {
+  timing_v1 timing{};
+  timing.rejects[static_cast<int>(Reason::kWrongSession)] = 3;
+  timing.rejects[static_cast<int>(Reason::kOldSequence)] = 2;
+  const LaterTiming later(connection, timing);
+  show_timing(client, {stream, false, true});
+  EXPECT_TRUE(output_has(R"("another session of the daemon":3)")) << stream.str();
+  EXPECT_TRUE(output_has(R"(":2)")) << stream.str();
+}
+
 TEST_F(CommandsTest, TimingSaysSoWhenNoneComes) {
   EXPECT_EQ(status_of([&] { show_timing(client, output); }), ExitStatus::kNoAnswer);
 }

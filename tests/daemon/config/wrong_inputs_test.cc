@@ -121,6 +121,8 @@ const std::vector<ConfigCase> kConfigCases{
     {"ambient_temperature_C",
      "ambient_C",
      {":24: joint[0].simulated.ambient_C = \"sine:15,25,1\"", "unknown key"}},
+    {"[[joint]]", "[[joints]]", {"joint is missing", "begun with [[joint]]", "line 7 has joints"}},
+    {"name = \"elbow\"", "name = \"--all\"", {":8: joint[0].name = \"--all\"", "not - first"}},
     {"[daemon]", "[deamon]", {"deamon = (a table)", "did you mean daemon?"}},
     {"[[joint]]", "[[joints]]", {"joint", "[[joint]] with two brackets"}},
     {"[security]", "[secuirty]", {"security.authorized_keys is missing"}},
@@ -391,6 +393,7 @@ TEST_F(WrongInput, ATorqueLimitThatFrictionTakesIsDoubtedWithWhatWouldDo) {
   const auto limited = [&](const std::string& torque_Nm) {
     std::string text = kSound;
     text.replace(text.find("torque_limit_Nm = 34"), 20, "torque_limit_Nm = " + torque_Nm);
+    text.replace(text.find("acceleration_rad_s2 = "), 22, "acceleration_rad_s2 = 1 # ");
     write(file_, text, "driver = \"simulated\"\n", "driver = \"simulated\"\ntable = \"t.json\"\n");
     const Ended ended = check();
     EXPECT_EQ(ended.status, 0) << ended.said;
@@ -403,6 +406,22 @@ TEST_F(WrongInput, ATorqueLimitThatFrictionTakesIsDoubtedWithWhatWouldDo) {
   const double enough_Nm = std::stod(stuck.substr(stuck.find("not move there; ") + 16));
   EXPECT_EQ(limited(std::to_string(enough_Nm * 1.001)).find("warning"), std::string::npos);
   EXPECT_NE(limited(std::to_string(enough_Nm * 0.97)).find("hardly any is left to move"), std::string::npos);
+}
+
+TEST_F(WrongInput, AnAccelerationThatNoTorqueAffordsIsDoubtedWithWhatIsAfforded) {
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json", table_);
+  const auto with = [&](const std::string& acceleration_rad_s2) {
+    std::string text = kSound;
+    text.replace(text.find("acceleration_rad_s2 = "), 22,
+                 "acceleration_rad_s2 = " + acceleration_rad_s2 + " # ");
+    write(file_, text, "driver = \"simulated\"\n", "driver = \"simulated\"\ntable = \"t.json\"\n");
+    return check().said;
+  };
+  EXPECT_NE(with("1000").find(
+                "gives 0.089 kg m2 at most 382 rad/s2, never joint.limits.acceleration_rad_s2 = 1000"),
+            std::string::npos)
+      << with("1000");
+  EXPECT_EQ(with("381").find("warning"), std::string::npos) << with("381");
 }
 
 TEST_F(WrongInput, AConfigurationThatOthersMayWriteIsRefusedOrOfASimulatedJointDoubted) {
@@ -459,6 +478,10 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwavectl load-table elbow /nonexistent", {"/nonexistent: cannot be read", "No such file"}},
     {"strainwavectl load-table elbow " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006-friction.json",
      {"rhs17-6006-friction.json: holds fitted friction, not gains"}},
+    {"strainwavectl load-table elbow " STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv",
+     {"no_load_torque.csv: is no JSON: begins with '#", "begins with {"}},
+    {"strainwavectl load-table elbow " STRAINWAVE_SOURCE_DIR "/config/demo.toml",
+     {"demo.toml: is no JSON: begins with '# The demonstration"}},
     {"strainwave-sim run --controller pid --plant perfect",
      {"--plant", "perfect", "ideal, limited, realistic"}},
     {"strainwave-design verify /nonexistent", {"/nonexistent: cannot be read", "No such file"}},
