@@ -53,9 +53,10 @@ struct TomlSection::Reader {
     return section.table_->table->get(key);
   }
 
-  static const toml::node& require(TomlSection& section, std::string_view key) {
+  static const toml::node& require(TomlSection& section, std::string_view key,
+                                   const std::string& what = "the key") {
     const toml::node* node = find(section, key);
-    if (node == nullptr) section.fail(key, "the key is required" + instead(section, key));
+    if (node == nullptr) section.fail(key, what + " is required" + instead(section, key));
     return *node;
   }
 
@@ -186,11 +187,7 @@ std::string TomlSection::choice_or(std::string_view key, std::string fallback,
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, Range allowed) {
-  const toml::node* node = Reader::find(*this, key);
-  if (node == nullptr)
-    fail(key, "one table or more, each begun with [[" + full_name(key) + "]], is required" +
-                  Reader::instead(*this, key));
-  const toml::array* array = node->as_array();
+  const toml::array* array = Reader::require(*this, key).as_array();
   if (array == nullptr || array->empty()) fail(key, "a list of numbers is allowed");
   std::vector<double> values;
   for (const toml::node& node : *array) values.push_back(Reader::checked(*this, key, node, allowed));
@@ -210,11 +207,8 @@ TomlSection TomlSection::section_or_empty(std::string_view key) {
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) {
-  const toml::node* node = Reader::find(*this, key);
-  if (node == nullptr)
-    fail(key, "one table or more, each begun with [[" + full_name(key) + "]], is required" +
-                  Reader::instead(*this, key));
-  const toml::array* array = node->as_array();
+  const std::string what = "a table, or several, each begun with [[" + full_name(key) + "]],";
+  const toml::array* array = Reader::require(*this, key, what).as_array();
   if (array == nullptr || array->empty() || !array->is_homogeneous(toml::node_type::table))
     fail(key, "one or more tables are allowed, each written [[" + full_name(key) + "]] with two brackets");
   std::vector<TomlSection> result;
