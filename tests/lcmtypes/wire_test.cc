@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kFingerprintBytes = 8;
 
 template <typename Message>
-class WireTest : public testing::Test {
+class WireTest : public ::testing::Test {
  protected:
   /// A message with every byte random, NaNs and all.
   static Message random_message(unsigned seed) {
@@ -39,8 +39,8 @@ class WireTest : public testing::Test {
   }
 };
 
-using Messages = testing::Types<ack_v1, command_v1, gain_table_v2, path_v1, setpoint_v2, state_v1,
-                                temperature_v1, timing_v1>;
+using Messages = ::testing::Types<ack_v1, command_v1, gain_table_v2, path_v1, setpoint_v2, state_v1,
+                                  temperature_v1, timing_v1>;
 class MessageNames {
  public:
   template <typename Message>

@@ -68,7 +68,7 @@ TEST(CommandLine, ThatMakesNoSenseIsAUsageError) {
                                              {"load-table", "a.b", "file"},
                                              {"load-table", "a", "b", "c"}}) {
     const Result result = run(arguments);
-    EXPECT_EQ(result.status, ExitStatus::kUsage) << testing::PrintToString(arguments);
+    EXPECT_EQ(result.status, ExitStatus::kUsage) << ::testing::PrintToString(arguments);
     EXPECT_TRUE(result.err.starts_with("strainwavectl: ")) << result.err;
   }
 }
@@ -127,7 +127,7 @@ TEST(CommandLine, WithoutADaemonIsNoAnswer) {
                                              {"clear-fault", "elbow"},
                                              {"move", "elbow", "0.1"}}) {
     const Result result = run_alone(arguments);
-    EXPECT_EQ(result.status, ExitStatus::kNoAnswer) << testing::PrintToString(arguments);
+    EXPECT_EQ(result.status, ExitStatus::kNoAnswer) << ::testing::PrintToString(arguments);
     EXPECT_EQ(result.out, "");
   }
 }
