@@ -40,9 +40,14 @@ final class SpyTest {
     final Robot robot = new Robot();
     robot.setAutoWaitForIdle(true);
     place(SwingUtilities.getWindowAncestor(table), 0, 0, 640, 780);
-    final int stateRow = row(table, Map.entry("SW.elbow.STATE", TYPES.get("SW.elbow.STATE")));
-    click(robot, centre(table, stateRow), InputEvent.BUTTON3_DOWN_MASK);
-    final JMenuItem item = await("\"Plot joint\" in the channel's menu", () -> menuItem("Plot joint"));
+    final Map.Entry<String, String> state = Map.entry("SW.elbow.STATE", TYPES.get("SW.elbow.STATE"));
+    // Rows and window move while channels come: a click that hit something else is made again.
+    JMenuItem found = null;
+    for (int attempt = 0; found == null && attempt < 10; ++attempt) {
+      click(robot, centre(table, row(table, state)), InputEvent.BUTTON3_DOWN_MASK);
+      found = seek(3_000, () -> menuItem("Plot joint"));
+    }
+    final JMenuItem item = seenOrEnd("\"Plot joint\" in the channel's menu", found);
     final Point at = item.getLocationOnScreen();
     click(robot, new Point(at.x + item.getWidth() / 2, at.y + item.getHeight() / 2), InputEvent.BUTTON1_DOWN_MASK);
     final JointPlot plot = await("the plot's window", () -> find(JointPlot.class));
@@ -77,21 +82,30 @@ final class SpyTest {
     System.exit(0);
   }
 
-  /** What `find` gives on Swing's thread, once it gives something. */
+  /** What `find` gives on Swing's thread, once it gives something; the test ends when it never does. */
   private static <T> T await(String what, Supplier<T> find) throws Exception {
-    final long deadline_ms = System.currentTimeMillis() + PATIENCE_MS;
+    return seenOrEnd(what, seek(PATIENCE_MS, find));
+  }
+
+  /** What `find` gives on Swing's thread within `patience_ms`, or null. */
+  private static <T> T seek(long patience_ms, Supplier<T> find) throws Exception {
+    final long deadline_ms = System.currentTimeMillis() + patience_ms;
     while (System.currentTimeMillis() < deadline_ms) {
       final List<T> found = new ArrayList<>();
       SwingUtilities.invokeAndWait(() -> found.add(find.get()));
-      if (found.get(0) != null) {
-        System.out.println("seen: " + what);
-        return found.get(0);
-      }
+      if (found.get(0) != null) return found.get(0);
       Thread.sleep(100);
     }
-    System.err.println("not seen: " + what);
-    System.exit(1);
     return null;
+  }
+
+  private static <T> T seenOrEnd(String what, T found) {
+    if (found == null) {
+      System.err.println("not seen: " + what);
+      System.exit(1);
+    }
+    System.out.println("seen: " + what);
+    return found;
   }
 
   private static int row(JTable table, Map.Entry<String, String> channel) {
