@@ -210,7 +210,8 @@ std::vector<TomlSection> TomlSection::sections(std::string_view key) {
   const std::string what = "a table, or several, each begun with [[" + full_name(key) + "]],";
   const toml::array* array = Reader::require(*this, key, what).as_array();
   if (array == nullptr || array->empty() || !array->is_homogeneous(toml::node_type::table))
-    fail(key, "one or more tables are allowed, each written [[" + full_name(key) + "]] with two brackets");
+    fail(key, "one or more tables are allowed, each written [[" + full_name(key) + "]] with two brackets" +
+                  Reader::instead(*this, key));
   std::vector<TomlSection> result;
   for (const toml::node& node : *array)
     result.push_back({std::make_shared<const Table>(Table{table_->document, node.as_table()}), file_,

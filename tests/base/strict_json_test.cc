@@ -36,7 +36,7 @@ TEST(StrictJson, SaysWhereReadingStoppedAndWhatStandsThere) {
   EXPECT_EQ(refusal("{\n  \"torque_Nm\": 1,\n}"),
             "a.json:3: not valid JSON: column 1 of '}' is not what JSON has there");
   EXPECT_EQ(refusal("{\"torque_Nm\": 0x1}"),
-            "a.json:1: not valid JSON: column 15 of '{\"torque_Nm\": 0x1}' is not what JSON has there");
+            "a.json:1: not valid JSON: column 16 of '{\"torque_Nm\": 0x1}' is not what JSON has there");
   EXPECT_EQ(refusal("{\"torque_Nm\": 1"),
             "a.json:1: not valid JSON: ends before everything that was opened is closed");
   EXPECT_EQ(refusal("{\"torque_Nm\": 1e999}"), "a.json: not valid JSON: number overflow parsing '1e999'");

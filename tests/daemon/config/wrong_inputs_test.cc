@@ -121,8 +121,10 @@ const std::vector<ConfigCase> kConfigCases{
     {"ambient_temperature_C",
      "ambient_C",
      {":24: joint[0].simulated.ambient_C = \"sine:15,25,1\"", "unknown key"}},
-    {"[[joint]]", "[[joints]]", {"joint is missing", "begun with [[joint]]", "line 7 has joints"}},
-    {"name = \"elbow\"", "name = \"--all\"", {":8: joint[0].name = \"--all\"", "not - first"}},
+    {"[[joint]]",
+     "[[joints]]",
+     {":15: joint = (a table)", "[[joint]] with two brackets", "line 8 has joints"}},
+    {"name = \"elbow\"", "name = \"--all\"", {":9: joint[0].name = \"--all\"", "not - first"}},
     {"[daemon]", "[deamon]", {"deamon = (a table)", "did you mean daemon?"}},
     {"[[joint]]", "[[joints]]", {"joint", "[[joint]] with two brackets"}},
     {"[security]", "[secuirty]", {"security.authorized_keys is missing"}},
@@ -393,7 +395,7 @@ TEST_F(WrongInput, ATorqueLimitThatFrictionTakesIsDoubtedWithWhatWouldDo) {
   const auto limited = [&](const std::string& torque_Nm) {
     std::string text = kSound;
     text.replace(text.find("torque_limit_Nm = 34"), 20, "torque_limit_Nm = " + torque_Nm);
-    text.replace(text.find("acceleration_rad_s2 = "), 22, "acceleration_rad_s2 = 1 # ");
+    text.replace(text.find("acceleration_rad_s2 = "), 22, "acceleration_rad_s2 = 20 # ");
     write(file_, text, "driver = \"simulated\"\n", "driver = \"simulated\"\ntable = \"t.json\"\n");
     const Ended ended = check();
     EXPECT_EQ(ended.status, 0) << ended.said;
