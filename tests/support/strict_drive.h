@@ -92,9 +92,7 @@ class StrictDrive final : public Actuator {
     reading.joint_position_rad = told_rad_;
     reading.position_delay_ns = reading.has_position ? age_.delay_ns() : 0;
     const auto periods = static_cast<int>((now_ns - now_ns_) / nanoseconds(data_.period_s));
-    const int usual_lag = age_.lag_periods() - age_.late_periods();
-    reading.position_late_periods =
-        age_.late_periods() + (now_ns_ > 0 ? std::max(0, periods - 1 - usual_lag) : 0);
+    reading.position_late_periods = age_.late_periods(now_ns_ > 0 ? periods - 1 : 0);
     reading.has_temperature = true;
     reading.temperature_C = 25.3;
     reading.temperature_produced_ns = now_ns;

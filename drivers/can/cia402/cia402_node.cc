@@ -36,16 +36,7 @@ void Node::begin_cycle(std::int64_t now_ns) noexcept {
           : 0;
   now_ns_ = now_ns;
   fresh_ = false;
-  const SetUpState::State setup = setup_.now();
-  const bool just_ready = setup == SetUpState::State::kReady && !setup_.ready();
-  // Frames that this period finds may still be of the time before: they are not listened to.
-  if (just_ready && !settling_) {
-    settling_ = true;
-    return;
-  }
-  settling_ = false;
-  if (just_ready) forget_drive();
-  setup_.see(setup);
+  if (setup_.look()) forget_drive();
 }
 
 // A drive that has just been set up starts anew for us as well.
@@ -60,7 +51,7 @@ void Node::forget_drive() noexcept {
   age_.restart(sync_to_position_ns_);
   late_samples_ = 0;
   missed_ = 0;
-  has_status_ = has_pdo_temperature_ = wrong_mode_ = stop_ordered_ = needs_set_up_ = false;
+  has_status_ = has_pdo_temperature_ = wrong_mode_ = stop_ordered_ = false;
 }
 
 void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept {
@@ -155,12 +146,12 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   const NodeFault shown = watch_.shown(present_trouble());
   ActuatorReading reading;
   // An incremental encoder counts from wherever the drive was switched on.
-  reading.position_lost = !config_.absolute_encoder &&
-                          (!setup_.ready() || needs_set_up_ || restarted_.fault != ActuatorFault::kNone);
+  reading.position_lost = !config_.absolute_encoder && (!setup_.ready() || setup_.must_be_repeated() ||
+                                                        restarted_.fault != ActuatorFault::kNone);
   reading.joint_position_rad = position_rad_;
   reading.has_position = fresh_;
   reading.position_delay_ns = fresh_ ? age_.delay_ns() : 0;
-  reading.position_late_periods = age_.late_periods() + stale_periods();
+  reading.position_late_periods = age_.late_periods(config_.daemon_sends_sync ? skipped_syncs_ : 0);
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_velocity = fresh_ && layout_.velocity.pdo != 0;
   reading.torque_applied_Nm = torque_applied_Nm_;
@@ -170,12 +161,6 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.fault = shown.fault;
   reading.drive_error = shown.fault != ActuatorFault::kNone ? shown.drive_error : emergency_;
   return reading;
-}
-
-// Over periods that the loop left out nobody sent a SYNC: the newest position is of the last one before them.
-int Node::stale_periods() const noexcept {
-  const int usual_lag = age_.lag_periods() - age_.late_periods();
-  return config_.daemon_sends_sync ? std::max(0, skipped_syncs_ - usual_lag) : 0;
 }
 
 void Node::fill_temperature(ActuatorReading& reading) const noexcept {
@@ -231,7 +216,7 @@ void Node::transmit_order(CanTransmitter& bus) noexcept {
 void Node::clear_fault() noexcept {
   watch_.clear();
   if (!watch_.bus_is_well()) return;
-  if (needs_set_up_ || setup_.failed()) {
+  if (setup_.must_be_repeated()) {
     setup_.request();
     has_status_ = false;
     power_.restart();

@@ -72,7 +72,6 @@ class Node final : public CanNode {
   Goal goal() const noexcept;
   DriveState drive_state() const noexcept;
   void fill_temperature(ActuatorReading& reading) const noexcept;
-  int stale_periods() const noexcept;
   void read_temperature(CanPort& port, std::vector<std::string>& messages);
 
   DriveConfig config_;
@@ -120,8 +119,6 @@ class Node final : public CanNode {
   bool wrong_mode_ = false;
   std::uint8_t shown_mode_ = 0;
   bool stop_ordered_ = false;
-  bool needs_set_up_ = false;  ///< before it can be used again
-  bool settling_ = false;      ///< the first period after a set-up
 };
 
 }  // namespace strainwave::cia402

@@ -33,23 +33,23 @@ void Node::receive_emergency(const canopen::Emergency& emergency) noexcept {
 void Node::note_bus(const NodeFault& trouble) noexcept {
   watch_.note_bus(trouble);
   if (trouble.fault == ActuatorFault::kLinkLost || detail_of(trouble.drive_error) == CanDetail::kBusOff)
-    needs_set_up_ = true;
+    setup_.wear_out();
 }
 
 void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.quick_stop_after + 1);
   const NodeFault present = present_trouble();
   if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted)
-    needs_set_up_ = true;
+    setup_.wear_out();
   if (out_of_reach() && (command_.enable || power_.has_torque())) {
     last_resort_.begin(now_ns_);
-    needs_set_up_ = true;
+    setup_.wear_out();
   }
   if (!command_.enable) return;
   watch_.latch(present);
   watch_.latch(power_trouble());
   // What it is late by is measured from its set-up on.
-  if (late()) needs_set_up_ = true;
+  if (late()) setup_.wear_out();
 }
 
 // What tells of a lost network state or of missing positions is believed only while no position comes: one that comes with our

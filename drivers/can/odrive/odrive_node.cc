@@ -112,9 +112,7 @@ void Node::shut_down(CanPort& port) noexcept {
 void Node::begin_cycle(std::int64_t now_ns) noexcept {
   now_ns_ = now_ns;
   fresh_ = false;
-  const SetUpState::State setup = setup_.now();
-  if (setup == SetUpState::State::kReady && !setup_.ready()) forget_drive();
-  setup_.see(setup);
+  if (setup_.look()) forget_drive();
 }
 
 void Node::forget_drive() noexcept {

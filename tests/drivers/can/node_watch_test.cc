@@ -11,7 +11,10 @@ constexpr std::int64_t kTimeout_ns = 150'000'000;
 constexpr std::uint32_t kMark = 1U << 31U;
 
 struct Ready : SetUpState {
-  Ready() { see(State::kReady); }
+  Ready() {
+    end(true);
+    while (!look()) continue;
+  }
 };
 
 TEST(NodeWatch, KeepsTheFirstFaultUntilItIsCleared) {
@@ -52,7 +55,8 @@ TEST(NodeWatch, ExpectsNoHeartbeatOfADriveThatIsBeingSetUp) {
 TEST(NodeWatch, NamesTheBusBeforeTheSetUpAndTheSetUpBeforeTheHeartbeat) {
   NodeWatch watch(kTimeout_ns);
   SetUpState setup;
-  setup.see(SetUpState::State::kFailed);
+  setup.end(false);
+  setup.look();
   EXPECT_EQ(detail_of(watch.link_trouble(setup, 100 * kTimeout_ns).drive_error), CanDetail::kSetupFailed);
   watch.note_bus({ActuatorFault::kBusError, drive_error_of(CanDetail::kBusOff)});
   EXPECT_EQ(detail_of(watch.link_trouble(setup, 0).drive_error), CanDetail::kBusOff);
@@ -68,49 +72,6 @@ TEST(NodeWatch, MarksItsOwnDetailsAndNoTroubleStaysUnmarked) {
   EXPECT_EQ(watch.link_trouble(Ready(), 0).drive_error, 0U);
   EXPECT_EQ(watch.trouble(ActuatorFault::kDriveFault, CanDetail::kEnableStep, 7).drive_error,
             kMark | drive_error_of(CanDetail::kEnableStep, 7));
-}
-
-// The handshake between the background thread and the loop.
-
-TEST(SetUpState, BeginsOnlyWhatWasRequestedAndOnlyOnce) {
-  SetUpState setup;
-  EXPECT_TRUE(setup.begin());
-  EXPECT_FALSE(setup.begin());
-  setup.end(true);
-  EXPECT_FALSE(setup.begin());
-  setup.request();
-  EXPECT_TRUE(setup.begin());
-}
-
-TEST(SetUpState, IsReadyForTheLoopOnlyOnceTheLoopHasSeenIt) {
-  SetUpState setup;
-  ASSERT_TRUE(setup.begin());
-  setup.end(true);
-  EXPECT_FALSE(setup.ready());
-  setup.see(setup.now());
-  EXPECT_TRUE(setup.ready());
-}
-
-TEST(SetUpState, ARequestTakesTheDriveFromTheLoopAtOnce) {
-  SetUpState setup;
-  setup.end(true);
-  setup.see(setup.now());
-  setup.request();
-  EXPECT_FALSE(setup.ready());
-  setup.see(setup.now());
-  EXPECT_FALSE(setup.ready());
-}
-
-TEST(SetUpState, ThatFailedIsBegunAnewOnRequestAlone) {
-  SetUpState setup;
-  ASSERT_TRUE(setup.begin());
-  setup.end(false);
-  setup.see(setup.now());
-  EXPECT_TRUE(setup.failed());
-  EXPECT_FALSE(setup.begin());
-  setup.request();
-  EXPECT_FALSE(setup.failed());
-  EXPECT_TRUE(setup.begin());
 }
 
 }  // namespace

@@ -105,6 +105,20 @@ TEST_F(SampleAgeTest, KeepsTheLagThatADriveHadFromTheStart) {
   EXPECT_EQ(age_.delay_ns(), 2'400'000);
 }
 
+TEST_F(SampleAgeTest, IsLateByThePeriodsInWhichNobodySentASync) {
+  run(100, kUsual_ns);
+  EXPECT_EQ(age_.late_periods(3), 3);
+  EXPECT_EQ(age_.late_periods(0), 0);
+}
+
+// A sample that is on its way for two periods, as usual, is as old when the next two SYNCs are left out.
+TEST_F(SampleAgeTest, IsLaterByPeriodsLeftOutOnlyAsFarAsTheyExceedItsUsualLag) {
+  age_.restart(2'400'000);
+  run(200, 2'400'000);
+  EXPECT_EQ(age_.late_periods(2), 0);
+  EXPECT_EQ(age_.late_periods(5), 3);
+}
+
 TEST_F(SampleAgeTest, SaysNothingOfFramesWithoutATime) {
   age_.sync(0);
   age_.sample(0);
