@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "base/nearest_word.h"
 #include "base/printable.h"
+#include "base/program_error.h"
 
 namespace strainwave {
 
@@ -131,15 +132,17 @@ std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::str
   }
 }
 
-int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action) {
+ExitStatus run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+                       const CommandBody& action) {
   const auto fail = [&](ExitStatus status, const std::string& why) {
-    std::cerr << app.get_name() << ": " << printable_paragraph(why) << '\n';
-    return static_cast<int>(status);
+    err << app.get_name() << ": " << printable_paragraph(why) << '\n';
+    return status;
   };
   try {
-    if (const auto status = parse_command_line(app, {argv + 1, argv + argc}, std::cout, std::cerr))
-      return static_cast<int>(*status);
-    return static_cast<int>(action());
+    if (const auto status = parse_command_line(app, {argv + 1, argv + argc}, out, err)) return *status;
+    return action();
+  } catch (const ProgramError& error) {
+    return fail(error.status(), error.what());
   } catch (const NotAchieved& error) {
     return fail(ExitStatus::kRefused, error.what());
   } catch (const InputError& error) {
@@ -149,6 +152,10 @@ int run_program(CLI::App& app, int argc, const char* const* argv, const CommandB
   } catch (const std::exception& error) {
     return fail(ExitStatus::kNoAnswer, error.what());
   }
+}
+
+int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action) {
+  return static_cast<int>(run_program(app, argc, argv, std::cout, std::cerr, action));
 }
 
 }  // namespace strainwave

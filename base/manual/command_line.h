@@ -28,8 +28,11 @@ std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::str
 /// What a subcommand does. The parser leaves it with the program when the subcommand is given; nothing runs inside the parser.
 using CommandBody = std::function<ExitStatus()>;
 
-/// Parses, then calls `action` and says on `err` why it threw: InputError and a file that cannot be had are kUsage, anything else
-/// kNoAnswer.
+/// Parses, then calls `action` and says on `err` why it threw: a ProgramError has its status, NotAchieved is kRefused, InputError and a
+/// file that cannot be had are kUsage, anything else kNoAnswer.
+ExitStatus run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+                       const CommandBody& action);
+/// On the standard streams, as what main() returns.
 int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action);
 
 }  // namespace strainwave

@@ -1,24 +1,18 @@
 // What can go wrong between a program and a joint: one type for each thing that a program may want to do about it. Not real-time.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
-#include "base/exit_status.h"
+#include "base/program_error.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
 
 /// Any of the following. what() is the whole sentence for the user: what was given, what is allowed or what the daemon answered,
 /// what to do.
-class ClientError : public std::runtime_error {
+class ClientError : public ProgramError {
  public:
-  ClientError(ExitStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
-  /// How a program ends that can do nothing about it.
-  ExitStatus status() const noexcept { return status_; }
-
- private:
-  ExitStatus status_;
+  using ProgramError::ProgramError;
 };
 
 /// Refused here, before anything was sent: a name, a number, a key file.

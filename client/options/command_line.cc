@@ -3,9 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "base/input_error.h"
 #include "base/manual/command_line.h"
-#include "base/printable.h"
 #include "client/options/command_options.h"
 
 namespace strainwave {
@@ -25,9 +23,11 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_hardware_commands(app, invocation);
 }
 
-ExitStatus report(std::ostream& err, ExitStatus status, const std::string& message) {
-  err << "strainwavectl: " << printable_paragraph(message) << '\n';
-  return status;
+void run(const Invocation& invocation, const Output& output) {
+  if (invocation.local_command) return invocation.local_command(output);
+  Connection connection(invocation.lcm_url);
+  Client client(connection, invocation.options);
+  invocation.command(client, output);
 }
 
 }  // namespace
@@ -36,30 +36,12 @@ ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out
                             bool terminal) {
   CLI::App app{"Commands and observes the joints of strainwaved over LCM.", "strainwavectl"};
   Invocation invocation;
-  try {
-    configure(app, invocation);
-    if (const auto status = parse_command_line(app, {argv + 1, argv + argc}, out, err)) return *status;
-    const Output output{out, terminal, invocation.json};
-    if (invocation.local_command) {
-      invocation.local_command(output);
-      return ExitStatus::kDone;
-    }
-    Connection connection(invocation.lcm_url);
-    Client client(connection, invocation.options);
-    invocation.command(client, output);
+  configure(app, invocation);
+  return run_program(app, argc, argv, out, err, [&] {
+    run(invocation, {out, terminal, invocation.json});
     out.flush();
     return ExitStatus::kDone;
-  } catch (const ClientError& error) {
-    return report(err, error.status(), error.what());
-  } catch (const NotAchieved& error) {
-    return report(err, ExitStatus::kRefused, error.what());
-  } catch (const InputError& error) {
-    return report(err, ExitStatus::kUsage, error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return report(err, ExitStatus::kUsage, error.what());
-  } catch (const std::exception& error) {
-    return report(err, ExitStatus::kNoAnswer, error.what());
-  }
+  });
 }
 
 }  // namespace strainwave
