@@ -83,6 +83,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       stream_(config.period_s, config.stream_bridge_s),
       state_(estimator_config(config)),
       landing_(landing_config(config)),
+      corrections_(config.period_s, std::max(config.encoder_resolution_rad, kExactRestWindow_rad)),
       monitor_(config.period_s),
       rest_detector_(config.encoder_resolution_rad),
       motion_(motion_limits(config)) {
@@ -140,8 +141,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   planned_ = {0.0, begin_rad_s, 0.0};
   motor_plan_ = {};
   link_share_ = 1.0;
-  corrections_ = 0;
-  most_distrust_ = 0.0;
+  corrections_.reset();
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
   plans_ = 0;
@@ -164,8 +164,6 @@ void JointController::limit_speed(double speed_limit_rad_s) noexcept {
 }
 
 void JointController::new_target() noexcept {
-  corrections_ = 0;
-  most_distrust_ = 0.0;
   link_share_ = 1.0;
   attempts_.new_target();
   enter(MotionPhase::kTracking);
@@ -173,15 +171,17 @@ void JointController::new_target() noexcept {
 
 void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
   limit_speed(speed_limit_rad_s);
-  // An order that is repeated begins nothing anew: what did not come off is not tried again.
-  const int corrections = streamed_ || position_rad != shaper_.target_rad() ? 0 : corrections_;
+  const bool repeated = !streamed_ && position_rad == shaper_.target_rad();
   streamed_ = false;
   if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   ordered_.set_target(position_rad);
   plans_ = 0;
+  if (repeated)
+    corrections_.trust_anew();
+  else
+    corrections_.reset();
   new_target();
-  corrections_ = corrections;
   if (link_motion_) plan_link_motion(reference_.position_rad);
 }
 

@@ -28,6 +28,7 @@
 #include "control/joint_model.h"
 #include "control/landing.h"
 #include "control/landing_attempts.h"
+#include "control/link_corrections.h"
 #include "control/link_model.h"
 #include "control/link_motion.h"
 #include "control/motor_limits.h"
@@ -204,6 +205,14 @@ class JointController {
     return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
   }
 
+  /// What yield() began.
+  struct Yielding {
+    double load_Nm = 0.0;        ///< besides gravity, held ...
+    double let_go_Nm = 0.0;      ///< ... until no more shows besides
+    double stands_at_rad = 0.0;  ///< about where the joint was last seen to stand
+    int periods = 0;             ///< that it has stood, or been let go
+  };
+
   JointControllerConfig config_;
   ReferenceShaper shaper_;
   ReferenceShaper ordered_;                ///< the same orders, never restarted
@@ -214,6 +223,7 @@ class JointController {
   StateEstimator state_;
   Landing landing_;
   LandingAttempts attempts_;
+  LinkCorrections corrections_;
   ChatterMonitor monitor_;
   RestDetector rest_detector_;
   ScheduledController primary_;
@@ -223,17 +233,10 @@ class JointController {
   JointModel model_;  ///< the table's, at this temperature
   Reference reference_;
   Reference ordered_reference_;
-  Reference planned_;                ///< with a link: of a rigid joint, from which the link's motion is made
-  MotorPlan motor_plan_;             ///< with a link
-  double link_share_ = 1.0;          ///< of the acceleration that a rigid joint could have
-  int corrections_ = 0;              ///< with a link: small motions to the same target, from rest
-  int corrections_in_vain_ = 0;      ///< of those, that brought nothing
-  double corrected_from_rad_ = 0.0;  ///< how far off the last began
-  int off_periods_ = 0;         ///< with a link: at rest, that the reading has been off the target on end
-  int rest_periods_ = 0;        ///< with a link: since the motion has ended
-  double stands_at_rad_ = 0.0;  ///< the reading soon after that
-  double most_distrust_ = 0.0;  ///< of the monitor, since the order
-  MotionLimits motion_;         ///< the configuration's, and this order's speed
+  Reference planned_;        ///< with a link: of a rigid joint, from which the link's motion is made
+  MotorPlan motor_plan_;     ///< with a link
+  double link_share_ = 1.0;  ///< of the acceleration that a rigid joint could have
+  MotionLimits motion_;      ///< the configuration's, and this order's speed
   PositionRange stream_range_;
   double sample_position_rad_ = 0.0;  ///< of the stream's last
   double torque_limit_Nm_ = 0.0;
@@ -244,15 +247,13 @@ class JointController {
   std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
   ToldLoad told_load_;                        ///< by the stream, and what is left of it since
   double shown_load_Nm_ = 0.0;                ///< JointStep's
-  double yield_load_Nm_ = 0.0;                ///< that yield() holds ...
-  double let_go_Nm_ = 0.0;                    ///< ... until no more shows besides
-  int yielding_periods_ = 0;                  ///< that the joint has stood, or been let go
-  double handover_Nm_ = 0.0;                  ///< what is left of its difference to the law's
-  double reference_rest_s_ = 0.0;             ///< since when it rests, while tracking
-  double zero_velocity_weight_ = 1.0;         ///< alpha_0 at rest
-  int replans_ = 0;                           ///< since start()
-  int plans_ = 0;                             ///< new ones since the target or the phase changed
-  int away_periods_ = 0;                      ///< that a resting joint has been off its target
+  Yielding yielding_;
+  double handover_Nm_ = 0.0;           ///< what is left of its difference to the law's
+  double reference_rest_s_ = 0.0;      ///< since when it rests, while tracking
+  double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
+  int replans_ = 0;                    ///< since start()
+  int plans_ = 0;                      ///< new ones since the target or the phase changed
+  int away_periods_ = 0;               ///< that a resting joint has been off its target
   int side_ = 0;        ///< of the reference, on which the joint was last, beyond the last counts
   bool swung_ = false;  ///< over to the other, in this period
   GainsInUse gains_in_use_ = GainsInUse::kNone;

@@ -13,27 +13,6 @@ namespace {
 // A motion that is over before the wind-up has been built up asks it to turn round at once: three steps of the acceleration in the
 // place of two (control/link_motion.h).
 constexpr double kShortMotionShare = 2.0 / 3.0;
-// Periods that the reading stands before the motor is taken to stick; at the speed of one count in them it would stop in
-// less than a count.
-constexpr int kStillPeriods = 3;
-// Farther from the target than this a joint at rest moves once more. One count is what its encoder cannot tell.
-constexpr double kCorrectionCounts = 1.2;
-// A count may flicker: what may be off by no more than one beside it has to be so for this time on end.
-constexpr double kFlickerCounts = 2.2;
-constexpr double kFlicker_s = 0.02;
-// A motor that has come to rest stands soon. A reading that moves by more than a flicker so long after the motion is of a link that swings
-// behind it, or of a motor that the integral moves: neither is corrected from rest.
-constexpr double kStands_s = 0.1;
-// Feedback that has asked for this share of the torque limit (control/chatter_monitor.h) means a joint that is not the model's: then
-// small motions by that model do not help.
-constexpr double kTrusted = 0.2;
-// Each is at rest before the next begins, so that nothing can swing itself up; what so many do not bring, none will.
-constexpr int kMaxCorrections = 20;
-// One that leaves more than this share of the distance was in vain: load or friction are not what they are taken for, and the next would
-// do no better. After so many of an order the rest is the integral's.
-constexpr double kInVain = 0.7;
-constexpr int kMaxInVain = 3;
-constexpr int kStandsPeriodsLimit = 1 << 20;  // the count ends here
 
 }  // namespace
 
@@ -55,7 +34,7 @@ void JointController::advance_link(int elapsed_periods) noexcept {
   }
   reference_ = {motor_plan_.position_rad, motor_plan_.velocity_rad_s, motor_plan_.acting_acceleration_rad_s2};
   // A correction begins where the motor stands, and is no order.
-  ordered_reference_ = corrections_ == 0 ? reference_ : Reference{rest_position_rad(), 0.0, 0.0};
+  ordered_reference_ = !corrections_.begun() ? reference_ : Reference{rest_position_rad(), 0.0, 0.0};
 }
 
 // A motion to the target begins.
@@ -69,26 +48,7 @@ void JointController::plan_link_motion(double from_rad) noexcept {
 // The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
 bool JointController::correct_link(double reading_rad) noexcept {
   const double distance_rad = std::abs(reading_rad - rest_position_rad());
-  const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  rest_periods_ = std::min(rest_periods_ + 1, kStandsPeriodsLimit);
-  if (rest_periods_ * config_.period_s <= kStands_s) {
-    stands_at_rad_ = reading_rad;
-  } else if (std::abs(reading_rad - stands_at_rad_) > kFlickerCounts * count_rad) {
-    corrections_ = kMaxCorrections;
-  }
-  off_periods_ = distance_rad > kCorrectionCounts * count_rad ? off_periods_ + 1 : 0;
-  const bool may_flicker =
-      distance_rad <= kFlickerCounts * count_rad && off_periods_ * config_.period_s < kFlicker_s;
-  if (off_periods_ == 0 || may_flicker || state_.still_periods() < kStillPeriods) return false;
-  if (corrections_ >= kMaxCorrections || most_distrust_ > kTrusted) return false;
-  const bool in_vain = corrections_ > 0 && distance_rad > kInVain * corrected_from_rad_;
-  corrections_in_vain_ = corrections_ == 0 ? 0 : corrections_in_vain_ + (in_vain ? 1 : 0);
-  if (corrections_in_vain_ >= kMaxInVain) {
-    corrections_ = kMaxCorrections;
-    return false;
-  }
-  corrected_from_rad_ = distance_rad;
-  ++corrections_;
+  if (!corrections_.begins(reading_rad, distance_rad, state_.still_periods())) return false;
   ++replans_;
   const double from_rad = link_motion_->reset(reading_rad);
   begin_plan(from_rad, 0.0);

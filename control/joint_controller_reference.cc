@@ -127,7 +127,10 @@ void JointController::advance_references() noexcept {
   };
   reference_ = smooth(jerk_limit_, follow(shaper_, confined_));
   ordered_reference_ = smooth(ordered_jerk_, follow(ordered_, ordered_confined_));
-  if (shaper_.target_rad() != last_target_rad) new_target();
+  if (shaper_.target_rad() != last_target_rad) {
+    corrections_.reset();
+    new_target();
+  }
   if (stream_.ended()) {
     streamed_ = false;
     shaper_.stop();

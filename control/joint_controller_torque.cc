@@ -86,8 +86,7 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
 void JointController::enter(MotionPhase phase) noexcept {
   if (phase == MotionPhase::kTracking && reference_moves()) {
     rest_detector_.reset();
-    off_periods_ = 0;
-    rest_periods_ = 0;
+    corrections_.motion();
   }
   if (phase == phase_) return;
   // What the integral knew of load and friction, the observer knows.
@@ -111,7 +110,7 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
   if (phase_ == MotionPhase::kTracking) return track();
   outgoing_.reset();
   if (phase_ == MotionPhase::kYielding)
-    return apply(yield_load_Nm_ + config_.gravity.at(state_.now().position_rad) + told_load_.torque_Nm);
+    return apply(yielding_.load_Nm + config_.gravity.at(state_.now().position_rad) + told_load_.torque_Nm);
   if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_ + told_load_.torque_Nm);
   const double torque_Nm =
       landing_.step(state_.now(), state_.then(), measurement.joint_position_rad, state_.model());
@@ -191,7 +190,7 @@ ControllerOutput JointController::track() noexcept {
 // Of the torque beyond the law's. A correction begins with what breaks the joint away from rest: on a joint with less friction than told
 // that would throw it, so no more of it is left than cannot move the joint.
 double JointController::handed_over_Nm(double beyond_Nm) const noexcept {
-  if (corrections_ == 0) return beyond_Nm;
+  if (!corrections_.begun()) return beyond_Nm;
   const double idle_Nm = kIdleShare * model_.friction.coulomb_Nm;
   return std::clamp(beyond_Nm, -idle_Nm, idle_Nm);
 }
@@ -229,7 +228,7 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.elapsed_periods = elapsed_periods;
   const bool watched = !fallen_back();
   const MonitorState state = monitor_.step(sample);
-  most_distrust_ = std::max(most_distrust_, monitor_.distrust());
+  corrections_.distrust(monitor_.distrust());
   if (watched && state != MonitorState::kWatching) {
     fallback_torque_Nm_ = output.torque_Nm;
     if (link_motion_) go_on_from_here();

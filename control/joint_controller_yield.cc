@@ -26,7 +26,7 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
   }
   // Without an observer nobody sees what still pushes a joint that yields.
   if (yields()) {
-    shown_load_Nm_ = yield_load_Nm_;
+    shown_load_Nm_ = yielding_.load_Nm;
     return;
   }
   const double besides_Nm = phase_ == MotionPhase::kTracking ? output.torque_Nm - output.feedforward_torque_Nm
@@ -37,10 +37,7 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
 
 void JointController::yield(double load_Nm, double let_go_Nm) noexcept {
   streamed_ = false;
-  yield_load_Nm_ = load_Nm;
-  let_go_Nm_ = let_go_Nm;
-  yielding_periods_ = 0;
-  stands_at_rad_ = state_.now().position_rad;
+  yielding_ = {load_Nm, let_go_Nm, state_.now().position_rad, 0};
   replan_ = false;
   outgoing_.reset();
   enter(MotionPhase::kYielding);
@@ -51,16 +48,16 @@ void JointController::go_on_yielding(int elapsed_periods) noexcept {
   const double position_rad = state_.now().position_rad;
   const double velocity_rad_s = state_.now().velocity_rad_s;
   const double still_rad = kStillCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  const bool moves = std::abs(position_rad - stands_at_rad_) > still_rad;
-  if (moves) stands_at_rad_ = position_rad;
-  const bool let_go = observing() && std::abs(shown_load_Nm_ - yield_load_Nm_) <= let_go_Nm_;
-  yielding_periods_ = let_go || !moves ? yielding_periods_ + elapsed_periods : 0;
-  if (yielding_periods_ * config_.period_s < kLetGo_s) {
+  const bool moves = std::abs(position_rad - yielding_.stands_at_rad) > still_rad;
+  if (moves) yielding_.stands_at_rad = position_rad;
+  const bool let_go = observing() && std::abs(shown_load_Nm_ - yielding_.load_Nm) <= yielding_.let_go_Nm;
+  yielding_.periods = let_go || !moves ? yielding_.periods + elapsed_periods : 0;
+  if (yielding_.periods * config_.period_s < kLetGo_s) {
     reference_ = {position_rad, 0.0, 0.0};
     ordered_reference_ = reference_;
     return;
   }
-  start(position_rad, velocity_rad_s, yield_load_Nm_ + config_.gravity.at(position_rad));
+  start(position_rad, velocity_rad_s, yielding_.load_Nm + config_.gravity.at(position_rad));
 }
 
 }  // namespace strainwave
