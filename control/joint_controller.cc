@@ -206,8 +206,11 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!has_table_) return {};
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   choose_gains(measurement);
+  // Of the motion until now.
+  const bool planned = phase_ == MotionPhase::kTracking && torque_is_planned();
   state_.step(measurement, loaded_model(),
-              observing() ? EstimateSource::kObserver : EstimateSource::kReadings);
+              observing() ? EstimateSource::kObserver : EstimateSource::kReadings,
+              planned ? SurpriseCause::kFriction : SurpriseCause::kLoad);
   if (yields())
     go_on_yielding(elapsed_periods);
   else if (!goes_on_anew(measurement))

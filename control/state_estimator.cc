@@ -28,8 +28,8 @@ void StateEstimator::reset(double position_rad, double velocity_rad_s, double lo
   first_ = true;
 }
 
-void StateEstimator::step(const JointMeasurement& measurement, const JointModel& model,
-                          EstimateSource source) noexcept {
+void StateEstimator::step(const JointMeasurement& measurement, const JointModel& model, EstimateSource source,
+                          SurpriseCause cause) noexcept {
   if (measurement.elapsed_periods > kMaxElapsedPeriods && !first_) begin_anew(measurement, model);
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   // Before the first period nothing has acted yet.
@@ -46,7 +46,7 @@ void StateEstimator::step(const JointMeasurement& measurement, const JointModel&
   JointMeasurement believed = measurement;
   believed.has_position = measurement.has_position && measurement.late_periods <= most_late;
   if (source == EstimateSource::kObserver)
-    observe(believed);
+    observe(believed, cause);
   else
     read(measurement);
   previous_position_rad_ = position_rad;
@@ -104,11 +104,11 @@ void StateEstimator::let_torque_act(int periods, int late_periods, int waiting, 
   late_periods_ = late_periods;
 }
 
-void StateEstimator::observe(const JointMeasurement& measurement) noexcept {
+void StateEstimator::observe(const JointMeasurement& measurement, SurpriseCause cause) noexcept {
   if (measurement.has_velocity && config_.observer.encoder_resolution_rad == 0.0)
-    observer_.correct(measurement.joint_position_rad, measurement.joint_velocity_rad_s);
+    observer_.correct_exactly(measurement.joint_position_rad, measurement.joint_velocity_rad_s);
   else if (measurement.has_position)
-    observer_.correct(measurement.joint_position_rad);
+    observer_.correct(measurement.joint_position_rad, cause);
   now_ = observer_.estimate();
   adapted_.inertia_kgm2 *= now_.inertia_ratio;
   usual_load_Nm_ += (now_.disturbance.load_Nm - usual_load_Nm_) * config_.observer.period_s / kUsualLoad_s;

@@ -56,7 +56,8 @@ class StateEstimator {
   /// large. Friction is unknown in units of `friction_scale_Nm`. The next step() is the first.
   void reset(double position_rad, double velocity_rad_s, double load_Nm, double friction_scale_Nm) noexcept;
   /// One period of a joint like `model`.
-  void step(const JointMeasurement& measurement, const JointModel& model, EstimateSource source) noexcept;
+  void step(const JointMeasurement& measurement, const JointModel& model, EstimateSource source,
+            SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// The torque of this period, as far as the motor can deliver it.
   void remember(double torque_Nm) noexcept;
 
@@ -75,7 +76,7 @@ class StateEstimator {
   void prolong(int waiting) noexcept;
   void let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
                       EstimateSource source) noexcept;
-  void observe(const JointMeasurement& measurement) noexcept;
+  void observe(const JointMeasurement& measurement, SurpriseCause cause) noexcept;
   void read(const JointMeasurement& measurement) noexcept;
   void begin_anew(const JointMeasurement& measurement, const JointModel& model) noexcept;
   double mean_velocity_rad_s(const JointMeasurement& measurement) const noexcept;

@@ -39,7 +39,10 @@ constexpr double kSurprise = 4.0;  // this many outside, the model did not fores
 // temperature, another table) that its error may change by.
 constexpr double kModelChange = 0.2;
 constexpr double kSurpriseLoad = 3.0;  // load that one surprise may bring, in units of static friction
-constexpr double kLoadDrift = 0.1;     // a load's share of the drift
+// A count in a period would be the doing of a load of several N.m, and of friction that is a fraction of itself off: in a planned motion
+// this share of it is laid to a load, as if that had come some three periods before.
+constexpr double kLoadShareOfACount = 0.11;
+constexpr double kLoadDrift = 0.1;  // a load's share of the drift
 // Deviations of the velocity that a stop is doubted by; share
 // of a period's friction that a doubtful direction may cost.
 constexpr double kDoubtfulStop = 1.5;
@@ -170,11 +173,14 @@ void VelocityObserver::bound_parameters() noexcept {
 
 // Something that the model does not know pushed the joint since the last reading: its velocity may be anything that explains the
 // distance, and a load may have come, of a size that would have moved it so far.
-void VelocityObserver::admit_surprise(double distance_rad) noexcept {
+void VelocityObserver::admit_surprise(double distance_rad, SurpriseCause cause) noexcept {
   const double since_s = std::max(1, periods_) * config_.period_s;
   const double velocity = distance_rad / since_s;
+  const double by_friction_rad =
+      cause == SurpriseCause::kFriction ? std::min(distance_rad, config_.encoder_resolution_rad) : 0.0;
+  const double by_load_rad = distance_rad - (1.0 - kLoadShareOfACount) * by_friction_rad;
   const double load_Nm =
-      std::min(2.0 * inertia_kgm2_ * velocity / since_s, kSurpriseLoad * static_friction_Nm_);
+      std::min(2.0 * inertia_kgm2_ * by_load_rad / square(since_s), kSurpriseLoad * static_friction_Nm_);
   const double correlation = 0.5;
   covariance_(kPosition, kPosition) += square(distance_rad);
   covariance_(kVelocity, kVelocity) += square(velocity);
@@ -191,26 +197,26 @@ double VelocityObserver::reading_variance() const noexcept {
 }
 
 // A reading that is off by more than its edges are apart is worth no more than its middle.
-void VelocityObserver::weigh(double position_rad) noexcept {
+void VelocityObserver::weigh(double position_rad, SurpriseCause cause) noexcept {
   const double off_rad = position_rad - state_(kPosition);
   const double variance = reading_variance() + square(config_.encoder_resolution_rad) / 12.0;
   if (std::abs(off_rad) > kSurprise * std::sqrt(covariance_(kPosition, kPosition) + variance)) {
     surprised_ = true;
-    admit_surprise(std::abs(off_rad));
+    admit_surprise(std::abs(off_rad), cause);
   }
   const double share = covariance_(kPosition, kPosition) / (covariance_(kPosition, kPosition) + variance);
   condition(kPosition, share * off_rad, 1.0 - share);
 }
 
 // Keeps the part of the distribution on one side (+1: above, -1: below) of an edge.
-void VelocityObserver::truncate(double edge_rad, double side) noexcept {
+void VelocityObserver::truncate(double edge_rad, double side, SurpriseCause cause) noexcept {
   const double inside_rad = side * (state_(kPosition) - edge_rad);
   const double edge_variance = reading_variance();
   double deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
   if (inside_rad > kCertain * deviation) return;
   if (inside_rad < -kSurprise * deviation) {
     surprised_ = true;
-    admit_surprise(-inside_rad);
+    admit_surprise(-inside_rad, cause);
     deviation = std::sqrt(covariance_(kPosition, kPosition) + edge_variance);
   }
   const double z = inside_rad / deviation;
@@ -219,7 +225,7 @@ void VelocityObserver::truncate(double edge_rad, double side) noexcept {
   condition(kPosition, side * share * deviation * ratio, 1.0 - share * ratio * (ratio + z));
 }
 
-void VelocityObserver::correct(double position_rad) noexcept {
+void VelocityObserver::correct(double position_rad, SurpriseCause cause) noexcept {
   surprised_ = false;
   const double half_rad = 0.5 * config_.encoder_resolution_rad;
   if (half_rad == 0.0) {
@@ -230,17 +236,17 @@ void VelocityObserver::correct(double position_rad) noexcept {
   // An edge is news when it bounds tighter than the last reading's edge, carried along with the motion.
   const double tighter_rad = position_rad - reading_rad_ - moved_rad_;
   if (reading_variance() > square(half_rad))
-    weigh(position_rad);
+    weigh(position_rad, cause);
   else if (tighter_rad > 0.0)
-    truncate(position_rad - half_rad, 1.0);
+    truncate(position_rad - half_rad, 1.0, cause);
   else if (tighter_rad < 0.0)
-    truncate(position_rad + half_rad, -1.0);
+    truncate(position_rad + half_rad, -1.0, cause);
   reading_rad_ = position_rad;
   moved_rad_ = 0.0;
   periods_ = 0;
 }
 
-void VelocityObserver::correct(double position_rad, double velocity_rad_s) noexcept {
+void VelocityObserver::correct_exactly(double position_rad, double velocity_rad_s) noexcept {
   const double variance = covariance_(kVelocity, kVelocity);
   const double weight = variance / (variance + square(kExactVelocity_rad_s));
   condition(kVelocity, weight * (velocity_rad_s - state_(kVelocity)), 1.0 - weight);

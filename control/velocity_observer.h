@@ -33,6 +33,12 @@ struct JointEstimate {
   bool surprised = false;               ///< this reading contradicted what the model foresaw
 };
 
+/// What a reading that contradicts the model is first taken for.
+enum class SurpriseCause {
+  kLoad,      ///< a joint that rests, or is pushed towards its last counts: something else pushed it
+  kFriction,  ///< a planned motion: as far as a count goes, friction that is not the model's, as it never quite is while a joint breaks away
+};
+
 class VelocityObserver {
  public:
   explicit VelocityObserver(const VelocityObserverConfig& config) noexcept : config_(config) {
@@ -46,9 +52,9 @@ class VelocityObserver {
   /// The period that ends now: the torque that acted over it, by a joint like `model`.
   void predict(double torque_Nm, const JointModel& model) noexcept;
   /// The encoder's reading now.
-  void correct(double position_rad) noexcept;
+  void correct(double position_rad, SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// Exact position and velocity, for joints that have them.
-  void correct(double position_rad, double velocity_rad_s) noexcept;
+  void correct_exactly(double position_rad, double velocity_rad_s) noexcept;
 
   JointEstimate estimate() const noexcept;
 
@@ -60,9 +66,9 @@ class VelocityObserver {
   void drift(double end_velocity_rad_s, const JointModel& model) noexcept;
   void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
   double reading_variance() const noexcept;
-  void truncate(double edge_rad, double side) noexcept;
-  void weigh(double position_rad) noexcept;
-  void admit_surprise(double distance_rad) noexcept;
+  void truncate(double edge_rad, double side, SurpriseCause cause) noexcept;
+  void weigh(double position_rad, SurpriseCause cause) noexcept;
+  void admit_surprise(double distance_rad, SurpriseCause cause) noexcept;
   void bound_parameters() noexcept;
   void add_covariance(int a, int b, double value) noexcept;
   void condition(int component, double shift, double variance_ratio) noexcept;

@@ -115,6 +115,22 @@ TEST(VelocityObserver, IsSurprisedByAPushThatItDoesNotKnowAndNotByItsOwnTorque) 
   EXPECT_TRUE(filter.estimate().surprised);
 }
 
+// A joint that rests, and then reads other counts all at once.
+TEST(VelocityObserver, LaysACountInAPlannedMotionToFrictionAndAtRestToALoad) {
+  const auto load_Nm = [](SurpriseCause cause, double counts) {
+    VelocityObserver filter = observer();
+    filter.predict(0.0, model());
+    filter.correct(0.0, cause);
+    filter.predict(0.0, model());
+    filter.correct(counts * kCount_rad, cause);
+    EXPECT_TRUE(filter.estimate().surprised) << counts;
+    return std::abs(filter.estimate().disturbance.load_Nm);
+  };
+  EXPECT_LT(load_Nm(SurpriseCause::kFriction, 2.0), 0.6 * load_Nm(SurpriseCause::kLoad, 2.0));
+  // What friction cannot do is a load's, whenever it comes.
+  EXPECT_NEAR(load_Nm(SurpriseCause::kFriction, 20.0) / load_Nm(SurpriseCause::kLoad, 20.0), 1.0, 0.05);
+}
+
 TEST(VelocityObserver, BelievesNothingThatNoJointHas) {
   VelocityObserver filter = observer();
   std::mt19937_64 random(37);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tests/support/allocation_trap.h"
 #include "tests/support/joint_bench.h"
@@ -173,7 +174,7 @@ TEST_F(PathFollowerTest, SixJointsLeaveAndArriveInOneCycleAndAreOnThePathInBetwe
 }
 
 // Half as fast, up to 0.4 rad/s and 1.7 rad/s^2.
-TEST_F(PathFollowerTest, SixJointsAtModerateSpeedAreWithinAMilliradianOfWhereThePathIs) {
+TEST_F(PathFollowerTest, SixJointsAtModerateSpeedAreWithinHalfAMilliradianOfWhereThePathIs) {
   for (std::size_t i = 0; i < kJoints; ++i) ASSERT_EQ(load(i, slow_wave(i)), Reason::kAccepted);
   ASSERT_EQ(bench_.order(2, OrderKind::kResumePath), Reason::kAccepted);
   run(4.5);
@@ -188,7 +189,58 @@ TEST_F(PathFollowerTest, SixJointsAtModerateSpeedAreWithinAMilliradianOfWhereThe
     }
   }
   std::printf("at moderate speed: joints %.2e rad from where the path is\n", farthest_rad);
-  EXPECT_LT(farthest_rad, kDeviation_rad);
+  EXPECT_LT(farthest_rad, 5e-4);
+}
+
+// A joint that hardly moves breaks away, and turns round, against friction that is not quite what its table says: no reason to take a
+// count for a load of several newton metres. From -8 to 40 degC.
+TEST(GentlePaths, AreFollowedWithoutAJolt) {
+  constexpr double kTurns_rad_s = 0.01;  // slower than this friction itself turns round
+  std::mt19937_64 random(3);
+  for (const double temperature_C : {-8.0, 5.0, 20.0, 40.0}) {
+    double largest_step_Nm = 0.0;
+    double farthest_rad = 0.0;
+    double sum_rad = 0.0;
+    int joints = 0;
+    for (std::uint64_t seed = 1; seed <= 24; ++seed, ++joints) {
+      BenchJoint joint = demo_joint();
+      joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+      joint.drive.seed = seed;
+      JointBench bench({joint});
+      bench.bring_to_hold(0);
+      const double far_rad = std::uniform_real_distribution<double>(0.05, 0.6)(random);
+      const KnotPath path = path_of({{0.0, 0.0, 0.0},
+                                     {1.0, 0.5 * far_rad, 0.6 * far_rad},
+                                     {2.0, far_rad, 0.0},
+                                     {2.8, 0.6 * far_rad, -0.55 * far_rad},
+                                     {4.0, 0.0, 0.0}});
+      const auto slot = bench.joint(0).path_slots().hand_over({7, 1, path});
+      ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
+                Reason::kAccepted);
+      ASSERT_EQ(bench.order(0, OrderKind::kResumePath), Reason::kAccepted);
+      PathReader reader;
+      double last_Nm = bench.state(0).torque_commanded_Nm;
+      double off_rad = 0.0;
+      for (int k = 1; k < 3990; ++k) {
+        bench.step();
+        const state_v1& state = bench.state(0);
+        // By its delay the joint is a period late.
+        const double path_rad = reader.at(path, (k - 1) * kPeriod_s).position_rad;
+        off_rad = std::max(off_rad, std::abs(state.joint_position_rad - path_rad));
+        const double step_Nm = std::abs(state.torque_commanded_Nm - last_Nm);
+        if (std::abs(state.setpoint_velocity_rad_s) > kTurns_rad_s)
+          largest_step_Nm = std::max(largest_step_Nm, step_Nm);
+        last_Nm = state.torque_commanded_Nm;
+      }
+      farthest_rad = std::max(farthest_rad, off_rad);
+      sum_rad += off_rad;
+    }
+    std::printf("%g degC: steps of at most %.1f N m; at most %.2e rad off, %.2e in the mean\n", temperature_C,
+                largest_step_Nm, farthest_rad, sum_rad / joints);
+    EXPECT_LT(largest_step_Nm, 3.5) << temperature_C << " degC";
+    EXPECT_LT(farthest_rad, 9e-4) << temperature_C << " degC";
+    EXPECT_LT(sum_rad / joints, 3.8e-4) << temperature_C << " degC";
+  }
 }
 
 TEST_F(PathFollowerTest, NothingMovesBeforeEveryJointHasItsPart) {
