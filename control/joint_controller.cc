@@ -83,7 +83,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       stream_(config.period_s, config.stream_bridge_s),
       state_(estimator_config(config)),
       landing_(landing_config(config)),
-      corrections_(config.period_s, std::max(config.encoder_resolution_rad, kExactRestWindow_rad)),
+      corrections_(config.period_s, count_rad()),
       monitor_(config.period_s),
       rest_detector_(config.encoder_resolution_rad),
       motion_(motion_limits(config)) {
@@ -171,9 +171,10 @@ void JointController::new_target() noexcept {
 
 void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
   limit_speed(speed_limit_rad_s);
-  const bool repeated = !streamed_ && position_rad == shaper_.target_rad();
+  const bool same_target = position_rad == shaper_.target_rad();
+  const bool repeated = same_target && !streamed_;
   streamed_ = false;
-  if (position_rad == shaper_.target_rad() && phase_ != MotionPhase::kTracking) return;
+  if (same_target && phase_ != MotionPhase::kTracking) return;
   shaper_.set_target(position_rad);
   ordered_.set_target(position_rad);
   plans_ = 0;

@@ -19,6 +19,7 @@
 // of its gains, before the joint must be switched off.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "control/chatter_monitor.h"
@@ -195,6 +196,8 @@ class JointController {
     return config_.use_landing && !fallen_back() && attempts_.allowed() && state_.late_periods() == 0;
   }
   double distance_to_target_rad() const noexcept;
+  /// What the reading cannot tell.
+  double count_rad() const noexcept { return std::max(config_.encoder_resolution_rad, kExactRestWindow_rad); }
   void enter(MotionPhase phase) noexcept;
   void ask_for_new_plan() noexcept;
   bool fallen_back() const noexcept { return monitor_.state() != MonitorState::kWatching; }

@@ -77,8 +77,7 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     ask_for_new_plan();
     return enter(MotionPhase::kTracking);
   }
-  const double count_rad = std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
-  const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad;
+  const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad();
   away_periods_ = away ? away_periods_ + 1 : 0;
   if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
 }
@@ -166,7 +165,7 @@ ControllerOutput JointController::track() noexcept {
   // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the integral.
   const bool moves = torque_is_planned();
   reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
-  const double near_rad = kHuntingCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  const double near_rad = kHuntingCounts * count_rad();
   const double off_rad = state_.then().position_rad - reference_.position_rad;
   const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
   swung_ = swings_over(off_rad, near_rad);

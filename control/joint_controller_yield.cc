@@ -47,7 +47,7 @@ void JointController::yield(double load_Nm, double let_go_Nm) noexcept {
 void JointController::go_on_yielding(int elapsed_periods) noexcept {
   const double position_rad = state_.now().position_rad;
   const double velocity_rad_s = state_.now().velocity_rad_s;
-  const double still_rad = kStillCounts * std::max(config_.encoder_resolution_rad, kExactRestWindow_rad);
+  const double still_rad = kStillCounts * count_rad();
   const bool moves = std::abs(position_rad - yielding_.stands_at_rad) > still_rad;
   if (moves) yielding_.stands_at_rad = position_rad;
   const bool let_go = observing() && std::abs(shown_load_Nm_ - yielding_.load_Nm) <= yielding_.let_go_Nm;
