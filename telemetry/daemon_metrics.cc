@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "lcmtypes/timing_buckets.h"
@@ -51,11 +53,17 @@ constexpr std::array kDaemonMetrics{
 /// Every fourth bound, a factor of two, is enough for alerts; each would cost a series.
 constexpr std::size_t kStep = 4;
 
+/// Of counts that are not negative (fleet.h), which may be as large as a message can say.
+std::int64_t saturated_sum(std::int64_t a, std::int64_t b) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  return a > kMost - b ? kMost : a + b;
+}
+
 void expose_histogram(Exposition& page, std::string_view prefix, std::span<const std::int64_t> counts) {
   std::int64_t below = 0;
   // The last bucket has no bound.
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    below += counts[i];
+    below = saturated_sum(below, counts[i]);
     if (i % kStep != 0 || i + 1 == counts.size()) continue;
     page.sample(
         "_bucket",

@@ -1,6 +1,9 @@
 #include "telemetry/fleet.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/vocabulary.h"
@@ -22,6 +25,21 @@ bool tells_of_friction(const state_v1& state, const limits_v1& limits) {
          std::fabs(state.setpoint_velocity_rad_s) > kSlowShare * limits.speed_limit_rad_s;
 }
 
+template <typename Counts>
+bool counts_up(const Counts& counts) {
+  return std::all_of(std::begin(counts), std::end(counts), [](std::int64_t count) { return count >= 0; });
+}
+
+/// What no loop says: it counts from zero.
+bool is_absurd(const timing_v1& timing) {
+  return !counts_up(std::array{timing.cycles, timing.overruns, timing.page_faults,
+                               timing.state_records_dropped, timing.wakeup_latency_max_ns,
+                               timing.execution_time_max_ns, timing.position_delay_max_ns}) ||
+         !counts_up(timing.wakeup_latency_count) || !counts_up(timing.execution_time_count) ||
+         !counts_up(timing.period_error_count) || !counts_up(timing.position_delay_count) ||
+         !counts_up(timing.rejects);
+}
+
 }  // namespace
 
 void JointRecord::take(const state_v1& latest, double now_s) {
@@ -37,6 +55,7 @@ void JointRecord::take(const state_v1& latest, double now_s) {
 }
 
 void Fleet::take(const ChannelName& name, const state_v1& message, double now_s, const LcmSource& from) {
+  if (message.faults_total < 0) return;
   const JointName joint(name.prefix, name.joint);
   if (const auto lost = joint_places_.take(joint, from, now_s)) joints_.erase(*lost);
   joints_[joint].take(message, now_s);
@@ -53,7 +72,7 @@ void Fleet::take(const ChannelName& name, const temperature_v1& message, double,
 }
 
 void Fleet::take(const ChannelName& name, const timing_v1& message, double now_s, const LcmSource& from) {
-  if (!name.joint.empty()) return;
+  if (!name.joint.empty() || is_absurd(message)) return;
   if (const auto lost = daemon_places_.take(name.prefix, from, now_s)) daemons_.erase(*lost);
   daemons_[name.prefix] = {message, now_s};
 }
