@@ -1,6 +1,6 @@
-// What waits to be sent to one viewer. Bounded in bytes: data of a viewer that is too slow are dropped, the oldest first, and counted.
-// What a viewer must know (topics, statuses) goes first and is never dropped: one that lets too much of that pile up is given up.
-// Not real-time.
+// What waits to be sent to one viewer, but for news of topics (topic_news.h). Bounded in bytes: data of a viewer that is too slow are
+// dropped, the oldest first, and counted. What a viewer is answered goes first and is never dropped: one that asks and lets too much of
+// that pile up is given up. Not real-time.
 #pragma once
 
 #include <cstdint>

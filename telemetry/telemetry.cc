@@ -25,7 +25,7 @@ void Telemetry::take(const LcmSource& from, std::string_view channel, std::span<
         fleet_.take(*name, message, now_s(), from);
         periods_.take(*name, message);
         const Topic* topic = topic_of<Message>(std::string(channel), from);
-        if (server_.is_wanted(topic->id))
+        if (topic != nullptr && server_.is_wanted(topic->id))
           server_.publish(topic->id, utime_now(), message_json(message, periods_.of(name->prefix)));
       });
   ++(ours ? heard_ : not_ours_);
@@ -35,8 +35,9 @@ template <typename Message>
 const Topic* Telemetry::topic_of(const std::string& channel, const LcmSource& from) {
   if (const Topic* known = topics_.find(channel, now_s())) return known;
   const Topic* topic = topics_.add(channel, schema_name<Message>(), message_schema<Message>(), now_s(), from);
+  if (topic == nullptr) return nullptr;
   if (topics_.given_up()) server_.remove_topic(*topics_.given_up());
-  server_.add_topic(*topic);
+  server_.add_topic(topic->id);
   return topic;
 }
 

@@ -25,6 +25,7 @@ class Telemetry {
 
  private:
   void take(const LcmSource& from, std::string_view channel, std::span<const std::uint8_t> bytes);
+  /// Null: too many new ones came at once.
   template <typename Message>
   const Topic* topic_of(const std::string& channel, const LcmSource& from);
   std::string metrics();

@@ -1,5 +1,5 @@
 // The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: who makes up names pushes out his own
-// (transport/fair_places.h). Not real-time.
+// (transport/fair_places.h), and topics are not made faster than viewers can be told of them. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,20 @@ struct Topic {
 class Topics {
  public:
   static constexpr std::size_t kMax = 1024;
+  /// New ones a second, once kMax came at once. Each is told to every viewer in some kilobytes of schema.
+  static constexpr double kNewPerSecond = 50.0;
+
   /// The topic `name`, or null when it is not known.
   const Topic* find(const std::string& name, double now_s);
-  /// Adds a topic that find() does not know, heard from `from`.
+  /// Adds a topic that find() does not know, heard from `from`. Null: too many came, it may be added when it is heard again.
   const Topic* add(const std::string& name, const std::string& schema_name, const std::string& schema,
                    double now_s, const LcmSource& from = {});
   /// The one that the last add() gave up for it.
   std::optional<std::uint32_t> given_up() const noexcept { return given_up_; }
 
   bool has(std::uint32_t id) const noexcept { return names_.contains(id); }
+  /// The topic of the number `id`, which has() one.
+  const Topic& at(std::uint32_t id) const { return topics_.at(names_.at(id)); }
   std::size_t size() const noexcept { return topics_.size(); }
   template <typename Visit>
   void visit(Visit&& visit) const {
@@ -38,6 +43,7 @@ class Topics {
   }
 
  private:
+  bool may_add(double now_s);
   void give_up(const std::string& name);
 
   std::map<std::string, Topic> topics_;
@@ -45,6 +51,8 @@ class Topics {
   std::map<std::uint32_t, std::string> names_;
   std::uint32_t next_id_ = 1;
   std::optional<std::uint32_t> given_up_;
+  double room_ = static_cast<double>(kMax);  ///< how many may be added now
+  double room_at_s_ = 0.0;                   ///< when that was
 };
 
 }  // namespace strainwave

@@ -86,18 +86,15 @@ std::string server_info(const std::string& session) {
                   {"sessionId", session}});
 }
 
-std::string advertise(const Topics& topics) {
+std::string advertise(std::span<const Topic* const> topics) {
   Json channels = Json::array();
-  topics.visit([&](const Topic& topic) { channels.push_back(as_json(topic)); });
+  for (const Topic* topic : topics) channels.push_back(as_json(*topic));
   return text_of({{"op", "advertise"}, {"channels", channels}});
 }
 
-std::string advertise(const Topic& topic) {
-  return text_of({{"op", "advertise"}, {"channels", Json::array({as_json(topic)})}});
-}
-
-std::string unadvertise(std::uint32_t topic) {
-  return text_of({{"op", "unadvertise"}, {"channelIds", Json::array({topic})}});
+std::string unadvertise(std::span<const std::uint32_t> topics) {
+  return text_of(
+      {{"op", "unadvertise"}, {"channelIds", std::vector<std::uint32_t>(topics.begin(), topics.end())}});
 }
 
 std::string status(StatusLevel level, const std::string& message, const std::string& id) {

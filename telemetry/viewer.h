@@ -22,9 +22,8 @@ std::optional<std::string_view> choose_subprotocol(std::string_view offered);
 
 /// What the server sends: first the information, then the topics, and what there is to say.
 std::string server_info(const std::string& session);
-std::string advertise(const Topics& topics);
-std::string advertise(const Topic& topic);
-std::string unadvertise(std::uint32_t topic);
+std::string advertise(std::span<const Topic* const> topics);
+std::string unadvertise(std::span<const std::uint32_t> topics);
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
 /// A later status of the same `id` takes the place of the earlier one.
 std::string status(StatusLevel level, const std::string& message, const std::string& id);

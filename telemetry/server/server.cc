@@ -120,7 +120,7 @@ std::uint16_t TelemetryServer::port() const {
   return network_->port();
 }
 
-void TelemetryServer::add_topic(const Topic& topic) {
+void TelemetryServer::add_topic(std::uint32_t topic) {
   const auto viewers = network_->shared().viewers;
   for (const auto& viewer : viewers) viewer->add_topic(topic);
 }

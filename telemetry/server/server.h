@@ -37,7 +37,7 @@ class TelemetryServer {
   /// The port, also when any was asked for.
   std::uint16_t port() const;
 
-  void add_topic(const Topic& topic);
+  void add_topic(std::uint32_t topic);
   void remove_topic(std::uint32_t topic);
   /// Whether any viewer wants it.
   bool is_wanted(std::uint32_t topic) const;

@@ -40,7 +40,8 @@ void ViewerConnection::start(const beast::http::request<beast::http::empty_body>
     if (error) return self->end();
     self->shared_.viewers.insert(self);
     self->say(server_info(self->shared_.session));
-    self->say(advertise(self->shared_.topics));
+    self->shared_.topics.visit([&](const Topic& topic) { self->news_.offer(topic.id); });
+    self->send();
     self->read();
   });
 }
@@ -53,9 +54,15 @@ void ViewerConnection::publish(std::uint32_t topic, std::uint64_t received_ns,
   send();
 }
 
+void ViewerConnection::add_topic(std::uint32_t topic) {
+  news_.offer(topic);
+  send();
+}
+
 void ViewerConnection::remove_topic(std::uint32_t topic) {
   viewer_.forget(topic);
-  say(unadvertise(topic));
+  news_.withdraw(topic);
+  send();
 }
 
 void ViewerConnection::report_drops() {
@@ -91,9 +98,18 @@ void ViewerConnection::say(std::string text) {
   send();
 }
 
+std::optional<OutgoingFrame> ViewerConnection::next() {
+  const bool news_first = news_are_next_ || queue_.waiting_bytes() == 0;
+  news_are_next_ = !news_first;
+  if (news_first)
+    if (auto text = news_.pop(shared_.topics))
+      return OutgoingFrame{std::nullopt, std::make_shared<const std::string>(std::move(*text))};
+  return queue_.pop();
+}
+
 void ViewerConnection::send() {
   if (sending_ || !stream_.is_open()) return;
-  sending_ = queue_.pop();
+  sending_ = next();
   if (!sending_) return;
   stream_.text(!sending_->head.has_value());
   const std::array<boost::asio::const_buffer, 2> buffers{

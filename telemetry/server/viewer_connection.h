@@ -5,6 +5,7 @@
 
 #include "telemetry/send_queue.h"
 #include "telemetry/server/shared.h"
+#include "telemetry/topic_news.h"
 #include "telemetry/viewer.h"
 
 namespace strainwave {
@@ -20,7 +21,7 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   bool wants(std::uint32_t topic) const { return viewer_.subscription(topic).has_value(); }
   void publish(std::uint32_t topic, std::uint64_t received_ns,
                const std::shared_ptr<const std::string>& json);
-  void add_topic(const Topic& topic) { say(advertise(topic)); }
+  void add_topic(std::uint32_t topic);
   void remove_topic(std::uint32_t topic);
   /// Tells the viewer what it has missed since the last call.
   void report_drops();
@@ -30,6 +31,8 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   void read();
   void on_message(const boost::beast::error_code& error);
   void say(std::string text);
+  /// Takes out what is to be sent next: news of topics and what else waits by turns, so that neither keeps the other waiting.
+  std::optional<OutgoingFrame> next();
   void send();
   void end();
 
@@ -38,6 +41,8 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   ServerShared& shared_;
   Viewer viewer_;
   SendQueue queue_;
+  TopicNews news_;
+  bool news_are_next_ = false;
   std::optional<OutgoingFrame> sending_;
   std::uint64_t reported_drops_ = 0;
 };

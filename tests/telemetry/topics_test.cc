@@ -36,5 +36,27 @@ TEST(Topics, GiveUpOfWhoHasTheMostWhatIsSilentTheLongest) {
   EXPECT_NE(topics.find("SW.new.STATE", 3.0), nullptr);
 }
 
+TEST(Topics, AreNotMadeFasterThanViewersCanBeToldOfThem) {
+  Topics topics;
+  constexpr double kLasts_s = 10.0;
+  constexpr int kMadeUp = 100000;
+  int added = 0;
+  for (int i = 0; i < kMadeUp; ++i)
+    if (topics.add("F.j" + std::to_string(i) + ".STATE", "s", "{}", kLasts_s * i / kMadeUp, {2, 1}) !=
+        nullptr)
+      ++added;
+  EXPECT_GE(added, static_cast<int>(Topics::kMax));
+  EXPECT_LE(added, static_cast<int>(Topics::kMax) + static_cast<int>(kLasts_s * Topics::kNewPerSecond) + 1);
+  // Somebody else's is among them soon, in the middle of it.
+  const Topic* own = nullptr;
+  for (int i = 0; i < 5000 && own == nullptr; ++i) {
+    const double now_s = kLasts_s + 0.001 * i;
+    for (int k = 0; k < 10; ++k)
+      (void)topics.add("G.j" + std::to_string(10 * i + k) + ".STATE", "s", "{}", now_s, {2, 1});
+    own = topics.add("SW.elbow.STATE", "s", "{}", now_s + 0.0005, {1, 1});
+  }
+  EXPECT_NE(own, nullptr);
+}
+
 }  // namespace
 }  // namespace strainwave

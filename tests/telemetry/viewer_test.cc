@@ -83,7 +83,8 @@ TEST_F(ViewerTest, ForgetsATopicThatIsGone) {
 }
 
 TEST_F(ViewerTest, IsOfferedEveryTopicWithItsSchema) {
-  const Json all = Json::parse(advertise(topics_));
+  const std::vector<const Topic*> known{&topics_.at(elbow_), &topics_.at(timing_)};
+  const Json all = Json::parse(advertise(known));
   EXPECT_EQ(all["op"], "advertise");
   ASSERT_EQ(all["channels"].size(), 2U);
   for (const Json& channel : all["channels"]) {

@@ -6,6 +6,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <strainwave/state_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 #include <thread>
 
@@ -140,6 +141,23 @@ TEST(HostileClient, AsksWithoutEverReadingTheAnswersAndIsSentAway) {
     EXPECT_LT(telemetry.memory_kB(), 100 * 1024);
   }
   EXPECT_FALSE(telemetry.metrics().empty());
+}
+
+TEST(HostileNames, SendNoViewerAwayHoweverManyComeAndGo) {
+  const RunningTelemetry telemetry;
+  const RawClient viewer(telemetry.port(), 4096);
+  ASSERT_TRUE(viewer.become_viewer());
+  lcm::LCM lcm(kTestUrl);
+  const state_v1 state{};
+  constexpr int kNames = 6000;
+  for (int i = 0; i < kNames; ++i) {
+    lcm.publish("F.j" + std::to_string(i) + ".STATE", &state);
+    if (i % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_GT(telemetry.metric(R"(strainwave_telemetry_messages_total{kind="strainwave"})"), kNames / 2);
+  EXPECT_EQ(telemetry.metric("strainwave_telemetry_viewers"), 1.0) << "nothing was asked, nothing is owed";
+  ASSERT_TRUE(viewer.send_text("{"));
+  EXPECT_NE(viewer.read_until("\"status\"").find("\"status\""), std::string::npos);
 }
 
 TEST(HostileClient, SendsItsRequestSlowlyAndKeepsNobodyElseOut) {
