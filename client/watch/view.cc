@@ -1,6 +1,7 @@
 #include "client/watch/view.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -78,20 +79,38 @@ std::string counted(std::size_t number, std::string_view thing) {
 }
 
 /// Who needs somebody, on the screen or not.
-std::string troubled(const WatchModel& model) {
-  std::string names;
+std::vector<std::string> troubled(const WatchModel& model) {
+  std::vector<std::string> names;
   for (const WatchedJoint& joint : model.joints)
-    if (style_of(joint) == Style::kAlarm) names += (names.empty() ? "" : ", ") + name_of(model, joint);
+    if (style_of(joint) == Style::kAlarm) names.push_back(name_of(model, joint));
   return names;
 }
 
+/// As many of `names` as fit, one at least, and how many more there are.
+std::string alarm(const std::vector<std::string>& names, int columns) {
+  const auto naming = [&](std::size_t shown) {
+    std::string text =
+        fmt::format("FAULT or SILENCE: {}",
+                    fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+    return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
+  };
+  std::size_t shown = names.size();
+  while (shown > 1 && static_cast<int>(naming(shown).size()) > columns) --shown;
+  return naming(shown);
+}
+
+/// An alarm stands before everything else: a narrow terminal cuts what is behind it.
 void draw_title(const WatchModel& model, Screen& screen) {
-  const int end = screen.put(0, 0,
-                             fmt::format("strainwave  {} of {}  ", counted(model.joints.size(), "joint"),
-                                         counted(model.daemons.size(), "daemon")),
-                             Style::kTitle);
-  if (const std::string names = troubled(model); !names.empty())
-    return screen.put_fitting(0, end, "FAULT or SILENCE: " + names, Style::kAlarm);
+  const std::string counts =
+      fmt::format("{} of {}", counted(model.joints.size(), "joint"), counted(model.daemons.size(), "daemon"));
+  if (const std::vector<std::string> names = troubled(model); !names.empty()) {
+    const std::string text = alarm(names, screen.columns());
+    screen.put_fitting(0, 0, text, Style::kAlarm);
+    if (static_cast<int>(text.size() + 2 + counts.size()) <= screen.columns())
+      screen.put(0, static_cast<int>(text.size()) + 2, counts, Style::kTitle);
+    return;
+  }
+  const int end = screen.put(0, 0, fmt::format("strainwave  {}  ", counts), Style::kTitle);
   screen.put_fitting(0, end, model.has_key ? "orders are signed" : "orders are not signed", Style::kTitle);
 }
 

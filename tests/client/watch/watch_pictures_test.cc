@@ -116,7 +116,7 @@ TEST_P(WatchPicture, CanBeReadOnItsTerminal) {
 TEST_P(WatchPicture, ShowsErrorTorqueAndTemperatureOfEveryJoint) {
   const Screen drawn = screen();
   for (const WatchedJoint& joint : model_.joints) {
-    int row = 0;
+    int row = 1;  // below the title, which names who is faulted
     while (row < drawn.rows() && drawn.text(row).find(joint.joint + " ") == std::string::npos) ++row;
     ASSERT_LT(row, drawn.rows()) << joint.joint;
     const std::string line = drawn.text(row);
