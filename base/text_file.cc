@@ -27,6 +27,24 @@ constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
   throw InputError(path.string() + ": " + what + ": " + std::generic_category().message(error));
 }
 
+// What `path` names in the end: who wrote a link meant what it leads to, there or not. Throws InputError: a folder, or links that go round.
+std::filesystem::path behind_links(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path.string() + ": is a folder: name a file");
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw InputError(path.string() + ": is a pipe or a device: name a file");
+  constexpr int kMostLinks = 40;  // as the kernel follows
+  std::filesystem::path target = path;
+  for (int links = 0; std::filesystem::is_symlink(target, error); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    if (error || links >= kMostLinks)
+      throw InputError(path.string() + ": is a link that leads nowhere: name a file");
+    target = target.parent_path() / next;
+  }
+  return target;
+}
+
 // A temporary file beside the target (rename must not cross file systems), removed unless it was renamed.
 class TemporaryFile {
  public:
@@ -96,7 +114,7 @@ std::string read_text_file(const std::filesystem::path& path) {
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
-  TemporaryFile file(path);
+  TemporaryFile file(behind_links(path));
   file.write(text);
   file.become_target();
 }

@@ -12,7 +12,7 @@ namespace strainwave {
 std::string read_text_file(const std::filesystem::path& path);
 
 /// Replaces `path` by `text` in one step: a reader sees the old file or the new one, never a part, even
-/// across a power failure. Throws InputError with the system's reason; then the old file is untouched.
+/// across a power failure. A symbolic link stays, and what it leads to is replaced. Throws InputError with the system's reason; then the old file is untouched.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace strainwave

@@ -62,6 +62,33 @@ TEST_F(TextFile, AFailedReplacementKeepsTheOldFileAndCleansUp) {
       std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()), 1);
 }
 
+TEST_F(TextFile, WritesWhatALinkLeadsToAndKeepsTheLink) {
+  namespace fs = std::filesystem;
+  fs::create_directory(folder_ / "inner");
+  write_text_file(folder_ / "inner" / "file", "old");
+  fs::create_symlink("inner/file", folder_ / "first");
+  fs::create_symlink(folder_ / "first", folder_ / "second");
+  fs::create_symlink("inner/new", folder_ / "dangling");
+  write_text_file(folder_ / "second", "new");
+  write_text_file(folder_ / "dangling", "made");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first") && fs::is_symlink(folder_ / "second") &&
+              fs::is_symlink(folder_ / "dangling"));
+  EXPECT_EQ(read_text_file(folder_ / "inner" / "file"), "new");
+  EXPECT_EQ(read_text_file(folder_ / "inner" / "new"), "made");
+}
+
+TEST_F(TextFile, IsNotWrittenOverALinkToAFolderOrThatGoesRound) {
+  namespace fs = std::filesystem;
+  fs::create_directory(folder_ / "inner");
+  fs::create_directory_symlink("inner", folder_ / "to_folder");
+  fs::create_symlink("round", folder_ / "round");
+  for (const char* name : {"to_folder", "round", "inner"}) {
+    EXPECT_THROW(write_text_file(folder_ / name, "text"), InputError) << name;
+    EXPECT_TRUE(fs::is_symlink(folder_ / name) || fs::is_directory(folder_ / name)) << name;
+  }
+  EXPECT_TRUE(fs::is_symlink(folder_ / "to_folder"));
+}
+
 TEST_F(TextFile, WaitsForNoPipeAndReadsNoDeviceWithoutAnEnd) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_THROW(read_text_file(folder_ / "pipe"), InputError);
