@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include "base/input_error.h"
 #include "control/box_certificate.h"
 #include "control/certificate.h"
 #include "control/gain_table_json.h"
@@ -19,15 +21,35 @@ struct VerifyOptions {
   SpringOptions spring;
 };
 
-bool verify_spring(const VerifyOptions& options, const GainTable& table) {
-  const std::string gear = options.gear.empty() ? std::string(table.plant.gear.view()) : options.gear;
-  const SpringVerdict verdict = judge_on_spring(table, gear, spring_request(options.spring, "verify"));
+std::string gear_of(const VerifyOptions& options, const GainTable& table) {
+  return options.gear.empty() ? std::string(table.plant.gear.view()) : options.gear;
+}
+
+/// The spring that is asked for, if one is. Throws InputError.
+std::optional<SpringRequest> requested_spring(const VerifyOptions& options, const GainTable& table) {
+  if (!options.spring.given()) {
+    if (!options.gear.empty())
+      throw InputError("verify", "--gear", options.gear,
+                       "is the spring of a joint with links behind it: give --load-inertia_kgm2 and "
+                       "--motor-inertia_kgm2 as well, or leave it out");
+    return std::nullopt;
+  }
+  SpringRequest request = spring_request(options.spring, "verify");
+  (void)spring_box(table.friction, gear_of(options, table), request.motor_inertia_kgm2,
+                   request.link_inertia_kgm2);
+  return request;
+}
+
+bool verify_spring(const GainTable& table, const std::string& gear, const SpringRequest& request) {
+  const SpringVerdict verdict = judge_on_spring(table, gear, request);
   std::fputs(verdict.text.c_str(), stdout);
   return verdict.certified;
 }
 
 ExitStatus verify(const VerifyOptions& options) {
   const GainTable table = read_gain_table(options.path);
+  // Before anything is certified in words.
+  const std::optional<SpringRequest> spring = requested_spring(options, table);
   bool certified = true;
   for (const FeedbackGains* gains : {&table.primary, &table.fallback}) {
     const CertificateReport report = certify(*gains, table.plant, table.friction);
@@ -40,7 +62,7 @@ ExitStatus verify(const VerifyOptions& options) {
     std::printf("box: %s\n  %s; %s, %d inequalities\n", describe(table.box).c_str(),
                 report.certified ? "certified" : "NOT CERTIFIED", report.text.c_str(), report.inequalities);
   }
-  if (options.spring.given()) certified = verify_spring(options, table) && certified;
+  if (spring) certified = verify_spring(table, gear_of(options, table), *spring) && certified;
   std::printf("%s: %s\n", options.path.c_str(), certified ? "certified" : "NOT CERTIFIED");
   return certified ? ExitStatus::kDone : ExitStatus::kRefused;
 }

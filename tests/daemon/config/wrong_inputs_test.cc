@@ -486,6 +486,8 @@ const std::vector<CommandCase> kCommandCases{
      {"demo.toml: is no JSON: begins with '# The demonstration"}},
     {"strainwave-sim run --controller pid --plant perfect",
      {"--plant", "perfect", "ideal, limited, realistic"}},
+    {"strainwave-design verify " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json --gear csf-17-50",
+     {"verify: --gear = csf-17-50", "give --load-inertia_kgm2"}},
     {"strainwave-design verify /nonexistent", {"/nonexistent: cannot be read", "No such file"}},
     {"strainwave-design fit " STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv --out /tmp/x --gear-ratio inf",
      {"gear-ratio = inf", "at most 100000"}},
@@ -525,6 +527,20 @@ TEST(WrongCommandLine, IsNamedByWhatWasGivenAndWhatIsAllowed) {
   for (const CommandCase& wrong : kCommandCases)
     if (with_design || !std::string_view(wrong.command).starts_with("strainwave-design"))
       expect_refused(run(wrong.command), wrong.mentions, wrong.command);
+}
+
+TEST(WrongCommandLine, OfVerifyIsToldBeforeAnythingIsCertified) {
+  if (!std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-design")) GTEST_SKIP() << "no design";
+  for (const char* wrong :
+       {"--load-inertia_kgm2 xx --motor-inertia_kgm2 0.1",
+        "--load-inertia_kgm2 0.1 --motor-inertia_kgm2 0.1 --gear x",
+        "--load-inertia_kgm2 0.1 --motor-inertia_kgm2 0.1 --delay 1.5", "--gear csf-17-50"}) {
+    const Ended ended =
+        run("strainwave-design verify " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json " +
+            std::string(wrong));
+    EXPECT_EQ(ended.status, 2) << wrong << "\n" << ended.said;
+    EXPECT_EQ(ended.said.find("certified"), std::string::npos) << wrong << "\n" << ended.said;
+  }
 }
 
 TEST(WrongInputs, AreMany) {
