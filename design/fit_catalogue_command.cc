@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "design/catalogue.h"
 #include "design/descending_curve.h"
@@ -39,7 +40,7 @@ constexpr double kMaxGearRatio = 1e5;
 
 void check(const FitCatalogueOptions& options) {
   const auto require = [](bool good, const char* key, double value, const std::string& allowed) {
-    if (!good) throw InputError("fit", key, std::to_string(value), allowed);
+    if (!good) throw InputError("fit", key, number_text(value), allowed);
   };
   require(options.gear_ratio > 0.0 && options.gear_ratio <= kMaxGearRatio, "gear-ratio", options.gear_ratio,
           "must be above 0, at most 100000");

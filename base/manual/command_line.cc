@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include <algorithm>
+#include <charconv>
 #include <iostream>
+#include <sstream>
 
 #include "base/input_error.h"
 #include "base/nearest_word.h"
@@ -90,6 +92,50 @@ std::string explain(const CLI::App& app, const std::vector<std::string>& left) {
   return "unexpected:" + words;
 }
 
+/// The option that CLI11's message begins with, of the command that was chosen; null when it is none.
+const CLI::Option* option_of(const CLI::App& app, const std::string& message) {
+  const std::string name = message.substr(0, message.find(':'));
+  return innermost(app).get_option_no_throw(name);
+}
+
+/// "--weights takes 4 values (cost: integral,position,velocity,torque): 3 were given", in place of CLI11's "At least 4 required".
+std::string explain_count(const CLI::App& app, const std::string& message) {
+  const CLI::Option* option = option_of(app, message);
+  const std::size_t last = message.find_last_of(' ');
+  if (option == nullptr || option->get_expected_min() <= 1 ||
+      option->get_expected_min() != option->get_expected_max() ||
+      message.find("received") == std::string::npos)
+    return message;
+  return option->get_name() + " takes " + std::to_string(option->get_expected_min()) + " values (" +
+         option->get_description() + "): " + message.substr(last + 1) + " were given";
+}
+
+/// "--model: 'fuzy' is none of exponential, fuzzy, both; did you mean fuzzy?", in place of CLI11's "fuzy not in {...}".
+std::string explain_choice(const std::string& message) {
+  constexpr std::string_view kNotIn = " not in {";
+  const std::size_t colon = message.find(": ");
+  const std::size_t set = message.rfind(kNotIn);
+  if (colon == std::string::npos || set == std::string::npos || set < colon + 2 || !message.ends_with('}'))
+    return message;
+  std::vector<std::string> allowed;
+  std::istringstream words(message.substr(set + kNotIn.size(), message.size() - set - kNotIn.size() - 1));
+  for (std::string word; std::getline(words, word, ',');) allowed.push_back(word);
+  const std::string given = message.substr(colon + 2, set - colon - 2);
+  return message.substr(0, colon) + ": '" + given + "' is none of " + list(allowed) +
+         suggestion(given, allowed);
+}
+
+/// What is allowed where CLI11 could not make a number of `message`'s last word.
+std::string explain_number(const std::string& message) {
+  const std::string_view given = std::string_view(message).substr(message.find_last_of(" =") + 1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
+  if (error == std::errc::invalid_argument || end != given.data() + given.size())
+    return "a number is allowed";
+  if (given.find_first_not_of("-0123456789") != std::string_view::npos) return "a whole number is allowed";
+  return value < 0.0 ? "a number from 0 on is allowed" : "a smaller number is allowed";
+}
+
 /// What was given, in one sentence without line ends.
 std::string explain(const CLI::App& app, const CLI::ParseError& error,
                     const std::vector<std::string>& words) {
@@ -101,7 +147,10 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
     text = "a command is required: " + list(command_names(app));
   std::replace(text.begin(), text.end(), '\n', ' ');
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ConversionError))
-    text += ": a number is allowed";
+    return text + ": " + explain_number(text);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch))
+    return explain_count(app, text);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ValidationError)) return explain_choice(text);
   return text;
 }
 
