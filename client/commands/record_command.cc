@@ -15,7 +15,8 @@ namespace {
 class McapRecording {
  public:
   McapRecording(Client& client, const RecordArguments& arguments)
-      : log_(checked(arguments)),
+      : claim_(claim_output(arguments.file, arguments.overwrite)),
+        log_(arguments.file),
         subscription_(client.connection().subscribe(
             recorded_channels(client.options().prefix, arguments.joints), &McapRecording::on_message, this)) {
   }
@@ -25,16 +26,13 @@ class McapRecording {
   void finish() { log_.finish(); }
 
  private:
-  static const std::filesystem::path& checked(const RecordArguments& arguments) {
-    refuse_to_replace(arguments.file, arguments.overwrite);
-    return arguments.file;
-  }
   void on_message(const ReceivedMessage& message) {
     const auto name = parse_channel(message.channel);
     if (good() && name && log_.take(*name, message.channel, message.received_us, message.bytes))
       ++counts_[message.channel];
   }
 
+  UniqueFd claim_;  ///< of the file, before it is opened and emptied
   McapLog log_;
   std::map<std::string, long> counts_;
   Subscription subscription_;

@@ -10,8 +10,7 @@ namespace strainwave {
 
 namespace {
 
-lcm_eventlog_t* open_log(const std::filesystem::path& file, bool overwrite) {
-  refuse_to_replace(file, overwrite);
+lcm_eventlog_t* open_log(const std::filesystem::path& file) {
   lcm_eventlog_t* const log = ::lcm_eventlog_create(file.c_str(), "w");
   if (log == nullptr) throw not_writable(file);
   return log;
@@ -29,7 +28,8 @@ EventLogWriter::EventLogWriter(Connection& connection, const std::string& prefix
                                const std::vector<std::string>& joints, const std::filesystem::path& file,
                                bool overwrite)
     : name_(file.string()),
-      log_(open_log(file, overwrite), &::lcm_eventlog_destroy),
+      claim_(claim_output(file, overwrite)),
+      log_(open_log(file), &::lcm_eventlog_destroy),
       subscription_(
           connection.subscribe(recorded_channels(prefix, joints), &EventLogWriter::on_message, this)) {}
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "client/link/connection.h"
 
 namespace strainwave {
@@ -19,7 +20,8 @@ std::string recorded_channels(const std::string& prefix, const std::vector<std::
 class EventLogWriter {
  public:
   /// Creates `file` and writes every message of `prefix` from now on, or only those of `joints` and the
-  /// daemon as a whole. Throws ClientError (file): it exists and `overwrite` is false, or cannot be created.
+  /// daemon as a whole. Throws ClientError (file): it exists and `overwrite` is false, somebody else writes it, or it cannot
+  /// be created.
   EventLogWriter(Connection& connection, const std::string& prefix, const std::vector<std::string>& joints,
                  const std::filesystem::path& file, bool overwrite);
 
@@ -34,6 +36,7 @@ class EventLogWriter {
   void on_message(const ReceivedMessage& message);
 
   std::string name_;
+  UniqueFd claim_;  ///< of the file, before it is opened and emptied
   std::unique_ptr<lcm_eventlog_t, void (*)(lcm_eventlog_t*)> log_;
   std::map<std::string, long> counts_;
   bool good_ = true;

@@ -1,9 +1,10 @@
-// Ctrl-C and SIGTERM as a flag, so that a wait ends in order: files closed, the user told what goes on. Not real-time.
+// Ctrl-C, SIGTERM and the SIGHUP of a terminal that is lost as a flag, so that a wait ends in order: files closed, the user told what goes on. Not real-time.
 #pragma once
 
 namespace strainwave {
 
-/// From now on SIGINT and SIGTERM set the flag instead of ending the program. A second one ends it at once.
+/// From now on SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program; one that is ignored, as below nohup, stays so. The same
+/// one again ends it at once.
 void catch_interrupts();
 
 /// True once a signal has come.

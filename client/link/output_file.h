@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/unique_fd.h"
 #include "client/link/client_error.h"
 
 namespace strainwave {
@@ -12,6 +13,10 @@ inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite)
   if (!overwrite && std::filesystem::exists(file))
     throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
 }
+
+/// Opens `file`, which is made if it is not there, for one writer: as long as the descriptor is open nobody else claims it. Throws ClientError
+/// (usage) as above, when it cannot be written, and when somebody else writes it now; then it is as it was.
+UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
 
 /// Throws ClientError (usage) when a file that is to be no MCAP file is named like one.
 inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {

@@ -85,6 +85,18 @@ TEST_F(Logs, WhatIsRecordedIsExportedAsItWas) {
     EXPECT_TRUE(std::filesystem::exists(path(std::string("csv/SW.elbow.") + kind + ".csv"))) << kind;
 }
 
+TEST_F(Logs, ARecorderThatLosesItsTerminalFinishesItsFile) {
+  const std::string file = path("lost.mcap");
+  ASSERT_EQ(shell("bash -c '" + (kControl + ("record --mcap --out " + file)) +
+                  " & recorder=$!; sleep 1; kill -HUP $recorder; wait $recorder'"),
+            0)
+      << output_;
+  EXPECT_NE(output_.find("SW.elbow.STATE: "), std::string::npos) << output_;
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  EXPECT_TRUE(bytes.str().ends_with("\x89MCAP0\r\n")) << "the end of a whole file";
+}
+
 TEST_F(Logs, ALogOfLcmLoggerIsReadAsWell) {
   ASSERT_EQ(shell("bash -c 'lcm-logger --quiet -c \"SW.*\" " + path("logger.lcm") +
                   " & logger=$!; sleep 1; kill -INT $logger; wait $logger; true'"),

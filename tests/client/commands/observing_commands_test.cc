@@ -6,6 +6,7 @@
 #include <map>
 #include <strainwave/timing_v1.hpp>
 
+#include "client/link/output_file.h"
 #include "lcmtypes/event_log.h"
 #include "tests/client/commands/commands_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -92,6 +93,28 @@ TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
   std::getline(std::ifstream(file), first);
   EXPECT_EQ(first, "precious");
   EXPECT_EQ(attempt(true), ExitStatus::kDone);
+}
+
+TEST_F(CommandsTest, RecordLeavesAFileAloneThatAnotherRecorderWrites) {
+  const TemporaryFolder folder;
+  daemon.publish_state();
+  for (const bool mcap : {false, true}) {
+    const auto file = folder.path() / (mcap ? "record.mcap" : "record.lcm");
+    const UniqueFd other = claim_output(file, false);
+    std::ofstream(file) << "theirs\n";
+    EXPECT_EQ(status_of([&] {
+                record(client, output, {{"elbow"}, file, 0.01, true, mcap});
+              }),
+              ExitStatus::kUsage);
+    std::string first;
+    std::getline(std::ifstream(file), first);
+    EXPECT_EQ(first, "theirs");
+  }
+  EXPECT_EQ(status_of([&] {
+              record(client, output, {{"elbow"}, folder.path() / "record.lcm", 0.01, true, false});
+            }),
+            ExitStatus::kDone)
+      << "the other one has ended";
 }
 
 TEST_F(CommandsTest, RecordSaysSoWhenTheFileCannotBeWritten) {
