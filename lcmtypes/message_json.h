@@ -2,6 +2,7 @@
 // Not real-time.
 //
 // Numbers that name somebody (..._id) are texts, since readers in JavaScript would round them; a number that is none (NaN) is null.
+// The schemas say "number" of it all the same: Foxglove's reader takes one type for a field, and shows nothing of a schema with alternatives.
 // Modes, faults and their like come a second time as words (mode_text, ...); weights only as far as rules are in use. A state also has
 // its tracking_error_rad, where the period of the loop is known (loop_periods.h).
 #pragma once

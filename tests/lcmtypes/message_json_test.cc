@@ -22,6 +22,23 @@ void expect_keys_of_schema() {
   EXPECT_EQ(value.size(), schema["properties"].size());
 }
 
+/// As Foxglove's reader has it (parseJsonSchema): one word, or it shows nothing of the topic.
+template <typename Message>
+void expect_types_that_viewers_know() {
+  for (const auto& [key, entry] : Json::parse(message_schema<Message>())["properties"].items()) {
+    const Json& type = entry["type"] == "array" ? entry["items"]["type"] : entry["type"];
+    EXPECT_TRUE(type == "number" || type == "integer" || type == "string") << key << ": " << type;
+  }
+}
+
+TEST(MessageJson, HasOneTypeForEachFieldThoughANumberMayBeNull) {
+  expect_types_that_viewers_know<state_v1>();
+  expect_types_that_viewers_know<temperature_v1>();
+  expect_types_that_viewers_know<limits_v1>();
+  expect_types_that_viewers_know<timing_v1>();
+  expect_types_that_viewers_know<ack_v1>();
+}
+
 TEST(MessageJson, HasTheKeysOfItsSchema) {
   expect_keys_of_schema<state_v1>();
   expect_keys_of_schema<temperature_v1>();
