@@ -44,7 +44,11 @@ std::pair<std::string_view, std::string_view> split(std::string_view text) {
 }
 
 std::string_view token_in(const RequestFacts& request) {
-  if (request.authorization.starts_with(kBearer)) return request.authorization.substr(kBearer.size());
+  // A scheme's name is written in any case (RFC 9110, 11.1).
+  const std::string_view scheme = request.authorization.substr(0, kBearer.size());
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  if (std::equal(scheme.begin(), scheme.end(), kBearer.begin(), kBearer.end(), same))
+    return request.authorization.substr(kBearer.size());
   std::string_view rest = request.target.substr(path_of(request.target).size());
   while (!rest.empty()) {
     rest.remove_prefix(1);  // ? or &

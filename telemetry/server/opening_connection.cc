@@ -59,7 +59,8 @@ void OpeningConnection::answer(const Request& request) {
       break;
   }
   if (beast::websocket::is_upgrade(request)) return become_viewer(request);
-  if (request.method() != http::verb::get) return refuse(Status::method_not_allowed, "only GET is answered");
+  if (request.method() != http::verb::get && request.method() != http::verb::head)
+    return refuse(Status::method_not_allowed, "only GET and HEAD are answered");
   if (path_of(target) == "/metrics")
     return respond(Status::ok, "text/plain; version=0.0.4; charset=utf-8", shared_.metrics());
   if (path_of(target) == "/")
@@ -89,6 +90,8 @@ void OpeningConnection::respond(Status status, const char* type, std::string bod
   response_.keep_alive(false);
   response_.body() = std::move(body);
   response_.prepare_payload();
+  if (parser_.get().method() == http::verb::head)
+    response_.body().clear();  // its length is told all the same
   stream_.expires_after(kLongestRequest_s);
   http::async_write(stream_, response_, [self = shared_from_this()](const beast::error_code&, std::size_t) {
     beast::error_code ignored;

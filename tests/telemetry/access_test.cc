@@ -17,6 +17,8 @@ TEST(Access, WithATokenIsForWhoShowsIt) {
   const AccessRules rules{kToken, {}};
   const auto granted = [&](const RequestFacts& request) { return judge(request, rules) == Access::kGranted; };
   EXPECT_TRUE(granted({"/metrics", "Bearer 0123456789abcdef", "", "robot:8765"}));
+  EXPECT_TRUE(granted({"/metrics", "bearer 0123456789abcdef", "", "robot:8765"})) << "a scheme has no case";
+  EXPECT_FALSE(granted({"/metrics", "Bearer", "", "robot:8765"}));
   EXPECT_TRUE(granted({"/?token=0123456789abcdef", "", "https://anything.example", "robot:8765"}));
   EXPECT_TRUE(granted({"/?a=b&token=0123456789abcdef&c", "", "", ""}));
   EXPECT_FALSE(granted({"/metrics", "", "", "localhost"}));

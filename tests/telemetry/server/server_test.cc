@@ -97,6 +97,17 @@ TEST_F(Server, BelongsToWhoeverHasTheTokenWhereThereIsOne) {
   EXPECT_EQ(answer("GET /metrics?token=0123456789abcdef HTTP/1.1\r\n"), "HTTP/1.1 200");
 }
 
+TEST_F(Server, TellsTheLengthOfThePageToWhoAsksForItsHeadAlone) {
+  const RunningTelemetry telemetry;
+  const RawClient client(telemetry.port());
+  client.send("HEAD /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  const std::string answer = client.read_all();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+  EXPECT_NE(answer.find("Content-Length: "), std::string::npos) << answer;
+  EXPECT_EQ(answer.find("Content-Length: 0"), std::string::npos) << answer;
+  EXPECT_TRUE(answer.ends_with("\r\n\r\n")) << "no page behind it\n" << answer;
+}
+
 TEST_F(Server, DoesNotListenToOtherMachinesWithoutAToken) {
   const TemporaryFolder folder;
   const std::string token = folder.path() / "token";
