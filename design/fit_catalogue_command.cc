@@ -242,6 +242,17 @@ void report_outliers(const Job& job) {
   }
 }
 
+void report_growth(const Job& job) {
+  constexpr double kNoticeable = 1.1;
+  const double growth = growth_with_temperature(job.problem);
+  if (growth > kNoticeable)
+    std::printf(
+        "  WARNING: friction is %.3g times as large in the warmer half of %g to %g degC as in the colder: "
+        "that of a strain-wave gear falls "
+        "as its grease warms, and the fit lets none rise; are the temperatures in the wrong order?\n",
+        growth, job.min_C, job.max_C);
+}
+
 }  // namespace
 
 ExitStatus fit_catalogue(const FitCatalogueOptions& options) {
@@ -256,6 +267,7 @@ ExitStatus fit_catalogue(const FitCatalogueOptions& options) {
     std::printf(
         "  no column starting_torque_Ncm: %g N.cm is taken at every temperature (--starting-torque_Ncm)\n",
         options.starting_torque_Ncm);
+  report_growth(job);
   report_outliers(job);
   std::optional<ExponentialFit> known_law;
   if (options.model != "fuzzy") {

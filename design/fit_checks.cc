@@ -1,6 +1,8 @@
 #include "design/fit_checks.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -30,36 +32,95 @@ FitProblem without_row(const FitProblem& problem, Index row) {
   return others;
 }
 
-std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, double high_C) {
-  const Index n = problem.targets.temperature_C.size();
-  std::vector<Index> rows(static_cast<std::size_t>(n));
-  std::iota(rows.begin(), rows.end(), Index{0});
-  std::vector<Outlier> outliers;
-  FitProblem kept = problem;
-  double cost = fit_exponential(kept, low_C, high_C).cost;
-  while (static_cast<Index>(rows.size()) > kLeastKept && static_cast<Index>(outliers.size()) < n / 4) {
-    Outlier worst;
-    worst.cost = cost;
-    worst.cost_without = std::numeric_limits<double>::infinity();
-    for (Index row = 0; row < static_cast<Index>(rows.size()); ++row) {
-      const ExponentialFit law = fit_exponential(without_row(kept, row), low_C, high_C);
-      if (law.cost >= worst.cost_without) continue;
-      worst.row = row;
-      worst.cost_without = law.cost;
-      worst.error =
-          kept.targets.parameters.row(row) - predict(law, kept.targets.temperature_C.segment(row, 1)).row(0);
+namespace {
+
+/// Temperatures of a problem that are taken out one after the other.
+class Removal {
+ public:
+  Removal(const FitProblem& problem, double low_C, double high_C)
+      : low_C_(low_C),
+        high_C_(high_C),
+        rows_(static_cast<std::size_t>(problem.targets.temperature_C.size())),
+        kept_(problem) {
+    std::iota(rows_.begin(), rows_.end(), Index{0});
+    cost_ = law_of(kept_).cost;
+  }
+
+  /// Takes out the temperature without which the law fits the others best. How much better, as a factor.
+  double take_worst() {
+    const double before = cost_;
+    cost_ = std::numeric_limits<double>::infinity();
+    Index worst = 0;
+    for (Index row = 0; row < size(); ++row) {
+      const double cost = law_of(without_row(kept_, row)).cost;
+      if (cost >= cost_) continue;
+      worst = row;
+      cost_ = cost;
     }
-    if (!(worst.cost > kOutlierFactor * worst.cost_without)) break;
+    taken_.push_back(rows_[static_cast<std::size_t>(worst)]);
+    rows_.erase(rows_.begin() + worst);
+    kept_ = without_row(kept_, worst);
     // What fits to the last digit has no outliers, only rounding.
-    if (!(worst.cost > 1e-9 * metric_cost(kept.targets.parameters, kept.metric))) break;
-    kept = without_row(kept, worst.row);
-    cost = worst.cost_without;
-    const Index in_kept = worst.row;
-    worst.row = rows[static_cast<std::size_t>(in_kept)];
-    rows.erase(rows.begin() + in_kept);
-    outliers.push_back(worst);
+    return before > 1e-9 * metric_cost(kept_.targets.parameters, kept_.metric) ? before / cost_ : 1.0;
+  }
+
+  Index size() const { return static_cast<Index>(rows_.size()); }
+  /// Rows of the problem, in the order in which they were taken out.
+  const std::vector<Index>& taken() const { return taken_; }
+  ExponentialFit law_of(const FitProblem& problem) const { return fit_exponential(problem, low_C_, high_C_); }
+
+ private:
+  double low_C_;
+  double high_C_;
+  std::vector<Index> rows_;
+  FitProblem kept_;
+  double cost_ = 0.0;
+  std::vector<Index> taken_;
+};
+
+FitProblem without_rows(FitProblem problem, std::vector<Index> rows) {
+  std::sort(rows.begin(), rows.end(), std::greater<>());
+  for (const Index row : rows) problem = without_row(problem, row);
+  return problem;
+}
+
+}  // namespace
+
+std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, double high_C) {
+  Removal removal(problem, low_C, high_C);
+  const auto most = static_cast<std::size_t>(removal.size() / 4);
+  std::size_t suspects = 0;
+  // Several that pull the law the same way hide each other: only without the last of them it fits.
+  while (removal.size() > kLeastKept && removal.taken().size() < std::min(most, suspects + kHidingOutliers))
+    if (removal.take_worst() > kOutlierFactor) suspects = removal.taken().size();
+  const std::vector<Index> taken(removal.taken().begin(),
+                                 removal.taken().begin() + static_cast<std::ptrdiff_t>(suspects));
+
+  std::vector<Outlier> outliers;
+  if (taken.empty()) return outliers;
+  const ExponentialFit sound = removal.law_of(without_rows(problem, taken));
+  for (const Index row : taken) {
+    std::vector<Index> others = taken;
+    std::erase(others, row);
+    const double cost = removal.law_of(without_rows(problem, others)).cost;
+    if (!(cost > kOutlierFactor * sound.cost)) continue;  // it was taken out on the way to one that hid
+    outliers.push_back({row, cost, sound.cost,
+                        problem.targets.parameters.row(row) -
+                            predict(sound, problem.targets.temperature_C.segment(row, 1)).row(0)});
   }
   return outliers;
+}
+
+double growth_with_temperature(const FitProblem& problem) {
+  const Index n = problem.targets.temperature_C.size();
+  const Index half = n / 2;
+  double cold = 0.0;
+  double warm = 0.0;
+  for (Index row = 0; row < half; ++row) {
+    cold += size_of(problem.targets.parameters.row(row), problem.metric);
+    warm += size_of(problem.targets.parameters.row(n - 1 - row), problem.metric);
+  }
+  return half == 0 ? 1.0 : std::sqrt(warm / cold);
 }
 
 double error_between(const FitProblem& problem, const Prediction& predicted) {

@@ -16,15 +16,20 @@ FitProblem without_row(const FitProblem& problem, Eigen::Index row);
 /// catalogue of the source has none above 3.
 struct Outlier {
   Eigen::Index row = 0;
-  double cost = 0.0;          ///< of all that was given
-  double cost_without = 0.0;  ///< of the others alone
-  Eigen::RowVector3d error;   ///< its parameters less the law of the others, motor side
+  double cost = 0.0;          ///< of it and the sound ones
+  double cost_without = 0.0;  ///< of the sound ones alone
+  Eigen::RowVector3d error;   ///< its parameters less the law of the sound ones, motor side
 };
 inline constexpr double kOutlierFactor = 6.0;
+/// As many may hide each other: without one of them the law fits no better, without all it does.
+inline constexpr std::size_t kHidingOutliers = 3;
 
-/// The worst, then the worst of what is left, and so on; at most a quarter of the temperatures, and at least four are kept. Rows count
+/// The worst, then the worst of what is left, and so on, those that hide each other too; at most a quarter of the temperatures, and at least four are kept. Rows count
 /// in `problem` as it was given. `low_C`, `high_C`: the range of the law's decay.
 std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, double high_C);
+
+/// Friction of the warmer half of the temperatures over that of the colder, root mean square in the metric: a strain-wave gear's falls.
+double growth_with_temperature(const FitProblem& problem);
 
 /// Friction between the temperatures of the data: each but the first and the last is left out in turn and foretold from the others.
 /// Root of the mean square of the error over the friction there, both in the metric of the problem; NaN where less than four

@@ -108,6 +108,29 @@ TEST_F(DesignProgram, FitNamesATemperatureThatSpoilsTheFitAndLeavesItOutWhenAske
   EXPECT_NEAR(decay_C(), clean_C, 0.02 * clean_C);
 }
 
+TEST_F(DesignProgram, FitNamesTwoTemperaturesThatHideEachOtherAndFrictionThatRises) {
+  std::string text = read_text_file(kData + "no_load_torque.csv");
+  const std::string fit = " --model exponential --method least-squares --out " + file("friction.json");
+  const auto spoil = [&](const std::string& row, const std::string& spoilt) {
+    const auto at = text.find(row);
+    ASSERT_NE(at, std::string::npos) << row;
+    text.replace(at, row.size(), spoilt);
+  };
+  spoil("-2.5,6.9,10.5,", "-2.5,6.9,105,");
+  spoil("15,3.2,4.7,", "15,3.2,47,");
+  write_text_file(file("two.csv"), text);
+  ASSERT_EQ(run("fit " + file("two.csv") + fit), 0) << output_;
+  for (const char* temperature : {"-2.5", "15"})
+    EXPECT_NE(output_.find("WARNING: " + std::string(temperature) + " degC is an outlier"), std::string::npos)
+        << output_;
+  EXPECT_EQ(output_.find("WARNING: friction"), std::string::npos) << output_;
+  write_text_file(file("rising.csv"),
+                  "temperature_C,torque_500rpm_Ncm,torque_2000rpm_Ncm\n-10,2,4\n0,2.2,4.6\n10,2.8,6\n20,3.8,"
+                  "9\n30,6,14\n");
+  ASSERT_EQ(run("fit " + file("rising.csv") + fit), 0) << output_;
+  EXPECT_NE(output_.find("WARNING: friction is"), std::string::npos) << output_;
+}
+
 TEST_F(DesignProgram, RulesOfFewTemperaturesFollowTheLawBetweenThem) {
   for (const int count : {3, 4, 5}) {
     // The exponential law itself.

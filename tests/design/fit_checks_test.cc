@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace strainwave {
@@ -53,6 +54,41 @@ TEST(FitChecks, FindTheTemperatureOfAnyCellThatIsTenTimesTooLarge) {
       EXPECT_GT(outliers[0].cost, kOutlierFactor * outliers[0].cost_without);
     }
   }
+}
+
+TEST(FitChecks, FindTwoTemperaturesThatHideEachOther) {
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  const double mean = 1750.0;
+  double squares = 0.0;
+  for (const double speed : data.motor_speeds_rpm) squares += (speed - mean) * (speed - mean);
+  // The second of four speeds, ten times too large.
+  const double speed = data.motor_speeds_rpm[1];
+  int pairs = 0;
+  for (Eigen::Index first = 0; first < 21; first += 3)
+    for (Eigen::Index second = first + 1; second < 21; second += 3, ++pairs) {
+      FitProblem problem = source_problem();
+      for (const Eigen::Index row : {first, second}) {
+        const double excess =
+            9.0 * (problem.targets.parameters(row, 1) + speed * problem.targets.parameters(row, 2));
+        const double slope = excess * (speed - mean) / squares;
+        const double intercept = excess / 4.0 - slope * mean;
+        problem.targets.parameters.row(row) += Eigen::RowVector3d(intercept, intercept, slope);
+      }
+      std::vector<Eigen::Index> rows;
+      for (const Outlier& outlier : find_outliers(problem, kLow_C, kHigh_C)) rows.push_back(outlier.row);
+      std::sort(rows.begin(), rows.end());
+      EXPECT_EQ(rows, (std::vector<Eigen::Index>{first, second}));
+    }
+  EXPECT_GT(pairs, 20);
+}
+
+TEST(FitChecks, TellWhetherFrictionGrowsWithTemperature) {
+  FitProblem problem = source_problem();
+  EXPECT_LT(growth_with_temperature(problem), 0.7);
+  problem.targets.parameters = problem.targets.parameters.colwise().reverse().eval();
+  EXPECT_GT(growth_with_temperature(problem), 1.4);
+  problem.targets.parameters.rowwise() = Eigen::RowVector3d(3.0, 1.4, 1e-3);
+  EXPECT_NEAR(growth_with_temperature(problem), 1.0, 1e-12);
 }
 
 TEST(FitChecks, TellHowFarAFitIsOffBetweenTheData) {
