@@ -56,6 +56,7 @@ RecorderConfig read_recorder(TomlSection section, const std::filesystem::path& f
   const char* state = std::getenv("STATE_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
   if (section.has("directory")) {
     recorder.directory = folder / section.text("directory");
+    doubt_folder(section, "directory", recorder.directory);
   } else if (state != nullptr && *state != '\0') {
     recorder.directory =
         std::filesystem::path(std::string_view(state).substr(0, std::string_view(state).find(':'))) /

@@ -1,9 +1,13 @@
 #include "daemon/config/config_doubts.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <span>
 #include <sstream>
+#include <system_error>
 
 #include "base/printable.h"
 #include "control/units.h"
@@ -124,6 +128,21 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
             << ": motions take what the torque allows and last longer than that limit promises";
     });
   return doubts;
+}
+
+void doubt_folder(const TomlSection& section, std::string_view key, const std::filesystem::path& folder) {
+  // The nearest that is there decides.
+  std::filesystem::path there = std::filesystem::absolute(folder).lexically_normal();
+  std::error_code error;
+  while (!std::filesystem::exists(std::filesystem::symlink_status(there, error)) && there.has_relative_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    section.warn(key,
+                 "nothing can be written there: " + there.string() + " is no folder; name another folder");
+  else if (::access(there.c_str(), W_OK | X_OK) != 0)
+    section.warn(key, "nothing can be written there by the user " + std::to_string(::geteuid()) + ": " +
+                          there.string() + ": " + std::generic_category().message(errno) +
+                          "; name another folder, or have this one made for the daemon's user");
 }
 
 void doubt_loop(const TomlSection& section, const LoopConfig& loop) {

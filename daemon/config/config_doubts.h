@@ -2,6 +2,7 @@
 // not refused, since some joint may want it; the daemon says so at its start, and strainwaved --check. Not real-time.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,5 +29,8 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
 
 /// Of [daemon], already read into `loop`.
 void doubt_loop(const TomlSection& section, const LoopConfig& loop);
+
+/// Of the folder that `key` names, which is made when something is written: that it cannot be made, or nothing written into it, by whoever asks.
+void doubt_folder(const TomlSection& section, std::string_view key, const std::filesystem::path& folder);
 
 }  // namespace strainwave

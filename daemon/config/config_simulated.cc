@@ -1,6 +1,8 @@
 #include "daemon/config/config_simulated.h"
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "base/input_error.h"
 #include "control/units.h"
@@ -92,6 +94,21 @@ HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInput
   return available;
 }
 
+// A joint that begins beyond its limits is at fault before anybody moves it. Where an incremental encoder begins says nothing of them.
+void refuse_beyond_limits(const TomlSection& section, double position_rad, const JointLimits& limits) {
+  const auto allowed = [&](double angle_rad) {
+    return angle_rad >= limits.position_min_rad && angle_rad <= limits.position_max_rad;
+  };
+  if (allowed(position_rad)) return;
+  std::ostringstream text;
+  text << "from " << number_text(limits.position_min_rad) << " to " << number_text(limits.position_max_rad)
+       << " is allowed, as joint.limits says (position_min_rad, position_max_rad)";
+  const double of_degrees_rad = position_rad * kTurn_rad / 360.0;
+  if (position_rad != 0.0 && allowed(of_degrees_rad))
+    text << std::setprecision(5) << "; if degrees are meant, write " << of_degrees_rad;
+  section.fail("initial_position_rad", text.str());
+}
+
 }  // namespace
 
 HomingInputs read_simulated_driver(TomlSection& section, double period_s, const std::filesystem::path& folder,
@@ -119,6 +136,8 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, const 
     section.fail("substeps", error.what());
   }
   config.incremental = section.boolean_or("incremental", config.incremental);
+  if (!config.incremental)
+    refuse_beyond_limits(section, config.plant.initial_position_rad, joint.loop.limits);
   const HomingInputs available = read_inputs(section, joint.plant.gear_ratio, config.inputs);
   config.ambient = read_ambient(section, folder);
   config.load_torque_Nm = read_load(section, folder);

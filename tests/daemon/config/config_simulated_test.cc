@@ -32,6 +32,18 @@ TEST_F(SimulatedConfigTest, TellsTheControllerWhatIsTrueOfTheDriveUnlessToldOthe
                   {"joint[0].simulated.delay_periods", "0 to 8"});
 }
 
+TEST_F(SimulatedConfigTest, RefusesToBeginBeyondThePositionLimits) {
+  const auto beginning_at = [](const std::string& position, const std::string& keys = "") {
+    return joint_with(link(""), "initial_position_rad = " + position + "\n" + keys);
+  };
+  EXPECT_NO_THROW(read(beginning_at("3.2")));
+  const std::string refusal = error_of(beginning_at("90"));
+  expect_mentions(refusal, {"joint[0].simulated.initial_position_rad = 90", "from -3.2 to 3.2 is allowed",
+                            "position_max_rad", "if degrees are meant, write 1.5708"});
+  EXPECT_EQ(error_of(beginning_at("-1000")).find("degrees"), std::string::npos) << "nor are they allowed";
+  EXPECT_NO_THROW(read(beginning_at("90", "incremental = true\n"))) << "where it is it says after homing";
+}
+
 TEST_F(SimulatedConfigTest, RefusesAnEncoderOfTheLinkWithGainsForTheMotorsSide) {
   EXPECT_NO_THROW(read(joint_with(link(kEncoder)))) << "a second one beside the motor's";
   const std::string fed_back = link(std::string(kEncoder) + "feedback = true\n");

@@ -1,5 +1,6 @@
 // The keys of groups, the flight recorder, injected faults and the temperature's period.
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <string>
 
@@ -59,6 +60,27 @@ TEST_F(RecorderConfigTest, ReadsTheRecorderWithPathsBesideTheConfiguration) {
   EXPECT_EQ(recorder.seconds, 2.0);
   EXPECT_EQ(recorder.post_trigger_s, 0.2) << "a tenth, unless said otherwise";
   EXPECT_EQ(recorder.max_files, 7);
+}
+
+TEST_F(RecorderConfigTest, DoubtsADirectoryInWhichNothingCanBeWritten) {
+  const auto doubts = [&](const std::string& directory) {
+    std::string text;
+    for (const std::string& warning :
+         read(joint("a") + "[recorder]\ndirectory = \"" + directory + "\"\n").warnings)
+      text += warning;
+    return text;
+  };
+  EXPECT_EQ(doubts("not/made/yet"), "");
+  std::ofstream(folder_ / "file") << "no folder";
+  expect_mentions(doubts("file/records"), {"recorder.directory = \"file/records\"", "/file is no folder"});
+  // Root may write everywhere, unless the file system refuses it.
+  const std::filesystem::path closed = folder_ / "closed";
+  std::filesystem::create_directory(closed);
+  std::filesystem::permissions(closed,
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  if (::access(closed.c_str(), W_OK) == 0) return;
+  expect_mentions(doubts("closed/records"),
+                  {"recorder.directory = \"closed/records\"", "/closed: Permission denied"});
 }
 
 TEST_F(RecorderConfigTest, RefusesRecordsThatDoNotFitIntoMemory) {
