@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 
+#include "base/saturated_sum.h"
 #include "lcmtypes/timing_buckets.h"
 #include "lcmtypes/vocabulary.h"
 #include "telemetry/fleet.h"
@@ -52,12 +52,6 @@ constexpr std::array kDaemonMetrics{
 
 /// Every fourth bound, a factor of two, is enough for alerts; each would cost a series.
 constexpr std::size_t kStep = 4;
-
-/// Of counts that are not negative (fleet.h), which may be as large as a message can say.
-std::int64_t saturated_sum(std::int64_t a, std::int64_t b) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  return a > kMost - b ? kMost : a + b;
-}
 
 void expose_histogram(Exposition& page, std::string_view prefix, std::span<const std::int64_t> counts) {
   std::int64_t below = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/saturated_sum.h"
 #include "client/link/orders.h"
 #include "client/text/text.h"
 #include "client/watch/help.h"
@@ -36,7 +37,7 @@ std::string fitting(const std::array<std::string, kCount>& parts, std::string_vi
 void draw_daemon(const WatchedDaemon& daemon, Screen& screen, int row) {
   const timing_v1& timing = daemon.timing;
   std::int64_t refused = 0;
-  for (const std::int64_t count : timing.rejects) refused += count;
+  for (const std::int64_t count : timing.rejects) refused = saturated_sum(refused, count);
   const bool silent = daemon.age_s > kDaemonSilence_s;
   const std::array<std::string, 5> parts{
       fmt::format("{}: {}{} at {:g} ms", daemon.prefix,

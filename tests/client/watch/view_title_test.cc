@@ -1,6 +1,9 @@
 // The first line of watch: an alarm, if there is one, and as much else as fits.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "client/watch/view.h"
 #include "lcmtypes/vocabulary.h"
 
@@ -24,6 +27,13 @@ TEST(WatchTitle, SaysWhoIsInTroubleBeforeAnythingElseOnANarrowScreen) {
   EXPECT_EQ(render(many, 12, 39).text(0), "FAULT or SILENCE: joint2 and 2 more");
   EXPECT_EQ(render(many, 12, 40).text(0), "FAULT or SILENCE: joint2, joint4, joint5");
   EXPECT_EQ(render(many, 12, 30).text(0).substr(0, 23), "FAULT or SILENCE: joint");
+}
+
+TEST(WatchTitle, CountsNoFurtherThanANumberGoes) {
+  WatchModel one;
+  one.daemons.push_back({"SW", {}, 0.1});
+  for (std::int64_t& count : one.daemons[0].timing.rejects) count = std::numeric_limits<std::int64_t>::max();
+  EXPECT_NE(render(one, 24, 120).text(1).find("9223372036854775807 refused"), std::string::npos);
 }
 
 }  // namespace
