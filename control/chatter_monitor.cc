@@ -121,6 +121,7 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
       level_ += kLandingWeight;
     surprised_ = false;
   }
+  if (sample.turned_back) level_ += 1.0;
   if (sample.swung_over && sample.compensates_friction && !sample.landing && rest_s_ >= kSettled_s)
     swing_level_ += 1.0;
   const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare));

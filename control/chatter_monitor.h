@@ -23,6 +23,9 @@
 // A joint that swings about its place while friction is compensated towards it, long after the reference has come to rest, is driven by that: more
 // is compensated than it has. Its swings count in a level of their own, and three sides on end are enough.
 //
+// A joint that swings past its target and is planned back to it, time and again, reverses as it is planned to. Each new plan from the other side
+// counts as a strong reversal: a sound joint makes none.
+//
 // Single pushes of a landing reverse by design: one counts only when the encoder has contradicted the model
 // since the one before, and then a third.
 #pragma once
@@ -49,6 +52,8 @@ struct ChatterSample {
   bool reference_rests = false;
   /// The joint has come over to the other side of where it is to rest, by more than a push for the last counts leaves.
   bool swung_over = false;
+  /// A new plan from where the joint is has begun on the other side of the target than the last one.
+  bool turned_back = false;
   bool landing = false;
   bool surprised = false;  ///< the encoder's reading contradicted the model
   int elapsed_periods = 1;

@@ -20,6 +20,9 @@ constexpr double kOnStream_rad = 2e-6;
 constexpr double kLeastFrictionShare = 1e-4;  // of the torque limit
 // Share of its gains that a law keeps which chatters on by itself. Softer ones are not certified; the certified ones shake the joint.
 constexpr double kSoftShare = 0.25;
+// Way over which friction is taken to come up again once a stream has turned round: what is streamed may flicker by a count, as it is
+// some encoder's reading.
+constexpr double kTurnCounts = 2.0;
 
 double least_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   double least_Nm = friction.rules.front().friction.static_Nm;
@@ -85,6 +88,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       landing_(landing_config(config)),
       corrections_(config.period_s, count_rad()),
       monitor_(config.period_s),
+      friction_side_(kTurnCounts * count_rad()),
       rest_detector_(config.encoder_resolution_rad),
       motion_(motion_limits(config)) {
   config_.motion = motion_;
@@ -145,6 +149,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
   plans_ = 0;
+  plan_side_ = 0;
   replans_ = 0;
   attempts_.reset();
   monitor_.reset();
@@ -178,6 +183,7 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   shaper_.set_target(position_rad);
   ordered_.set_target(position_rad);
   plans_ = 0;
+  plan_side_ = 0;
   if (repeated)
     corrections_.trust_anew();
   else
@@ -207,8 +213,9 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!has_table_) return {};
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
   choose_gains(measurement);
-  // Of the motion until now.
-  const bool planned = phase_ == MotionPhase::kTracking && torque_is_planned();
+  // Of the motion until now: a plan's, or a push that ends on the target.
+  const bool planned =
+      phase_ == MotionPhase::kLanding || (phase_ == MotionPhase::kTracking && torque_is_planned());
   state_.step(measurement, loaded_model(),
               observing() ? EstimateSource::kObserver : EstimateSource::kReadings,
               planned ? SurpriseCause::kFriction : SurpriseCause::kLoad);
@@ -216,6 +223,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
     go_on_yielding(elapsed_periods);
   else if (!goes_on_anew(measurement))
     advance_reference(elapsed_periods);
+  follow_friction(elapsed_periods);
   if (!yields()) choose_phase(measurement);
   ControllerOutput output = compute_torque(measurement);
   hand_over(output);

@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "control/chatter_monitor.h"
+#include "control/friction_side.h"
 #include "control/gain_table.h"
 #include "control/gains_in_use.h"
 #include "control/jerk_limit.h"
@@ -186,8 +187,13 @@ class JointController {
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
   double planned_torque_Nm() const noexcept;
+  double planned_friction_Nm() const noexcept;
+  void follow_friction(int elapsed_periods) noexcept;
+  double planned_velocity_rad_s() const noexcept;
   bool swings_over(double off_rad, double near_rad) noexcept;
   bool reference_moves() const noexcept;
+  /// What it follows may flicker about a place.
+  bool may_dither() const noexcept { return streamed_ && on_time_ == OnTime::kJoint; }
   double estimated_load_Nm() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
@@ -228,6 +234,7 @@ class JointController {
   LandingAttempts attempts_;
   LinkCorrections corrections_;
   ChatterMonitor monitor_;
+  FrictionSide friction_side_;  ///< of a stream
   RestDetector rest_detector_;
   ScheduledController primary_;
   ScheduledController fallback_;
@@ -256,14 +263,17 @@ class JointController {
   double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
   int replans_ = 0;                    ///< since start()
   int plans_ = 0;                      ///< new ones since the target or the phase changed
+  int plan_side_ = 0;                  ///< of the target, on which the last of them began; 0: none yet
   int away_periods_ = 0;               ///< that a resting joint has been off its target
   int side_ = 0;        ///< of the reference, on which the joint was last, beyond the last counts
   bool swung_ = false;  ///< over to the other, in this period
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
+  bool turned_back_ = false;  ///< a new plan has begun on the other side than the last, in this period
   bool has_table_ = false;
   bool replan_ = false;    ///< the reference begins anew from where the joint is
   bool streamed_ = false;  ///< the reference follows stream_
+  OnTime on_time_ = OnTime::kJoint;
   StreamTarget::Confinement confined_ = 0;
   StreamTarget::Confinement ordered_confined_ = 0;
   bool soft_ = false;  ///< after the fallback, where chatter went on: with softer gains

@@ -25,7 +25,7 @@ void JointController::advance_link(int elapsed_periods) noexcept {
     const double speed_rad_s = motor_plan_.acting_velocities_rad_s.back();
     const double taken_Nm = sign(speed_rad_s) * state_.model().friction_Nm(speed_rad_s) +
                             state_.now().disturbance.load_Nm + told_load_.torque_Nm +
-                            told_load_.inertia_kgm2 * motor_plan_.acting_acceleration_rad_s2;
+                            told_load_.inertia_kgm2 * motor_plan_.wanted_acceleration_rad_s2;
     const auto available_Nm = [&](double along_rad_s) {
       return std::min(torque_limit_Nm_, config_.motor.available_Nm(along_rad_s));
     };

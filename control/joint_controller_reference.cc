@@ -2,6 +2,7 @@
 // its next sample.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "control/joint_controller.h"
 
@@ -27,6 +28,7 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
                              const PositionRange& range, OnTime on_time) noexcept {
   limit_speed(speed_limit_rad_s);
   stream_range_ = range;
+  on_time_ = on_time;
   if (!streamed_ || begins) {
     const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
     if (!begins && stream_.ended())
@@ -44,7 +46,8 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
 
 double JointController::stream_lead_s() const noexcept {
   if (!config_.use_shaping) return 0.0;
-  const double delay_s = config_.delay_periods * config_.period_s;
+  // Without a model of the joint the law follows the reading of now.
+  const double delay_s = observing() || linked() ? config_.delay_periods * config_.period_s : 0.0;
   const double jerk_s = jerk_limit_ ? jerk_limit_->lag_s() : 0.0;
   return delay_s + jerk_s + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
 }
@@ -73,6 +76,8 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
       begin_plan(state_.then().position_rad, std::clamp(state_.then().velocity_rad_s, -fastest, fastest));
       ++replans_;
       replan_ = false;
+      const int side = state_.then().position_rad > shaper_.target_rad() ? 1 : -1;
+      turned_back_ = !streamed_ && std::exchange(plan_side_, side) == -side;
     }
     limit_reference(shaper_);
     limit_reference(ordered_);

@@ -129,22 +129,44 @@ double JointController::held_load_Nm() const noexcept {
   return estimated_load_Nm() + told_load_.torque_Nm;
 }
 
-// Inertia at the reference's acceleration, friction at its speed in the middle of the period, load.
-double JointController::planned_torque_Nm() const noexcept {
+// In the middle of the period over which the torque of now will act.
+double JointController::planned_velocity_rad_s() const noexcept {
+  return linked() ? motor_plan_.acting_velocities_rad_s[1]
+                  : reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
+}
+
+// Where a plan turns round it goes on.
+void JointController::follow_friction(int elapsed_periods) noexcept {
+  if (may_dither() && torque_is_planned())
+    friction_side_.move(elapsed_periods * config_.period_s * planned_velocity_rad_s(),
+                        stream_.way_ahead_rad());
+  else
+    friction_side_.reset();
+}
+
+double JointController::planned_friction_Nm() const noexcept {
+  // What is less than all of it is that of a dither.
+  const bool shared = may_dither() && std::abs(friction_side_.share()) < 1.0;
   if (linked()) {
     const auto [begin, middle, end] = motor_plan_.acting_velocities_rad_s;
     const double friction_Nm = 0.5 * (state_.model().friction_along_Nm(begin, middle) +
                                       state_.model().friction_along_Nm(middle, end));
-    return motor_plan_.torque_Nm + friction_Nm + state_.now().disturbance.load_Nm + told_load_.torque_Nm +
-           told_load_.inertia_kgm2 * motor_plan_.acting_acceleration_rad_s2;
+    return shared ? friction_side_.share() * std::abs(friction_Nm) : friction_Nm;
   }
-  const double velocity = reference_.velocity_rad_s + 0.5 * config_.period_s * reference_.acceleration_rad_s2;
   // Of friction that turned out to be more than the joint has, nothing is believed.
+  if (monitor_.drives_itself()) return 0.0;
+  const double velocity = planned_velocity_rad_s();
   const double friction_Nm =
-      monitor_.drives_itself()
-          ? 0.0
-          : std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
-  return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + sign(velocity) * friction_Nm +
+      std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
+  return (shared ? friction_side_.share() : sign(velocity)) * friction_Nm;
+}
+
+// Inertia at the reference's acceleration, friction, load.
+double JointController::planned_torque_Nm() const noexcept {
+  if (linked())
+    return motor_plan_.torque_Nm + planned_friction_Nm() + state_.now().disturbance.load_Nm +
+           told_load_.torque_Nm + told_load_.inertia_kgm2 * motor_plan_.wanted_acceleration_rad_s2;
+  return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + planned_friction_Nm() +
          state_.now().disturbance.load_Nm + config_.gravity.at(reference_.position_rad) +
          told_load_.torque_Nm;
 }
@@ -222,6 +244,7 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   if (linked()) sample.innovation_Nm = output.feedback_torque_Nm;
   sample.reference_rests = !moves;
   sample.swung_over = std::exchange(swung_, false);
+  sample.turned_back = std::exchange(turned_back_, false);
   sample.landing = phase_ == MotionPhase::kLanding;
   sample.surprised = state_.now().surprised;
   sample.elapsed_periods = elapsed_periods;

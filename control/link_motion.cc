@@ -176,10 +176,13 @@ MotorPlan LinkMotion::step(const Reference& planned, const TorqueRange& possible
   const bool ended = wanted_end.motor_velocity_rad_s == 0.0 && wanted_.motor_velocity_rad_s == 0.0 &&
                      wanted_end.motor_position_rad == wanted_.motor_position_rad;
   follow(momentum_Nms / h + gravity_Nm, possible, taken_Nm);
+  const double wanted_rad_s2 = (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s) / h;
   wanted_ = wanted_end;
   yield(ended);
   if (ended) settle();
-  return plan();
+  MotorPlan plan = this->plan();
+  plan.wanted_acceleration_rad_s2 = wanted_rad_s2;
+  return plan;
 }
 
 }  // namespace strainwave

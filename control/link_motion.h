@@ -56,6 +56,7 @@ struct MotorPlan {
   double torque_Nm = 0.0;                           ///< of motor, link and gravity, without friction
   std::array<double, 3> acting_velocities_rad_s{};  ///< the motor's at its begin, middle and end
   double acting_acceleration_rad_s2 = 0.0;          ///< mean of the motor's
+  double wanted_acceleration_rad_s2 = 0.0;  ///< mean of the link's, by the motion that it follows alone
 };
 
 /// The wind-up as a smooth function of the torque: the first slope's compliance at zero, the last one's far out, and there the

@@ -14,6 +14,10 @@ constexpr double kLeastAhead_s = 0.02;
 // What is bridged when samples are missing.
 constexpr double kBridgedIntervals = 2.0;
 constexpr double kLongestBridge_s = 0.2;
+// Share of the room beyond the samples in which a target is back.
+constexpr double kBack = 0.5;
+// Far below any encoder's count.
+constexpr double kRounding_rad = 1e-9;
 }  // namespace
 
 void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead_periods,
@@ -30,7 +34,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   to_ = {now_, position_rad, velocity_rad_s, 0.0};
   to_.due = now_;
   from_ = to_;
-  waiting_count_ = 0;
+  waiting_.clear();
   interval_ = 0.0;
   arrivals_ = 0;
   caught_up_at_ = now_;
@@ -57,12 +61,12 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   if (sample.in_periods > 0) {
     knot.at += static_cast<double>(sample.in_periods);
   } else {
-    clock_in();
+    clock_in(sample.position_rad);
     knot.at = arrival_;
   }
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
-  if (waiting_count_ == 0 && now_ > to_.at && !to_.rests()) missed_ = true;
+  if (waiting_.empty() && now_ > to_.at && !to_.rests()) missed_ = true;
   if (std::exchange(missed_, false) && past_count_ > 0) catch_up_in(knot.at - past_[0].at);
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
   const Knot* last = sample_before(knot.at);
@@ -77,10 +81,11 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
     const double mean_rad_s2 = last != nullptr ? (knot.velocity_rad_s - last->velocity_rad_s) / mean_s_ : 0.0;
     if (std::abs(knot.acceleration_rad_s2 - mean_rad_s2) > reach_.acceleration_rad_s2) sample.derivatives = 1;
   }
+  knot.moving = sample.derivatives > 0;
   estimate_derivatives(sample, before, knot);
   remember(knot);
   if (sample.in_periods > 0) return queue(sample, knot);
-  waiting_count_ = 0;
+  waiting_.clear();
   lead_to(carried_forward(sample, knot, lead_ + least_ahead()));
 }
 
@@ -103,7 +108,9 @@ void StreamTarget::catch_up_in(double periods) noexcept {
 StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, const Knot& knot,
                                                  double least_ahead) const noexcept {
   const double interval = expected_interval();
-  const double ahead = std::max(least_ahead, caught_up_at_ - knot.at);
+  // One that was held up has its time behind it.
+  const double late = present() - knot.at > interval ? present() - knot.at : 0.0;
+  const double ahead = std::max(late + least_ahead, caught_up_at_ - knot.at);
   const double lag = sample.derivatives == 0 ? std::clamp(least_ahead, 0.0, interval) : 0.0;
   const double carried_s = knot.velocity_rad_s == 0.0 ? 0.0 : seconds(ahead - lag);
   // The jerk matters to slow streams; in fast ones it would be their noise.
@@ -124,21 +131,11 @@ StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, con
   return carried;
 }
 
-// What the motion went wrong where it was carried on is put right as slowly as for an untimed knot.
-void StreamTarget::queue(const StreamSample& sample, const Knot& knot) noexcept {
-  interval_ = past_count_ >= 2 ? past_[0].at - past_[1].at : knot.at - present();
-  if (past_count_ >= 3) interval_ = std::min(interval_, past_[1].at - past_[2].at);
-  arrivals_ = 0;
-  const bool follows = !to_.carried && knot.at > to_.at && now_ <= to_.at + 0.5 && knot.at >= now_ + 1.0;
-  if (waiting_count_ == 0 && !follows) {
-    const double ahead = now_ + least_ahead() - knot.at;
-    return lead_to(std::max(ahead, caught_up_at_ - knot.at) > 0.0 ? carried_forward(sample, knot, ahead)
-                                                                  : knot);
-  }
-  if (waiting_count_ == 0 && now_ >= to_.at) return lead_to(knot);
-  if (waiting_count_ == kKnots) return;  // the sender is too far ahead; the knots it sends later will do
-  waiting_[waiting_count_] = knot;
-  ++waiting_count_;
+double StreamTarget::way_ahead_rad() const noexcept {
+  const Knot& last = waiting_.empty() ? to_ : waiting_.last();
+  const double way_rad = last.position_rad - state_.position_rad;
+  if (!last.moving) return way_rad;
+  return way_rad + kLeastAhead_s * (last.velocity_rad_s + 0.5 * kLeastAhead_s * last.acceleration_rad_s2);
 }
 
 // What comes to rest where it is told to rest again does so: begun anew with each sample it would never be there, and what rounding leaves
@@ -146,16 +143,38 @@ void StreamTarget::queue(const StreamSample& sample, const Knot& knot) noexcept 
 void StreamTarget::lead_to(const Knot& knot) noexcept {
   lead_load_to(knot);
   if (knot.carried && knot.rests() && to_.rests() && knot.position_rad == to_.position_rad) return;
+  if (knot.rests() && rests_at(knot)) state_ = {knot.position_rad, 0.0, 0.0};
   from_ = {now_, state_.position_rad, state_.velocity_rad_s, state_.acceleration_rad_s2};
   to_ = knot;
   const double duration_s = seconds(to_.at - from_.at);
-  if (std::abs(to_.position_rad - from_.position_rad) <= kReach * reach_.velocity_rad_s * duration_s) return;
+  const bool near =
+      std::abs(to_.position_rad - from_.position_rad) <= kReach * reach_.velocity_rad_s * duration_s;
+  if (near && !(alone() && hurries())) return;
   // A new place: the target passes through the knot at its speed as if it always had.
   to_.acceleration_rad_s2 = 0.0;
   from_ = to_;
   from_.at = now_;
   from_.position_rad -= duration_s * to_.velocity_rad_s;
   state_ = {from_.position_rad, from_.velocity_rad_s, 0.0};
+}
+
+// To a rest from a motion that there is no time to end: a move does so better.
+bool StreamTarget::hurries() const noexcept {
+  constexpr int kParts = 8;
+  if (!to_.rests()) return false;
+  for (int part = 0; part < kParts; ++part) {
+    const double at = from_.at + (to_.at - from_.at) * part / kParts;
+    if (std::abs(between(at).acceleration_rad_s2) > reach_.acceleration_rad_s2) return true;
+  }
+  return false;
+}
+
+// But for what rounding, and a way that was begun anew time and again, leave of it.
+bool StreamTarget::rests_at(const Knot& knot) const noexcept {
+  const double left_s = seconds(knot.at - now_);
+  const double velocity_rad_s = state_.velocity_rad_s + left_s * state_.acceleration_rad_s2;
+  return std::abs(knot.position_rad - state_.position_rad) <= kRounding_rad &&
+         left_s * std::max(std::abs(state_.velocity_rad_s), std::abs(velocity_rad_s)) <= kRounding_rad;
 }
 
 MovingTarget StreamTarget::step() noexcept {
@@ -166,27 +185,46 @@ MovingTarget StreamTarget::step() noexcept {
   return {begin.position_rad, begin.velocity_rad_s, state_.position_rad, state_.velocity_rad_s, load_};
 }
 
+// Where the samples are: the last ones, and all that lie ahead.
+StreamTarget::Hull StreamTarget::known() const noexcept {
+  Hull hull = hull_;
+  if (waiting_.empty()) return hull;
+  hull.widen(waiting_.hull());
+  if (!to_.carried) hull.widen(to_);
+  return hull;
+}
+
 MovingTarget StreamTarget::confined(const MovingTarget& target, double position_rad, double velocity_rad_s,
                                     Confinement& way) const noexcept {
   const int moves = (velocity_rad_s > 0.0) - (velocity_rad_s < 0.0);
-  if (moves != way) way = 0;
-  if (past_count_ == 0 || moves == 0) return target;
+  const int out = way != 0 ? way : moves;
+  // The motion to one sample ends there by itself.
+  if (past_count_ == 0 || alone() || out == 0) {
+    way = 0;
+    return target;
+  }
   // Where the motion was carried on, and until it has caught up, it has the speed that its acceleration made of the samples'.
   const double carried_rad_s = now_ > to_.at          ? std::abs(target.velocity_rad_s)
                                : now_ < caught_up_at_ ? std::abs(to_.velocity_rad_s)
                                                       : 0.0;
-  const double fastest_rad_s = std::min(std::max(hull_.fastest_rad_s, carried_rad_s), reach_.velocity_rad_s);
+  const Hull known = this->known();
+  const double fastest_rad_s = std::min(std::max(known.fastest_rad_s, carried_rad_s), reach_.velocity_rad_s);
   const double since_s = std::max(0.0, seconds(std::max(now_, caught_up_at_) - past_[0].at));
   // Who catches up with the target is faster than it, and brakes to its speed only.
-  const double speed_rad_s = std::abs(velocity_rad_s);
-  const double with_rad_s = std::clamp(moves * target.velocity_rad_s, 0.0, speed_rad_s);
+  const double speed_rad_s = std::max(0.0, out * velocity_rad_s);
+  const double with_rad_s = std::clamp(out * target.velocity_rad_s, 0.0, speed_rad_s);
   const double braking_rad2_s2 =
       std::max(fastest_rad_s * fastest_rad_s, with_rad_s * (2.0 * speed_rad_s - with_rad_s));
   const double room_rad = fastest_rad_s * (since_s + 0.5 * seconds(interval_)) +
                           0.5 * braking_rad2_s2 / reach_.acceleration_rad_s2;
   const double rest_rad = position_rad + 0.5 * velocity_rad_s * speed_rad_s / reach_.acceleration_rad_s2;
-  const double edge_rad = moves > 0 ? hull_.high_rad : hull_.low_rad;
-  if (moves * (rest_rad - edge_rad) > room_rad) way = moves;
+  const double edge_rad = out > 0 ? known.high_rad : known.low_rad;
+  // A target that is still out there would be left and gone after again, in turns.
+  const bool beyond = out * (target.next_position_rad - edge_rad) > kBack * room_rad;
+  if (moves == out && out * (rest_rad - edge_rad) > room_rad)
+    way = out;
+  else if (moves != out && !beyond)
+    way = 0;
   if (way == 0) return target;
   return {edge_rad, 0.0, edge_rad, 0.0, target.load};
 }
@@ -207,16 +245,13 @@ ToldLoad StreamTarget::load_at(double period) const noexcept {
 }
 
 StreamTarget::State StreamTarget::at(double period) noexcept {
-  while (period > to_.at && waiting_count_ > 0) {
+  while (period > to_.at && !waiting_.empty()) {
     from_ = to_;
-    to_ = waiting_[0];
+    to_ = waiting_.pop();
     load_from_ = load_to_;
     load_to_ = to_.load;
     load_from_at_ = from_.at;
     load_to_at_ = to_.at;
-    std::copy(waiting_.begin() + 1, waiting_.begin() + static_cast<std::ptrdiff_t>(waiting_count_),
-              waiting_.begin());
-    --waiting_count_;
   }
   ended_ = ended_ || (to_.velocity_rad_s != 0.0 && seconds(period - to_.due) > longest_bridge_s());
   return period <= to_.at ? between(period) : beyond(period);

@@ -22,7 +22,7 @@
 //   missed              a motion that was carried on, or has ended, and goes on, is caught up with in the time since its last sample, 0.2 s at
 //                       most: until then every knot is carried forward to the end of that time
 //   confined            who follows at speed v and could not come to rest before it is farther out than the last samples and what
-//                       their speed V takes since the last of them is led to rest there until it has turned:
+//                       their speed V takes since the last of them is led to rest there until it has turned and the target is back:
 //                         V (now - t) + V T / 2 + max(V^2, w (2 v - w)) / 2A,  w the target's speed
 //                       where the motion was carried on and has not caught up yet, V is no less than what it was carried on with, and `now` the
 //                       end of catching up
@@ -32,8 +32,12 @@
 //                       whoever follows goes there as fast as the joint may
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 namespace strainwave {
 
@@ -87,6 +91,8 @@ class StreamTarget {
   void take(const StreamSample& sample, const Reach& reach) noexcept;
   /// The target of the period that begins now; time goes on by one period.
   MovingTarget step() noexcept;
+  /// From where the target is now to where the samples take it, as far as they are known: with a velocity for some time beyond the last.
+  double way_ahead_rad() const noexcept;
   /// Which way a follower of the target is confined: 1 up, -1 down, 0 not.
   using Confinement = int;
   /// `target`, the one of this period, for a follower that is at this place with this velocity.
@@ -96,10 +102,12 @@ class StreamTarget {
   bool ended() const noexcept { return ended_; }
 
  private:
-  static constexpr std::size_t kKnots = 32;  ///< that may lie in the future
-  static constexpr std::size_t kPast = 24;   ///< samples that velocities are estimated from
+  static constexpr std::size_t kKnots = 1024;  ///< that may lie in the future: a second of 1 kHz
+  static constexpr std::size_t kPast = 24;     ///< samples that velocities are estimated from
   /// Multiple of a limit that a motion may need: one that needs more is a new place.
   static constexpr double kReach = 2.0;
+  /// Velocities are estimated from positions that are at least so far apart.
+  static constexpr double kApart_s = 0.01;
   struct Knot {
     double at = 0.0;  ///< period
     double position_rad = 0.0;
@@ -108,9 +116,74 @@ class StreamTarget {
     double jerk_rad_s3 = 0.0;  ///< as three samples show it
     ToldLoad load{};
     double sent_rad_s = 0.0;  ///< the velocity that came with it, believed or not
+    bool moving = false;      ///< one came with it, and is believed
     bool carried = false;     ///< forward: not what was sent
     double due = 0.0;  ///< period: from then on the next sample is missed; before `at` only while catching up
     bool rests() const noexcept { return velocity_rad_s == 0.0 && acceleration_rad_s2 == 0.0; }
+  };
+  /// Where some samples are.
+  struct Hull {
+    double low_rad = std::numeric_limits<double>::infinity();
+    double high_rad = -std::numeric_limits<double>::infinity();
+    double fastest_rad_s = 0.0;  ///< >= 0
+    void widen(const Knot& knot) noexcept {
+      low_rad = std::min(low_rad, knot.position_rad);
+      high_rad = std::max(high_rad, knot.position_rad);
+      fastest_rad_s = std::max(fastest_rad_s, std::abs(knot.velocity_rad_s));
+    }
+    void widen(const Hull& hull) noexcept {
+      low_rad = std::min(low_rad, hull.low_rad);
+      high_rad = std::max(high_rad, hull.high_rad);
+      fastest_rad_s = std::max(fastest_rad_s, hull.fastest_rad_s);
+    }
+  };
+  /// First in, first out; what is too much takes the place of the last.
+  class Queue {
+   public:
+    bool empty() const noexcept { return count_ == 0; }
+    void clear() noexcept {
+      count_ = 0;
+      begin_hull();
+      older_ = {};
+    }
+    /// Of all that wait, and of as many before them at most.
+    Hull hull() const noexcept {
+      Hull all = older_;
+      all.widen(newer_);
+      return all;
+    }
+    const Knot& last() const noexcept { return knots_[(first_ + count_ - 1) % kKnots]; }
+    /// Before the last; not of fewer than two.
+    const Knot& last_but_one() const noexcept { return knots_[(first_ + count_ - 2) % kKnots]; }
+    std::size_t size() const noexcept { return count_; }
+    void push(const Knot& knot) noexcept {
+      count_ = std::min(count_ + 1, kKnots);
+      replace_last(knot);
+    }
+    void replace_last(const Knot& knot) noexcept {
+      knots_[(first_ + count_ - 1) % kKnots] = knot;
+      newer_.widen(knot);
+    }
+    Knot pop() noexcept {
+      const Knot& first = knots_[first_];
+      first_ = (first_ + 1) % kKnots;
+      --count_;
+      if (older_left_ == 0 || --older_left_ == 0) begin_hull();
+      return first;
+    }
+
+   private:
+    /// All that wait are of the newer one, and the older one's are gone.
+    void begin_hull() noexcept {
+      older_ = std::exchange(newer_, Hull{});
+      older_left_ = count_;
+    }
+    std::array<Knot, kKnots> knots_{};
+    std::size_t first_ = 0;
+    std::size_t count_ = 0;
+    Hull older_;
+    Hull newer_;
+    std::size_t older_left_ = 0;  ///< of its knots, still waiting
   };
   struct State {
     double position_rad = 0.0;
@@ -122,17 +195,12 @@ class StreamTarget {
     const Knot* last = nullptr;
     const Knot* first = nullptr;  ///< before `last`
   };
-  /// Where the last samples are.
-  struct Hull {
-    double low_rad = 0.0;
-    double high_rad = 0.0;
-    double fastest_rad_s = 0.0;  ///< >= 0
-  };
   ToldLoad load_at(double period) const noexcept;
   double seconds(double periods) const noexcept { return periods * period_s_; }
   double expected_interval() const noexcept;
   bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
-  void clock_in() noexcept;
+  void clock_in(double position_rad) noexcept;
+  double intervals_in(double gap, double position_rad) const noexcept;
   void remember(const Knot& knot) noexcept;
   const Knot* sample_before(double period) const noexcept;
   void estimate_derivatives(const StreamSample& sample, const Before& before, Knot& knot) noexcept;
@@ -143,11 +211,17 @@ class StreamTarget {
   double present() const noexcept { return now_ - lead_; }
   void derive_from_positions(const Before& before, Knot& knot) noexcept;
   void lead_to(const Knot& knot) noexcept;
+  bool rests_at(const Knot& knot) const noexcept;
+  bool crowds(const Knot& knot) const noexcept;
+  bool hurries() const noexcept;
+  /// One sample has no speed.
+  bool alone() const noexcept { return past_count_ == 1; }
   void lead_load_to(const Knot& knot) noexcept;
   State at(double period) noexcept;
   State between(double period) const noexcept;
   State beyond(double period) const noexcept;
   double longest_bridge_s() const noexcept;
+  Hull known() const noexcept;
 
   double period_s_;
   double bridge_s_;
@@ -162,8 +236,7 @@ class StreamTarget {
   Knot from_;  ///< the quintic's begin ...
   Knot to_;    ///< ... and end
   Reach reach_;
-  std::array<Knot, kKnots> waiting_{};  ///< knots after to_, by time
-  std::size_t waiting_count_ = 0;
+  Queue waiting_;                   ///< knots after to_, by time
   double mean_rad_s_ = 0.0;         ///< from the last sample but one to the last
   double mean_s_ = 0.0;             ///< the time between them; 0: there is but one
   double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come

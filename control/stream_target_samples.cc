@@ -1,6 +1,7 @@
 // What StreamTarget makes of a sample: its time, its derivatives, and whether they may be believed.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/stream_target.h"
 
@@ -12,8 +13,8 @@ namespace {
 // over some forty.
 constexpr double kLeastArrivalGain = 0.05;
 constexpr double kLeastIntervalGain = 0.00125;
-// Velocities are estimated from positions that are at least so far apart.
-constexpr double kApart_s = 0.01;
+// For longer than this nobody is held up, and no motion goes on as it was.
+constexpr double kLongestHoldUp_s = 0.06;
 // A velocity may differ from that of the positions by these shares of the limit (the less, the farther apart the samples are) and of
 // itself, for what arrivals do to times, and by what acceleration makes of it meanwhile: so many times the positions' own.
 constexpr double kDoubtOfLimit = 0.02;
@@ -54,8 +55,26 @@ bool StreamTarget::contradicts_itself(const Knot& knot, const Before& before) co
          std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s;
 }
 
-// Samples that were lost on the way leave whole intervals out.
-void StreamTarget::clock_in() noexcept {
+// Samples that were lost on the way leave whole intervals out; those that were held up do not. Where a sample lies tells which it is: it
+// is the one that its motion brings nearest.
+double StreamTarget::intervals_in(double gap, double position_rad) const noexcept {
+  const double most = std::max(1.0, std::round(gap / interval_));
+  if (past_count_ < 2 || past_[0].velocity_rad_s == 0.0 || seconds(gap) > kLongestHoldUp_s) return most;
+  double intervals = most;
+  double least_rad = std::numeric_limits<double>::infinity();
+  for (double n = most; n >= 1.0; n -= 1.0) {
+    const double s = seconds(n * interval_);
+    const double off_rad =
+        std::abs(past_[0].position_rad +
+                 s * (past_[0].velocity_rad_s + 0.5 * s * past_[0].acceleration_rad_s2) - position_rad);
+    if (off_rad >= least_rad) continue;
+    least_rad = off_rad;
+    intervals = n;
+  }
+  return intervals;
+}
+
+void StreamTarget::clock_in(double position_rad) noexcept {
   ++arrivals_;
   const double gap = present() - arrival_;
   if (arrivals_ <= 2) {
@@ -64,8 +83,9 @@ void StreamTarget::clock_in() noexcept {
     return;
   }
   const double n = arrivals_;
-  const double intervals = std::max(1.0, std::round(gap / interval_));
-  const double late = gap - intervals * interval_;
+  const double intervals = intervals_in(gap, position_rad);
+  // What was held up says nothing of the sender's clock.
+  const double late = std::min(gap - intervals * interval_, 0.5 * interval_);
   arrival_ +=
       intervals * interval_ + std::max(kLeastArrivalGain, 2.0 * (2.0 * n - 1.0) / (n * (n + 1.0))) * late;
   interval_ += std::max(kLeastIntervalGain, 6.0 / (n * (n + 1.0))) * late / intervals;
@@ -76,12 +96,8 @@ void StreamTarget::remember(const Knot& knot) noexcept {
   std::copy_backward(past_.begin(), past_.end() - 1, past_.end());
   past_[0] = knot;
   past_count_ = std::min(past_count_ + 1, kPast);
-  hull_ = {knot.position_rad, knot.position_rad, 0.0};
-  for (std::size_t i = 0; i < past_count_; ++i) {
-    hull_.low_rad = std::min(hull_.low_rad, past_[i].position_rad);
-    hull_.high_rad = std::max(hull_.high_rad, past_[i].position_rad);
-    hull_.fastest_rad_s = std::max(hull_.fastest_rad_s, std::abs(past_[i].velocity_rad_s));
-  }
+  hull_ = {};
+  for (std::size_t i = 0; i < past_count_; ++i) hull_.widen(past_[i]);
 }
 
 // The newest sample that is kApart_s older than `period`, or the oldest that there is.
@@ -136,6 +152,30 @@ void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexc
   }
   knot.velocity_rad_s = slope.rate;
   knot.acceleration_rad_s2 = slope.change;
+}
+
+// Whether the last that waits lies nearer to the one before than velocities are estimated from: their errors, over a shorter time, would be
+// accelerations.
+bool StreamTarget::crowds(const Knot& knot) const noexcept {
+  if (waiting_.empty()) return false;
+  const Knot& before = waiting_.size() > 1 ? waiting_.last_but_one() : to_;
+  return seconds(knot.at - before.at) <= kApart_s + 0.5 * period_s_;
+}
+
+// What the motion went wrong where it was carried on is put right as slowly as for an untimed knot.
+void StreamTarget::queue(const StreamSample& sample, const Knot& knot) noexcept {
+  interval_ = past_count_ >= 2 ? past_[0].at - past_[1].at : knot.at - present();
+  if (past_count_ >= 3) interval_ = std::min(interval_, past_[1].at - past_[2].at);
+  arrivals_ = 0;
+  const bool follows = !to_.carried && knot.at > to_.at && now_ <= to_.at + 0.5 && knot.at >= now_ + 1.0;
+  if (waiting_.empty() && !follows) {
+    const double ahead = now_ + least_ahead() - knot.at;
+    return lead_to(std::max(ahead, caught_up_at_ - knot.at) > 0.0 ? carried_forward(sample, knot, ahead)
+                                                                  : knot);
+  }
+  if (waiting_.empty() && now_ >= to_.at) return lead_to(knot);
+  if (sample.derivatives == 0 && crowds(knot)) return waiting_.replace_last(knot);
+  waiting_.push(knot);
 }
 
 }  // namespace strainwave

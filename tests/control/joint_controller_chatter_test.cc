@@ -136,17 +136,17 @@ int count_late(const TwoMassData& data, double inertia_kgm2, bool rigid) {
 }
 
 // Four moves say little. By default none of sixty lasts. A joint that is wrongly declared rigid swings past its target, is planned back to
-// it, and swings past it again: what there is to gain.
+// it, and swings past it again: a light link makes two strong turns of it now and then, and lasts a little longer.
 TEST(Chatter, LastsOnlyWhereAJointIsWronglyDeclaredRigid) {
   TwoMassData slow;
   slow.delay_periods = 2;
   EXPECT_EQ(count_late(slow, 0.089, false), 0);
-  EXPECT_LE(count_late(slow, 0.089, true), 24);
+  EXPECT_EQ(count_late(slow, 0.089, true), 0);
   for (const double link_kgm2 : {0.02, 0.03, 0.089, 0.267}) {
     TwoMassData spring;
     spring.link_kgm2 = link_kgm2;
     EXPECT_EQ(count_late(spring, 0.089 + link_kgm2, false), 0);
-    EXPECT_LE(count_late(spring, 0.089 + link_kgm2, true), link_kgm2 < 0.05 ? 18 : 0);
+    EXPECT_LE(count_late(spring, 0.089 + link_kgm2, true), link_kgm2 < 0.05 ? 3 : 0);
   }
 }
 

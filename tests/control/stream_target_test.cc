@@ -47,6 +47,11 @@ class Following {
     shaper_.reset(position_rad, 0.0);
     target_.begin(position_rad, 0.0, 0.0);
   }
+  /// Another stream from where this one is, in the middle of the motion.
+  void begin_anew() {
+    target_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), 0.0);
+    confined_ = 0;
+  }
   void take(const StreamSample& sample) {
     if (target_.ended()) target_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), {});
     target_.take(sample, reach_);
@@ -395,6 +400,30 @@ TEST(StreamTarget, ComesToRestExactlyWhereSamplesSayItAgainAndAgain) {
     EXPECT_TRUE(now.rests()) << derivatives << ", " << now.velocity_rad_s;
     EXPECT_EQ(now.position_rad, 0.1) << derivatives;
   }
+}
+
+// Of a stream's only sample nobody knows the speed. Who comes to it from a motion goes there as by a move, and no dither is left.
+TEST(StreamTarget, ComesToRestExactlyWhereEverySampleBeginsAnotherStream) {
+  for (const int interval : {2, 5, 10, 20, 100})
+    for (const double speed_rad_s : {0.1, 1.0, 4.0}) {
+      Following following;
+      following.begin(0.0);
+      double last_rad_s = 0.0;
+      int turns = 0;
+      Reference reference;
+      for (int k = 0; k < 2500; ++k) {
+        if (k % interval == 0) {
+          following.begin_anew();
+          following.take({1e-3 * speed_rad_s * std::min(k, 1000)});
+        }
+        reference = following.step();
+        if (k > 1000 && reference.velocity_rad_s * last_rad_s < 0.0) ++turns;
+        last_rad_s = reference.velocity_rad_s;
+      }
+      EXPECT_LE(turns, 12) << "a stream each " << interval << " ms at " << speed_rad_s << " rad/s";
+      EXPECT_EQ(reference.position_rad, speed_rad_s) << interval;
+      EXPECT_EQ(reference.velocity_rad_s, 0.0) << interval << " " << speed_rad_s;
+    }
 }
 
 TEST(StreamTarget, LeadsTheLoadAlongALineFromSampleToSample) {

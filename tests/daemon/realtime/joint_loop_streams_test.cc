@@ -44,10 +44,13 @@ struct Stream {
   double reordered = 0.0;
   bool gaps = false;         ///< 30 ms twice a second
   double jerk_rad_s3 = 0.0;  ///< limit of the joint; 0: none
+  bool told = true;          ///< of the spring that it has
+  double load_kgm2 = 0.0;    ///< that it carries besides, and the stream tells of
+  int held_up = 0;           ///< once a second so many periods without any, and then all at once
 };
 
-/// A link as heavy as the motor on the gear's spring, of which the controller is told.
-BenchJoint flexible_joint() {
+/// A link as heavy as the motor on the gear's spring, of which the controller is told or not.
+BenchJoint flexible_joint(bool told = true, double load_kgm2 = 0.0) {
   BenchJoint joint = demo_joint();
   joint.drive.plant = flexible_plant();
   const Transmission& gear = *joint.drive.plant.effects.transmission;
@@ -55,8 +58,10 @@ BenchJoint flexible_joint() {
   controller.rigid = false;
   controller.use_observer = false;
   controller.use_landing = false;
-  controller.link = {
-      joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  if (told)
+    controller.link = {
+        joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  joint.drive.plant.effects.transmission->link_inertia_kgm2 += load_kgm2;
   return joint;
 }
 
@@ -78,6 +83,7 @@ Order sample(const Stream& stream, std::int64_t cycle, std::int64_t period) {
   if (stream.derivatives > 1)
     order.acceleration_rad_s2 = -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(phase);
   if (stream.ahead > 0) order.at_cycle = cycle + stream.ahead;
+  order.load_inertia_kgm2 = stream.load_kgm2;
   return order;
 }
 
@@ -86,6 +92,7 @@ class LossyNetwork {
  public:
   explicit LossyNetwork(const Stream& stream) : stream_(stream) {}
   void send(JointBench& bench, int k) {
+    if (stream_.held_up > 0) return hold_up(bench, k);
     if (k % stream_.every != 0) return;
     const bool gap = stream_.gaps && k % 500 >= 200 && k % 500 < 230;
     const bool lost = k > 0 && (chance() < stream_.lost || gap);
@@ -104,6 +111,12 @@ class LossyNetwork {
   }
 
  private:
+  void hold_up(JointBench& bench, int k) {
+    if (k % stream_.every == 0) held_.push_back(sample(stream_, bench.cycle() + 1, k));
+    if (k > 0 && k % 1003 < stream_.held_up) return;
+    for (const Order& order : held_) push(bench, order);
+    held_.clear();
+  }
   double chance() { return std::generate_canonical<double, 32>(random_); }
   static void push(JointBench& bench, const Order& order) {
     EXPECT_TRUE(bench.joint(0).orders().push(order));
@@ -112,10 +125,11 @@ class LossyNetwork {
   Stream stream_;
   std::mt19937 random_{11};
   std::optional<Order> late_;
+  std::vector<Order> held_;
 };
 
 Ride ride(const Stream& stream) {
-  BenchJoint joint = stream.flexible ? flexible_joint() : demo_joint();
+  BenchJoint joint = stream.flexible ? flexible_joint(stream.told, stream.load_kgm2) : demo_joint();
   if (stream.jerk_rad_s3 > 0.0) {
     joint.loop.controller.jerk_limit_rad_s3 = stream.jerk_rad_s3;
     joint.loop.controller.motion.acceleration_rad_s2 = 20.0;
@@ -186,21 +200,51 @@ TEST_P(JointLoopStreams, TakeTheTorqueOfTheMotionAndNoMore) {
   EXPECT_FALSE(streamed.off_stream);
 }
 
-INSTANTIATE_TEST_SUITE_P(AtEveryRate, JointLoopStreams,
-                         ::testing::Combine(::testing::Values(Stream{50, 0}, Stream{50, 1}, Stream{50, 2},
-                                                              Stream{20, 0}, Stream{20, 1}, Stream{10, 0},
-                                                              Stream{10, 1}, Stream{10, 2}, Stream{5, 0},
-                                                              Stream{5, 1}, Stream{3, 0}, Stream{3, 1},
-                                                              Stream{2, 0}, Stream{2, 1}, Stream{10, 1, 30},
-                                                              Stream{20, 0, 30}, Stream{50, 1, 10}),
-                                            ::testing::Bool()),
-                         [](const ::testing::TestParamInfo<std::tuple<Stream, bool>>& instance) {
-                           const Stream& stream = std::get<Stream>(instance.param);
-                           return std::to_string(1000 / stream.every) + "Hz" +
-                                  std::to_string(stream.derivatives) +
-                                  (stream.ahead > 0 ? "Ahead" + std::to_string(stream.ahead) : "") +
-                                  (std::get<bool>(instance.param) ? "OnASpring" : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    AtEveryRate, JointLoopStreams,
+    ::testing::Combine(::testing::Values(Stream{50, 0}, Stream{50, 1}, Stream{50, 2}, Stream{20, 0},
+                                         Stream{20, 1}, Stream{10, 0}, Stream{10, 1}, Stream{10, 2},
+                                         Stream{5, 0}, Stream{5, 1}, Stream{3, 0}, Stream{3, 1}, Stream{2, 0},
+                                         Stream{2, 1}, Stream{10, 1, 30}, Stream{20, 0, 30},
+                                         Stream{50, 1, 10}, Stream{2, 1, 100}, Stream{2, 0, 60},
+                                         Stream{10, 1, 900}),
+                       ::testing::Bool()),
+    [](const ::testing::TestParamInfo<std::tuple<Stream, bool>>& instance) {
+      const Stream& stream = std::get<Stream>(instance.param);
+      return std::to_string(1000 / stream.every) + "Hz" + std::to_string(stream.derivatives) +
+             (stream.ahead > 0 ? "Ahead" + std::to_string(stream.ahead) : "") +
+             (std::get<bool>(instance.param) ? "OnASpring" : "");
+    });
+
+// Its law follows the reading of now: ahead of it by the drive's delay it would be a period early.
+TEST(JointLoopStreaming, AreOnTimeOnASpringThatNobodyTellsOf) {
+  for (const int ahead : {0, 30}) {
+    const Ride streamed = ride({.derivatives = 1, .ahead = ahead, .flexible = true, .told = false});
+    EXPECT_LT(streamed.rms_error_rad, 2e-4) << ahead;
+    EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth_sine(true).rms_torque_Nm) << ahead;
+  }
+}
+
+// What the motor's own motion takes, regulated as it is, fed forward times the load's inertia a period later would drive it on.
+TEST(JointLoopStreaming, CarryALoadThatTheyTellOfOnASpring) {
+  for (const double load_kgm2 : {0.05, 0.2}) {
+    const Ride streamed = ride({.derivatives = 1, .ahead = 40, .flexible = true, .load_kgm2 = load_kgm2});
+    EXPECT_LT(streamed.rms_error_rad, 5e-4) << load_kgm2;
+    EXPECT_LT(streamed.largest_step_Nm, smooth_sine(true).largest_step_Nm + 1.0) << load_kgm2;
+  }
+}
+
+// No sample is lost: what comes late, and then all at once, is where its motion had been, not where it is.
+TEST(JointLoopStreaming, ThatAreHeldUpAndComeAllAtOnceGoOnAsTheyWere) {
+  for (const bool flexible : {false, true})
+    for (const int held_up : {9, 19, 30})
+      for (const int derivatives : {0, 1}) {
+        const Ride streamed = ride({.derivatives = derivatives, .flexible = flexible, .held_up = held_up});
+        EXPECT_LT(streamed.largest_error_rad, 5e-3) << flexible << held_up << derivatives;
+        EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth_sine(flexible).rms_torque_Nm)
+            << flexible << held_up << derivatives;
+      }
+}
 
 /// What a network does to a stream at 100 Hz.
 std::vector<Stream> hurt_streams(bool flexible) {

@@ -1,0 +1,132 @@
+// Streams that are to stand, or end somewhere, as senders make them: places read from an encoder that flickers, and a new stream with
+// every sample. A joint that stands needs no torque but its load's. Virtual time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "control/gain_table_json.h"
+#include "sim/joint/reference_plant.h"
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+enum class Kind { kRigid, kUndeclared, kToldSpring };
+constexpr const char* kNames[]{"rigid", "spring that nobody tells of", "spring as told"};
+
+BenchJoint joint_of(Kind kind, double ambient_C) {
+  BenchJoint joint = demo_joint();
+  if (kind != Kind::kRigid) {
+    joint.drive.plant = flexible_plant();
+    JointControllerConfig& controller = joint.loop.controller;
+    controller.rigid = controller.use_observer = controller.use_landing = false;
+    const Transmission& gear = *joint.drive.plant.effects.transmission;
+    if (kind == Kind::kToldSpring)
+      controller.link = {joint.drive.plant.joint.inertia_kgm2,
+                         gear.link_inertia_kgm2,
+                         gear.spring,
+                         gear.damping_Nms_rad,
+                         {}};
+  }
+  joint.drive.ambient = TemperatureProfile::constant(ambient_C);
+  return joint;
+}
+
+const GainTable& table_of(Kind kind) {
+  static const GainTable flexible = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
+  return kind == Kind::kRigid ? demo_table() : flexible;
+}
+
+/// Streamed to every 10 ms for 2 s; the largest change of the torque from one period to the next in the last 1.5 s.
+double largest_step_Nm(JointBench& bench, double flicker_rad) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> flicker(-flicker_rad, flicker_rad);
+  const double place_rad = bench.state(0).joint_position_rad;
+  double last_Nm = 0.0;
+  double largest_Nm = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    if (k % 10 == 0) {
+      Order order{.kind = OrderKind::kSetpoint, .position_rad = place_rad + flicker(random)};
+      order.valid_for_s = 0.1;
+      order.stream_id = 1;
+      order.begins_stream = k == 0;
+      EXPECT_TRUE(bench.joint(0).orders().push(order));
+    }
+    bench.step();
+    const double torque_Nm = bench.state(0).torque_commanded_Nm;
+    if (k > 500) largest_Nm = std::max(largest_Nm, std::abs(torque_Nm - last_Nm));
+    last_Nm = torque_Nm;
+  }
+  EXPECT_EQ(bench.fault(0), Fault::kNone);
+  EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
+  return largest_Nm;
+}
+
+// By the sign of the reference's velocity all of friction was thrown to and fro: 3.6 N.m at 20 degC, 7.5 at -8 degC, at nanoradians.
+TEST(StandingStream, ThatFlickersByUpToHalfACountDoesNotThrowFrictionToAndFro) {
+  for (const Kind kind : {Kind::kRigid, Kind::kUndeclared, Kind::kToldSpring})
+    for (const double ambient_C : {-8.0, 20.0})
+      for (const double flicker_rad : {0.0, 1e-9, 1e-7, 1e-6, 1e-5}) {
+        JointBench bench({joint_of(kind, ambient_C)});
+        bench.bring_to_hold(0, table_of(kind));
+        const double step_Nm = largest_step_Nm(bench, flicker_rad);
+        // What the link's motion needs of the motor comes besides.
+        EXPECT_LT(step_Nm, kind == Kind::kToldSpring ? 1.5 : 1.0)
+            << kNames[static_cast<int>(kind)] << ", " << ambient_C << " degC, " << flicker_rad << " rad";
+      }
+}
+
+BenchJoint joint_with_friction(double scale) {
+  BenchJoint joint = demo_joint();
+  for (FrictionParameters* part :
+       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
+    part->static_Nm *= scale;
+    part->coulomb_Nm *= scale;
+  }
+  joint.loop.limits.following_error_rad = 0.2;
+  return joint;
+}
+
+struct Ends {
+  int faults = 0;
+  int fallbacks = 0;
+  int elsewhere = 0;  ///< more than 10 mrad from the end
+};
+
+// A stream whose every sample begins it anew is a poor sender's, and no reason to shake: its reference turned round in every period at
+// the end, by 13 N.m and more, until the sensor was taken for stuck (49 of 168).
+TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoadAre) {
+  Ends ends;
+  int streams = 0;
+  for (const double friction : {0.6, 0.8, 1.0, 1.2, 1.5, 1.7})
+    for (const double load_Nm : {0.0, 4.0, 8.0, 12.0})
+      for (const double end_rad : {1.0, 0.7, 0.3}) {
+        JointBench bench({joint_with_friction(friction)});
+        bench.bring_to_hold(0);
+        bench.drive(0).simulated().set_load_torque_Nm(load_Nm);
+        bench.run(1.0);
+        const double begin_rad = bench.state(0).joint_position_rad;
+        bool fell_back = false;
+        for (int sent = 0; sent < 300 && bench.fault(0) == Fault::kNone; ++sent) {
+          (void)bench.move(0, std::min(end_rad, begin_rad + 0.01 * sent), 0.05);
+          for (int k = 0; k < 9; ++k) {
+            bench.step();
+            fell_back = fell_back || bench.has_notice(0, Notice::kPlainLaw);
+          }
+        }
+        ++streams;
+        ends.faults += bench.fault(0) != Fault::kNone ? 1 : 0;
+        ends.fallbacks += fell_back ? 1 : 0;
+        ends.elsewhere += std::abs(bench.state(0).joint_position_rad - end_rad) > 0.01 ? 1 : 0;
+      }
+  EXPECT_EQ(ends.faults, 0) << "of " << streams;
+  EXPECT_EQ(ends.elsewhere, 0) << "of " << streams;
+  // With a friction that is not told, and a load that comes at once; a sound joint does not.
+  EXPECT_LE(ends.fallbacks, 4) << "of " << streams;
+}
+
+}  // namespace
+}  // namespace strainwave::testing
