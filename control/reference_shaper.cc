@@ -15,6 +15,8 @@ constexpr double kRelativeRounding = 1e-9;
 constexpr double kPositionRounding_rad = 1e-12;
 // What a target that accelerates leaves at least of the limits, to come up with it.
 constexpr double kLeastLeft = 0.2;
+// Farther than what the acceleration covers in this time from rest, a target that moves is far away.
+constexpr double kFar_s = 0.1;
 }  // namespace
 
 void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept {
@@ -100,6 +102,15 @@ Reference ReferenceShaper::advance_to(double velocity_rad_s) noexcept {
   return reference;
 }
 
+// Of a target that is far away the own acceleration is not gone along with: one that brakes would brake who has yet to come up with it.
+double ReferenceShaper::approach_rad_s(double to_target_rad, double relative_rad_s,
+                                       const MotionLimits& relative) const noexcept {
+  const double direction = sign(to_target_rad);
+  const double way_rad = std::abs(to_target_rad) - 0.5 * period_s_ * direction * relative_rad_s;
+  return direction *
+         std::min(relative.velocity_rad_s, largest_stoppable_velocity(way_rad, relative.deceleration_rad_s2));
+}
+
 Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRange& range) noexcept {
   set_target(target.next_position_rad);
   if (target.rests()) return step();
@@ -110,9 +121,11 @@ Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRang
   // From where the target, were its motion the mean of its two velocities, would reach its end exactly.
   const double to_target_rad = target.next_position_rad - position_rad_ -
                                0.5 * period_s_ * (target.velocity_rad_s + target.next_velocity_rad_s);
-  const double relative_rad_s =
-      next_velocity_rad_s(to_target_rad, velocity_rad_s_ - target.velocity_rad_s, relative);
-  return advance_to(possible_velocity_rad_s(target.next_velocity_rad_s + relative_rad_s, range));
+  const double relative_rad_s = velocity_rad_s_ - target.velocity_rad_s;
+  const bool far = std::abs(to_target_rad) > 0.5 * limits_.acceleration_rad_s2 * kFar_s * kFar_s;
+  const double nearing_rad_s = far ? approach_rad_s(to_target_rad, relative_rad_s, relative)
+                                   : next_velocity_rad_s(to_target_rad, relative_rad_s, relative);
+  return advance_to(possible_velocity_rad_s(target.next_velocity_rad_s + nearing_rad_s, range));
 }
 
 Reference ReferenceShaper::step() noexcept {

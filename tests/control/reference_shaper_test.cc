@@ -188,5 +188,24 @@ TEST(ReferenceShaper, SlowsDownWithinTheNewLimitsWhenTheyShrinkOnTheWay) {
   }
 }
 
+// By the target's own acceleration it would brake along with it, and stand where it began.
+TEST(ReferenceShaper, GoesAfterAFarTargetThatBrakesWithAllOfItsAcceleration) {
+  constexpr double h = 1e-3;
+  constexpr double kLimit_rad_s2 = 30.0;
+  ReferenceShaper shaper(h);
+  shaper.set_limits({4.0, kLimit_rad_s2, kLimit_rad_s2});
+  shaper.reset(0.0, 0.0);
+  MovingTarget target{0.7, 2.0, 0.0, 0.0};
+  for (int k = 0; k < 60; ++k) {
+    target.next_velocity_rad_s = target.velocity_rad_s - h * kLimit_rad_s2;
+    target.next_position_rad =
+        target.position_rad + 0.5 * h * (target.velocity_rad_s + target.next_velocity_rad_s);
+    shaper.follow(target, {});
+    target.position_rad = target.next_position_rad;
+    target.velocity_rad_s = target.next_velocity_rad_s;
+  }
+  EXPECT_NEAR(shaper.velocity_rad_s(), 60 * h * kLimit_rad_s2, 1e-9);
+}
+
 }  // namespace
 }  // namespace strainwave
