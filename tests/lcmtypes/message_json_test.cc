@@ -25,7 +25,8 @@ void expect_keys_of_schema() {
 /// As Foxglove's reader has it (parseJsonSchema): one word, or it shows nothing of the topic.
 template <typename Message>
 void expect_types_that_viewers_know() {
-  for (const auto& [key, entry] : Json::parse(message_schema<Message>())["properties"].items()) {
+  const Json schema = Json::parse(message_schema<Message>());
+  for (const auto& [key, entry] : schema["properties"].items()) {
     const Json& type = entry["type"] == "array" ? entry["items"]["type"] : entry["type"];
     EXPECT_TRUE(type == "number" || type == "integer" || type == "string") << key << ": " << type;
   }
