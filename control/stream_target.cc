@@ -199,7 +199,7 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
   const int moves = (velocity_rad_s > 0.0) - (velocity_rad_s < 0.0);
   const int out = way != 0 ? way : moves;
   // The motion to one sample ends there by itself.
-  if (past_count_ == 0 || alone() || out == 0) {
+  if (past_count_ < 2 || out == 0) {
     way = 0;
     return target;
   }
