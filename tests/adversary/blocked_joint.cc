@@ -10,19 +10,9 @@
 namespace strainwave::testing {
 namespace {
 
-BenchJoint joint_with_friction(double scale) {
-  BenchJoint joint = demo_joint();
-  for (FrictionParameters* part :
-       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
-    part->static_Nm *= scale;
-    part->coulomb_Nm *= scale;
-  }
-  return joint;
-}
-
 /// Friction of some 200 N.m: nothing that the motor can do moves it.
 BenchJoint jammed_joint() {
-  return joint_with_friction(50.0);
+  return demo_joint_with_friction(50.0);
 }
 
 struct Stream {
@@ -118,7 +108,7 @@ TEST_F(BlockedJoint, FaultsHoweverTheOrdersToPushAreInterrupted) {
 TEST_F(BlockedJoint, IsNotWhatAHeavyLoadedOrAStiffJointIs) {
   BenchJoint loaded = demo_joint();
   loaded.loop.limits.following_error_rad = 0.2;
-  for (BenchJoint joint : {loaded, joint_with_friction(1.5)}) {
+  for (BenchJoint joint : {loaded, demo_joint_with_friction(1.5)}) {
     JointBench bench({joint});
     bench.bring_to_hold(0);
     bench.drive(0).simulated().set_load_torque_Nm(8.0);

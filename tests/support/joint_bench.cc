@@ -37,6 +37,16 @@ BenchJoint demo_joint() {
   return joint;
 }
 
+BenchJoint demo_joint_with_friction(double scale) {
+  BenchJoint joint = demo_joint();
+  for (FrictionParameters* part :
+       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
+    part->static_Nm *= scale;
+    part->coulomb_Nm *= scale;
+  }
+  return joint;
+}
+
 const GainTable& demo_table() {
   static const GainTable table =
       read_gain_table(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables" / "rhs17-6006.json");

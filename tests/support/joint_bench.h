@@ -24,6 +24,8 @@ struct BenchJoint {
   std::vector<Injection> faults;
 };
 BenchJoint demo_joint();
+/// The same with so many times the static and Coulomb friction that its table knows.
+BenchJoint demo_joint_with_friction(double scale);
 
 /// The table shipped for it.
 const GainTable& demo_table();

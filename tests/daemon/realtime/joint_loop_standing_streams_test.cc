@@ -79,17 +79,6 @@ TEST(StandingStream, ThatFlickersByUpToHalfACountDoesNotThrowFrictionToAndFro) {
       }
 }
 
-BenchJoint joint_with_friction(double scale) {
-  BenchJoint joint = demo_joint();
-  for (FrictionParameters* part :
-       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
-    part->static_Nm *= scale;
-    part->coulomb_Nm *= scale;
-  }
-  joint.loop.limits.following_error_rad = 0.2;
-  return joint;
-}
-
 struct Ends {
   int faults = 0;
   int fallbacks = 0;
@@ -104,7 +93,9 @@ TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoad
   for (const double friction : {0.6, 0.8, 1.0, 1.2, 1.5, 1.7})
     for (const double load_Nm : {0.0, 4.0, 8.0, 12.0})
       for (const double end_rad : {1.0, 0.7, 0.3}) {
-        JointBench bench({joint_with_friction(friction)});
+        BenchJoint joint = demo_joint_with_friction(friction);
+        joint.loop.limits.following_error_rad = 0.2;
+        JointBench bench({joint});
         bench.bring_to_hold(0);
         bench.drive(0).simulated().set_load_torque_Nm(load_Nm);
         bench.run(1.0);
