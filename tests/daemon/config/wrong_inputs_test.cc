@@ -544,7 +544,7 @@ TEST(WrongCommandLine, IsNamedByWhatWasGivenAndWhatIsAllowed) {
 }
 
 TEST(WrongCommandLine, OfVerifyIsToldBeforeAnythingIsCertified) {
-  if (!std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-design")) GTEST_SKIP() << "no design";
+  if (!std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-design")) GTEST_SKIP() << "not built, as under a sanitizer";
   for (const char* wrong :
        {"--load-inertia_kgm2 xx --motor-inertia_kgm2 0.1",
         "--load-inertia_kgm2 0.1 --motor-inertia_kgm2 0.1 --gear x",
