@@ -14,8 +14,10 @@ constexpr double kStrongShare = 2.5;
 // A law that compensates none has no such reversals: one is then as strong as what moves the joint whichever way.
 constexpr double kBareShare = 1.2;
 constexpr double kWeakShare = 0.5;
-// A reading may flicker by a count or two: the torque that this makes is noise.
+// A reading may flicker by a count or two: the torque that this makes is noise. At rest one count to and fro makes none
+// (EstimateSource::kReadingsAtRest): what is as strong as half a step comes of more.
 constexpr double kNoiseSteps = 4.0;
+constexpr double kRestNoiseSteps = 0.5;
 // As noise passes at most this share of the torque limit, on either side: gains that make more of a few counts shake the joint.
 constexpr double kMostNoise = 0.25;
 // A strain-wave joint on its spring swings at 28 to 86 Hz (catalogue stiffness, load up to three times the
@@ -102,9 +104,8 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   surprised_ = surprised_ || sample.surprised;
   surprised_at_rest_ = surprised_at_rest_ || sample.surprised;
   rest_s_ = sample.reference_rests ? rest_s_ + period_s_ * sample.elapsed_periods : 0.0;
-  const auto beyond_Nm = [&](double share) {
-    const double noise_Nm =
-        std::min(kNoiseSteps * sample.feedback_step_Nm, kMostNoise * sample.torque_limit_Nm);
+  const auto beyond_Nm = [&](double share, double steps = kNoiseSteps) {
+    const double noise_Nm = std::min(steps * sample.feedback_step_Nm, kMostNoise * sample.torque_limit_Nm);
     return sample.doubt_Nm + std::max(share * sample.static_friction_Nm, noise_Nm);
   };
   const double strong_share = sample.compensates_friction ? kStrongShare : kBareShare;
@@ -124,7 +125,7 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   if (sample.turned_back) level_ += 1.0;
   if (sample.swung_over && sample.compensates_friction && !sample.landing && rest_s_ >= kSettled_s)
     swing_level_ += 1.0;
-  const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare));
+  const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare, kRestNoiseSteps));
   if (!weak) return;
   if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += 1.0;
   if (rest_s_ >= kUnsettled_s)

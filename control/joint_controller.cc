@@ -216,8 +216,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   // Of the motion until now: a plan's, or a push that ends on the target.
   const bool planned =
       phase_ == MotionPhase::kLanding || (phase_ == MotionPhase::kTracking && torque_is_planned());
-  state_.step(measurement, loaded_model(),
-              observing() ? EstimateSource::kObserver : EstimateSource::kReadings,
+  state_.step(measurement, loaded_model(), estimate_source(),
               planned ? SurpriseCause::kFriction : SurpriseCause::kLoad);
   if (yields())
     go_on_yielding(elapsed_periods);

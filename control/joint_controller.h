@@ -183,6 +183,7 @@ class JointController {
   void plan_link_motion(double from_rad) noexcept;
   bool correct_link(double reading_rad) noexcept;
   bool torque_is_planned() const noexcept;
+  EstimateSource estimate_source() const noexcept;
 
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;

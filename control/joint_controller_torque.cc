@@ -43,6 +43,11 @@ bool JointController::reference_moves() const noexcept {
   return !plan_rests() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
 }
 
+EstimateSource JointController::estimate_source() const noexcept {
+  if (observing()) return EstimateSource::kObserver;
+  return reference_rest_s_ > kHunting_s ? EstimateSource::kReadingsAtRest : EstimateSource::kReadings;
+}
+
 double JointController::distance_to_target_rad() const noexcept {
   return std::abs(state_.then().position_rad - shaper_.target_rad());
 }

@@ -9,6 +9,8 @@ namespace {
 
 // What is known of the load without an observer is its estimate's mean over about this time: longer than a spring swings.
 constexpr double kUsualLoad_s = 0.1;
+// To either side: two neighbouring readings with a bit for rounding.
+constexpr double kPlayCounts = 0.51;
 
 }  // namespace
 
@@ -22,6 +24,7 @@ void StateEstimator::reset(double position_rad, double velocity_rad_s, double lo
   observer_.reset(position_rad, friction_scale_Nm, velocity_rad_s, load_Nm);
   torques_Nm_.fill(load_Nm);
   previous_position_rad_ = position_rad;
+  steady_position_rad_ = previous_steady_rad_ = position_rad;
   usual_load_Nm_ = load_Nm;
   late_periods_ = 0;
   still_periods_ = 0;
@@ -42,13 +45,14 @@ void StateEstimator::step(const JointMeasurement& measurement, const JointModel&
   still_periods_ = position_rad == previous_position_rad_
                        ? std::min(still_periods_ + elapsed_periods, kMaxElapsedPeriods)
                        : 0;
+  follow_reading(position_rad);
   adapted_ = model;
   JointMeasurement believed = measurement;
   believed.has_position = measurement.has_position && measurement.late_periods <= most_late;
   if (source == EstimateSource::kObserver)
     observe(believed, cause);
   else
-    read(measurement);
+    read(measurement, source);
   previous_position_rad_ = position_rad;
   then_ = now_;
   if (source == EstimateSource::kObserver) look_ahead();
@@ -62,9 +66,12 @@ void StateEstimator::begin_anew(const JointMeasurement& measurement, const Joint
   first_ = true;
 }
 
+double StateEstimator::elapsed_s(const JointMeasurement& measurement) const noexcept {
+  return std::max(1, measurement.elapsed_periods) * config_.observer.period_s;
+}
+
 double StateEstimator::mean_velocity_rad_s(const JointMeasurement& measurement) const noexcept {
-  return (measurement.joint_position_rad - previous_position_rad_) /
-         (std::max(1, measurement.elapsed_periods) * config_.observer.period_s);
+  return (measurement.joint_position_rad - previous_position_rad_) / elapsed_s(measurement);
 }
 
 void StateEstimator::remember(double torque_Nm) noexcept {
@@ -114,11 +121,20 @@ void StateEstimator::observe(const JointMeasurement& measurement, SurpriseCause 
   usual_load_Nm_ += (now_.disturbance.load_Nm - usual_load_Nm_) * config_.observer.period_s / kUsualLoad_s;
 }
 
-void StateEstimator::read(const JointMeasurement& measurement) noexcept {
+void StateEstimator::follow_reading(double position_rad) noexcept {
+  const double play_rad = kPlayCounts * config_.observer.encoder_resolution_rad;
+  previous_steady_rad_ = steady_position_rad_;
+  steady_position_rad_ = std::clamp(steady_position_rad_, position_rad - play_rad, position_rad + play_rad);
+}
+
+void StateEstimator::read(const JointMeasurement& measurement, EstimateSource source) noexcept {
   now_ = {};
   now_.position_rad = measurement.joint_position_rad;
-  now_.velocity_rad_s =
-      measurement.has_velocity ? measurement.joint_velocity_rad_s : mean_velocity_rad_s(measurement);
+  now_.velocity_rad_s = measurement.joint_velocity_rad_s;
+  if (!measurement.has_velocity)
+    now_.velocity_rad_s = source == EstimateSource::kReadingsAtRest
+                              ? (steady_position_rad_ - previous_steady_rad_) / elapsed_s(measurement)
+                              : mean_velocity_rad_s(measurement);
   now_.disturbance.load_Nm = usual_load_Nm_;
 }
 

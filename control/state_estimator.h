@@ -40,6 +40,9 @@ struct JointMeasurement {
 /// What position, velocity and load are taken from.
 enum class EstimateSource {
   kReadings,  ///< velocity measured, or the difference of two readings; the load is the last that was known
+  /// The same of a joint that should stand: a reading that goes to and fro by one count has no velocity. What the law made of it would
+  /// drive the joint across that count's edge for ever, where friction gives way like a spring or the delay is longer than told.
+  kReadingsAtRest,
   kObserver,  ///< all of it from encoder and torque, by the model of one inertia
 };
 
@@ -77,8 +80,10 @@ class StateEstimator {
   void let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
                       EstimateSource source) noexcept;
   void observe(const JointMeasurement& measurement, SurpriseCause cause) noexcept;
-  void read(const JointMeasurement& measurement) noexcept;
+  void read(const JointMeasurement& measurement, EstimateSource source) noexcept;
+  void follow_reading(double position_rad) noexcept;
   void begin_anew(const JointMeasurement& measurement, const JointModel& model) noexcept;
+  double elapsed_s(const JointMeasurement& measurement) const noexcept;
   double mean_velocity_rad_s(const JointMeasurement& measurement) const noexcept;
   void look_ahead() noexcept;
   double torque_before_Nm(int periods) const noexcept {
@@ -92,6 +97,8 @@ class StateEstimator {
   JointEstimate then_;
   std::array<double, kMaxControlDelay + 1> torques_Nm_{};  ///< newest first
   double previous_position_rad_ = 0.0;
+  double steady_position_rad_ = 0.0;  ///< follows the reading with a play of one count
+  double previous_steady_rad_ = 0.0;
   double usual_load_Nm_ = 0.0;  ///< at the start, then the observer's slow part: known without one
   int late_periods_ = 0;
   int still_periods_ = 0;

@@ -274,5 +274,21 @@ TEST(ChatterMonitor, TakesNoMoreThanOrdersThatSwingTheJointExplainForTheirs) {
   EXPECT_LT(seen(9.0, 6.0, 1000), 1300) << "it goes on after them";
 }
 
+// At rest a flickering count makes no velocity any more: what is as strong as a count's is the joint's.
+TEST(ChatterMonitor, SeesAtRestWhatIsAsStrongAsOneCountOfACoarseEncoder) {
+  for (const double step_Nm : {3.0, 8.0}) {
+    ChatterMonitor monitor(0.001);
+    int fallback = -1;
+    for (int k = 0; k < 3000 && fallback < 0; ++k) {
+      ChatterSample sample = sample_with(k % 9 < 4 ? 0.0 : k % 18 < 9 ? step_Nm : -step_Nm);
+      sample.feedback_step_Nm = step_Nm;
+      sample.reference_rests = true;
+      if (monitor.step(sample) == MonitorState::kFallenBack) fallback = k;
+    }
+    EXPECT_GE(fallback, 500) << step_Nm << ": a joint that comes to rest may hunt so long";
+    EXPECT_LE(fallback, 1500) << step_Nm;
+  }
+}
+
 }  // namespace
 }  // namespace strainwave

@@ -14,7 +14,6 @@
 namespace strainwave {
 namespace {
 
-constexpr double kCount_rad = 2.0 * std::numbers::pi / 320000.0;
 constexpr double kLimit_Nm = 34.0;
 constexpr double kStrong_Nm = 4.0;
 
@@ -23,9 +22,9 @@ GainTable table_for(double inertia_kgm2) {
   return testing::scaled_table("c4.json", inertia_kgm2);
 }
 
-JointControllerConfig config_for(bool rigid) {
+JointControllerConfig config_for(bool rigid, double count_rad) {
   JointControllerConfig config;
-  config.encoder_resolution_rad = kCount_rad;
+  config.encoder_resolution_rad = count_rad;
   config.delay_periods = 1;
   config.torque_limit_Nm = kLimit_Nm;
   config.motor = {kLimit_Nm, 150.0, 18.3};
@@ -50,7 +49,7 @@ struct Outcome {
 Outcome run(const TwoMassData& data, const GainTable& table, bool rigid, const std::vector<double>& targets,
             int periods_each) {
   TwoMassJoint joint(data);
-  JointController controller(config_for(rigid));
+  JointController controller(config_for(rigid, joint.count_rad()));
   controller.load(table);
   controller.start(joint.reading_rad());
   Outcome outcome;
@@ -157,6 +156,31 @@ TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWithTheEncoderOnTheOtherSideO
     data.encoder_on_link = true;
     expect_quiet_after_half_a_second(data, table_for(0.089 + link_kgm2), "encoder on the link");
   }
+}
+
+// Where friction gives way like a spring before it slides, a pulse of torque takes the joint across the next count's edge, and the count
+// makes the next pulse. One count to and fro is no velocity at rest, and what swings farther is seen, however coarse the counts.
+TEST(Chatter, AtRestEndsWhereFrictionGivesWayAndTheEncoderIsCoarse) {
+  constexpr int kMoves = 100;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> decades(-3.0, -1.0);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int longest = 0;
+  for (int i = 0; i < kMoves; ++i) {
+    TwoMassData data;
+    data.link_kgm2 = 0.02 + 0.25 * share(random);
+    data.delay_periods = i % 2 == 0 ? 2 : 1;
+    data.counts_per_revolution = 32768.0;
+    data.presliding_rad = 5e-5 + 2.5e-4 * share(random);
+    data.presliding_damping_Nms_rad = 20.0 * share(random);
+    const double target_rad = std::pow(10.0, decades(random));
+    const Outcome outcome = run(data, table_for(data.motor_kgm2 + data.link_kgm2), false, {target_rad}, 6000);
+    longest = std::max(longest, outcome.last_reversal - outcome.first_motion);
+    EXPECT_LE(outcome.last_reversal, outcome.first_motion + 1000)
+        << target_rad << " rad, link " << data.link_kgm2 << ", delay " << data.delay_periods << ", reversals "
+        << outcome.reversals << ", fallback " << outcome.fallback << ", fault " << outcome.fault;
+  }
+  std::printf("coarse encoder: %d moves, reverses for at most %.2f s\n", kMoves, 1e-3 * longest);
 }
 
 TEST(Chatter, TheFallbackMakesNoTorqueStep) {

@@ -1,5 +1,5 @@
 // A joint with a spring, written a second time: nothing of control/ or sim/ is in it. Two masses in fine semi-implicit steps, the
-// gear's three slopes, Stribeck friction of the motor that sticks and breaks away, the supply's line, a delay in whole periods, an
+// gear's three slopes, Stribeck friction of the motor that sticks and breaks away or first gives way like a spring, the supply's line, a delay in whole periods, an
 // encoder with counts. What is found on the simulator's joint, whose integrator and events are others, is found here as well or not true.
 #pragma once
 
@@ -21,6 +21,9 @@ struct TwoMassData {
   double coulomb_Nm = 0.8;
   double viscous_Nms_rad = 0.3;
   double stribeck_rad_s = 0.0;  ///< 0: Coulomb's as soon as it moves
+  double presliding_rad =
+      0.0;  ///< > 0: up to so far static friction is a spring, with a damper; 0: it sticks
+  double presliding_damping_Nms_rad = 0.0;
   double peak_Nm = 34.0;
   double stall_Nm = 1e9;
   double torque_per_speed_Nms_rad = 0.0;
@@ -90,6 +93,7 @@ class TwoMassJoint {
       link_rad_ += duration_s * link_rad_s_;
     }
     const double driving_Nm = motor_Nm(torque_Nm) - transmitted_Nm;
+    if (data_.presliding_rad > 0.0) return slide_elastically(driving_Nm, duration_s);
     if (motor_rad_s_ == 0.0 && std::abs(driving_Nm) <= data_.static_Nm) return;
     const double direction = std::copysign(1.0, motor_rad_s_ != 0.0 ? motor_rad_s_ : driving_Nm);
     const double next_rad_s =
@@ -98,9 +102,22 @@ class TwoMassJoint {
     motor_rad_ += duration_s * motor_rad_s_;
   }
 
+  // A spring that is dragged along where it is at its end.
+  void slide_elastically(double driving_Nm, double duration_s) {
+    const double end_rad = data_.presliding_rad;
+    deflection_rad_ = std::clamp(deflection_rad_ + duration_s * motor_rad_s_, -end_rad, end_rad);
+    const bool sticks = std::abs(deflection_rad_) < end_rad;
+    const double damping_Nm = sticks ? data_.presliding_damping_Nms_rad * motor_rad_s_ : 0.0;
+    const double friction_Nm =
+        (sticks ? data_.static_Nm : this->friction_Nm()) * deflection_rad_ / end_rad + damping_Nm;
+    motor_rad_s_ += duration_s / data_.motor_kgm2 * (driving_Nm - friction_Nm);
+    motor_rad_ += duration_s * motor_rad_s_;
+  }
+
   TwoMassData data_;
   std::deque<double> pending_;
   double motor_rad_ = 0.0, motor_rad_s_ = 0.0, link_rad_ = 0.0, link_rad_s_ = 0.0;
+  double deflection_rad_ = 0.0;
 };
 
 }  // namespace strainwave
