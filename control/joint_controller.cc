@@ -224,6 +224,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
     advance_reference(elapsed_periods);
   follow_friction(elapsed_periods);
   if (!yields()) choose_phase(measurement);
+  follow_disturbance(elapsed_periods);
   ControllerOutput output = compute_torque(measurement);
   hand_over(output);
   // What is told of the load is not estimated.

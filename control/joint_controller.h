@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "control/chatter_monitor.h"
+#include "control/eased_disturbance.h"
 #include "control/friction_side.h"
 #include "control/gain_table.h"
 #include "control/gains_in_use.h"
@@ -188,6 +189,7 @@ class JointController {
   ControllerOutput track() noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
   double planned_torque_Nm() const noexcept;
+  void follow_disturbance(int elapsed_periods) noexcept;
   double planned_friction_Nm() const noexcept;
   void follow_friction(int elapsed_periods) noexcept;
   double planned_velocity_rad_s() const noexcept;
@@ -235,7 +237,8 @@ class JointController {
   LandingAttempts attempts_;
   LinkCorrections corrections_;
   ChatterMonitor monitor_;
-  FrictionSide friction_side_;  ///< of a stream
+  FrictionSide friction_side_;    ///< of a stream
+  EasedDisturbance disturbance_;  ///< that the planned torque is made of
   RestDetector rest_detector_;
   ScheduledController primary_;
   ScheduledController fallback_;

@@ -33,6 +33,8 @@ constexpr double kHuntingCounts = 20.0;
 // Share of the torque limit that the feedback may answer with while a motion lasts, where spring, damping and load are not quite as
 // told. A joint that chatters uses more of it.
 constexpr double kSpringDoubt = 0.2;
+// Share of the torque limit by which what a stream feeds forward against friction and load changes each period, however small the change.
+constexpr double kLeastChange = 0.003;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
 
@@ -149,6 +151,14 @@ void JointController::follow_friction(int elapsed_periods) noexcept {
     friction_side_.reset();
 }
 
+void JointController::follow_disturbance(int elapsed_periods) noexcept {
+  const JointDisturbance& estimated = state_.now().disturbance;
+  if (!streamed_ || phase_ != MotionPhase::kTracking || !torque_is_planned())
+    return disturbance_.jump_to(estimated);
+  const double count_Nm = state_.model().inertia_kgm2 * count_rad() / (config_.period_s * config_.period_s);
+  disturbance_.follow(estimated, kLeastChange * torque_limit_Nm_, count_Nm, elapsed_periods);
+}
+
 double JointController::planned_friction_Nm() const noexcept {
   // What is less than all of it is that of a dither.
   const bool shared = may_dither() && std::abs(friction_side_.share()) < 1.0;
@@ -162,18 +172,17 @@ double JointController::planned_friction_Nm() const noexcept {
   if (monitor_.drives_itself()) return 0.0;
   const double velocity = planned_velocity_rad_s();
   const double friction_Nm =
-      std::max(0.0, state_.model().friction_Nm(velocity) + state_.now().disturbance.friction_offset_Nm);
+      std::max(0.0, state_.model().friction_Nm(velocity) + disturbance_.value().friction_offset_Nm);
   return (shared ? friction_side_.share() : sign(velocity)) * friction_Nm;
 }
 
 // Inertia at the reference's acceleration, friction, load.
 double JointController::planned_torque_Nm() const noexcept {
   if (linked())
-    return motor_plan_.torque_Nm + planned_friction_Nm() + state_.now().disturbance.load_Nm +
+    return motor_plan_.torque_Nm + planned_friction_Nm() + disturbance_.value().load_Nm +
            told_load_.torque_Nm + told_load_.inertia_kgm2 * motor_plan_.wanted_acceleration_rad_s2;
   return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + planned_friction_Nm() +
-         state_.now().disturbance.load_Nm + config_.gravity.at(reference_.position_rad) +
-         told_load_.torque_Nm;
+         disturbance_.value().load_Nm + config_.gravity.at(reference_.position_rad) + told_load_.torque_Nm;
 }
 
 bool JointController::swings_over(double off_rad, double near_rad) noexcept {

@@ -133,7 +133,7 @@ TEST(JointControllerLoad, MakesNoStepWhenTheStreamIsOver) {
     const JointStep step = loop.step();
     error_rad = std::max(error_rad, std::abs(step.ordered_reference.position_rad - loop.position_rad()));
   }
-  EXPECT_LT(error_rad, 1e-3);
+  EXPECT_LT(error_rad, 1.2e-3);
   EXPECT_NEAR(loop.position_rad(), 0.4, 3.0 * kCount_rad);
 }
 
