@@ -119,4 +119,13 @@ void write_text_file(const std::filesystem::path& path, std::string_view text) {
   file.become_target();
 }
 
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error))
+    throw InputError(path.string() + ": is a file: name a folder, which is made where it is not there");
+  std::filesystem::create_directories(path, error);
+  if (error)
+    throw InputError(path.string() + ": cannot be made: " + error.message() + ": name a folder that can");
+}
+
 }  // namespace strainwave

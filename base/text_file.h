@@ -1,4 +1,4 @@
-// Whole files: read at once, replaced at once. Not real-time.
+// Whole files, read at once and replaced at once, and the folders that they are written to. Not real-time.
 #pragma once
 
 #include <filesystem>
@@ -14,5 +14,8 @@ std::string read_text_file(const std::filesystem::path& path);
 /// Replaces `path` by `text` in one step: a reader sees the old file or the new one, never a part, even
 /// across a power failure. A symbolic link stays, and what it leads to is replaced. Throws InputError with the system's reason; then the old file is untouched.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// Makes the folder and those above it where they are not there. Throws InputError with the system's reason.
+void make_folder(const std::filesystem::path& path);
 
 }  // namespace strainwave

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 
+#include "base/text_file.h"
 #include "client/commands/commands.h"
 #include "client/link/output_file.h"
 #include "client/text/mcap_flight.h"
@@ -93,9 +94,7 @@ class ChannelExport {
  public:
   ChannelExport(const std::filesystem::path& folder, bool overwrite, const LogSpan& span)
       : folder_(folder), overwrite_(overwrite), span_(span) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw ClientError(ExitStatus::kUsage, folder.string() + " cannot be made: " + error.message());
+    make_folder(folder);
   }
   bool take(const ChannelName& name, const LogEvent& event) {
     if (name.kind == channel_kind::kState) return write<state_v1>(event);
@@ -225,7 +224,7 @@ void export_log(const Output& output, const ExportArguments& arguments) {
   const LogSpan span = span_of(arguments.log);  // before anything is created
   if (arguments.mcap)
     export_into(McapExport(arguments.out, arguments.overwrite), output, arguments.log);
-  else if (arguments.out.extension() == ".csv")
+  else if (is_named(arguments.out, ".csv"))
     export_into(StateExport(arguments.out, arguments.overwrite, span), output, arguments.log);
   else
     export_into(ChannelExport(arguments.out, arguments.overwrite, span), output, arguments.log);

@@ -1,10 +1,14 @@
 // inject: an artificial fault in a simulated drive, to see what the daemon makes of it. The daemon refuses it
 // for any other drive.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <strainwave/inject_v1.hpp>
+#include <string>
+#include <vector>
 
+#include "base/nearest_word.h"
 #include "client/commands/commands.h"
 #include "client/link/client_error.h"
 #include "client/link/orders.h"
@@ -13,11 +17,15 @@ namespace strainwave {
 
 namespace {
 
-std::string allowed_kinds() {
-  std::string names;
+[[noreturn]] void refuse_kind(const std::string& kind) {
+  std::vector<std::string> kinds;
   for (std::int32_t number = 0; number < kInjectedFaultCount; ++number)
-    names += (number == 0 ? "" : ", ") + std::string(to_text(static_cast<InjectedFault>(number)));
-  return names;
+    kinds.emplace_back(to_text(static_cast<InjectedFault>(number)));
+  const std::string* nearest = nearest_word(kind, kinds);
+  throw ClientError(
+      ExitStatus::kUsage,
+      fmt::format("inject: '{}' is no fault that can be injected{}; there are: {}", kind,
+                  nearest != nullptr ? " (did you mean " + *nearest + "?)" : "", fmt::join(kinds, ", ")));
 }
 
 }  // namespace
@@ -25,10 +33,7 @@ std::string allowed_kinds() {
 InjectArguments parse_injection(const std::string& joint, const std::string& kind, double amount,
                                 double for_s) {
   const auto fault = injected_fault_of(std::string_view(kind));
-  if (!fault)
-    throw ClientError(
-        ExitStatus::kUsage,
-        fmt::format("inject: '{}' is no fault that can be injected; there are: {}", kind, allowed_kinds()));
+  if (!fault) refuse_kind(kind);
   const AmountRange range = amount_range(*fault);
   const bool takes_amount = range.min < range.max;
   if (!takes_amount && amount != 0.0)

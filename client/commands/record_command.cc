@@ -62,7 +62,7 @@ void record_into(Log& log, Client& client, const Output& output, const RecordArg
 
 void record(Client& client, const Output& output, const RecordArguments& arguments) {
   refuse_name_of_mcap(arguments.file, arguments.mcap);
-  if (arguments.file.extension() == ".csv")
+  if (is_named(arguments.file, ".csv"))
     throw ClientError(ExitStatus::kUsage, arguments.file.string() +
                                               " would be no CSV file: record an LCM log, and strainwavectl "
                                               "export makes CSV of it");

@@ -1,12 +1,24 @@
 // Files that commands write. Not real-time.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "base/unique_fd.h"
 #include "client/link/client_error.h"
 
 namespace strainwave {
+
+/// Whether the name ends so, in letters of either size: `extension` in small ones, with its dot.
+inline bool is_named(const std::filesystem::path& file, std::string_view extension) {
+  const std::string end = file.extension().string();
+  return std::equal(end.begin(), end.end(), extension.begin(), extension.end(), [](char a, char b) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(a))) == b;
+  });
+}
 
 /// Throws ClientError (usage) when `file` exists and `overwrite` is false.
 inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite) {
@@ -20,7 +32,7 @@ UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
 
 /// Throws ClientError (usage) when a file that is to be no MCAP file is named like one.
 inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
-  if (!mcap && file.extension() == ".mcap")
+  if (!mcap && is_named(file, ".mcap"))
     throw ClientError(ExitStatus::kUsage,
                       file.string() + " would be no MCAP file: say --mcap, or choose another name");
 }

@@ -50,10 +50,10 @@ void run(const Chapter6Options& options) {
   const auto tables = read_chapter6_tables(options.tables.empty() ? shared_folder("data") / "tables"
                                                                   : std::filesystem::path(options.tables));
   const auto source = read_source_indices(data / "performance_index.csv");
+  const std::filesystem::path out = options.out;
+  make_folder(out);
   const Chapter6 chapter = run_chapter6(chapter6_contenders(tables));
 
-  const std::filesystem::path out = options.out;
-  std::filesystem::create_directories(out);
   const auto performance = performance_tables(chapter, source);
   std::string markdown = "# Tables 8 to 11\n\n";
   for (const TextTable& table : performance) markdown += table.markdown();

@@ -47,7 +47,6 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   contenders = {contenders[told]};
   for (Contender& peer : peer_contenders()) contenders.push_back(std::move(peer));
   const auto grid = run_part("grid", flexible_grid(), contenders);
-  std::filesystem::create_directories(out);
   write_text_file(out / "peers.csv", price_cells(grid, contenders, 0).csv());
   for (const TextTable& table :
        {flexible_summary("The grid", grid, contenders), price_table(grid, contenders, 0)})
@@ -59,13 +58,13 @@ void run(const FlexibleOptions& options) {
   const std::filesystem::path directory =
       options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
   const FlexibleTables gains = read_flexible_tables(directory);
-  if (options.peers) return run_peers(gains, options.out);
+  const std::filesystem::path out = options.out;
+  make_folder(out);
+  if (options.peers) return run_peers(gains, out);
   const std::vector<Contender> contenders = flexible_contenders(gains, options.full);
   std::vector<Contender> first_contenders = contenders;
   first_contenders.push_back(unwatched_contender(gains));
   const std::size_t daemon = number_of("daemon", contenders);
-  const std::filesystem::path out = options.out;
-  std::filesystem::create_directories(out);
   const auto begin = std::chrono::steady_clock::now();
 
   const auto grid = run_part("grid", flexible_grid(), contenders);

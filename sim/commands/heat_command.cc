@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/text_file.h"
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/commands/study_output.h"
@@ -35,7 +36,9 @@ TextTable details(const std::vector<HeatRun>& runs) {
 void run(HeatOptions& options) {
   options.study.plant = plant_named(options.plant);
   if (options.study.plant.thermal.resistance_C_W == 0.0) options.study.plant.thermal = reference_thermal();
-  const auto runs = run_heat(options.study, read_gain_table(options.table));
+  const GainTable table = read_gain_table(options.table);
+  make_folder(options.out);
+  const auto runs = run_heat(options.study, table);
   TextTable summary = heat_summary(runs);
   summary.title += ", plant " + options.plant + ", judged at the link";
   write_study("heat", summary, details(runs), heat_figure(runs), options.out);

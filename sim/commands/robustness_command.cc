@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/text_file.h"
 #include "control/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/commands/study_output.h"
@@ -25,6 +26,7 @@ void run(RobustnessOptions& options) {
   std::vector<Contender> contenders = {pid_contender()};
   for (const char* kind : {"fallback", "plain", "extended"})
     contenders.push_back(contender_of_kind(kind, table));
+  make_folder(options.out);
   const auto draws = run_robustness(options.study, contenders);
   TextTable summary = robustness_summary(draws, contenders);
   summary.title += ", seed " + std::to_string(options.study.seed) + ", setpoint " +

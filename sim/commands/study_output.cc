@@ -10,7 +10,6 @@ namespace strainwave {
 void write_study(const std::string& name, const TextTable& summary, const TextTable& details,
                  const Figure& figure, const std::filesystem::path& directory) {
   std::cout << summary.markdown();
-  std::filesystem::create_directories(directory);
   write_text_file(directory / (name + ".csv"), details.csv());
   draw_figures({figure}, directory);
   write_text_file(directory / (name + ".html"),

@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Prints `summary`, writes <name>.csv, <name>.svg and <name>.html into `directory`. Throws InputError.
+/// Prints `summary`, writes <name>.csv, <name>.svg and <name>.html into `directory`, which is there. Throws InputError.
 void write_study(const std::string& name, const TextTable& summary, const TextTable& details,
                  const Figure& figure, const std::filesystem::path& directory);
 

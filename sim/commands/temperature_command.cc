@@ -24,13 +24,13 @@ void run(const TemperatureOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const FlexibleTables gains = read_flexible_tables(directory);
   const std::vector<FrictionWay> ways = friction_ways(gains);
+  const std::filesystem::path out = options.out;
+  make_folder(out);
   const std::vector<TemperatureRow> rows = run_temperatures(ways, sensor_faults());
   std::vector<HundredMoves> hundred(ways.size());
   run_in_parallel(ways.size(), [&](std::size_t i) {
     hundred[i] = {ways[i].name, run_hundred_moves(ways[i], kHundredMoves_rad, kColdest_C)};
   });
-  const std::filesystem::path out = options.out;
-  std::filesystem::create_directories(out);
   write_text_file(out / "temperature.csv", temperature_rows(rows).csv());
   write_text_file(out / "hundred-moves.csv", hundred_moves_rows(hundred).csv());
   std::vector<TextTable> tables = temperature_tables(rows, hundred);

@@ -7,6 +7,7 @@
 
 #include "base/gnuplot.h"
 #include "base/parallel.h"
+#include "base/text_file.h"
 
 namespace strainwave {
 
@@ -98,7 +99,7 @@ std::string script_of(const Figure& figure, std::size_t index, const std::filesy
 }  // namespace
 
 void draw_figures(const std::vector<Figure>& figures, const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
+  make_folder(directory);
   const std::size_t batches =
       std::min<std::size_t>(figures.size(), std::max(1U, std::thread::hardware_concurrency()));
   run_in_parallel(batches, [&](std::size_t batch) {

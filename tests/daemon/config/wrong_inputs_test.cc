@@ -532,7 +532,14 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwavectl keygen --out /tmp/x --role king", {"--role", "king", "operator", "engineer"}},
     {"strainwavectl keygen --out /tmp/x --role enginer", {"--role", "did you mean engineer?"}},
     {"strainwave-sim", {"a command is required", "run"}},
+    {"strainwavectl inject elbow sensor_stcuk",
+     {"'sensor_stcuk' is no fault", "did you mean sensor_stuck?", "there are: none"}},
     {"strainwave-sim rnu", {"'rnu' is not a command", "did you mean run?"}},
+    {"strainwave-sim chapter6 --out /proc/nowhere", {"/proc/nowhere", "cannot be made", "name a folder"}},
+    {"strainwave-sim temperature --out /dev/null", {"/dev/null", "is a file", "name a folder"}},
+    {"strainwave-sim flexible --peers --out /dev/null", {"/dev/null", "is a file", "name a folder"}},
+    {"strainwave-sim heat --table " STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json --out /proc/nowhere",
+     {"/proc/nowhere", "cannot be made", "name a folder"}},
     {"strainwave-design shwo", {"'shwo' is not a command", "did you mean show?"}},
 };
 
@@ -544,7 +551,8 @@ TEST(WrongCommandLine, IsNamedByWhatWasGivenAndWhatIsAllowed) {
 }
 
 TEST(WrongCommandLine, OfVerifyIsToldBeforeAnythingIsCertified) {
-  if (!std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-design")) GTEST_SKIP() << "not built, as under a sanitizer";
+  if (!std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-design"))
+    GTEST_SKIP() << "not built, as under a sanitizer";
   for (const char* wrong :
        {"--load-inertia_kgm2 xx --motor-inertia_kgm2 0.1",
         "--load-inertia_kgm2 0.1 --motor-inertia_kgm2 0.1 --gear x",
@@ -555,6 +563,14 @@ TEST(WrongCommandLine, OfVerifyIsToldBeforeAnythingIsCertified) {
     EXPECT_EQ(ended.status, 2) << wrong << "\n" << ended.said;
     EXPECT_EQ(ended.said.find("certified"), std::string::npos) << wrong << "\n" << ended.said;
   }
+}
+
+TEST(WrongCommandLine, OfTheViewerIsNamedBeforeJavaIsAskedFor) {
+  if (!std::filesystem::exists(STRAINWAVE_BINARY_DIR "/bin/strainwave-spy"))
+    GTEST_SKIP() << "not built, as under a sanitizer";
+  expect_refused(run("strainwave-spy --nope"), {"'--nope' is not an option", "--lcm-url=URL"}, "--nope");
+  expect_refused(run("strainwave-spy --lcm-url"), {"--lcm-url: which one?", "udpm://"}, "--lcm-url");
+  expect_refused(run("strainwave-spy --lcm-url=nonsense://"), {"'nonsense://'", "udpm://GROUP:PORT"}, "url");
 }
 
 TEST(WrongInputs, AreMany) {
