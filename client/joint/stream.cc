@@ -79,12 +79,12 @@ void Stream::end() noexcept {
 }
 
 bool Stream::put(double t_s, double position_rad, std::optional<double> velocity_rad_s,
-                 std::optional<double> acceleration_rad_s2) {
+                 std::optional<double> acceleration_rad_s2, const CarriedLoad& load) {
   checked_number("t_s", t_s, "a finite time in s, above the last one", !last_t_s_ || t_s > *last_t_s_);
   const auto held = link_->lock();
   // Not begun anew by the next sample: somebody may have ended it for a reason.
   if (over_) throw NotDone(link_->name() + ": this stream is over; Joint::stream() makes another one");
-  setpoint_v2 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2);
+  setpoint_v2 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2, load);
   last_t_s_ = t_s;
   if (!last_cycle_) {
     begin(t_s, message);
@@ -122,7 +122,7 @@ void Stream::close() {
 }
 
 setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_rad_s,
-                           std::optional<double> acceleration_rad_s2) const {
+                           std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const {
   const limits_v1& limits = link_->limits();
   setpoint_v2 message{};
   message.position_rad = checked_number(
@@ -140,6 +140,9 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
         checked_number("acceleration_rad_s2", *acceleration_rad_s2, "a finite number");
     message.derivatives = 2;
   }
+  message.torque_Nm = checked_number("torque_Nm", load.torque_Nm, "a finite number");
+  message.load_inertia_kgm2 = checked_number("load_inertia_kgm2", load.load_inertia_kgm2, "a number from 0",
+                                             load.load_inertia_kgm2 >= 0.0);
   message.stream_id = stream_id_;
   message.valid_for_s = options_.valid_for_s;
   message.speed_limit_rad_s = options_.speed_limit_rad_s;

@@ -21,6 +21,12 @@ struct StreamOptions {
   const Stream* beside = nullptr;
 };
 
+/// What the daemon does not know of what a joint does and carries at a sample.
+struct CarriedLoad {
+  double torque_Nm = 0.0;          ///< added to what the daemon plans: gravity, contact; joint side
+  double load_inertia_kgm2 = 0.0;  ///< >= 0, carried besides the joint's own
+};
+
 /// Made by Joint::stream(). Its destructor closes it; after an exception the joint is told to hold at once.
 class Stream {
  public:
@@ -35,7 +41,7 @@ class Stream {
   /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, NotDone (also when the stream is over),
   /// NoAnswer, InvalidInput.
   bool put(double t_s, double position_rad, std::optional<double> velocity_rad_s = {},
-           std::optional<double> acceleration_rad_s2 = {});
+           std::optional<double> acceleration_rad_s2 = {}, const CarriedLoad& load = {});
 
   /// Waits for the last sample's time, ends the stream and waits until the joint holds. The destructor does the same, but cannot
   /// tell of what went wrong.
@@ -50,7 +56,7 @@ class Stream {
   Stream(std::shared_ptr<JointLink> link, const StreamOptions& options);
 
   setpoint_v2 sample(double position_rad, std::optional<double> velocity_rad_s,
-                     std::optional<double> acceleration_rad_s2) const;
+                     std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const;
   void begin(double t_s, setpoint_v2 message);
   void wait_until_due(std::int64_t cycle);
   void check_refusals();

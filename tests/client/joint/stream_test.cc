@@ -38,7 +38,8 @@ TEST_F(StreamTest, SendsEachSampleForTheCycleThatItsTimeIs) {
   auto stream = joint.stream({.ahead_s = 0.9, .valid_for_s = 5.0, .speed_limit_rad_s = 0.5});
   std::vector<double> sent;
   for (int i = 0; i < 40; ++i)
-    if (stream.put(100.0 + 0.01 * i, 0.02 * i, 2.0)) sent.push_back(0.02 * i);
+    if (stream.put(100.0 + 0.01 * i, 0.02 * i, 2.0, {}, {.torque_Nm = -0.5, .load_inertia_kgm2 = 0.01}))
+      sent.push_back(0.02 * i);
   stream.close();
   const auto setpoints = heard<setpoint_v2>();
   ASSERT_EQ(setpoints.size(), sent.size());
@@ -52,6 +53,8 @@ TEST_F(StreamTest, SendsEachSampleForTheCycleThatItsTimeIs) {
     EXPECT_EQ(setpoints[i].stream_id, first.stream_id);
     EXPECT_EQ(setpoints[i].velocity_rad_s, 2.0);
     EXPECT_EQ(setpoints[i].derivatives, 1);
+    EXPECT_EQ(setpoints[i].torque_Nm, -0.5);
+    EXPECT_EQ(setpoints[i].load_inertia_kgm2, 0.01);
     EXPECT_EQ(setpoints[i].valid_for_s, 5.0);
     EXPECT_EQ(setpoints[i].speed_limit_rad_s, 0.5);
   }
@@ -162,6 +165,8 @@ TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   EXPECT_THROW(stream.put(0.0, 0.1, std::nan("")), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, {}, 1.0), InvalidInput);
   EXPECT_THROW(stream.put(std::nan(""), 0.1), InvalidInput);
+  EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = std::nan("")}), InvalidInput);
+  EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.load_inertia_kgm2 = -0.1}), InvalidInput);
   stream.close();
   EXPECT_TRUE(heard<setpoint_v2>().empty());
 }
