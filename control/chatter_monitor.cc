@@ -14,7 +14,7 @@ constexpr double kStrongShare = 2.5;
 // A law that compensates none has no such reversals: one is then as strong as what moves the joint whichever way.
 constexpr double kBareShare = 1.2;
 constexpr double kWeakShare = 0.5;
-// A reading may flicker by a count or two: the torque that this makes is noise. At rest one count to and fro makes none
+// A reading may flicker by a count or two: the torque that this makes is noise. At rest a count to either side makes none
 // (EstimateSource::kReadingsAtRest): what is as strong as half a step comes of more.
 constexpr double kNoiseSteps = 4.0;
 constexpr double kRestNoiseSteps = 0.5;

@@ -269,8 +269,9 @@ class JointController {
   int plans_ = 0;                      ///< new ones since the target or the phase changed
   int plan_side_ = 0;                  ///< of the target, on which the last of them began; 0: none yet
   int away_periods_ = 0;               ///< that a resting joint has been off its target
-  int side_ = 0;        ///< of the reference, on which the joint was last, beyond the last counts
-  bool swung_ = false;  ///< over to the other, in this period
+  int side_ = 0;         ///< of the reference, on which the joint was last, beyond the last counts
+  double near_s_ = 0.0;  ///< since when it is within those
+  bool swung_ = false;   ///< over to the other, in this period
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool turned_back_ = false;  ///< a new plan has begun on the other side than the last, in this period

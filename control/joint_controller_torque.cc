@@ -30,6 +30,10 @@ constexpr double kIdleShare = 0.5;
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
 constexpr double kHuntingCounts = 20.0;
+// What swings less than the counts above at the catalogue's encoder does so by the give of its gear, however fine the encoder: a hand or a
+// tap makes it. A joint that has been near its place for so long came back: its next swing is another's.
+constexpr double kLeastSwing_rad = 4e-4;
+constexpr double kForgetsSide_s = 0.1;
 // Share of the torque limit that the feedback may answer with while a motion lasts, where spring, damping and load are not quite as
 // told. A joint that chatters uses more of it.
 constexpr double kSpringDoubt = 0.2;
@@ -186,7 +190,12 @@ double JointController::planned_torque_Nm() const noexcept {
 }
 
 bool JointController::swings_over(double off_rad, double near_rad) noexcept {
-  if (std::abs(off_rad) <= near_rad) return false;
+  if (std::abs(off_rad) <= near_rad) {
+    near_s_ += config_.period_s;
+    if (near_s_ > kForgetsSide_s) side_ = 0;
+    return false;
+  }
+  near_s_ = 0.0;
   const int side = off_rad > 0.0 ? 1 : -1;
   return std::exchange(side_, side) == -side;
 }
@@ -204,7 +213,7 @@ ControllerOutput JointController::track() noexcept {
   const double near_rad = kHuntingCounts * count_rad();
   const double off_rad = state_.then().position_rad - reference_.position_rad;
   const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
-  swung_ = swings_over(off_rad, near_rad);
+  swung_ = swings_over(off_rad, std::max(near_rad, kLeastSwing_rad));
   input.planned = moves || fallen_back() || hunted || linked();
   // At rest a landing holds the load of a rigid joint.
   const double at_rest_Nm = config_.rigid && !fallen_back() ? told_load_.torque_Nm : held_load_Nm();

@@ -9,8 +9,8 @@ namespace {
 
 // What is known of the load without an observer is its estimate's mean over about this time: longer than a spring swings.
 constexpr double kUsualLoad_s = 0.1;
-// To either side: two neighbouring readings with a bit for rounding.
-constexpr double kPlayCounts = 0.51;
+// To either side: three neighbouring readings with a bit for rounding.
+constexpr double kPlayCounts = 1.01;
 
 }  // namespace
 

@@ -40,8 +40,8 @@ struct JointMeasurement {
 /// What position, velocity and load are taken from.
 enum class EstimateSource {
   kReadings,  ///< velocity measured, or the difference of two readings; the load is the last that was known
-  /// The same of a joint that should stand: a reading that goes to and fro by one count has no velocity. What the law made of it would
-  /// drive the joint across that count's edge for ever, where friction gives way like a spring or the delay is longer than told.
+  /// The same of a joint that should stand: a reading that goes to and fro by a count on either side has no velocity. What the law made of it would
+  /// drive the joint across the counts' edges for ever, where friction gives way like a spring or the delay is longer than told.
   kReadingsAtRest,
   kObserver,  ///< all of it from encoder and torque, by the model of one inertia
 };
@@ -97,7 +97,7 @@ class StateEstimator {
   JointEstimate then_;
   std::array<double, kMaxControlDelay + 1> torques_Nm_{};  ///< newest first
   double previous_position_rad_ = 0.0;
-  double steady_position_rad_ = 0.0;  ///< follows the reading with a play of one count
+  double steady_position_rad_ = 0.0;  ///< follows the reading with a play of a count to either side
   double previous_steady_rad_ = 0.0;
   double usual_load_Nm_ = 0.0;  ///< at the start, then the observer's slow part: known without one
   int late_periods_ = 0;

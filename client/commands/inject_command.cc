@@ -19,6 +19,7 @@ namespace {
 
 [[noreturn]] void refuse_kind(const std::string& kind) {
   std::vector<std::string> kinds;
+  kinds.reserve(kInjectedFaultCount);
   for (std::int32_t number = 0; number < kInjectedFaultCount; ++number)
     kinds.emplace_back(to_text(static_cast<InjectedFault>(number)));
   const std::string* nearest = nearest_word(kind, kinds);

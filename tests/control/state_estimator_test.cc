@@ -62,23 +62,24 @@ TEST(StateEstimator, ByReadingsAloneTheVelocityIsTheDifferenceOverThePeriodsThat
   EXPECT_EQ(state.model().inertia_kgm2, kInertia_kgm2);
 }
 
-TEST(StateEstimator, AtRestACountToAndFroIsNoVelocityAndWhatGoesFartherIs) {
+TEST(StateEstimator, AtRestACountToEitherSideIsNoVelocityAndWhatGoesFartherIs) {
   StateEstimator state = estimator(0);
   const auto velocity_at = [&](int count, EstimateSource source = EstimateSource::kReadingsAtRest) {
     state.step(at(count * kCount_rad), model(), source);
     return state.now().velocity_rad_s * kPeriod_s / kCount_rad;
   };
   velocity_at(0);
-  for (const int count : {1, 0, 0, 1, 0, 1}) velocity_at(count);
-  for (const int count : {0, 1, 1, 0, 1}) EXPECT_EQ(velocity_at(count), 0.0) << count;
+  for (const int count : {1, -1, 0}) velocity_at(count);
+  for (const int count : {1, 0, -1, 1, 1, -1, 1}) EXPECT_EQ(velocity_at(count), 0.0) << count;
   EXPECT_EQ(state.now().position_rad, kCount_rad) << "the position is the reading";
-  // On it goes with all of it, back with all but the count.
+  // On it goes with all of it, back with all but the play.
   EXPECT_NEAR(velocity_at(3), 2.0, 0.03);
   EXPECT_NEAR(velocity_at(4), 1.0, 1e-9);
-  EXPECT_NEAR(velocity_at(2), -1.0, 0.03);
-  EXPECT_NEAR(velocity_at(1), -1.0, 1e-9);
+  EXPECT_NEAR(velocity_at(2), 0.0, 1e-9);
+  EXPECT_NEAR(velocity_at(1), -1.0, 0.03);
+  EXPECT_NEAR(velocity_at(0), -1.0, 1e-9);
   // What moves is not at rest: the plain difference, and the play goes along.
-  EXPECT_NEAR(velocity_at(2, EstimateSource::kReadings), 1.0, 1e-9);
+  EXPECT_NEAR(velocity_at(2, EstimateSource::kReadings), 2.0, 1e-9);
   EXPECT_NEAR(velocity_at(12, EstimateSource::kReadings), 10.0, 1e-9);
   EXPECT_NEAR(velocity_at(12), 0.0, 1e-9);
 }

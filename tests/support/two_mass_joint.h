@@ -39,7 +39,9 @@ class TwoMassJoint {
   explicit TwoMassJoint(const TwoMassData& data)
       : data_(data), pending_(static_cast<std::size_t>(data.delay_periods), 0.0) {}
 
-  void step(double torque_Nm) {
+  /// `push_Nm`: by somebody, on the link.
+  void step(double torque_Nm, double push_Nm = 0.0) {
+    push_Nm_ = push_Nm;
     pending_.push_back(torque_Nm);
     const double acting_Nm = pending_.front();
     pending_.pop_front();
@@ -89,10 +91,10 @@ class TwoMassJoint {
     if (data_.link_kgm2 > 0.0) {
       transmitted_Nm =
           spring_Nm(motor_rad_ - link_rad_) + data_.damping_Nms_rad * (motor_rad_s_ - link_rad_s_);
-      link_rad_s_ += duration_s / data_.link_kgm2 * transmitted_Nm;
+      link_rad_s_ += duration_s / data_.link_kgm2 * (transmitted_Nm + push_Nm_);
       link_rad_ += duration_s * link_rad_s_;
     }
-    const double driving_Nm = motor_Nm(torque_Nm) - transmitted_Nm;
+    const double driving_Nm = motor_Nm(torque_Nm) - (data_.link_kgm2 > 0.0 ? transmitted_Nm : -push_Nm_);
     if (data_.presliding_rad > 0.0) return slide_elastically(driving_Nm, duration_s);
     if (motor_rad_s_ == 0.0 && std::abs(driving_Nm) <= data_.static_Nm) return;
     const double direction = std::copysign(1.0, motor_rad_s_ != 0.0 ? motor_rad_s_ : driving_Nm);
@@ -118,6 +120,7 @@ class TwoMassJoint {
   std::deque<double> pending_;
   double motor_rad_ = 0.0, motor_rad_s_ = 0.0, link_rad_ = 0.0, link_rad_s_ = 0.0;
   double deflection_rad_ = 0.0;
+  double push_Nm_ = 0.0;
 };
 
 }  // namespace strainwave
