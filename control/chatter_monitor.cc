@@ -38,6 +38,11 @@ constexpr double kLandingWeight = 0.35;
 constexpr double kSettled_s = 0.1;
 constexpr double kRestLeak_s = 1.0;
 constexpr double kRestLimit = 60.0;
+// With torques that move the joint whichever way, and not in one place, it does not settle by them: four such reversals in some 0.2 s.
+constexpr double kShakenLeak_s = 0.3;
+constexpr double kShakenLimit = 3.6;
+constexpr double kShakenShare = 1.6;  // while friction is compensated, 1.1 of it
+constexpr double kLeastShake = 0.03;  // of the torque limit: what shakes a joint without friction
 // Slower than that, but for ever: what is compensated is more friction than the joint has. At two to five times of it the catalogue's
 // joint reverses 20 to 40 times a second about its target. A sound joint that has been let rest for so long does not reverse at
 // all; eight a second in the long run are more than somebody who pushes it makes.
@@ -62,6 +67,7 @@ ChatterMonitor::ChatterMonitor(double period_s) noexcept
     : period_s_(period_s),
       leak_(std::exp(-period_s / kLeak_s)),
       rest_leak_(std::exp(-period_s / kRestLeak_s)),
+      shaken_leak_(std::exp(-period_s / kShakenLeak_s)),
       unsettled_leak_(std::exp(-period_s / kUnsettledLeak_s)),
       forget_(std::exp(-period_s / kDistrust_s)) {}
 
@@ -69,6 +75,7 @@ void ChatterMonitor::reset() noexcept {
   level_ = 0.0;
   turned_level_ = 0.0;
   rest_level_ = 0.0;
+  shaken_level_ = 0.0;
   unsettled_level_ = 0.0;
   swing_level_ = 0.0;
   ordered_low_Nm_ = 0.0;
@@ -82,6 +89,7 @@ void ChatterMonitor::reset() noexcept {
   torque_ = {};
   plan_ = {};
   weak_ = {};
+  shaken_ = {};
   surprised_ = false;
   surprised_at_rest_ = false;
   state_ = MonitorState::kWatching;
@@ -125,6 +133,11 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   if (sample.turned_back) level_ += 1.0;
   if (sample.swung_over && sample.compensates_friction && !sample.landing && rest_s_ >= kSettled_s)
     swing_level_ += 1.0;
+  const double moving_share = sample.compensates_friction ? kShakenShare : kBareShare;
+  const double shaking_Nm =
+      std::max(beyond_Nm(moving_share, kRestNoiseSteps), kLeastShake * sample.torque_limit_Nm);
+  if (shaken_.reversed(excess_Nm, shaking_Nm) && !sample.landing && rest_s_ >= kSettled_s)
+    shaken_level_ += 1.0;
   const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare, kRestNoiseSteps));
   if (!weak) return;
   if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += 1.0;
@@ -135,7 +148,8 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
 
 bool ChatterMonitor::any_level_reaches(double share) const noexcept {
   return level_ >= share * kLimit || turned_level_ >= share * kTurnedLimit ||
-         rest_level_ >= share * kRestLimit || unsettled_level_ >= share * kUnsettledLimit;
+         rest_level_ >= share * kRestLimit || shaken_level_ >= share * kShakenLimit ||
+         unsettled_level_ >= share * kUnsettledLimit;
 }
 
 MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
@@ -143,6 +157,7 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
     level_ *= leak_;
     turned_level_ *= leak_;
     rest_level_ *= rest_leak_;
+    shaken_level_ *= shaken_leak_;
     unsettled_level_ *= unsettled_leak_;
     swing_level_ *= leak_;
     follow_orders(sample);
@@ -167,7 +182,7 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
   if (chatter_s_ >= 0.5 * kPatience_s && !goes_on_) {
     // From here on the gains are softer, and what counts is what those make.
     goes_on_ = true;
-    level_ = turned_level_ = rest_level_ = unsettled_level_ = 0.0;
+    level_ = turned_level_ = rest_level_ = shaken_level_ = unsettled_level_ = 0.0;
   }
   if (chatter_s_ >= kPatience_s) state_ = MonitorState::kFaultDue;
   return state_;

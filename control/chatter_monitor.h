@@ -45,7 +45,7 @@ struct ChatterSample {
   double feedback_step_Nm = 0.0;  ///< what the least change that the encoder can show makes of the torque
   double torque_limit_Nm =
       0.0;  ///< > 0: beyond a quarter of it on either side nothing is noise, whatever the encoder shows
-  /// The law compensates friction by itself, towards the target from either side.
+  /// The law compensates friction by itself now, towards the target from either side.
   bool compensates_friction = true;
   /// Torque that the feedback asks for, where a model of the joint is followed: as large as the model is wrong. Else 0.
   double innovation_Nm = 0.0;
@@ -88,11 +88,13 @@ class ChatterMonitor {
   double period_s_;
   double leak_;            ///< of the level over a period
   double rest_leak_;       ///< of the level at rest
+  double shaken_leak_;     ///< of the level of what moves a joint that is to rest
   double unsettled_leak_;  ///< of the level at a long rest
   double forget_;          ///< of the distrust over a period
   double level_ = 0.0;
   double turned_level_ = 0.0;  ///< reversals of the whole torque, less the plan's
   double rest_level_ = 0.0;
+  double shaken_level_ = 0.0;
   double unsettled_level_ = 0.0;
   double swing_level_ = 0.0;
   double ordered_low_Nm_ = 0.0;  ///< between these the orders have swung lately
@@ -104,6 +106,7 @@ class ChatterMonitor {
   Side torque_;  ///< of the whole torque
   Side plan_;    ///< of what the plan needs of it
   Side weak_;
+  Side shaken_;
   bool goes_on_ = false;
   bool drives_itself_ = false;
   bool surprised_ = false;          ///< since the last strong reversal

@@ -272,6 +272,7 @@ class JointController {
   int side_ = 0;         ///< of the reference, on which the joint was last, beyond the last counts
   double near_s_ = 0.0;  ///< since when it is within those
   bool swung_ = false;   ///< over to the other, in this period
+  bool hunted_ = false;  ///< the last counts are left to the integral, in this period
   GainsInUse gains_in_use_ = GainsInUse::kNone;
   MotionPhase phase_ = MotionPhase::kTracking;
   bool turned_back_ = false;  ///< a new plan has begun on the other side than the last, in this period

@@ -212,9 +212,9 @@ ControllerOutput JointController::track() noexcept {
   reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
   const double near_rad = kHuntingCounts * count_rad();
   const double off_rad = state_.then().position_rad - reference_.position_rad;
-  const bool hunted = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
+  hunted_ = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
   swung_ = swings_over(off_rad, std::max(near_rad, kLeastSwing_rad));
-  input.planned = moves || fallen_back() || hunted || linked();
+  input.planned = moves || fallen_back() || hunted_ || linked();
   // At rest a landing holds the load of a rigid joint.
   const double at_rest_Nm = config_.rigid && !fallen_back() ? told_load_.torque_Nm : held_load_Nm();
   input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
@@ -263,7 +263,7 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.static_friction_Nm = model_.friction.static_Nm;
   sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
   sample.torque_limit_Nm = torque_limit_Nm_;
-  sample.compensates_friction = !linked() && !fallen_back();
+  sample.compensates_friction = !linked() && !fallen_back() && !hunted_;
   if (linked()) sample.innovation_Nm = output.feedback_torque_Nm;
   sample.reference_rests = !moves;
   sample.swung_over = std::exchange(swung_, false);

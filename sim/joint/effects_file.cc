@@ -40,6 +40,12 @@ void read_spring(TomlSection section, const Gear* gear, Transmission& transmissi
   spring.torque_2_Nm = section.number_or("torque_2_Nm", std::max(spring.torque_1_Nm, spring.torque_2_Nm),
                                          {spring.torque_1_Nm, kNotNegative.max});
   stiffness("stiffness_3_Nm_rad", spring.stiffness_3_Nm_rad);
+  // A slope that no torque has would be ignored.
+  if (section.has("stiffness_2_Nm_rad") && spring.torque_2_Nm <= spring.torque_1_Nm)
+    section.fail("stiffness_2_Nm_rad",
+                 "it is allowed only with torque_1_Nm below torque_2_Nm, between which it is the slope");
+  if (section.has("stiffness_3_Nm_rad") && spring.torque_2_Nm <= 0.0)
+    section.fail("stiffness_3_Nm_rad", "it is allowed only with torque_2_Nm, from which on it is the slope");
   spring = spring.scaled(section.number_or("scale", 1.0, {0.01, 100.0}));
   transmission.damping_Nms_rad =
       section.number_or("damping_Nms_rad", transmission.damping_Nms_rad, kNotNegative);

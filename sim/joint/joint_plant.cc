@@ -64,7 +64,7 @@ void check_presliding(const JointPlantConfig& c) {
   const double fastest_rad_s = c.substeps / c.period_s;
   const double static_Nm = c.joint.friction.at(kColdest_C).static_Nm;
   const double least_rad = static_Nm / (c.joint.inertia_kgm2 * fastest_rad_s * fastest_rad_s);
-  require(presliding_rad >= least_rad, "friction.presliding_rad", presliding_rad,
+  require(presliding_rad >= least_rad, "sliding.presliding_rad", presliding_rad,
           "0, or at least " + number_text(least_rad) + " with " + std::to_string(c.substeps) +
               " sub-steps is allowed (the friction of -40 degC on this inertia)");
 }
@@ -99,8 +99,8 @@ void check_substeps(const JointPlantConfig& c) {
 void check(const JointEffects& e) {
   require(std::isfinite(e.gear_ratio) && e.gear_ratio > 0.0, "gear_ratio", e.gear_ratio,
           "must be finite and > 0");
-  for (const auto& [key, value] : {std::pair{"friction.transmitted_share", e.friction.transmitted_share},
-                                   std::pair{"friction.presliding_rad", e.friction.presliding_rad},
+  for (const auto& [key, value] : {std::pair{"sliding.transmitted_share", e.friction.transmitted_share},
+                                   std::pair{"sliding.presliding_rad", e.friction.presliding_rad},
                                    std::pair{"drive.current_loop_s", e.drive.current_loop_s},
                                    std::pair{"gravity.torque_Nm", e.gravity.torque_Nm},
                                    std::pair{"contact.stiffness_Nm_rad", e.contact.stiffness_Nm_rad},

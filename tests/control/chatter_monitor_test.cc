@@ -1,3 +1,4 @@
+// Above 300 lines: one small object, and a case for each way of shaking that it knows.
 #include "control/chatter_monitor.h"
 
 #include <gtest/gtest.h>
@@ -276,7 +277,7 @@ TEST(ChatterMonitor, TakesNoMoreThanOrdersThatSwingTheJointExplainForTheirs) {
 
 // At rest a flickering count makes no velocity any more: what is as strong as a count's is the joint's.
 TEST(ChatterMonitor, SeesAtRestWhatIsAsStrongAsOneCountOfACoarseEncoder) {
-  for (const double step_Nm : {3.0, 8.0}) {
+  for (const double step_Nm : {2.0, 3.0}) {
     ChatterMonitor monitor(0.001);
     int fallback = -1;
     for (int k = 0; k < 3000 && fallback < 0; ++k) {
@@ -287,6 +288,26 @@ TEST(ChatterMonitor, SeesAtRestWhatIsAsStrongAsOneCountOfACoarseEncoder) {
     }
     EXPECT_GE(fallback, 500) << step_Nm << ": a joint that comes to rest may hunt so long";
     EXPECT_LE(fallback, 1500) << step_Nm;
+  }
+}
+
+// Torques that move the joint whichever way, at rest: too few in a second for what may hunt, too weak for the counts of a coarse encoder.
+TEST(ChatterMonitor, SeesWithinAThirdOfASecondATorqueThatMovesAJointToAndFroWhereItIsToRest) {
+  for (const double frequency_Hz : {10.0, 16.0, 24.0, 45.0}) {
+    const auto fallback = [&](double amplitude_Nm, bool rests) {
+      ChatterMonitor monitor(0.001);
+      for (int k = 0; k < 3000; ++k) {
+        ChatterSample sample =
+            sample_with(amplitude_Nm * std::sin(2e-3 * std::numbers::pi * frequency_Hz * k));
+        sample.feedback_step_Nm = 5.0;
+        sample.reference_rests = rests;
+        if (monitor.step(sample) == MonitorState::kFallenBack) return k;
+      }
+      return -1;
+    };
+    EXPECT_LE(fallback(4.5, true), 0.1e3 + 3.2e3 / frequency_Hz) << frequency_Hz;
+    EXPECT_GE(fallback(4.5, true), 120) << frequency_Hz << ": a motion's last swings";
+    EXPECT_EQ(fallback(4.5, false), -1) << frequency_Hz << ": what the counts make of a motion";
   }
 }
 

@@ -77,6 +77,15 @@ TEST_F(SimulatedConfigTest, RefusesGearsAndSpringsThatCannotBe) {
   expect_mentions(
       error_of(joint_with(link("[joint.simulated.spring]\ntorque_1_Nm = 20\ntorque_2_Nm = 10\n"))),
       {"joint[0].simulated.spring.torque_2_Nm = 10", "from 20"});
+  // A slope that no torque has.
+  const auto without_gear = [](const std::string& slope) {
+    const std::string one_slope = link("[joint.simulated.spring]\nstiffness_1_Nm_rad = 8100\n" + slope);
+    return replaced(joint_with(one_slope), "gear = \"csf-17-50\"\n", "");
+  };
+  expect_mentions(error_of(without_gear("stiffness_2_Nm_rad = 11000\n")),
+                  {"joint[0].simulated.spring.stiffness_2_Nm_rad", "torque_1_Nm below torque_2_Nm"});
+  expect_mentions(error_of(without_gear("stiffness_3_Nm_rad = 13000\n")),
+                  {"joint[0].simulated.spring.stiffness_3_Nm_rad", "torque_2_Nm, from which on"});
   expect_mentions(error_of(joint_with("[joint.simulated.link]\ninertia_kgm2 = -0.1\n")),
                   {"joint[0].simulated.link.inertia_kgm2 = -0.1", "from"});
 }
