@@ -159,20 +159,6 @@ TEST(Chatter, EndsWithinHalfASecondOfTheFirstMotionWithTheEncoderOnTheOtherSideO
   }
 }
 
-// Few counts: the law makes more of one than chatter has torque.
-TEST(Chatter, EndsSoonWithACoarseEncoderOnTheOtherSideOfASpring) {
-  for (const double link_kgm2 : {0.3, 0.5, 0.9})
-    for (const double target_rad : {0.002, 0.012, 0.06}) {
-      TwoMassData data = testing::catalogue_joint(33.0, link_kgm2, 0.026, 1);
-      data.counts_per_revolution = 65536.0;
-      data.encoder_on_link = true;
-      const Outcome outcome = run(data, table_for(0.089 + link_kgm2), false, {target_rad}, 4000);
-      EXPECT_LE(outcome.last_reversal, outcome.first_motion + 700)
-          << link_kgm2 << ", " << target_rad << " rad, fallback " << outcome.fallback << ", reversals "
-          << outcome.reversals;
-    }
-}
-
 // Where friction gives way like a spring before it slides, a pulse of torque takes the joint across the next count's edge, and the count
 // makes the next pulse. A count to either side is no velocity at rest, and what swings farther is seen, however coarse the counts.
 TEST(Chatter, AtRestEndsWhereFrictionGivesWayAndTheEncoderIsCoarse) {
