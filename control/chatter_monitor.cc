@@ -33,11 +33,13 @@ constexpr double kTurnedLimit = 3.9;
 // Pushes of a landing reverse by design, and a first push may surprise; ten of them in 0.1 s do not on a sound
 // joint. Half of a reversal would already make one of 2000 landings with friction off by up to 30 % fall back.
 constexpr double kLandingWeight = 0.35;
-// At rest the law's compensation of friction may hunt for the last counts, some 0.5 s at up to 100 reversals a
-// second; what goes on longer does not settle.
+// At rest the law's compensation of friction may hunt for the last counts, some 0.15 s at up to 100 reversals a
+// second; what goes on longer does not settle soon.
 constexpr double kSettled_s = 0.1;
 constexpr double kRestLeak_s = 1.0;
-constexpr double kRestLimit = 60.0;
+constexpr double kRestLimit = 15.0;
+// What follows a model of its spring answers every swing that a knock leaves, and is right to: it may for 0.5 s.
+constexpr double kAnswerWeight = 0.25;
 // With torques that move the joint whichever way, and not in one place, it does not settle by them: four such reversals in some 0.2 s.
 constexpr double kShakenLeak_s = 0.3;
 constexpr double kShakenLimit = 3.6;
@@ -136,11 +138,12 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   const double moving_share = sample.compensates_friction ? kShakenShare : kBareShare;
   const double shaking_Nm =
       std::max(beyond_Nm(moving_share, kRestNoiseSteps), kLeastShake * sample.torque_limit_Nm);
-  if (shaken_.reversed(excess_Nm, shaking_Nm) && !sample.landing && rest_s_ >= kSettled_s)
+  if (shaken_.reversed(excess_Nm, shaking_Nm) && !sample.landing && !sample.follows_model &&
+      rest_s_ >= kSettled_s)
     shaken_level_ += 1.0;
   const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare, kRestNoiseSteps));
   if (!weak) return;
-  if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += 1.0;
+  if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += sample.follows_model ? kAnswerWeight : 1.0;
   if (rest_s_ >= kUnsettled_s)
     unsettled_level_ += !sample.landing ? 1.0 : surprised_at_rest_ ? kLandingWeight : 0.0;
   surprised_at_rest_ = false;
@@ -150,6 +153,13 @@ bool ChatterMonitor::any_level_reaches(double share) const noexcept {
   return level_ >= share * kLimit || turned_level_ >= share * kTurnedLimit ||
          rest_level_ >= share * kRestLimit || shaken_level_ >= share * kShakenLimit ||
          unsettled_level_ >= share * kUnsettledLimit;
+}
+
+// From here on the gains are softer, and what counts is what those make.
+void ChatterMonitor::doubt_the_gains() noexcept {
+  goes_on_ = true;
+  chatter_s_ = 0.5 * kPatience_s;
+  level_ = turned_level_ = rest_level_ = shaken_level_ = unsettled_level_ = 0.0;
 }
 
 MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
@@ -170,8 +180,10 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
   if (state_ == MonitorState::kWatching) {
     const bool drives_itself = swing_level_ >= kSwingLimit;
     if (!any_level_reaches(1.0) && distrust_ < kDistrustLimit && !drives_itself) return state_;
+    const bool rests = rest_level_ >= kRestLimit || shaken_level_ >= kShakenLimit;
     reset();
     drives_itself_ = drives_itself;
+    if (rests) doubt_the_gains();
     state_ = MonitorState::kFallenBack;
     return state_;
   }
@@ -179,11 +191,7 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
   chatter_s_ = any_level_reaches(kGoesOn)
                    ? chatter_s_ + elapsed_s
                    : std::max(goes_on_ ? 0.5 * kPatience_s : 0.0, chatter_s_ - elapsed_s);
-  if (chatter_s_ >= 0.5 * kPatience_s && !goes_on_) {
-    // From here on the gains are softer, and what counts is what those make.
-    goes_on_ = true;
-    level_ = turned_level_ = rest_level_ = shaken_level_ = unsettled_level_ = 0.0;
-  }
+  if (chatter_s_ >= 0.5 * kPatience_s && !goes_on_) doubt_the_gains();
   if (chatter_s_ >= kPatience_s) state_ = MonitorState::kFaultDue;
   return state_;
 }

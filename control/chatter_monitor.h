@@ -14,6 +14,8 @@
 //   Watching ----- too many -------------------------> FallenBack   the plain certified law takes over
 //   FallenBack --- reversals go on for long enough --> FaultDue     the joint must be switched off
 //
+// Halfway to the fault, and at once where the joint was to rest and needs no stiffness, the plain law's gains are in doubt, too.
+//
 // A joint that follows a model of its spring is fed back what it differs from that. Where this asks for half of the torque limit, in the
 // mean over some 50 ms, the joint is not the model's: it falls back as well.
 //
@@ -47,7 +49,9 @@ struct ChatterSample {
       0.0;  ///< > 0: beyond a quarter of it on either side nothing is noise, whatever the encoder shows
   /// The law compensates friction by itself now, towards the target from either side.
   bool compensates_friction = true;
-  /// Torque that the feedback asks for, where a model of the joint is followed: as large as the model is wrong. Else 0.
+  /// A model of motor, spring and link is followed.
+  bool follows_model = false;
+  /// Torque that the feedback asks for, where a model is followed: as large as the model is wrong. Else 0.
   double innovation_Nm = 0.0;
   bool reference_rests = false;
   /// The joint has come over to the other side of where it is to rest, by more than a push for the last counts leaves.
@@ -71,7 +75,7 @@ class ChatterMonitor {
   double distrust() const noexcept { return distrust_; }
   /// Why it fell back: friction that is compensated at rest drives the joint, for it is more than the joint has.
   bool drives_itself() const noexcept { return drives_itself_; }
-  /// After the fallback: chatter has gone on for half of the time that it may.
+  /// After the fallback: chatter has gone on for half of the time that it may, or began where the reference rests.
   bool goes_on() const noexcept { return goes_on_; }
 
  private:
@@ -81,6 +85,7 @@ class ChatterMonitor {
     bool reversed(double torque_Nm, double threshold_Nm) noexcept;
   };
   void count(const ChatterSample& sample) noexcept;
+  void doubt_the_gains() noexcept;
   void follow_orders(const ChatterSample& sample) noexcept;
   /// `share` of its limit.
   bool any_level_reaches(double share) const noexcept;

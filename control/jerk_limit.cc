@@ -7,12 +7,15 @@ namespace strainwave {
 
 namespace {
 
-// Accelerations step from one limit to the other.
-int width_periods(const MotionLimits& limits, double jerk_rad_s3, double period_s) noexcept {
-  const double largest_rad_s2 = std::max(limits.acceleration_rad_s2, limits.deceleration_rad_s2);
-  // Rounding makes no period of its own.
-  const double periods = std::ceil(2.0 * largest_rad_s2 / (jerk_rad_s3 * period_s) * (1.0 - 1e-12));
+// Rounding makes no period of its own.
+int width_periods(double width_s, double period_s) noexcept {
+  const double periods = std::ceil(width_s / period_s * (1.0 - 1e-12));
   return static_cast<int>(std::clamp(periods, 1.0, static_cast<double>(kMaxMeanPeriods)));
+}
+
+// Accelerations step from one limit to the other.
+double needed_width_s(const MotionLimits& limits, double jerk_rad_s3) noexcept {
+  return 2.0 * std::max(limits.acceleration_rad_s2, limits.deceleration_rad_s2) / jerk_rad_s3;
 }
 
 }  // namespace
@@ -23,9 +26,16 @@ MotionLimits JerkLimit::possible(const MotionLimits& limits, double jerk_rad_s3,
           std::min(limits.deceleration_rad_s2, largest_rad_s2)};
 }
 
-JerkLimit::JerkLimit(const MotionLimits& limits, double jerk_rad_s3, double period_s) noexcept
-    : periods_(width_periods(limits, jerk_rad_s3, period_s)), period_s_(period_s), mean_(periods_, period_s) {
+JerkLimit::JerkLimit(int periods, double period_s) noexcept
+    : periods_(periods), period_s_(period_s), mean_(periods, period_s) {
   reset(0.0, 0.0);
+}
+
+JerkLimit::JerkLimit(const MotionLimits& limits, double jerk_rad_s3, double period_s) noexcept
+    : JerkLimit(width_periods(needed_width_s(limits, jerk_rad_s3), period_s), period_s) {}
+
+JerkLimit JerkLimit::spread_over(double width_s, double period_s) noexcept {
+  return {width_periods(width_s, period_s), period_s};
 }
 
 double JerkLimit::reset(double position_rad, double velocity_rad_s) noexcept {

@@ -19,9 +19,14 @@ class JerkLimit {
 
   /// For motions within `limits`, which must be possible().
   JerkLimit(const MotionLimits& limits, double jerk_rad_s3, double period_s) noexcept;
+  /// The mean over `width_s` > 0, over at most kMaxMeanPeriods.
+  static JerkLimit spread_over(double width_s, double period_s) noexcept;
 
   /// The motion is there now, at constant velocity. Where the planned motion, which is ahead, must go on from.
   double reset(double position_rad, double velocity_rad_s) noexcept;
+  /// Where the next sample begins.
+  double position_rad() const noexcept { return now_.position_rad; }
+  double velocity_rad_s() const noexcept { return now_.velocity_rad_s; }
   /// The planned motion's next sample, its acceleration that of the period that follows; likewise what comes of it.
   Reference step(const Reference& planned) noexcept;
 
@@ -30,6 +35,8 @@ class JerkLimit {
   double lag_s() const noexcept { return mean_.lag_s(); }
 
  private:
+  JerkLimit(int periods, double period_s) noexcept;
+
   int periods_;
   double period_s_;
   MovingMean mean_;

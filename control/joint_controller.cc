@@ -24,6 +24,10 @@ constexpr double kSoftShare = 0.25;
 // some encoder's reading.
 constexpr double kTurnCounts = 2.0;
 
+// Over the mean of this time the acceleration of an eased move is spread. It takes free swings of 50 Hz away; of the catalogue's joints,
+// which swing at 28 to 86 Hz, it leaves half of the slowest and a seventh of the fastest.
+constexpr double kEasing_s = 0.02;
+
 double least_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   double least_Nm = friction.rules.front().friction.static_Nm;
   for (std::size_t i = 1; i < static_cast<std::size_t>(friction.rule_count); ++i)
@@ -99,6 +103,8 @@ JointController::JointController(const JointControllerConfig& config) noexcept
   if (config.use_shaping && config.jerk_limit_rad_s3) {
     jerk_limit_.emplace(motion_, *config.jerk_limit_rad_s3, config.period_s);
     ordered_jerk_ = jerk_limit_;
+  } else if (config.use_shaping && !config.rigid && !config.link) {
+    easing_ = JerkLimit::spread_over(kEasing_s, config.period_s);
   }
   shaper_.set_limits(motion_);
   ordered_.set_limits(motion_);
@@ -130,6 +136,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   const double fastest = motion_.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
   const double planned_rad = link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad;
+  if (easing_) jerk_limit_.reset();
   shaper_.reset(jerk_limit_ ? jerk_limit_->reset(planned_rad, begin_rad_s) : planned_rad, begin_rad_s);
   ordered_ = shaper_;
   ordered_jerk_ = jerk_limit_;
@@ -153,6 +160,12 @@ void JointController::start(double position_rad, double velocity_rad_s,
   replans_ = 0;
   attempts_.reset();
   monitor_.reset();
+  // Nobody has ordered a motion: what stands is left alone, its last counts as well.
+  if (config_.use_rest && velocity_rad_s == 0.0 && may_land()) {
+    enter(MotionPhase::kResting);
+    stands_ = true;
+  }
+  hold_torque_Nm_ = holding_torque_Nm.value_or(gravity_Nm);
   fallback_torque_Nm_.reset();
   handover_Nm_ = 0.0;
   reference_rest_s_ = 0.0;
@@ -180,6 +193,7 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   const bool repeated = same_target && !streamed_;
   streamed_ = false;
   if (same_target && phase_ != MotionPhase::kTracking) return;
+  ease();
   shaper_.set_target(position_rad);
   ordered_.set_target(position_rad);
   plans_ = 0;

@@ -57,6 +57,8 @@ struct JointControllerConfig {
   MotorLimits motor;
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
   /// Of the reference, > 0; with use_shaping. Where it is so low that kMaxMeanPeriods do not suffice, accelerations are lower, too.
+  /// Without it moves that begin at rest are eased where a spring may hang on the joint that nobody told of: a step of the acceleration
+  /// swings it.
   std::optional<double> jerk_limit_rad_s3;
   /// How long a stream whose samples do not come goes on as it was; at least two of its intervals, at most 0.2 s.
   double stream_bridge_s = 0.05;
@@ -175,6 +177,8 @@ class JointController {
   void advance_references() noexcept;
   bool plan_rests() const noexcept;
   void begin_plan(double position_rad, double velocity_rad_s) noexcept;
+  void ease() noexcept;
+  void end_easing() noexcept;
   JointModel loaded_model() const noexcept;
   void forget_told_load(int elapsed_periods) noexcept;
   void limit_speed(double speed_limit_rad_s) noexcept;
@@ -227,8 +231,9 @@ class JointController {
 
   JointControllerConfig config_;
   ReferenceShaper shaper_;
-  ReferenceShaper ordered_;                ///< the same orders, never restarted
-  std::optional<JerkLimit> jerk_limit_;    ///< of what shaper_ plans
+  ReferenceShaper ordered_;              ///< the same orders, never restarted
+  std::optional<JerkLimit> easing_;      ///< of moves that begin at rest, where no limit of the jerk is given
+  std::optional<JerkLimit> jerk_limit_;  ///< of what shaper_ plans, while it is limited
   std::optional<JerkLimit> ordered_jerk_;  ///< of what ordered_ does
   StreamTarget stream_;
   std::optional<LinkMotion> link_motion_;
@@ -269,6 +274,7 @@ class JointController {
   int plans_ = 0;                      ///< new ones since the target or the phase changed
   int plan_side_ = 0;                  ///< of the target, on which the last of them began; 0: none yet
   int away_periods_ = 0;               ///< that a resting joint has been off its target
+  bool stands_ = false;                ///< as it was found by start(): it has left its count for nothing yet
   int side_ = 0;         ///< of the reference, on which the joint was last, beyond the last counts
   double near_s_ = 0.0;  ///< since when it is within those
   bool swung_ = false;   ///< over to the other, in this period

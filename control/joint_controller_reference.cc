@@ -24,9 +24,28 @@ void JointController::forget_told_load(int elapsed_periods) noexcept {
   told_load_.inertia_kgm2 *= kept;
 }
 
+// A move that begins at rest, or goes on eased.
+void JointController::ease() noexcept {
+  if (!easing_ || jerk_limit_ || !shaper_.at_target() || !ordered_.at_target()) return;
+  jerk_limit_ = easing_;
+  jerk_limit_->reset(shaper_.position_rad(), 0.0);
+  ordered_jerk_ = easing_;
+  ordered_jerk_->reset(ordered_.position_rad(), 0.0);
+}
+
+// A stream tells how it moves by itself.
+void JointController::end_easing() noexcept {
+  if (!easing_ || !jerk_limit_) return;
+  shaper_.restart(jerk_limit_->position_rad(), jerk_limit_->velocity_rad_s());
+  ordered_.restart(ordered_jerk_->position_rad(), ordered_jerk_->velocity_rad_s());
+  jerk_limit_.reset();
+  ordered_jerk_.reset();
+}
+
 void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
                              const PositionRange& range, OnTime on_time) noexcept {
   limit_speed(speed_limit_rad_s);
+  end_easing();
   stream_range_ = range;
   on_time_ = on_time;
   if (!streamed_ || begins) {

@@ -90,7 +90,9 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   }
   const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad();
   away_periods_ = away ? away_periods_ + 1 : 0;
-  if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods) enter(MotionPhase::kLanding);
+  const bool taken = stands_ && measurement.joint_position_rad != shaper_.target_rad();
+  if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods || taken)
+    enter(MotionPhase::kLanding);
 }
 
 void JointController::enter(MotionPhase phase) noexcept {
@@ -99,6 +101,7 @@ void JointController::enter(MotionPhase phase) noexcept {
     corrections_.motion();
   }
   if (phase == phase_) return;
+  stands_ = false;
   // What the integral knew of load and friction, the observer knows.
   if (phase_ == MotionPhase::kLanding) active().reset();
   if (phase == MotionPhase::kLanding) {
@@ -264,6 +267,7 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
   sample.torque_limit_Nm = torque_limit_Nm_;
   sample.compensates_friction = !linked() && !fallen_back() && !hunted_;
+  sample.follows_model = linked();
   if (linked()) sample.innovation_Nm = output.feedback_torque_Nm;
   sample.reference_rests = !moves;
   sample.swung_over = std::exchange(swung_, false);

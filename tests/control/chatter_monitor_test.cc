@@ -134,12 +134,12 @@ TEST(ChatterMonitor, SeesAtRestWhatIsTooWeakToBeSeenInMotionAndNeverWhatCannotMo
   }
 }
 
-TEST(ChatterMonitor, SeesASlowSwingAboutTheTargetThatGoesOnLongAfterTheReferenceHasComeToRest) {
+TEST(ChatterMonitor, SeesASlowSwingAboutTheTargetThatGoesOnAfterTheReferenceHasComeToRest) {
   for (const double frequency_Hz : {9.0, 14.0, 20.0}) {
     ChatterMonitor monitor(0.001);
     const int seen = periods_until(monitor, MonitorState::kFallenBack, frequency_Hz, 2.4, 10000, true);
-    EXPECT_GT(seen, 2000) << frequency_Hz << ": a joint may hunt for a while";
-    EXPECT_LT(seen, 6000) << frequency_Hz;
+    EXPECT_GT(seen, 500) << frequency_Hz << ": a joint may hunt for a while";
+    EXPECT_LT(seen, 2000) << frequency_Hz;
   }
   ChatterMonitor pushed(0.001);
   EXPECT_LT(periods_until(pushed, MonitorState::kFallenBack, 3.0, 2.4, 60000, true), 0) << "by somebody";
@@ -277,7 +277,7 @@ TEST(ChatterMonitor, TakesNoMoreThanOrdersThatSwingTheJointExplainForTheirs) {
 
 // At rest a flickering count makes no velocity any more: what is as strong as a count's is the joint's.
 TEST(ChatterMonitor, SeesAtRestWhatIsAsStrongAsOneCountOfACoarseEncoder) {
-  for (const double step_Nm : {2.0, 3.0}) {
+  for (const double step_Nm : {2.0, 3.0, 8.0}) {
     ChatterMonitor monitor(0.001);
     int fallback = -1;
     for (int k = 0; k < 3000 && fallback < 0; ++k) {
@@ -286,8 +286,41 @@ TEST(ChatterMonitor, SeesAtRestWhatIsAsStrongAsOneCountOfACoarseEncoder) {
       sample.reference_rests = true;
       if (monitor.step(sample) == MonitorState::kFallenBack) fallback = k;
     }
-    EXPECT_GE(fallback, 500) << step_Nm << ": a joint that comes to rest may hunt so long";
-    EXPECT_LE(fallback, 1500) << step_Nm;
+    // 8 N.m move the joint.
+    EXPECT_GE(fallback, step_Nm < 5.0 ? 200 : 120)
+        << step_Nm << ": a joint that comes to rest may hunt so long";
+    EXPECT_LE(fallback, step_Nm < 5.0 ? 300 : 200) << step_Nm;
+  }
+}
+
+// The plain law is in doubt from half of its patience on; where the joint rests, which needs no stiffness, at once.
+TEST(ChatterMonitor, DoubtsTheGainsAtOnceOfAJointThatChattersWhereItIsToRest) {
+  for (const bool rests : {true, false}) {
+    ChatterMonitor monitor(0.001);
+    ASSERT_GE(periods_until(monitor, MonitorState::kFallenBack, 50.0, 20.0, 2000, rests), 0);
+    EXPECT_EQ(monitor.goes_on(), false) << "chatter from the start is seen before the joint has rested";
+    monitor.reset();
+    ASSERT_GE(periods_until(monitor, MonitorState::kFallenBack, 50.0, 2.4, 2000, rests), rests ? 0 : -1);
+    EXPECT_EQ(monitor.goes_on(), rests);
+    if (!rests) continue;
+    EXPECT_LT(periods_until(monitor, MonitorState::kFaultDue, 1.0, 0.1, 2000, true), 0) << "it has ended";
+    EXPECT_GE(periods_until(monitor, MonitorState::kFaultDue, 50.0, 20.0, 1000, true), 0) << "it goes on";
+  }
+}
+
+// A knock leaves swings, and who follows a model of the spring answers each.
+TEST(ChatterMonitor, LetsAJointThatFollowsAModelOfItsSpringAnswerTheSwingsThatAKnockLeaves) {
+  for (const bool follows_model : {false, true}) {
+    ChatterMonitor monitor(0.001);
+    bool watching = true;
+    for (int k = 0; k < 600; ++k) {
+      ChatterSample sample =
+          sample_with(4.4 * std::exp(-2e-3 * k) * std::sin(2e-3 * std::numbers::pi * 35.0 * k));
+      sample.reference_rests = true;
+      sample.follows_model = follows_model;
+      watching = watching && monitor.step(sample) == MonitorState::kWatching;
+    }
+    EXPECT_EQ(watching, follows_model);
   }
 }
 

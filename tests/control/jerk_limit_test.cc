@@ -94,5 +94,20 @@ TEST(JerkLimit, IsLaterThanThePlanByTheLagThatItNames) {
   EXPECT_NEAR(planned.position_rad - reference.position_rad, limit.lag_s() * 1.0, 1e-12);
 }
 
+TEST(JerkLimit, SpreadsAStepOfTheAccelerationOverTheTimeItIsTold) {
+  JerkLimit limit = JerkLimit::spread_over(0.02, kPeriod_s);
+  EXPECT_NEAR(limit.lag_s(), 0.01, 1e-12);
+  limit.reset(0.0, 0.0);
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    const Reference eased = limit.step({position_rad, velocity_rad_s, 50.0});
+    position_rad += kPeriod_s * (velocity_rad_s + 0.5 * kPeriod_s * 50.0);
+    velocity_rad_s += 50.0 * kPeriod_s;
+    EXPECT_NEAR(eased.acceleration_rad_s2, 50.0 * std::min(1.0, (k + 0.5) * kPeriod_s / 0.02), 1e-9) << k;
+    EXPECT_NEAR(limit.velocity_rad_s(), eased.velocity_rad_s + kPeriod_s * eased.acceleration_rad_s2, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace strainwave

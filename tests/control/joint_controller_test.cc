@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "control/units.h"
@@ -148,6 +149,38 @@ TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
   loop.free();
   loop.run(3.0);
   EXPECT_LE(std::abs(loop.position_rad() - 0.5), kCount_rad);
+}
+
+// Whatever the encoder: the last counts of a place to which nobody has ordered the joint are no reason to move it.
+TEST(JointController, LeavesAJointAloneThatStandsUntilItIsOrderedOn) {
+  for (const double counts : {65536.0, 131072.0, 320000.0})
+    for (const double start_counts : {-0.4, 0.1, 0.49}) {
+      const double count_rad = 2.0 * std::numbers::pi / counts;
+      JointPlantConfig coarse = realistic_plant();
+      coarse.encoder.counts_per_joint_revolution = counts;
+      coarse.initial_position_rad = start_counts * count_rad;
+      JointPlant plant(coarse);
+      plant.set_ambient_temperature(20.0);
+      JointControllerConfig config = realistic_config();
+      config.encoder_resolution_rad = count_rad;
+      JointController controller(config);
+      controller.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
+      controller.start(plant.measured_position_rad());
+      const auto step = [&] {
+        JointMeasurement measurement;
+        measurement.joint_position_rad = plant.measured_position_rad();
+        measurement.temperature_C = 20.0;
+        measurement.temperature_valid = true;
+        const double torque_Nm = controller.step(measurement).output.torque_Nm;
+        plant.step(torque_Nm, 0.0);
+        return torque_Nm;
+      };
+      for (int k = 0; k < 1000; ++k)
+        ASSERT_EQ(step(), 0.0) << counts << " counts, " << start_counts << ", " << k;
+      controller.set_target(0.01);
+      for (int k = 0; k < 2000; ++k) step();
+      EXPECT_NEAR(plant.state().position_rad, 0.01, count_rad) << counts << " counts, " << start_counts;
+    }
 }
 
 TEST(JointController, BeginsWithTheMotionAndTheLoadThatItFinds) {
