@@ -41,6 +41,8 @@ constexpr double kSpringDoubt = 0.2;
 constexpr double kLeastChange = 0.003;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
+// Counts by which the reading of a joint that stands as it was found may flicker. What is farther leaves the rest at once.
+constexpr double kFlickerCounts = 1.5;
 
 }  // namespace
 
@@ -90,7 +92,9 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   }
   const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad();
   away_periods_ = away ? away_periods_ + 1 : 0;
-  const bool taken = stands_ && measurement.joint_position_rad != shaper_.target_rad();
+  // By a load, once no brake holds it any more.
+  const double shown_rad = std::abs(measurement.joint_position_rad - shaper_.target_rad());
+  const bool taken = stands_ && shown_rad > kFlickerCounts * count_rad();
   if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods || taken)
     enter(MotionPhase::kLanding);
 }
