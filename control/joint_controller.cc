@@ -28,13 +28,6 @@ constexpr double kTurnCounts = 2.0;
 // which swing at 28 to 86 Hz, it leaves half of the slowest and a seventh of the fastest.
 constexpr double kEasing_s = 0.02;
 
-double least_static_friction_Nm(const FuzzyFriction& friction) noexcept {
-  double least_Nm = friction.rules.front().friction.static_Nm;
-  for (std::size_t i = 1; i < static_cast<std::size_t>(friction.rule_count); ++i)
-    least_Nm = std::min(least_Nm, friction.rules[i].friction.static_Nm);
-  return least_Nm;
-}
-
 // Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two readings.
 double largest_gain_Nm_rad(const GainTable& table, double period_s, bool smooth_velocity) noexcept {
   double largest = 0.0;
@@ -124,7 +117,7 @@ void JointController::load(const GainTable& table) noexcept {
       config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, false);
   torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
   model_.friction_scale_Nm =
-      std::max(least_static_friction_Nm(table.friction), kLeastFrictionShare * torque_limit_Nm_);
+      std::max(table.friction.least_static_Nm(), kLeastFrictionShare * torque_limit_Nm_);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
   if (std::exchange(soft_, false)) soften(true);
   has_table_ = true;

@@ -156,7 +156,7 @@ TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
 TEST(JointController, LeavesAJointAloneThatStandsUntilItIsOrderedOn) {
   for (const double counts : {65536.0, 131072.0, 320000.0})
     for (const double start_counts : {-0.4, 0.1, 0.49}) {
-      double flicker_counts = 1.0;
+      double noise_counts = 0.3;
       const double count_rad = 2.0 * std::numbers::pi / counts;
       JointPlantConfig coarse = realistic_plant();
       coarse.encoder.counts_per_joint_revolution = counts;
@@ -170,8 +170,9 @@ TEST(JointController, LeavesAJointAloneThatStandsUntilItIsOrderedOn) {
       controller.start(plant.measured_position_rad());
       const auto step = [&] {
         JointMeasurement measurement;
-        flicker_counts = 1.0 - flicker_counts;
-        measurement.joint_position_rad = plant.measured_position_rad() + flicker_counts * count_rad;
+        noise_counts = -noise_counts;
+        measurement.joint_position_rad =
+            coarse.encoder.measure_rad(plant.state().position_rad + noise_counts * count_rad);
         measurement.temperature_C = 20.0;
         measurement.temperature_valid = true;
         const double torque_Nm = controller.step(measurement).output.torque_Nm;
