@@ -154,6 +154,9 @@ class JointController {
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
+  /// What the joint is taken for now: the table's at this temperature, with what a stream tells of its load.
+  JointModel loaded_model() const noexcept;
+
   /// Weights of the temperature rules in use.
   const TemperatureWeights& temperature_weights() const noexcept { return primary_.temperature_weights(); }
 
@@ -179,7 +182,6 @@ class JointController {
   void begin_plan(double position_rad, double velocity_rad_s) noexcept;
   void ease() noexcept;
   void end_easing() noexcept;
-  JointModel loaded_model() const noexcept;
   void forget_told_load(int elapsed_periods) noexcept;
   void limit_speed(double speed_limit_rad_s) noexcept;
   void new_target() noexcept;
