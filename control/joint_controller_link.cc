@@ -18,7 +18,7 @@ constexpr double kShortMotionShare = 2.0 / 3.0;
 
 void JointController::advance_link(int elapsed_periods) noexcept {
   for (int period = 0; period < elapsed_periods; ++period) {
-    limit_reference(shaper_);
+    limit_reference(plan_);
     limit_reference(ordered_);
     advance_references();
     planned_ = reference_;
@@ -42,7 +42,7 @@ void JointController::plan_link_motion(double from_rad) noexcept {
   link_share_ = 1.0;
   const double spread_s = link_motion_->spread_s();
   const double covered_rad = present_limits(0.0).acceleration_rad_s2 * spread_s * spread_s;
-  if (std::abs(shaper_.target_rad() - from_rad) < covered_rad) link_share_ = kShortMotionShare;
+  if (std::abs(plan_.target_rad() - from_rad) < covered_rad) link_share_ = kShortMotionShare;
 }
 
 // The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
@@ -51,7 +51,7 @@ bool JointController::correct_link(double reading_rad) noexcept {
   if (!corrections_.begins(reading_rad, distance_rad, state_.still_periods())) return false;
   ++replans_;
   const double from_rad = link_motion_->reset(reading_rad);
-  begin_plan(from_rad, 0.0);
+  plan_.go_on_from(from_rad, 0.0);
   planned_ = {};
   plan_link_motion(from_rad);
   state_.count_still_anew();
@@ -66,12 +66,12 @@ void JointController::go_on_from_here() noexcept {
   const double velocity_rad_s = std::clamp(state_.now().velocity_rad_s, -fastest, fastest);
   reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
-  begin_plan(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad, velocity_rad_s);
-  ordered_ = shaper_;
-  ordered_jerk_ = jerk_limit_;
+  plan_.go_on_from(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad,
+                   velocity_rad_s);
+  ordered_ = plan_;
   planned_ = {0.0, velocity_rad_s, 0.0};
   motor_plan_ = {};
-  replan_ = false;
+  new_plans_.cancel();
 }
 
 // A motion after a stall over which nobody knows what the joint did.

@@ -89,7 +89,7 @@ TEST(InertiaEstimate, FindsWhatHangsOnTheSpringWhateverItWasTold) {
                        << ", load " << load_Nm << " N.m");
           const auto found = watched.estimate().inertia_kgm2();
           ASSERT_TRUE(found);
-                 EXPECT_NEAR(*found, true_kgm2, 0.05 * true_kgm2);
+          EXPECT_NEAR(*found, true_kgm2, 0.05 * true_kgm2);
         }
 }
 
