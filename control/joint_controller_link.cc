@@ -13,6 +13,8 @@ namespace {
 // A motion that is over before the wind-up has been built up asks it to turn round at once: three steps of the acceleration in the
 // place of two (control/link_motion.h).
 constexpr double kShortMotionShare = 2.0 / 3.0;
+// From one reading to the next: a count to either side.
+constexpr double kRestCounts = 2.0;
 
 }  // namespace
 
@@ -63,7 +65,10 @@ bool JointController::correct_link(double reading_rad) noexcept {
 void JointController::go_on_from_here() noexcept {
   const double fastest = config_.motion.velocity_rad_s;
   const double position_rad = state_.now().position_rad;
-  const double velocity_rad_s = std::clamp(state_.now().velocity_rad_s, -fastest, fastest);
+  // What two counts make of a joint that rests is no motion to brake.
+  const double shown_rad_s = state_.now().velocity_rad_s;
+  const bool rests = std::abs(shown_rad_s) * config_.period_s <= kRestCounts * count_rad();
+  const double velocity_rad_s = rests ? 0.0 : std::clamp(shown_rad_s, -fastest, fastest);
   reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
   plan_.go_on_from(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad,

@@ -75,6 +75,10 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     const bool resting = rest_detector_.update(distance_rad, state_.now().velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
+  // By a load, once no brake holds it any more.
+  const double shown_rad = std::abs(measurement.joint_position_rad - plan_.target_rad());
+  const bool taken = stands_ && shown_rad > kFlickerCounts * count_rad();
+  if (stands_ && !taken) return;
   // A push that is planned to its end has become another over periods that were left out.
   const bool planned = config_.delay_periods > 1;
   if (phase_ == MotionPhase::kLanding && planned && measurement.elapsed_periods > 1)
@@ -85,9 +89,6 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   }
   const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad();
   away_periods_ = away ? away_periods_ + 1 : 0;
-  // By a load, once no brake holds it any more.
-  const double shown_rad = std::abs(measurement.joint_position_rad - plan_.target_rad());
-  const bool taken = stands_ && shown_rad > kFlickerCounts * count_rad();
   if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods || taken)
     enter(MotionPhase::kLanding);
 }
