@@ -97,12 +97,12 @@ std::vector<StateVector> initial_states(const GainsOptions& options) {
 }
 
 // Says what is not given and taken from the catalogue. Throws InputError that names the options which are needed.
-struct Joint {
+struct RequestedJoint {
   FrictionRules rules;
   std::optional<SpringRequest> spring;
   double inertia_kgm2 = 0.0;  ///< that the gains are designed for
 };
-Joint read_joint(const GainsOptions& options, const CLI::App& command) {
+RequestedJoint read_joint(const GainsOptions& options, const CLI::App& command) {
   const double ratio = ratio_of(options, command);
   std::vector<std::string> missing;
   if (options.friction.empty()) missing.emplace_back("--friction");
@@ -110,7 +110,7 @@ Joint read_joint(const GainsOptions& options, const CLI::App& command) {
     missing.emplace_back("--motor-inertia_kgm2");
   const CatalogueJoint* known = nullptr;
   if (!missing.empty()) known = &require_catalogue_joint("gains", options.gear, options.joint_model, missing);
-  Joint joint;
+  RequestedJoint joint;
   joint.inertia_kgm2 = options.inertia_kgm2;
   if (!options.friction.empty()) {
     joint.rules = read_friction_rules(options.friction, ratio,
@@ -134,7 +134,7 @@ Joint read_joint(const GainsOptions& options, const CLI::App& command) {
   return joint;
 }
 
-TableRequest make_request(const GainsOptions& options, const CLI::App& command, const Joint& joint) {
+TableRequest make_request(const GainsOptions& options, const CLI::App& command, const RequestedJoint& joint) {
   const auto given = [&command](const char* name, double value) {
     return command.count(name) > 0 ? std::optional<double>(value) : std::nullopt;
   };
@@ -165,7 +165,7 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
 
 // TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
 ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
-  const Joint joint = read_joint(options, command);
+  const RequestedJoint joint = read_joint(options, command);
   TableRequest request = make_request(options, command, joint);
   std::vector<Controller> wanted;
   for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
