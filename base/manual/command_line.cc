@@ -154,6 +154,22 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
   return text;
 }
 
+/// Nothing: go on. Otherwise help or version was asked for. Throws ProgramError (usage).
+std::optional<ExitStatus> parse(CLI::App& app, std::vector<std::string> words, std::ostream& out) {
+  for (std::string& word : words)
+    if (word.starts_with("-.")) word.insert(1, "0");  // which CLI11 would take for an option
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants the last first
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0)
+      throw ProgramError(ExitStatus::kUsage,
+                         explain(app, error, words) + "; see " + app.get_name() + " --help");
+    app.exit(error, out, out);
+    return ExitStatus::kDone;
+  }
+}
+
 }  // namespace
 
 void configure_program(CLI::App& app, const Manual& manual) {
@@ -163,48 +179,35 @@ void configure_program(CLI::App& app, const Manual& manual) {
   app.footer(exit_status_footer());
 }
 
-std::optional<ExitStatus> parse_command_line(CLI::App& app, std::vector<std::string> words, std::ostream& out,
-                                             std::ostream& err) {
-  for (std::string& word : words)
-    if (word.starts_with("-.")) word.insert(1, "0");  // which CLI11 would take for an option
-  try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants the last first
-    return std::nullopt;
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      app.exit(error, out, err);
-      return ExitStatus::kDone;
-    }
-    err << app.get_name() << ": " << printable_paragraph(explain(app, error, words)) << "; see "
-        << app.get_name() << " --help\n";
-    return ExitStatus::kUsage;
-  }
+void tell_failure(const CLI::App& app, std::ostream& err, const ProgramFailure& failure) {
+  err << app.get_name() << ": " << failure.why << '\n';
 }
 
-ExitStatus run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out, std::ostream& err,
-                       const CommandBody& action) {
-  const auto fail = [&](ExitStatus status, const std::string& why) {
-    err << app.get_name() << ": " << printable_paragraph(why) << '\n';
+ExitStatus run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out,
+                       const FailureTeller& tell, const CommandBody& action) {
+  const auto fail = [&](ExitStatus status, const std::exception& error) {
+    tell({status, printable_paragraph(error.what()), error});
     return status;
   };
   try {
-    if (const auto status = parse_command_line(app, {argv + 1, argv + argc}, out, err)) return *status;
+    if (const auto status = parse(app, {argv + 1, argv + argc}, out)) return *status;
     return action();
   } catch (const ProgramError& error) {
-    return fail(error.status(), error.what());
+    return fail(error.status(), error);
   } catch (const NotAchieved& error) {
-    return fail(ExitStatus::kRefused, error.what());
+    return fail(ExitStatus::kRefused, error);
   } catch (const InputError& error) {
-    return fail(ExitStatus::kUsage, error.what());
+    return fail(ExitStatus::kUsage, error);
   } catch (const std::filesystem::filesystem_error& error) {
-    return fail(ExitStatus::kUsage, error.what());
+    return fail(ExitStatus::kUsage, error);
   } catch (const std::exception& error) {
-    return fail(ExitStatus::kNoAnswer, error.what());
+    return fail(ExitStatus::kNoAnswer, error);
   }
 }
 
 int run_program(CLI::App& app, int argc, const char* const* argv, const CommandBody& action) {
-  return static_cast<int>(run_program(app, argc, argv, std::cout, std::cerr, action));
+  const auto tell = [&](const ProgramFailure& failure) { tell_failure(app, std::cerr, failure); };
+  return static_cast<int>(run_program(app, argc, argv, std::cout, tell, action));
 }
 
 }  // namespace strainwave

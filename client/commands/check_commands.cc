@@ -23,7 +23,9 @@ void check(const Output& output, const std::filesystem::path& config,
     for (std::string line; std::getline(lines, line);) result["lines"].push_back(line);
     output.stream << result.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
   }
-  if (status != 0) throw ClientError(ExitStatus::kUsage, config.string() + ": " + failure + ", see above");
+  if (status != 0)
+    throw ClientError(ExitStatus::kUsage,
+                      config.string() + ": " + failure + (output.json ? ", see lines" : ", see above"));
 }
 
 }  // namespace

@@ -8,24 +8,27 @@ std::vector<std::string> joints_or_all(Client& client, const std::vector<std::st
   return joints.empty() ? client.wait_for_joints() : joints;
 }
 
-bool Failures::attempt(const std::function<void()>& step) {
+bool Failures::attempt(const std::string& joint, const std::function<void()>& step) {
   try {
     step();
     return true;
   } catch (const ClientError& error) {
-    add(error);
+    failures_.push_back(error.of(joint));
     if (error.status() == ExitStatus::kInterrupted) rethrow();
     return false;
   }
 }
 
-void Failures::add(const ClientError& error) {
-  failure_.emplace(failure_ ? std::max(failure_->status(), error.status()) : error.status(),
-                   failure_ ? std::string(failure_->what()) + "\n" + error.what() : error.what());
-}
-
 void Failures::rethrow() const {
-  if (failure_) throw *failure_;
+  if (failures_.empty()) return;
+  if (failures_.size() == 1) throw ClientError(failures_.front());
+  ExitStatus worst = ExitStatus::kDone;
+  std::string text;
+  for (const ClientError& failure : failures_) {
+    worst = std::max(worst, failure.status());
+    text += (text.empty() ? "" : "\n") + std::string(failure.what());
+  }
+  throw ClientError(worst, text, {"", {}, {}, failures_});
 }
 
 }  // namespace strainwave

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,14 +16,13 @@ std::vector<std::string> joints_or_all(Client& client, const std::vector<std::st
 /// What went wrong with some of several joints, to be told as one error.
 class Failures {
  public:
-  /// Whether `step` ended without a ClientError. An interruption ends everything: it is thrown on, behind what had failed.
-  bool attempt(const std::function<void()>& step);
-  /// Throws what has failed, a line for each, with the status of the worst: no answer before a refusal.
+  /// Whether `step`, an order to `joint`, ended without a ClientError. An interruption ends everything: it is thrown on, behind what had failed.
+  bool attempt(const std::string& joint, const std::function<void()>& step);
+  /// Throws what has failed, of several joints a line for each, with the status of the worst: no answer before a refusal.
   void rethrow() const;
 
  private:
-  void add(const ClientError& error);
-  std::optional<ClientError> failure_;
+  std::vector<ClientError> failures_;
 };
 
 }  // namespace strainwave

@@ -36,23 +36,21 @@ void run_guarded(Client& client, const std::string& joint, const std::function<v
     motion();
   } catch (const ClientError& error) {
     resume_after_interrupt();
-    throw ClientError(error.status(), fmt::format("{}; {}", error.what(), hold_joint(client, joint)));
+    throw error.in_words(fmt::format("{}; {}", error.what(), hold_joint(client, joint)));
   }
 }
 
 void require_undisturbed(Client& client, const std::string& joint, std::int64_t session_id) {
   const JointView& view = *client.find(joint);
   const auto fail = [&](ExitStatus status, const std::string& why) {
-    throw ClientError(status, joint + ": " + why);
+    throw ClientError(status, joint + ": " + why, {joint, {}, {}, {}});
   };
   if (const auto refusal = client.take_refusal()) require_accepted(*refusal, joint, "a setpoint");
   if (seconds_between(view.received, now()) > kLongestSilence_s)
     fail(ExitStatus::kNoAnswer, fmt::format("nothing heard for {} s", kLongestSilence_s));
   if (view.state.session_id != session_id) fail(ExitStatus::kRefused, "the daemon was restarted");
   const auto mode = static_cast<Mode>(view.state.mode);
-  if (mode == Mode::kFaulted)
-    fail(ExitStatus::kRefused,
-         fmt::format("fault {}: {}", view.state.fault, to_text(static_cast<Fault>(view.state.fault))));
+  if (mode == Mode::kFaulted) throw faulted(joint, view);
   if (mode != Mode::kHolding && mode != Mode::kTracking) fail(ExitStatus::kRefused, "it was disabled");
 }
 

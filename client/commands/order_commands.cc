@@ -11,7 +11,7 @@ void order_each(Client& client, const Output& output, const std::vector<std::str
                 JointOrder order) {
   Failures failures;
   for (const std::string& joint : joints_or_all(client, joints))
-    failures.attempt([&] { order(client, output, joint); });
+    failures.attempt(joint, [&] { order(client, output, joint); });
   failures.rethrow();
 }
 

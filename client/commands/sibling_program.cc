@@ -18,7 +18,7 @@ namespace strainwave {
 
 namespace {
 
-/// What a child writes to its standard output, if somebody wants to have it.
+/// What a child writes to its standard output and standard error, if somebody wants to have it.
 class Capture {
  public:
   explicit Capture(std::string* into) : into_(into) {
@@ -30,6 +30,7 @@ class Capture {
     read_end_.reset(ends[0]);
     write_end_.reset(ends[1]);
     ::posix_spawn_file_actions_adddup2(&actions_, ends[1], STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions_, ends[1], STDERR_FILENO);
   }
   ~Capture() { ::posix_spawn_file_actions_destroy(&actions_); }
   Capture(const Capture&) = delete;

@@ -17,9 +17,10 @@ void disable(Client& client, const Output& output, const std::vector<std::string
   Failures failures;
   std::vector<std::string> stopping;
   for (const std::string& joint : joints_or_all(client, joints))
-    if (failures.attempt([&] { send_stop(client, joint, Action::kDisable); })) stopping.push_back(joint);
+    if (failures.attempt(joint, [&] { send_stop(client, joint, Action::kDisable); }))
+      stopping.push_back(joint);
   for (const std::string& joint : stopping)
-    if (failures.attempt([&] { wait_until_off(client, joint); })) say_disabled(output, joint);
+    if (failures.attempt(joint, [&] { wait_until_off(client, joint); })) say_disabled(output, joint);
   failures.rethrow();
 }
 

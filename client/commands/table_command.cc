@@ -17,7 +17,7 @@ void load_table(Client& client, const Output& output, const LoadTableArguments& 
       arguments.joint ? std::vector<std::string>{*arguments.joint} : std::vector<std::string>{};
   Failures failures;
   for (const std::string& joint : joints_or_all(client, named))
-    failures.attempt([&] {
+    failures.attempt(joint, [&] {
       const Answer answer = client.request(joint, channel_kind::kTable, message);
       require_accepted(answer, joint, fmt::format("table '{}'", table.name.view()));
       say(output, fmt::format("{}: table '{}' loaded", joint, table.name.view()),

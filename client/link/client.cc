@@ -77,10 +77,12 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
   awaited_.reset();
   if (ack_) return to_answer(*ack_);
   if (find(joint) == nullptr) explain_silence(joint);
-  throw NoAnswer(fmt::format(
-      "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
-      "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
-      joint, options_.timeout_s, 1 + PendingOrder::kRepetitions, joint));
+  throw NoAnswer(
+      fmt::format(
+          "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
+          "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
+          joint, options_.timeout_s, 1 + PendingOrder::kRepetitions, joint),
+      joint);
 }
 
 std::optional<Answer> Client::take_refusal() {
@@ -126,8 +128,9 @@ void Client::explain_silence(const std::string& joint) const {
   const auto& prefix = options_.prefix;
   const std::vector<std::string> joints = states_.joints(prefix);
   if (!joints.empty()) {
-    throw NoAnswer(fmt::format("no joint '{}' on prefix {}; its joints are: {}", joint, prefix,
-                               fmt::join(joints, ", ")));
+    throw NoAnswer(
+        fmt::format("no joint '{}' on prefix {}; its joints are: {}", joint, prefix, fmt::join(joints, ", ")),
+        joint);
   }
   if (states_.another_version(prefix))
     throw NoAnswer(

@@ -1,7 +1,10 @@
 // What can go wrong between a program and a joint: one type for each thing that a program may want to do about it. Not real-time.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/program_error.h"
 #include "lcmtypes/vocabulary.h"
@@ -12,7 +15,27 @@ namespace strainwave {
 /// what to do.
 class ClientError : public ProgramError {
  public:
-  using ProgramError::ProgramError;
+  /// As a program needs it. Empty, or nothing: not known, or of none.
+  struct Details {
+    std::string joint;
+    std::optional<Reason> reason;   ///< why the daemon refused
+    std::optional<Fault> fault;     ///< that the joint has
+    std::vector<ClientError> each;  ///< what went wrong with each of several joints
+  };
+  ClientError(ExitStatus status, const std::string& message, Details details = {})
+      : ProgramError(status, message), details_(std::move(details)) {}
+  const Details& details() const noexcept { return details_; }
+  /// The same in other words.
+  ClientError in_words(const std::string& message) const { return {status(), message, details_}; }
+  /// The same of `joint`, if it is not known yet whose it is.
+  ClientError of(const std::string& joint) const {
+    Details details = details_;
+    if (details.joint.empty() && details.each.empty()) details.joint = joint;
+    return {status(), what(), std::move(details)};
+  }
+
+ private:
+  Details details_;
 };
 
 /// Refused here, before anything was sent: a name, a number, a key file.
@@ -24,35 +47,31 @@ class InvalidInput : public ClientError {
 /// No daemon, no such joint, silence, or a network without multicast. Whether an order was carried out is not known.
 class NoAnswer : public ClientError {
  public:
-  explicit NoAnswer(const std::string& message) : ClientError(ExitStatus::kNoAnswer, message) {}
+  explicit NoAnswer(const std::string& message, const std::string& joint = "")
+      : ClientError(ExitStatus::kNoAnswer, message, {joint, {}, {}, {}}) {}
 };
 
 /// The daemon answered and refused.
 class Refused : public ClientError {
  public:
-  Refused(const std::string& message, Reason reason)
-      : ClientError(ExitStatus::kRefused, message), reason_(reason) {}
-  Reason reason() const noexcept { return reason_; }
-
- private:
-  Reason reason_;
+  Refused(const std::string& message, const std::string& joint, Reason reason)
+      : ClientError(ExitStatus::kRefused, message, {joint, reason, {}, {}}) {}
+  Reason reason() const noexcept { return *details().reason; }
 };
 
 /// The joint has a latched fault.
 class Faulted : public ClientError {
  public:
-  Faulted(const std::string& message, Fault fault)
-      : ClientError(ExitStatus::kRefused, message), fault_(fault) {}
-  Fault fault() const noexcept { return fault_; }
-
- private:
-  Fault fault_;
+  Faulted(const std::string& message, const std::string& joint, Fault fault)
+      : ClientError(ExitStatus::kRefused, message, {joint, {}, fault, {}}) {}
+  Fault fault() const noexcept { return *details().fault; }
 };
 
 /// An order that was accepted did not come to its end: another replaced it, the joint was disabled, it holds elsewhere.
 class NotDone : public ClientError {
  public:
-  explicit NotDone(const std::string& message) : ClientError(ExitStatus::kRefused, message) {}
+  explicit NotDone(const std::string& message, const std::string& joint = "")
+      : ClientError(ExitStatus::kRefused, message, {joint, {}, {}, {}}) {}
 };
 
 }  // namespace strainwave

@@ -52,13 +52,14 @@ class MotionWatch {
   /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise.
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
-      throw NoAnswer(joint_ + ": the daemon fell silent during the motion; the joint's state is not known");
+      throw NoAnswer(joint_ + ": the daemon fell silent during the motion; the joint's state is not known",
+                     joint_);
     const Mode mode = mode_of(*view_);
     if (mode == Mode::kFaulted) throw faulted(joint_, *view_);
     seen_ = seen_ || mode == motion_.mode;
     if (!seen_ && !old_states_.passed()) return false;
     if (const std::string end = motion_ended(*view_, motion_, session_id_); !end.empty())
-      throw NotDone(fmt::format("{}: did not {}: {}", joint_, motion_.purpose, end));
+      throw NotDone(fmt::format("{}: did not {}: {}", joint_, motion_.purpose, end), joint_);
     return done_(*view_);
   }
 
@@ -104,7 +105,8 @@ class ArrivalWatch {
     if (inside_ && seconds_between(*inside_, now()) >= kStay_s) return true;
     if (seconds_between(*holding_, now()) > patience_s_)
       throw NotDone(fmt::format("{}: holds {:.2e} rad away from {} rad, outside of tolerance_rad {}", joint,
-                                error_rad(view), target_rad_, tolerance_rad_));
+                                error_rad(view), target_rad_, tolerance_rad_),
+                    joint);
     return false;
   }
   /// From the order to when it was inside for good.
@@ -179,7 +181,7 @@ void home_joint(Client& client, const std::string& joint) {
   order_accepted(client, joint, Action::kHome);
   wait_for_motions(client, {{client, joint, {Mode::kHoming, "find home"}, holds}});
   if ((client.find(joint)->state.notices & static_cast<std::int32_t>(Notice::kNotHomed)) != 0)
-    throw NotDone(joint + ": homing was stopped before it found home");
+    throw NotDone(joint + ": homing was stopped before it found home", joint);
 }
 
 void wait_until_holding(Client& client, const std::string& joint) {

@@ -23,7 +23,8 @@ template <typename Decided>
 void wait_for_mode(Client& client, const std::string& joint, const Decided& decided) {
   if (client.wait_until(decided, Deadline(client.options().timeout_s))) return;
   throw NoAnswer(fmt::format("{}: accepted, but still {} after {} s", joint,
-                             to_text(mode_of(*client.find(joint))), client.options().timeout_s));
+                             to_text(mode_of(*client.find(joint))), client.options().timeout_s),
+                 joint);
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ Faulted faulted(const std::string& joint, const JointView& view) {
   const auto fault = static_cast<Fault>(view.state.fault);
   return {fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
                       view.state.fault, fault_words(fault, view.state.drive_error), joint),
-          fault};
+          joint, fault};
 }
 
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
@@ -46,7 +47,7 @@ void require_accepted(const Answer& answer, const std::string& joint, const std:
                                     to_text(answer.reason));
   if (!answer.text.empty()) message += ": " + answer.text;
   if (!hint.empty()) message += "; " + hint;
-  throw Refused(message, answer.reason);
+  throw Refused(message, joint, answer.reason);
 }
 
 void order_accepted(Client& client, const std::string& joint, Action action) {
@@ -62,7 +63,7 @@ bool enable_joint(Client& client, const std::string& joint) {
   wait_for_mode(client, joint, [&] {
     if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
     if (mode_of(view) == Mode::kOff && old_states.passed())
-      throw NotDone(joint + ": went back to off while it was starting; see the daemon's log");
+      throw NotDone(joint + ": went back to off while it was starting; see the daemon's log", joint);
     return is_enabled(mode_of(view));
   });
   return !already;
@@ -85,7 +86,8 @@ void send_stop(Client& client, const std::string& joint, Action stop) {
     require_accepted(answer, joint, std::string(to_text(stop)));
   } catch (const NoAnswer& error) {
     throw NoAnswer(fmt::format("{}: the stop was sent {} times, and nothing answered: {}", joint,
-                               1 + PendingOrder::kRepetitions, error.what()));
+                               1 + PendingOrder::kRepetitions, error.what()),
+                   joint);
   }
 }
 

@@ -25,7 +25,7 @@ const limits_v1& PublishedLimits::wait_for(const std::string& joint) {
     return latest != nullptr && latest->message.session_id == state.session_id;
   };
   if (!client_.wait_until(heard, Deadline(std::max(kWithin_s, options.timeout_s))))
-    throw NoAnswer(joint + ": publishes its state but not its limits");
+    throw NoAnswer(joint + ": publishes its state but not its limits", joint);
   return heard_.find(options.prefix, joint)->message;
 }
 

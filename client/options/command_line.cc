@@ -1,10 +1,13 @@
 #include "client/options/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "base/manual/command_line.h"
 #include "client/options/command_options.h"
+#include "client/text/failure_json.h"
 
 namespace strainwave {
 
@@ -23,6 +26,16 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_hardware_commands(app, invocation);
 }
 
+/// For whom `app` was to do what, as far as it was understood.
+FailedCommand failed_command(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) return {};
+  FailedCommand command{chosen.front()->get_name(), {}};
+  if (const CLI::Option* joints = chosen.front()->get_option_no_throw("JOINT"))
+    command.joints = joints->results();
+  return command;
+}
+
 void run(const Invocation& invocation, const Output& output) {
   if (invocation.local_command) return invocation.local_command(output);
   Connection connection(invocation.lcm_url);
@@ -37,7 +50,15 @@ ExitStatus run_command_line(int argc, const char* const* argv, std::ostream& out
   CLI::App app{"Commands and observes the joints of strainwaved over LCM.", "strainwavectl"};
   Invocation invocation;
   configure(app, invocation);
-  return run_program(app, argc, argv, out, err, [&] {
+  // Also of words of which nothing was understood.
+  const bool json = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
+  const auto tell = [&](const ProgramFailure& failure) {
+    if (json)
+      err << to_json(failure, failed_command(app)) << '\n';
+    else
+      tell_failure(app, err, failure);
+  };
+  return run_program(app, argc, argv, out, tell, [&] {
     run(invocation, {out, terminal, invocation.json});
     out.flush();
     return ExitStatus::kDone;

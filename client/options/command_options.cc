@@ -81,7 +81,8 @@ void add_common_options(CLI::App& app, Invocation& invocation) {
       ->check(time_out_validator())
       ->capture_default_str()
       ->type_name("SECONDS");
-  app.add_flag("--json", invocation.json, "print JSON objects, for scripts");
+  app.add_flag("--json", invocation.json,
+               "print JSON objects, for scripts; also of a refusal or failure, on standard error");
 }
 
 }  // namespace strainwave

@@ -139,6 +139,21 @@ TEST(ClientOverMulticast, HearsNoDaemonOnAnotherPort) {
   EXPECT_NE(err.str().find("no daemon on prefix SW"), std::string::npos) << err.str();
 }
 
+TEST(ClientOverMulticast, TellsARefusalAsJson) {
+  const std::string url = own_url();
+  RunningDaemon daemon(url);
+  daemon.daemon().reason = Reason::kOutOfRange;
+  daemon.daemon().text = "position_rad = 9: from -3 to 3 is allowed";
+  const Result result = run(url, {"move", "elbow", "9", "--json"});
+  EXPECT_EQ(result.status, ExitStatus::kRefused);
+  EXPECT_EQ(result.out, "");
+  const auto json = nlohmann::json::parse(result.err);
+  EXPECT_EQ(json.at("error"), "refused");
+  EXPECT_EQ(json.at("joint"), "elbow");
+  EXPECT_EQ(json.at("reason"), static_cast<int>(Reason::kOutOfRange));
+  EXPECT_EQ(json.at("allowed"), "from -3 to 3");
+}
+
 // A child process enters a network namespace without any route; there it must be told how to add one.
 TEST(ClientWithoutMulticast, SaysHowToAddTheRoute) {
   const pid_t child = ::fork();

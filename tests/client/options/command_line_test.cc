@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
@@ -144,6 +149,70 @@ TEST(CommandLine, ReportsAnLcmUrlThatCannotWork) {
     EXPECT_EQ(result.status, ExitStatus::kNoAnswer) << url;
     EXPECT_NE(result.err.find(url), std::string::npos) << result.err;
   }
+}
+
+// One command that fails of each family, and of each way to fail that needs no daemon.
+TEST(CommandLine, AnswersEveryFailureAsOneJsonObjectWithJson) {
+  const TemporaryFolder folder;
+  const std::string taken = (folder.path() / "taken").string();
+  std::ofstream(taken) << "no log\n";
+  for (const Arguments& words : std::vector<Arguments>{{"status", "elbow"},
+                                                       {"timing"},
+                                                       {"watch"},
+                                                       {"enable", "elbow"},
+                                                       {"disable", "elbow"},
+                                                       {"hold", "--all"},
+                                                       {"move", "elbow", "0.1"},
+                                                       {"move", "elbow", "0.1", "wrist", "0.2"},
+                                                       {"path", "/nonexistent/path.csv"},
+                                                       {"pause", "elbow"},
+                                                       {"load-table", "/nonexistent/table.json"},
+                                                       {"inject", "elbow", "gremlins"},
+                                                       {"identify", "elbow", "--out", taken.c_str()},
+                                                       {"record", "--out", taken.c_str()},
+                                                       {"export", taken.c_str(), "--out", taken.c_str()},
+                                                       {"play", taken.c_str(), "--joint", "elbow"},
+                                                       {"plot-record", taken.c_str()},
+                                                       {"keygen", "--out", taken.c_str()},
+                                                       {"can-scan", "no_such_can0"},
+                                                       {"can-check", "/nonexistent/config.toml"},
+                                                       {"gpio-check", "/nonexistent/config.toml"},
+                                                       {"move", "elbow"},
+                                                       {"watch", "--interval_s", "-1"}}) {
+    Arguments with_json = words;
+    with_json.push_back("--json");
+    const Result plain = run_alone(words);
+    const Result result = run_alone(with_json);
+    ASSERT_NE(result.status, ExitStatus::kDone) << words[0];
+    EXPECT_EQ(result.status, plain.status) << words[0];
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    const auto json = nlohmann::json::parse(result.err);
+    EXPECT_EQ(json.at("exit_status"), static_cast<int>(result.status)) << result.err;
+    EXPECT_EQ(json.at("command"), words[0]);
+    EXPECT_EQ("strainwavectl: " + json.at("text").get<std::string>() + "\n", plain.err);
+    EXPECT_EQ(json.contains("joint"),
+              words.size() > 1 && std::string(words[1]) == "elbow" && !json.contains("joints"))
+        << result.err;
+  }
+}
+
+TEST(CommandLine, AnswersWordsOfWhichItUnderstandsNothingAsJsonToo) {
+  for (const Arguments& words :
+       std::vector<Arguments>{{"--json"}, {"--json", "statsu"}, {"status", "--jsn", "--json"}}) {
+    const auto json = nlohmann::json::parse(run(words).err);
+    EXPECT_EQ(json.at("error"), "wrong input");
+    EXPECT_EQ(json.at("exit_status"), 2);
+  }
+}
+
+TEST(CommandLine, TellsWithJsonWhatFailedOfEachOfSeveralJoints) {
+  const Result result = run_alone({"enable", "elbow", "wrist", "--json"});
+  const auto json = nlohmann::json::parse(result.err);
+  EXPECT_EQ(json.at("joints"), (std::vector<std::string>{"elbow", "wrist"}));
+  ASSERT_EQ(json.at("failures").size(), 2U) << result.err;
+  EXPECT_EQ(json.at("failures")[1].at("joint"), "wrist");
+  EXPECT_EQ(json.at("failures")[1].at("error"), "no answer");
+  EXPECT_EQ(json.at("failures")[1].at("exit_status"), 3);
 }
 
 TEST(CommandLine, TakesOptionsBeforeAndAfterTheCommand) {

@@ -1,0 +1,86 @@
+#include "client/text/failure_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "base/printable.h"
+#include "client/link/client_error.h"
+
+namespace strainwave {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string kind_of(ExitStatus status, const ClientError::Details& details) {
+  if (details.reason) return "refused";
+  if (details.fault) return "faulted";
+  switch (status) {
+    case ExitStatus::kUsage:
+      return "wrong input";
+    case ExitStatus::kNoAnswer:
+      return "no answer";
+    case ExitStatus::kInterrupted:
+      return "interrupted";
+    default:
+      return "not done";
+  }
+}
+
+/// All errors are worded alike: what was given, a colon, what is allowed.
+void add_allowed(Json& json, const std::string& text) {
+  static const std::regex given(R"(([\w.-]+) = ([^:;]*): )");
+  static const std::regex allowed(R"((?:: |; )([^:;]*) (?:is|are) allowed)");
+  std::smatch found;
+  if (!std::regex_search(text, found, allowed)) return;
+  const std::string range = found[1];
+  const std::string before = text.substr(0, static_cast<std::size_t>(found.position()) + 2);
+  if (std::regex_search(before, found, given)) {
+    json["key"] = std::string(found[1]);
+    json["given"] = std::string(found[2]);
+  }
+  json["allowed"] = range;
+}
+
+void add_joints(Json& json, const std::string& joint, const std::vector<std::string>& named) {
+  if (!joint.empty())
+    json["joint"] = joint;
+  else if (named.size() == 1)
+    json["joint"] = named.front();
+  else if (!named.empty())
+    json["joints"] = named;
+}
+
+Json json_of(ExitStatus status, const std::string& text, const ClientError::Details& details,
+             const FailedCommand& command) {
+  Json json{{"error", kind_of(status, details)}, {"exit_status", static_cast<int>(status)}};
+  if (!command.command.empty()) json["command"] = command.command;
+  add_joints(json, details.joint, command.joints);
+  if (details.reason) {
+    json["reason"] = static_cast<int>(*details.reason);
+    json["reason_text"] = to_text(*details.reason);
+  }
+  if (details.fault) {
+    json["fault"] = static_cast<int>(*details.fault);
+    json["fault_text"] = to_text(*details.fault);
+  }
+  if (details.each.empty()) add_allowed(json, text);
+  for (const ClientError& one : details.each)
+    json["failures"].push_back(
+        json_of(one.status(), printable_lines(one.what()), one.details(), {command.command, {}}));
+  json["text"] = text;
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const ProgramFailure& failure, const FailedCommand& command) {
+  const auto* error = dynamic_cast<const ClientError*>(&failure.error);
+  const ClientError::Details none;
+  return json_of(failure.status, printable_lines(failure.error.what()),
+                 error != nullptr ? error->details() : none, command)
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,29 @@
+// Why a command ended, as one JSON object for scripts, with the numbers by name. Not real-time.
+//
+//   error        refused, faulted, not done, wrong input, no answer, interrupted
+//   exit_status  the program's
+//   command      of the command line, if one was understood
+//   joint        whose it is; or joints, all that the command line names
+//   reason, reason_text, fault, fault_text   the daemon's, see docs/messages.md
+//   key, given, allowed   where the text has the form "key = given: ... allowed" (or "... is allowed"): its parts
+//   failures     of several joints, one such object each
+//   text         the sentence that people get
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/manual/command_line.h"
+
+namespace strainwave {
+
+/// What the command line says of whom it is about.
+struct FailedCommand {
+  std::string command;
+  std::vector<std::string> joints;
+};
+
+/// One line without its end.
+std::string to_json(const ProgramFailure& failure, const FailedCommand& command);
+
+}  // namespace strainwave
