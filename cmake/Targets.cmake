@@ -68,6 +68,7 @@ endfunction()
 
 # strainwave_portable_library(...): the same for what libstrainwave-client holds, which others link into programs and libraries of
 # theirs: position-independent, which the precompiled header is not, and file by file, so that it holds no more than it needs.
+# Files that are only needed together may be named as a unit (UNITY_GROUP).
 function(strainwave_portable_library name)
   strainwave_library(${name} ${ARGN})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON DISABLE_PRECOMPILE_HEADERS ON UNITY_BUILD OFF)

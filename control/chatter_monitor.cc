@@ -51,6 +51,11 @@ constexpr double kLeastShake = 0.03;  // of the torque limit: what shakes a join
 constexpr double kUnsettled_s = 2.0;
 constexpr double kUnsettledLeak_s = 5.0;
 constexpr double kUnsettledLimit = 40.0;
+// A joint that gives way before it slides swings within that by half of this torque, about whatever it carries, and friction does not end
+// it: fifty reversals a second that go on half a second after the reference has come to rest are no hand and no hunting.
+constexpr double kHum_s = 0.5;
+constexpr double kHumShare = 0.25;
+constexpr double kHumLimit = 50.0;  // with the leak of the level at rest
 // Several times its own friction swings the catalogue's joint over its place and back 20 to 40 times a second, by milliradians. Two of that
 // in 50 ms reach the limit; whoever pushes a joint out and lets it go makes one.
 constexpr double kSwingLimit = 1.55;
@@ -79,6 +84,7 @@ void ChatterMonitor::reset() noexcept {
   rest_level_ = 0.0;
   shaken_level_ = 0.0;
   unsettled_level_ = 0.0;
+  hum_level_ = 0.0;
   swing_level_ = 0.0;
   ordered_low_Nm_ = 0.0;
   ordered_high_Nm_ = 0.0;
@@ -92,6 +98,7 @@ void ChatterMonitor::reset() noexcept {
   plan_ = {};
   weak_ = {};
   shaken_ = {};
+  hum_ = {};
   surprised_ = false;
   surprised_at_rest_ = false;
   state_ = MonitorState::kWatching;
@@ -141,6 +148,9 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   if (shaken_.reversed(excess_Nm, shaking_Nm) && !sample.landing && !sample.follows_model &&
       rest_s_ >= kSettled_s)
     shaken_level_ += 1.0;
+  if (hum_.reversed(sample.torque_Nm - mean_torque_Nm_, beyond_Nm(kHumShare, kRestNoiseSteps)) &&
+      !sample.landing && rest_s_ >= kHum_s)
+    hum_level_ += 1.0;
   const bool weak = weak_.reversed(excess_Nm, beyond_Nm(kWeakShare, kRestNoiseSteps));
   if (!weak) return;
   if (!sample.landing && rest_s_ >= kSettled_s) rest_level_ += sample.follows_model ? kAnswerWeight : 1.0;
@@ -152,14 +162,14 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
 bool ChatterMonitor::any_level_reaches(double share) const noexcept {
   return level_ >= share * kLimit || turned_level_ >= share * kTurnedLimit ||
          rest_level_ >= share * kRestLimit || shaken_level_ >= share * kShakenLimit ||
-         unsettled_level_ >= share * kUnsettledLimit;
+         unsettled_level_ >= share * kUnsettledLimit || hum_level_ >= share * kHumLimit;
 }
 
 // From here on the gains are softer, and what counts is what those make.
 void ChatterMonitor::doubt_the_gains() noexcept {
   goes_on_ = true;
   chatter_s_ = 0.5 * kPatience_s;
-  level_ = turned_level_ = rest_level_ = shaken_level_ = unsettled_level_ = 0.0;
+  level_ = turned_level_ = rest_level_ = shaken_level_ = unsettled_level_ = hum_level_ = 0.0;
 }
 
 MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
@@ -169,6 +179,8 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
     rest_level_ *= rest_leak_;
     shaken_level_ *= shaken_leak_;
     unsettled_level_ *= unsettled_leak_;
+    hum_level_ *= rest_leak_;
+    mean_torque_Nm_ += (1.0 - forget_) * (sample.torque_Nm - mean_torque_Nm_);
     swing_level_ *= leak_;
     follow_orders(sample);
     const double share = sample.torque_limit_Nm > 0.0
@@ -180,7 +192,7 @@ MonitorState ChatterMonitor::step(const ChatterSample& sample) noexcept {
   if (state_ == MonitorState::kWatching) {
     const bool drives_itself = swing_level_ >= kSwingLimit;
     if (!any_level_reaches(1.0) && distrust_ < kDistrustLimit && !drives_itself) return state_;
-    const bool rests = rest_level_ >= kRestLimit || shaken_level_ >= kShakenLimit;
+    const bool rests = rest_level_ >= kRestLimit || shaken_level_ >= kShakenLimit || hum_level_ >= kHumLimit;
     reset();
     drives_itself_ = drives_itself;
     if (rests) doubt_the_gains();

@@ -95,12 +95,14 @@ class ChatterMonitor {
   double rest_leak_;       ///< of the level at rest
   double shaken_leak_;     ///< of the level of what moves a joint that is to rest
   double unsettled_leak_;  ///< of the level at a long rest
-  double forget_;          ///< of the distrust over a period
+  double forget_;          ///< of the distrust and the mean torque over a period
   double level_ = 0.0;
   double turned_level_ = 0.0;  ///< reversals of the whole torque, less the plan's
   double rest_level_ = 0.0;
   double shaken_level_ = 0.0;
   double unsettled_level_ = 0.0;
+  double hum_level_ = 0.0;
+  double mean_torque_Nm_ = 0.0;  ///< over some swings
   double swing_level_ = 0.0;
   double ordered_low_Nm_ = 0.0;  ///< between these the orders have swung lately
   double ordered_high_Nm_ = 0.0;
@@ -112,6 +114,7 @@ class ChatterMonitor {
   Side plan_;    ///< of what the plan needs of it
   Side weak_;
   Side shaken_;
+  Side hum_;
   bool goes_on_ = false;
   bool drives_itself_ = false;
   bool surprised_ = false;          ///< since the last strong reversal

@@ -6,6 +6,8 @@
 #include <cstdio>
 
 #include "base/csv.h"
+#include "base/input_error.h"
+#include "control/datasheet_csv.h"
 #include "control/friction_csv.h"
 #include "control/units.h"
 
@@ -34,6 +36,16 @@ std::vector<CatalogueJoint::Point> read_points() {
     points.push_back(
         {row[0], {row[3] * kNmPerNcm, row[2] * kNmPerNcm, row[1] * kNmPerNcm / kRadPerSecondPerRpm}});
   return points;
+}
+
+// The data sheet's one number for `quantity`.
+double read_datasheet(const std::string& quantity) {
+  const std::string source = "data/rhs17_datasheet.csv";
+  const CsvText table = parse_csv_text(kDatasheetCsv, source);
+  table.require_columns({"quantity", "value", "unit", "note"});
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.rows[i][0] == quantity) return parse_number(table.rows[i][1], table.place(i), quantity);
+  throw InputError(source + ": " + quantity + " is missing");
 }
 
 std::vector<double> temperatures_of(const FuzzyFriction& friction) {
@@ -86,9 +98,23 @@ FrictionParameters CatalogueJoint::friction_at(double temperature_C, double gear
           gear_ratio * gear_ratio * std::lerp(from.viscous_Nms_rad, to.viscous_Nms_rad, share)};
 }
 
+const std::vector<CatalogueJoint>& joint_catalogue() {
+  // Its gear is of size 17 and ratio 50 (data/README.md).
+  static const std::vector<CatalogueJoint> joints{
+      {"rhs17-6006", "csf-17-50", read_datasheet("inertia_at_output"), read_points()}};
+  return joints;
+}
+
 const CatalogueJoint* find_catalogue_joint(std::string_view model) {
-  static const CatalogueJoint joint{"rhs17-6006", read_points()};
-  return model == joint.model ? &joint : nullptr;
+  for (const CatalogueJoint& joint : joint_catalogue())
+    if (joint.model == model) return &joint;
+  return nullptr;
+}
+
+const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear) {
+  for (const CatalogueJoint& joint : joint_catalogue())
+    if (joint.gear == gear) return &joint;
+  return nullptr;
 }
 
 std::optional<std::string> find_excess_friction(const FuzzyFriction& friction, const CatalogueJoint& joint,

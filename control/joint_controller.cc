@@ -18,8 +18,6 @@ constexpr double kStribeckExponent = 2.0;
 constexpr double kOnStream_rad = 2e-6;
 // A joint without friction has none to estimate; what is estimated needs a scale all the same.
 constexpr double kLeastFrictionShare = 1e-4;  // of the torque limit
-// Share of its gains that a law keeps which chatters on by itself. Softer ones are not certified; the certified ones shake the joint.
-constexpr double kSoftShare = 0.25;
 // Way over which friction is taken to come up again once a stream has turned round: what is streamed may flicker by a count, as it is
 // some encoder's reading.
 constexpr double kTurnCounts = 2.0;
@@ -27,17 +25,6 @@ constexpr double kTurnCounts = 2.0;
 // Over the mean of this time the acceleration of an eased move is spread. It takes free swings of 50 Hz away; of the catalogue's joints,
 // which swing at 28 to 86 Hz, it leaves half of the slowest and a seventh of the fastest.
 constexpr double kEasing_s = 0.02;
-
-// Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two readings.
-double largest_gain_Nm_rad(const GainTable& table, double period_s, bool smooth_velocity) noexcept {
-  double largest = 0.0;
-  for (int rule = 0; rule < table.primary.rule_count; ++rule) {
-    const GainRow gain = table.primary.gain(rule);
-    const double by_velocity = smooth_velocity ? 0.0 : std::abs(gain(2)) / period_s;
-    largest = std::max(largest, std::abs(gain(1)) + by_velocity);
-  }
-  return largest;
-}
 
 StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexcept {
   StateEstimatorConfig estimator;
@@ -63,6 +50,15 @@ MotionLimits motion_limits(const JointControllerConfig& config) noexcept {
   return JerkLimit::possible(config.motion, *config.jerk_limit_rad_s3, config.period_s);
 }
 
+ReferencePlan plan_for(const JointControllerConfig& config) noexcept {
+  if (config.use_shaping && config.jerk_limit_rad_s3)
+    return ReferencePlan::limited(
+        config.period_s, JerkLimit(motion_limits(config), *config.jerk_limit_rad_s3, config.period_s));
+  if (config.use_shaping && !config.rigid && !config.link)
+    return ReferencePlan::eased(config.period_s, JerkLimit::spread_over(kEasing_s, config.period_s));
+  return ReferencePlan::plain(config.period_s);
+}
+
 LinkMotionConfig link_config(const JointControllerConfig& config) noexcept {
   LinkMotionConfig link;
   link.period_s = config.period_s;
@@ -78,49 +74,37 @@ LinkMotionConfig link_config(const JointControllerConfig& config) noexcept {
 
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
-      shaper_(config.period_s),
-      ordered_(config.period_s),
+      plan_(plan_for(config)),
+      ordered_(plan_),
       stream_(config.period_s, config.stream_bridge_s),
       state_(estimator_config(config)),
       landing_(landing_config(config)),
       corrections_(config.period_s, count_rad()),
+      swing_side_(config.period_s),
       monitor_(config.period_s),
       friction_side_(kTurnCounts * count_rad()),
       rest_detector_(config.encoder_resolution_rad),
+      law_(config.period_s, config.encoder_resolution_rad),
+      handover_(config.period_s),
       motion_(motion_limits(config)) {
   config_.motion = motion_;
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
   assert(config.gravity.torque_Nm == 0.0 || !config.use_observer);
   if (config.link) link_motion_.emplace(link_config(config));
-  if (config.use_shaping && config.jerk_limit_rad_s3) {
-    jerk_limit_.emplace(motion_, *config.jerk_limit_rad_s3, config.period_s);
-    ordered_jerk_ = jerk_limit_;
-  } else if (config.use_shaping && !config.rigid && !config.link) {
-    easing_ = JerkLimit::spread_over(kEasing_s, config.period_s);
-  }
-  shaper_.set_limits(motion_);
+  plan_.set_limits(motion_);
   ordered_.set_limits(motion_);
 }
 
 void JointController::load(const GainTable& table) noexcept {
-  keep_outgoing();
-  primary_ = ScheduledController(table.primary, table.friction, table.plant);
-  fallback_ = ScheduledController(table.fallback, table.friction, table.plant);
-  if (temperature_C_) primary_.set_temperature(*temperature_C_);
+  law_.load(table);
   model_.inertia_kgm2 = config_.link ? config_.link->motor_inertia_kgm2 + config_.link->link_inertia_kgm2
                                      : table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
-  model_.friction = primary_.friction();
-  count_torque_Nm_ = config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, true);
-  difference_torque_Nm_ =
-      config_.encoder_resolution_rad * largest_gain_Nm_rad(table, config_.period_s, false);
+  model_.friction = law_.friction();
   torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
   model_.friction_scale_Nm =
       std::max(table.friction.least_static_Nm(), kLeastFrictionShare * torque_limit_Nm_);
-  zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
-  if (std::exchange(soft_, false)) soften(true);
-  has_table_ = true;
 }
 
 void JointController::start(double position_rad, double velocity_rad_s,
@@ -129,27 +113,21 @@ void JointController::start(double position_rad, double velocity_rad_s,
   const double fastest = motion_.velocity_rad_s;
   const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
   const double planned_rad = link_motion_ ? link_motion_->reset(position_rad, begin_rad_s) : position_rad;
-  if (easing_) jerk_limit_.reset();
-  shaper_.reset(jerk_limit_ ? jerk_limit_->reset(planned_rad, begin_rad_s) : planned_rad, begin_rad_s);
-  ordered_ = shaper_;
-  ordered_jerk_ = jerk_limit_;
+  plan_.begin(planned_rad, begin_rad_s);
+  ordered_ = plan_;
   const double gravity_Nm = config_.gravity.at(position_rad);
   state_.reset(position_rad, velocity_rad_s, holding_torque_Nm.value_or(gravity_Nm) - gravity_Nm,
                model_.friction_scale_Nm);
   rest_detector_.reset();
-  soften(false);
-  primary_.reset();
-  fallback_.reset();
+  law_.begin_anew();
   reference_ = {position_rad, begin_rad_s, 0.0};
   ordered_reference_ = reference_;
   planned_ = {0.0, begin_rad_s, 0.0};
   motor_plan_ = {};
   link_share_ = 1.0;
   corrections_.reset();
-  gains_in_use_ = GainsInUse::kNone;
   enter(MotionPhase::kTracking);
-  plans_ = 0;
-  plan_side_ = 0;
+  new_plans_.reset();
   replans_ = 0;
   attempts_.reset();
   monitor_.reset();
@@ -159,12 +137,9 @@ void JointController::start(double position_rad, double velocity_rad_s,
     stands_ = true;
   }
   hold_torque_Nm_ = holding_torque_Nm.value_or(gravity_Nm);
-  fallback_torque_Nm_.reset();
-  handover_Nm_ = 0.0;
+  handover_.reset();
   reference_rest_s_ = 0.0;
-  outgoing_.reset();
-  replan_ = false;
-  streamed_ = false;
+  follows_ = Follows::kTarget;
   told_load_ = {};
   shown_load_Nm_ = state_.now().disturbance.load_Nm;
 }
@@ -182,15 +157,14 @@ void JointController::new_target() noexcept {
 
 void JointController::set_target(double position_rad, double speed_limit_rad_s) noexcept {
   limit_speed(speed_limit_rad_s);
-  const bool same_target = position_rad == shaper_.target_rad();
-  const bool repeated = same_target && !streamed_;
-  streamed_ = false;
+  const bool same_target = position_rad == plan_.target_rad();
+  const bool repeated = same_target && !streamed();
+  follows_ = Follows::kTarget;
   if (same_target && phase_ != MotionPhase::kTracking) return;
   ease();
-  shaper_.set_target(position_rad);
+  plan_.set_target(position_rad);
   ordered_.set_target(position_rad);
-  plans_ = 0;
-  plan_side_ = 0;
+  new_plans_.new_order();
   if (repeated)
     corrections_.trust_anew();
   else
@@ -200,25 +174,15 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
 }
 
 void JointController::stop() noexcept {
-  streamed_ = false;
-  shaper_.stop();
-  ordered_ = shaper_;
-  ordered_jerk_ = jerk_limit_;
-}
-
-// The plan goes on from there.
-void JointController::begin_plan(double position_rad, double velocity_rad_s) noexcept {
-  shaper_.restart(jerk_limit_ ? jerk_limit_->reset(position_rad, velocity_rad_s) : position_rad,
-                  velocity_rad_s);
-}
-
-bool JointController::plan_rests() const noexcept {
-  return shaper_.at_target() && (!jerk_limit_ || jerk_limit_->rests());
+  follows_ = Follows::kTarget;
+  plan_.stop();
+  ordered_ = plan_;
 }
 
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
-  if (!has_table_) return {};
+  if (!has_table()) return {};
   const int elapsed_periods = std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods);
+  signs_ = {};
   choose_gains(measurement);
   // Of the motion until now: a plan's, or a push that ends on the target.
   const bool planned =
@@ -244,9 +208,9 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   result.reference = reference_;
   result.ordered_reference = ordered_reference_;
   result.joint_velocity_rad_s = state_.then().velocity_rad_s;
-  result.gains_in_use = gains_in_use_;
-  result.at_target = plan_rests() && !(linked() && link_motion_->moves());
-  result.off_stream = streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
+  result.gains_in_use = law_.gains_in_use();
+  result.at_target = plan_.rests() && !(linked() && link_motion_->moves());
+  result.off_stream = streamed() && std::abs(plan_.target_rad() - plan_.position_rad()) > kOnStream_rad;
   result.phase = phase_;
   result.estimate = state_.now();
   result.load_Nm = shown_load_Nm_;
@@ -255,34 +219,11 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   return result;
 }
 
-// Scheduled gains while the temperature is known, temperature-free ones otherwise. Friction stays that of the
-// last temperature known.
 void JointController::choose_gains(const JointMeasurement& measurement) noexcept {
-  const GainsInUse wanted = measurement.temperature_valid ? GainsInUse::kPrimary : GainsInUse::kFallback;
-  if (wanted != gains_in_use_) {
-    keep_outgoing();
-    gains_in_use_ = wanted;
-  }
-  if (!measurement.temperature_valid) return;
-  if (temperature_C_ == measurement.temperature_C) return;
-  primary_.set_temperature(measurement.temperature_C);
-  model_.friction = primary_.friction();
-  temperature_C_ = measurement.temperature_C;
-}
-
-// Both controllers' gains, and with them what a count makes, down or back up again.
-void JointController::soften(bool soft) noexcept {
-  if (soft == soft_) return;
-  soft_ = soft;
-  const double share = soft ? kSoftShare : 1.0 / kSoftShare;
-  for (ScheduledController* controller : {&primary_, &fallback_}) controller->soften(share);
-  count_torque_Nm_ *= share;
-  difference_torque_Nm_ *= share;
-}
-
-// What the next torque is to continue.
-void JointController::keep_outgoing() noexcept {
-  if (gains_in_use_ != GainsInUse::kNone && !outgoing_) outgoing_ = active();
+  std::optional<double> temperature_C;
+  if (measurement.temperature_valid) temperature_C = measurement.temperature_C;
+  law_.choose_gains(temperature_C);
+  model_.friction = law_.friction();
 }
 
 JointModel JointController::loaded_model() const noexcept {

@@ -27,19 +27,22 @@
 #include "control/friction_side.h"
 #include "control/gain_table.h"
 #include "control/gains_in_use.h"
-#include "control/jerk_limit.h"
+#include "control/handover.h"
 #include "control/joint_model.h"
 #include "control/landing.h"
 #include "control/landing_attempts.h"
+#include "control/law_in_use.h"
 #include "control/link_corrections.h"
 #include "control/link_model.h"
 #include "control/link_motion.h"
 #include "control/motor_limits.h"
-#include "control/reference_shaper.h"
+#include "control/new_plans.h"
+#include "control/reference_plan.h"
 #include "control/rest_detector.h"
 #include "control/scheduled_controller.h"
 #include "control/state_estimator.h"
 #include "control/stream_target.h"
+#include "control/swing_side.h"
 
 namespace strainwave {
 
@@ -118,7 +121,7 @@ class JointController {
   /// Takes `table`, which must be certified for this joint and period. While running the change makes no
   /// torque step: the integral is chosen so that the torque is what the old gains would have given.
   void load(const GainTable& table) noexcept;
-  bool has_table() const noexcept { return has_table_; }
+  bool has_table() const noexcept { return law_.loaded(); }
 
   /// Begins with nothing remembered, when the drive becomes enabled: comes to rest from `velocity_rad_s` and
   /// holds, at rest `position_rad`. `holding_torque_Nm` is what held the load until now (a joint that a brake
@@ -141,11 +144,11 @@ class JointController {
   void yield(double load_Nm, double let_go_Nm) noexcept;
   bool yields() const noexcept { return phase_ == MotionPhase::kYielding; }
   /// Where the motion ends, as far as the orders say: of a stream its last sample.
-  double target_rad() const noexcept { return streamed_ ? sample_position_rad_ : shaper_.target_rad(); }
+  double target_rad() const noexcept { return streamed() ? sample_position_rad_ : plan_.target_rad(); }
 
   /// What the encoder reads once the joint rests at its target: with a link whose weight winds the spring up, not the target itself.
   double rest_position_rad() const noexcept {
-    return linked() ? link_motion_->motor_rest_rad(shaper_.target_rad()) : shaper_.target_rad();
+    return linked() ? link_motion_->motor_rest_rad(plan_.target_rad()) : plan_.target_rad();
   }
 
   /// What a joint at rest carries, as far as it is known: gravity as it is told, and the load besides.
@@ -154,13 +157,15 @@ class JointController {
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
+  /// What the joint is taken for now: the table's at this temperature, with what a stream tells of its load.
+  JointModel loaded_model() const noexcept;
+
   /// Weights of the temperature rules in use.
-  const TemperatureWeights& temperature_weights() const noexcept { return primary_.temperature_weights(); }
+  const TemperatureWeights& temperature_weights() const noexcept { return law_.temperature_weights(); }
 
  private:
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
-  void keep_outgoing() noexcept;
   void advance_reference(int elapsed_periods) noexcept;
   bool goes_on_anew(const JointMeasurement& measurement) noexcept;
   void go_on_from_here() noexcept;
@@ -169,17 +174,11 @@ class JointController {
   void weigh(const ControllerOutput& output, int elapsed_periods) noexcept;
   ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
   void hand_over(ControllerOutput& output) noexcept;
-  double handed_over_Nm(double beyond_Nm) const noexcept;
-  void soften(bool soft) noexcept;
   void watch(const ControllerOutput& output, int elapsed_periods) noexcept;
 
-  void limit_reference(ReferenceShaper& shaper) const noexcept;
+  void limit_reference(ReferencePlan& plan) const noexcept;
   void advance_references() noexcept;
-  bool plan_rests() const noexcept;
-  void begin_plan(double position_rad, double velocity_rad_s) noexcept;
   void ease() noexcept;
-  void end_easing() noexcept;
-  JointModel loaded_model() const noexcept;
   void forget_told_load(int elapsed_periods) noexcept;
   void limit_speed(double speed_limit_rad_s) noexcept;
   void new_target() noexcept;
@@ -197,10 +196,10 @@ class JointController {
   double planned_friction_Nm() const noexcept;
   void follow_friction(int elapsed_periods) noexcept;
   double planned_velocity_rad_s() const noexcept;
-  bool swings_over(double off_rad, double near_rad) noexcept;
   bool reference_moves() const noexcept;
   /// What it follows may flicker about a place.
-  bool may_dither() const noexcept { return streamed_ && on_time_ == OnTime::kJoint; }
+  bool may_dither() const noexcept { return follows_ == Follows::kStreamOnTime; }
+  bool streamed() const noexcept { return follows_ != Follows::kTarget; }
   double estimated_load_Nm() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
@@ -217,10 +216,18 @@ class JointController {
   bool observing() const noexcept { return config_.use_observer && !link_motion_ && !fallen_back(); }
   /// The motor follows what the link's motion asks of it.
   bool linked() const noexcept { return link_motion_ && !fallen_back(); }
-  ScheduledController& active() noexcept {
-    return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
-  }
 
+  /// What the references follow.
+  enum class Follows {
+    kTarget,        ///< the last that was ordered, or where a stop ends
+    kStreamOnTime,  ///< stream_, with the joint where it is: OnTime::kJoint
+    kStreamLater,   ///< stream_, with the plan where it is: OnTime::kPlan
+  };
+  /// What this period's estimate and reference show of a joint that drives itself.
+  struct Signs {
+    bool swung_over = false;
+    bool turned_back = false;  ///< a new plan has begun on the other side than the last
+  };
   /// What yield() began.
   struct Yielding {
     double load_Nm = 0.0;        ///< besides gravity, held ...
@@ -230,26 +237,24 @@ class JointController {
   };
 
   JointControllerConfig config_;
-  ReferenceShaper shaper_;
-  ReferenceShaper ordered_;              ///< the same orders, never restarted
-  std::optional<JerkLimit> easing_;      ///< of moves that begin at rest, where no limit of the jerk is given
-  std::optional<JerkLimit> jerk_limit_;  ///< of what shaper_ plans, while it is limited
-  std::optional<JerkLimit> ordered_jerk_;  ///< of what ordered_ does
+  ReferencePlan plan_;
+  ReferencePlan ordered_;  ///< the same orders, never restarted
   StreamTarget stream_;
   std::optional<LinkMotion> link_motion_;
   StateEstimator state_;
   Landing landing_;
   LandingAttempts attempts_;
   LinkCorrections corrections_;
+  NewPlans new_plans_;
+  SwingSide swing_side_;
+  Signs signs_;
   ChatterMonitor monitor_;
   FrictionSide friction_side_;    ///< of a stream
   EasedDisturbance disturbance_;  ///< that the planned torque is made of
   RestDetector rest_detector_;
-  ScheduledController primary_;
-  ScheduledController fallback_;
-  std::optional<ScheduledController>
-      outgoing_;      ///< what was active before the gains changed, until the next torque
-  JointModel model_;  ///< the table's, at this temperature
+  LawInUse law_;
+  Handover handover_;  ///< from what there was to the law alone
+  JointModel model_;   ///< the table's, at this temperature
   Reference reference_;
   Reference ordered_reference_;
   Reference planned_;        ///< with a link: of a rigid joint, from which the link's motion is made
@@ -257,38 +262,21 @@ class JointController {
   double link_share_ = 1.0;  ///< of the acceleration that a rigid joint could have
   MotionLimits motion_;      ///< the configuration's, and this order's speed
   PositionRange stream_range_;
-  double sample_position_rad_ = 0.0;  ///< of the stream's last
+  StreamTarget::Confinement confined_ = 0;          ///< of plan_
+  StreamTarget::Confinement ordered_confined_ = 0;  ///< of ordered_
+  double sample_position_rad_ = 0.0;                ///< of the stream's last
   double torque_limit_Nm_ = 0.0;
-  std::optional<double> temperature_C_;       ///< the last that was known
-  double hold_torque_Nm_ = 0.0;               ///< besides told_load_
-  double count_torque_Nm_ = 0.0;              ///< that a count makes by its position
-  double difference_torque_Nm_ = 0.0;         ///< and as a velocity from one reading to the next as well
-  std::optional<double> fallback_torque_Nm_;  ///< the last torque before the fallback
-  ToldLoad told_load_;                        ///< by the stream, and what is left of it since
-  double shown_load_Nm_ = 0.0;                ///< JointStep's
+  double hold_torque_Nm_ = 0.0;  ///< besides told_load_
+  ToldLoad told_load_;           ///< by the stream, and what is left of it since
+  double shown_load_Nm_ = 0.0;   ///< JointStep's
   Yielding yielding_;
-  double handover_Nm_ = 0.0;           ///< what is left of its difference to the law's
-  double reference_rest_s_ = 0.0;      ///< since when it rests, while tracking
-  double zero_velocity_weight_ = 1.0;  ///< alpha_0 at rest
-  int replans_ = 0;                    ///< since start()
-  int plans_ = 0;                      ///< new ones since the target or the phase changed
-  int plan_side_ = 0;                  ///< of the target, on which the last of them began; 0: none yet
-  int away_periods_ = 0;               ///< that a resting joint has been off its target
-  bool stands_ = false;                ///< as it was found by start(): it has left its count for nothing yet
-  int side_ = 0;         ///< of the reference, on which the joint was last, beyond the last counts
-  double near_s_ = 0.0;  ///< since when it is within those
-  bool swung_ = false;   ///< over to the other, in this period
-  bool hunted_ = false;  ///< the last counts are left to the integral, in this period
-  GainsInUse gains_in_use_ = GainsInUse::kNone;
+  double reference_rest_s_ = 0.0;  ///< since when it rests, while tracking
+  int replans_ = 0;                ///< since start()
+  int away_periods_ = 0;           ///< that a resting joint has been off its target
+  bool stands_ = false;            ///< as it was found by start(): it has left its count for nothing yet
+  bool hunted_ = false;            ///< the last counts are left to the integral, in this period
   MotionPhase phase_ = MotionPhase::kTracking;
-  bool turned_back_ = false;  ///< a new plan has begun on the other side than the last, in this period
-  bool has_table_ = false;
-  bool replan_ = false;    ///< the reference begins anew from where the joint is
-  bool streamed_ = false;  ///< the reference follows stream_
-  OnTime on_time_ = OnTime::kJoint;
-  StreamTarget::Confinement confined_ = 0;
-  StreamTarget::Confinement ordered_confined_ = 0;
-  bool soft_ = false;  ///< after the fallback, where chatter went on: with softer gains
+  Follows follows_ = Follows::kTarget;
 };
 
 }  // namespace strainwave

@@ -13,12 +13,14 @@ namespace {
 // A motion that is over before the wind-up has been built up asks it to turn round at once: three steps of the acceleration in the
 // place of two (control/link_motion.h).
 constexpr double kShortMotionShare = 2.0 / 3.0;
+// From one reading to the next: a count to either side.
+constexpr double kRestCounts = 2.0;
 
 }  // namespace
 
 void JointController::advance_link(int elapsed_periods) noexcept {
   for (int period = 0; period < elapsed_periods; ++period) {
-    limit_reference(shaper_);
+    limit_reference(plan_);
     limit_reference(ordered_);
     advance_references();
     planned_ = reference_;
@@ -42,7 +44,7 @@ void JointController::plan_link_motion(double from_rad) noexcept {
   link_share_ = 1.0;
   const double spread_s = link_motion_->spread_s();
   const double covered_rad = present_limits(0.0).acceleration_rad_s2 * spread_s * spread_s;
-  if (std::abs(shaper_.target_rad() - from_rad) < covered_rad) link_share_ = kShortMotionShare;
+  if (std::abs(plan_.target_rad() - from_rad) < covered_rad) link_share_ = kShortMotionShare;
 }
 
 // The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
@@ -51,7 +53,7 @@ bool JointController::correct_link(double reading_rad) noexcept {
   if (!corrections_.begins(reading_rad, distance_rad, state_.still_periods())) return false;
   ++replans_;
   const double from_rad = link_motion_->reset(reading_rad);
-  begin_plan(from_rad, 0.0);
+  plan_.go_on_from(from_rad, 0.0);
   planned_ = {};
   plan_link_motion(from_rad);
   state_.count_still_anew();
@@ -63,15 +65,18 @@ bool JointController::correct_link(double reading_rad) noexcept {
 void JointController::go_on_from_here() noexcept {
   const double fastest = config_.motion.velocity_rad_s;
   const double position_rad = state_.now().position_rad;
-  const double velocity_rad_s = std::clamp(state_.now().velocity_rad_s, -fastest, fastest);
+  // What two counts make of a joint that rests is no motion to brake.
+  const double shown_rad_s = state_.now().velocity_rad_s;
+  const bool rests = std::abs(shown_rad_s) * config_.period_s <= kRestCounts * count_rad();
+  const double velocity_rad_s = rests ? 0.0 : std::clamp(shown_rad_s, -fastest, fastest);
   reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
-  begin_plan(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad, velocity_rad_s);
-  ordered_ = shaper_;
-  ordered_jerk_ = jerk_limit_;
+  plan_.go_on_from(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad,
+                   velocity_rad_s);
+  ordered_ = plan_;
   planned_ = {0.0, velocity_rad_s, 0.0};
   motor_plan_ = {};
-  replan_ = false;
+  new_plans_.cancel();
 }
 
 // A motion after a stall over which nobody knows what the joint did.

@@ -2,7 +2,7 @@
 // motion, its torque, and the watch over both.
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "control/joint_controller.h"
 #include "control/units.h"
@@ -18,12 +18,6 @@ constexpr double kLandingShare = 0.5;
 constexpr double kLandingLost = 4.0;
 // A saturated joint that is farther behind than this many such pushes needs a new plan.
 constexpr double kReplanPushes = 4.0;
-// New plans per target. A joint that is blocked uses them up, keeps its reference, and its following error
-// grows until someone notices.
-constexpr int kPlanLimit = 50;
-// Time in which the fallback leaves the torque that it begins with: some swings of a spring, so that it is no
-// step, and no more, so that it does not move the joint.
-constexpr double kHandover_s = 0.01;
 // Share of Coulomb friction that moves no joint, whatever its friction is taken for.
 constexpr double kIdleShare = 0.5;
 // On a joint that is not declared rigid friction is compensated towards the target for so long after the
@@ -31,9 +25,8 @@ constexpr double kIdleShare = 0.5;
 constexpr double kHunting_s = 0.1;
 constexpr double kHuntingCounts = 20.0;
 // What swings less than the counts above at the catalogue's encoder does so by the give of its gear, however fine the encoder: a hand or a
-// tap makes it. A joint that has been near its place for so long came back: its next swing is another's.
+// tap makes it.
 constexpr double kLeastSwing_rad = 4e-4;
-constexpr double kForgetsSide_s = 0.1;
 // Share of the torque limit that the feedback may answer with while a motion lasts, where spring, damping and load are not quite as
 // told. A joint that chatters uses more of it.
 constexpr double kSpringDoubt = 0.2;
@@ -47,8 +40,8 @@ constexpr double kFlickerCounts = 1.5;
 }  // namespace
 
 bool JointController::reference_moves() const noexcept {
-  if (linked()) return !plan_rests() || link_motion_->moves();
-  return !plan_rests() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
+  if (linked()) return !plan_.rests() || link_motion_->moves();
+  return !plan_.rests() || reference_.velocity_rad_s != 0.0 || reference_.acceleration_rad_s2 != 0.0;
 }
 
 EstimateSource JointController::estimate_source() const noexcept {
@@ -57,7 +50,7 @@ EstimateSource JointController::estimate_source() const noexcept {
 }
 
 double JointController::distance_to_target_rad() const noexcept {
-  return std::abs(state_.then().position_rad - shaper_.target_rad());
+  return std::abs(state_.then().position_rad - plan_.target_rad());
 }
 
 // How far one period's push, and one period's braking, can take the joint.
@@ -82,6 +75,10 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
     const bool resting = rest_detector_.update(distance_rad, state_.now().velocity_rad_s);
     return enter(resting ? MotionPhase::kResting : MotionPhase::kTracking);
   }
+  // By a load, once no brake holds it any more.
+  const double shown_rad = std::abs(measurement.joint_position_rad - plan_.target_rad());
+  const bool taken = stands_ && shown_rad > kFlickerCounts * count_rad();
+  if (stands_ && !taken) return;
   // A push that is planned to its end has become another over periods that were left out.
   const bool planned = config_.delay_periods > 1;
   if (phase_ == MotionPhase::kLanding && planned && measurement.elapsed_periods > 1)
@@ -92,9 +89,6 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   }
   const bool away = phase_ == MotionPhase::kResting && distance_to_target_rad() > count_rad();
   away_periods_ = away ? away_periods_ + 1 : 0;
-  // By a load, once no brake holds it any more.
-  const double shown_rad = std::abs(measurement.joint_position_rad - shaper_.target_rad());
-  const bool taken = stands_ && shown_rad > kFlickerCounts * count_rad();
   if (phase_ == MotionPhase::kTracking || away_periods_ >= kLeavePeriods || taken)
     enter(MotionPhase::kLanding);
 }
@@ -107,25 +101,23 @@ void JointController::enter(MotionPhase phase) noexcept {
   if (phase == phase_) return;
   stands_ = false;
   // What the integral knew of load and friction, the observer knows.
-  if (phase_ == MotionPhase::kLanding) active().reset();
+  if (phase_ == MotionPhase::kLanding) law_.forget_integral();
   if (phase == MotionPhase::kLanding) {
-    landing_.begin(shaper_.target_rad());
+    landing_.begin(plan_.target_rad());
     attempts_.begin();
   }
-  plans_ = 0;
-  hold_torque_Nm_ = estimated_load_Nm() + active().integral_torque_Nm();
+  new_plans_.new_phase();
+  hold_torque_Nm_ = estimated_load_Nm() + law_.integral_torque_Nm();
   phase_ = phase;
 }
 
 void JointController::ask_for_new_plan() noexcept {
-  if (!config_.rigid || fallen_back() || !config_.use_shaping || plans_ >= kPlanLimit) return;
-  ++plans_;
-  replan_ = true;
+  if (config_.rigid && !fallen_back() && config_.use_shaping) new_plans_.ask();
 }
 
 ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
   if (phase_ == MotionPhase::kTracking) return track();
-  outgoing_.reset();
+  law_.interrupt();
   if (phase_ == MotionPhase::kYielding)
     return apply(yielding_.load_Nm + config_.gravity.at(state_.now().position_rad) + told_load_.torque_Nm);
   if (phase_ == MotionPhase::kResting) return apply(hold_torque_Nm_ + told_load_.torque_Nm);
@@ -164,7 +156,7 @@ void JointController::follow_friction(int elapsed_periods) noexcept {
 
 void JointController::follow_disturbance(int elapsed_periods) noexcept {
   const JointDisturbance& estimated = state_.now().disturbance;
-  if (!streamed_ || phase_ != MotionPhase::kTracking || !torque_is_planned())
+  if (!streamed() || phase_ != MotionPhase::kTracking || !torque_is_planned())
     return disturbance_.jump_to(estimated);
   const double count_Nm = state_.model().inertia_kgm2 * count_rad() / (config_.period_s * config_.period_s);
   disturbance_.follow(estimated, kLeastChange * torque_limit_Nm_, count_Nm, elapsed_periods);
@@ -196,17 +188,6 @@ double JointController::planned_torque_Nm() const noexcept {
          disturbance_.value().load_Nm + config_.gravity.at(reference_.position_rad) + told_load_.torque_Nm;
 }
 
-bool JointController::swings_over(double off_rad, double near_rad) noexcept {
-  if (std::abs(off_rad) <= near_rad) {
-    near_s_ += config_.period_s;
-    if (near_s_ > kForgetsSide_s) side_ = 0;
-    return false;
-  }
-  near_s_ = 0.0;
-  const int side = off_rad > 0.0 ? 1 : -1;
-  return std::exchange(side_, side) == -side;
-}
-
 ControllerOutput JointController::track() noexcept {
   ControllerInput input;
   input.joint_position_rad = state_.then().position_rad;
@@ -220,7 +201,7 @@ ControllerOutput JointController::track() noexcept {
   const double near_rad = kHuntingCounts * count_rad();
   const double off_rad = state_.then().position_rad - reference_.position_rad;
   hunted_ = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
-  swung_ = swings_over(off_rad, std::max(near_rad, kLeastSwing_rad));
+  signs_.swung_over = swing_side_.swings_over(off_rad, std::max(near_rad, kLeastSwing_rad));
   input.planned = moves || fallen_back() || hunted_ || linked();
   // At rest a landing holds the load of a rigid joint.
   const double at_rest_Nm = config_.rigid && !fallen_back() ? told_load_.torque_Nm : held_load_Nm();
@@ -229,30 +210,21 @@ ControllerOutput JointController::track() noexcept {
   input.torque_limit_Nm = torque_limit_Nm_;
   input.torque_max_Nm = config_.motor.available_Nm(state_.then().velocity_rad_s);
   input.torque_min_Nm = -config_.motor.available_Nm(-state_.then().velocity_rad_s);
-  if (outgoing_) active().carry_over(input, outgoing_->step(input).torque_Nm);
-  outgoing_.reset();
-  const ControllerOutput output = active().step(input);
+  const ControllerOutput output = law_.step(input);
 
   if (observing() && output.saturated && std::abs(off_rad) > kReplanPushes * landing_reach_rad())
     ask_for_new_plan();
   return output;
 }
 
-// Of the torque beyond the law's. A correction begins with what breaks the joint away from rest: on a joint with less friction than told
-// that would throw it, so no more of it is left than cannot move the joint.
-double JointController::handed_over_Nm(double beyond_Nm) const noexcept {
-  if (!corrections_.begun()) return beyond_Nm;
-  const double idle_Nm = kIdleShare * model_.friction.coulomb_Nm;
-  return std::clamp(beyond_Nm, -idle_Nm, idle_Nm);
-}
-
-// The fallback begins with the torque that was applied last, and leaves it for the law's own.
+// The fallback begins with the torque that was applied last. A correction begins with what breaks the joint away from rest: on a joint with
+// less friction than told that would throw it, so no more of it is left than cannot move the joint.
 void JointController::hand_over(ControllerOutput& output) noexcept {
   if (!fallen_back()) return;
-  if (fallback_torque_Nm_) handover_Nm_ = handed_over_Nm(*fallback_torque_Nm_ - output.torque_Nm);
-  fallback_torque_Nm_.reset();
-  output.torque_Nm = std::clamp(output.torque_Nm + handover_Nm_, -torque_limit_Nm_, torque_limit_Nm_);
-  handover_Nm_ *= 1.0 - std::min(1.0, config_.period_s / kHandover_s);
+  const double most_Nm = corrections_.begun() ? kIdleShare * model_.friction.coulomb_Nm
+                                              : std::numeric_limits<double>::infinity();
+  output.torque_Nm =
+      std::clamp(handover_.torque_Nm(output.torque_Nm, most_Nm), -torque_limit_Nm_, torque_limit_Nm_);
 }
 
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
@@ -264,18 +236,18 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.torque_Nm = output.torque_Nm;
   sample.planned_torque_Nm = std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   sample.doubt_Nm = linked() && moves ? kSpringDoubt * torque_limit_Nm_ : 0.0;
-  if (streamed_ && !config_.rigid && !linked())
+  if (streamed() && !config_.rigid && !linked())
     sample.ordered_torque_Nm =
         state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + told_load_.torque_Nm;
   sample.static_friction_Nm = model_.friction.static_Nm;
-  sample.feedback_step_Nm = observing() ? count_torque_Nm_ : difference_torque_Nm_;
+  sample.feedback_step_Nm = law_.count_torque_Nm(observing());
   sample.torque_limit_Nm = torque_limit_Nm_;
   sample.compensates_friction = !linked() && !fallen_back() && !hunted_;
   sample.follows_model = linked();
   if (linked()) sample.innovation_Nm = output.feedback_torque_Nm;
   sample.reference_rests = !moves;
-  sample.swung_over = std::exchange(swung_, false);
-  sample.turned_back = std::exchange(turned_back_, false);
+  sample.swung_over = signs_.swung_over;
+  sample.turned_back = signs_.turned_back;
   sample.landing = phase_ == MotionPhase::kLanding;
   sample.surprised = state_.now().surprised;
   sample.elapsed_periods = elapsed_periods;
@@ -283,18 +255,18 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   const MonitorState state = monitor_.step(sample);
   corrections_.distrust(monitor_.distrust());
   if (watched && state != MonitorState::kWatching) {
-    fallback_torque_Nm_ = output.torque_Nm;
+    handover_.begin(output.torque_Nm);
     if (link_motion_) go_on_from_here();
-  } else if (!watched && monitor_.goes_on() && !soft_) {
-    fallback_torque_Nm_ = output.torque_Nm;
-    soften(true);
+  } else if (!watched && monitor_.goes_on() && !law_.soft()) {
+    handover_.begin(output.torque_Nm);
+    law_.soften();
   }
 }
 
 // A torque that no gain has part in.
 ControllerOutput JointController::apply(double torque_Nm) const noexcept {
   const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
-  return {limited_Nm, 0.0, torque_Nm, zero_velocity_weight_, limited_Nm != torque_Nm};
+  return {limited_Nm, 0.0, torque_Nm, law_.zero_velocity_weight(), limited_Nm != torque_Nm};
 }
 
 }  // namespace strainwave

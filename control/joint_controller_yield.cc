@@ -36,10 +36,10 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
 }
 
 void JointController::yield(double load_Nm, double let_go_Nm) noexcept {
-  streamed_ = false;
+  follows_ = Follows::kTarget;
   yielding_ = {load_Nm, let_go_Nm, state_.now().position_rad, 0};
-  replan_ = false;
-  outgoing_.reset();
+  new_plans_.cancel();
+  law_.interrupt();
   enter(MotionPhase::kYielding);
 }
 

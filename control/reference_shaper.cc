@@ -23,7 +23,7 @@ void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept
   position_rad_ = position_rad;
   velocity_rad_s_ = velocity_rad_s;
   target_rad_ = position_rad;
-  stopping_ = true;
+  stopping_ = velocity_rad_s != 0.0;
 }
 
 void ReferenceShaper::set_target(double position_rad) noexcept {

@@ -49,7 +49,7 @@ class ReferenceShaper {
   /// `period_s` > 0. At rest at 0.
   explicit ReferenceShaper(double period_s) noexcept : period_s_(period_s) {}
 
-  /// Continues from here; the target becomes the nearest point where the motion can stop.
+  /// Continues from here; the target is here, or of a motion the nearest point where it can stop.
   void reset(double position_rad, double velocity_rad_s) noexcept;
   /// Continues from here to the target it has.
   void restart(double position_rad, double velocity_rad_s) noexcept {

@@ -230,6 +230,7 @@ void Supervisor::take_events() {
   while (loop_.events().pop(event)) {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
     if (event.to == Mode::kFaulted) {
+      admission_.fault(static_cast<std::size_t>(event.joint));
       const std::string_view key = configuration_key(event.fault);
       spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
                     fault_words(event.fault, event.drive_error),

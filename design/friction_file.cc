@@ -194,11 +194,8 @@ FrictionFile friction_file_from_json(const std::string& text, const std::string&
   return file;
 }
 
-FrictionRules read_friction_rules(const std::filesystem::path& path, double gear_ratio, GearSide csv_side) {
-  const std::string text = read_text_file(path);
-  const std::string source = path.string();
-  if (path.extension() != ".json")
-    return {rules_from_csv(parse_csv(text, source), gear_ratio, csv_side), sha256_hex(text)};
+FrictionRules friction_rules_from_json(const std::string& text, const std::string& source,
+                                       double gear_ratio) {
   const FrictionFile file = friction_file_from_json(text, source);
   if (!file.fuzzy) throw InputError(source + ": has no fuzzy rules: fit with --model fuzzy or both");
   if (std::abs(file.gear_ratio - gear_ratio) > 1e-9 * gear_ratio) {
@@ -206,6 +203,12 @@ FrictionRules read_friction_rules(const std::filesystem::path& path, double gear
                      "the gains are asked for ratio " + number_text(gear_ratio) + "; use the same in both");
   }
   return {file.fuzzy->friction, sha256_hex(text)};
+}
+
+FrictionRules read_friction_rules(const std::filesystem::path& path, double gear_ratio, GearSide csv_side) {
+  const std::string text = read_text_file(path);
+  if (path.extension() == ".json") return friction_rules_from_json(text, path.string(), gear_ratio);
+  return {rules_from_csv(parse_csv(text, path.string()), gear_ratio, csv_side), sha256_hex(text)};
 }
 
 }  // namespace strainwave

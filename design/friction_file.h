@@ -64,5 +64,7 @@ struct FrictionRules {
   std::string sha256;
 };
 FrictionRules read_friction_rules(const std::filesystem::path& path, double gear_ratio, GearSide csv_side);
+/// The same of the text of such a file of `fit`, which messages call `source`.
+FrictionRules friction_rules_from_json(const std::string& text, const std::string& source, double gear_ratio);
 
 }  // namespace strainwave

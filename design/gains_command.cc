@@ -9,21 +9,18 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
-#include "control/box_certificate.h"
 #include "control/gain_table_json.h"
 #include "control/gear_catalogue.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
-#include "design/spring_options.h"
+#include "design/joint_defaults.h"
+#include "design/spring_design.h"
 #include "design/table_report.h"
 
 namespace strainwave {
 
 namespace {
-
-constexpr int kQuarters = 4;  // of a decade of the torque's weight
-constexpr int kSoftest = 4;   // decades: a hundredth of the stiffness that was asked for
 
 // The reference case: the RHS-17-6006 of the source with its weights.
 struct GainsOptions {
@@ -99,7 +96,45 @@ std::vector<StateVector> initial_states(const GainsOptions& options) {
   return box_vertices(StateVector::Map(options.x0_box.data()));
 }
 
-TableRequest make_request(const GainsOptions& options, const CLI::App& command) {
+// Says what is not given and taken from the catalogue. Throws InputError that names the options which are needed.
+struct RequestedJoint {
+  FrictionRules rules;
+  std::optional<SpringRequest> spring;
+  double inertia_kgm2 = 0.0;  ///< that the gains are designed for
+};
+RequestedJoint read_joint(const GainsOptions& options, const CLI::App& command) {
+  const double ratio = ratio_of(options, command);
+  std::vector<std::string> missing;
+  if (options.friction.empty()) missing.emplace_back("--friction");
+  if (options.spring.given() && !options.spring.motor_inertia_kgm2)
+    missing.emplace_back("--motor-inertia_kgm2");
+  const CatalogueJoint* known = nullptr;
+  if (!missing.empty()) known = &require_catalogue_joint("gains", options.gear, options.joint_model, missing);
+  RequestedJoint joint;
+  joint.inertia_kgm2 = options.inertia_kgm2;
+  if (!options.friction.empty()) {
+    joint.rules = read_friction_rules(options.friction, ratio,
+                                      options.rules_side == "motor" ? GearSide::kMotor : GearSide::kJoint);
+  } else {
+    joint.rules = catalogue_friction(ratio);
+    std::printf("--friction %s, %s\n", kCatalogueFrictionFile, origin(*known).c_str());
+  }
+  if (!options.spring.given()) return joint;
+  if (options.encoder_side == "link")
+    throw InputError(
+        "gains", "--encoder-side", options.encoder_side,
+        "must be motor with --load-inertia_kgm2: no gains with the spring before the encoder are certified");
+  joint.spring = spring_request(options.spring, "gains", known != nullptr ? known->motor_inertia_kgm2 : 0.0);
+  if (!options.spring.motor_inertia_kgm2)
+    std::printf("--motor-inertia_kgm2 %g, %s\n", joint.spring->motor_inertia_kgm2, origin(*known).c_str());
+  if (command.count("--inertia_kgm2") == 0) {
+    joint.inertia_kgm2 = joint.spring->motor_inertia_kgm2 + joint.spring->link_inertia_kgm2.to;
+    std::printf("--inertia_kgm2 %g, motor and heaviest link\n", joint.inertia_kgm2);
+  }
+  return joint;
+}
+
+TableRequest make_request(const GainsOptions& options, const CLI::App& command, const RequestedJoint& joint) {
   const auto given = [&command](const char* name, double value) {
     return command.count(name) > 0 ? std::optional<double>(value) : std::nullopt;
   };
@@ -107,7 +142,7 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command) 
   DesignRequest& design = request.design;
   design.plant.joint_model = std::string_view(options.joint_model);
   design.plant.gear = std::string_view(options.gear);
-  design.plant.inertia_kgm2 = options.inertia_kgm2;
+  design.plant.inertia_kgm2 = joint.inertia_kgm2;
   design.plant.gear_ratio = ratio_of(options, command);
   design.plant.period_s = options.period_s;
   design.sampling = options.sampling == "zoh" ? Sampling::kZeroOrderHold : Sampling::kForwardEuler;
@@ -123,64 +158,15 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command) 
   request.torque_limit_Nm = options.torque_limit_Nm;
   request.created_utc = utc_now();
   check_request(design);
-  const FrictionRules rules =
-      read_friction_rules(options.friction, design.plant.gear_ratio,
-                          options.rules_side == "motor" ? GearSide::kMotor : GearSide::kJoint);
-  design.friction = rules.friction;
-  request.friction_sha256 = rules.sha256;
+  design.friction = joint.rules.friction;
+  request.friction_sha256 = joint.rules.sha256;
   return request;
-}
-
-// The most aggressive gains that are certified on the joint's spring: of a family over the torque's weight, from the one that is asked for
-// on, to a quarter of a decade. Throws NotAchieved with the last refusal when the softest is none.
-GainTable design_on_spring(Controller controller, TableRequest& request, const GainsOptions& options) {
-  const SpringRequest spring = spring_request(options.spring, "gains");
-  if (spring.most_delay > kMaxBoxDelay)
-    throw InputError("gains", "--delay", options.spring.delay_periods,
-                     "must be at most " + std::to_string(kMaxBoxDelay) + " in a table");
-  if (options.encoder_side == "link")
-    throw InputError(
-        "gains", "--encoder-side", options.encoder_side,
-        "must be motor with --load-inertia_kgm2: no gains with the spring before the encoder are certified");
-  const double first = options.weights[3];
-  SpringVerdict verdict;
-  const auto try_weight = [&](int quarters) {
-    request.design.weights.torque = first * std::pow(10.0, quarters / 4.0);
-    GainTable table = design_table(controller, request);
-    verdict = box_on_spring(table, options.gear, spring);
-    if (verdict.certified) table.box = verdict.box;
-    return table;
-  };
-  GainTable best = try_weight(0);
-  int refused = 0;
-  int certified = 0;
-  while (!verdict.certified) {
-    refused = certified;
-    certified += kQuarters;
-    if (certified > kSoftest * kQuarters)
-      throw NotAchieved("gains: no gains are certified on this spring, down to a torque weight of " +
-                        number_text(request.design.weights.torque) + ": " + verdict.text);
-    best = try_weight(certified);
-  }
-  std::string text = verdict.text;
-  while (certified - refused > 1) {
-    const int middle = (certified + refused) / 2;
-    const GainTable table = try_weight(middle);
-    (verdict.certified ? certified : refused) = middle;
-    if (!verdict.certified) continue;
-    best = table;
-    text = verdict.text;
-  }
-  std::printf("torque weight %g\n%s", best.primary.weights.torque, text.c_str());
-  const BoxReport report = certify_box(best);
-  if (!report.certified) throw NotAchieved("gains: the box's cells do not prove it: " + report.text);
-  std::printf("the table's box: %s\n", describe(best.box).c_str());
-  return best;
 }
 
 // TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
 ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
-  TableRequest request = make_request(options, command);
+  const RequestedJoint joint = read_joint(options, command);
+  TableRequest request = make_request(options, command, joint);
   std::vector<Controller> wanted;
   for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
     if (options.controller == "all" || options.controller == name_of(controller))
@@ -192,8 +178,13 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
     request.name = options.name.empty() ? options.joint_model + " " + label : options.name;
     std::filesystem::path path = options.out;
     if (options.controller == "all") path /= "c" + label.substr(1) + ".json";
-    tables.emplace_back(path, options.spring.given() ? design_on_spring(controller, request, options)
-                                                     : design_table(controller, request));
+    if (!joint.spring) {
+      tables.emplace_back(path, design_table(controller, request));
+      continue;
+    }
+    const SpringDesign found = design_on_spring(controller, request, options.gear, *joint.spring);
+    std::fputs(found.text.c_str(), stdout);
+    tables.emplace_back(path, found.table);
   }
   for (const auto& [path, table] : tables) {
     write_gain_table(table, path);
@@ -211,7 +202,9 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
 void add_plant_options(CLI::App& command, GainsOptions& options) {
   command.add_option("--joint-model", options.joint_model, "identity of the joint; the daemon compares it")
       ->capture_default_str();
-  command.add_option("--inertia_kgm2", options.inertia_kgm2, "inertia at the joint side")
+  command
+      .add_option("--inertia_kgm2", options.inertia_kgm2,
+                  "inertia at the joint side (default with --load-inertia_kgm2: motor and heaviest link)")
       ->capture_default_str();
   command
       .add_option(
@@ -275,7 +268,9 @@ void add_gains_command(CLI::App& program, CommandBody& chosen) {
   CLI::App* command = program.add_subcommand(
       "gains", "Design certified gains; the defaults are the RHS-17-6006 of the source");
   const auto options = std::make_shared<GainsOptions>();
-  command->add_option("--friction", options->friction, "fuzzy rules: JSON from fit, or CSV")->required();
+  command->add_option(
+      "--friction", options->friction,
+      "fuzzy rules: JSON from fit, or CSV (default: of the catalogue's actuator with the gear)");
   command->add_option("--rules-side", options->rules_side, "side of the gear that a rules CSV is stated at")
       ->check(CLI::IsMember({"joint", "motor"}))
       ->capture_default_str();

@@ -28,10 +28,11 @@ void add_spring_options(CLI::App& command, SpringOptions& options) {
   CLI::Option* const load =
       command.add_option("--load-inertia_kgm2", options.load_inertia_kgm2,
                          "also on a joint whose gear is a spring, with links of FROM..TO behind it");
-  CLI::Option* const motor = command.add_option("--motor-inertia_kgm2", options.motor_inertia_kgm2,
-                                                "its inertia before the spring, at the joint");
-  load->needs(motor);
-  motor->needs(load);
+  command
+      .add_option(
+          "--motor-inertia_kgm2", options.motor_inertia_kgm2,
+          "its inertia before the spring, at the joint (default: of the catalogue's actuator with the gear)")
+      ->needs(load);
   command
       .add_option("--damping_Nms_rad", options.damping_Nms_rad,
                   "the spring's damping, FROM..TO or one number")
@@ -44,11 +45,12 @@ void add_spring_options(CLI::App& command, SpringOptions& options) {
       ->capture_default_str();
 }
 
-SpringRequest spring_request(const SpringOptions& options, const std::string& place) {
+SpringRequest spring_request(const SpringOptions& options, const std::string& place,
+                             double usual_motor_inertia_kgm2) {
   SpringRequest request;
-  request.motor_inertia_kgm2 = options.motor_inertia_kgm2;
+  request.motor_inertia_kgm2 = options.motor_inertia_kgm2.value_or(usual_motor_inertia_kgm2);
   if (!(request.motor_inertia_kgm2 >= kLeastInertia_kgm2))
-    throw InputError(place, "--motor-inertia_kgm2", number_text(options.motor_inertia_kgm2),
+    throw InputError(place, "--motor-inertia_kgm2", number_text(request.motor_inertia_kgm2),
                      "must be the inertia on the motor's side of the spring, at the joint");
   request.link_inertia_kgm2 =
       parse_range(place, "--load-inertia_kgm2", options.load_inertia_kgm2, kLeastInertia_kgm2);

@@ -1,6 +1,7 @@
 // The box of joints with a spring that verify and gains are given on the command line. Offline.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "design/spring_proof.h"
@@ -12,7 +13,7 @@ class App;
 namespace strainwave {
 
 struct SpringOptions {
-  double motor_inertia_kgm2 = 0.0;
+  std::optional<double> motor_inertia_kgm2;
   std::string load_inertia_kgm2;  ///< "FROM..TO" or one number; empty: no spring is meant
   std::string damping_Nms_rad = "0";
   std::string delay_periods = "1";
@@ -23,7 +24,8 @@ struct SpringOptions {
 /// --motor-inertia_kgm2, --load-inertia_kgm2, --damping_Nms_rad, --delay.
 void add_spring_options(CLI::App& command, SpringOptions& options);
 
-/// What of a box the options say; stiffness and friction are the gear's and the table's. Throws InputError naming `place`.
+/// What of a box the options say; stiffness and friction are the gear's and the table's. A motor's inertia that is not given is
+/// `usual_motor_inertia_kgm2`. Throws InputError naming `place`.
 struct SpringRequest {
   double motor_inertia_kgm2 = 0.0;
   BoxRange link_inertia_kgm2;
@@ -31,7 +33,8 @@ struct SpringRequest {
   int least_delay = 0;
   int most_delay = 0;
 };
-SpringRequest spring_request(const SpringOptions& options, const std::string& place);
+SpringRequest spring_request(const SpringOptions& options, const std::string& place,
+                             double usual_motor_inertia_kgm2);
 
 /// One line per delay, each of which has its own proof: a joint has one.
 struct SpringVerdict {

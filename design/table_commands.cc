@@ -8,6 +8,7 @@
 #include "control/certificate.h"
 #include "control/gain_table_json.h"
 #include "design/commands.h"
+#include "design/joint_defaults.h"
 #include "design/spring_options.h"
 #include "design/table_report.h"
 
@@ -25,16 +26,31 @@ std::string gear_of(const VerifyOptions& options, const GainTable& table) {
   return options.gear.empty() ? std::string(table.plant.gear.view()) : options.gear;
 }
 
+// Where none is given: of the table's box, else of the catalogue's actuator. Says which.
+double usual_motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table) {
+  if (options.spring.motor_inertia_kgm2) return *options.spring.motor_inertia_kgm2;
+  if (!table.box.rigid()) {
+    std::printf("--motor-inertia_kgm2 %g, of the table's box\n", table.box.motor_inertia_kgm2);
+    return table.box.motor_inertia_kgm2;
+  }
+  const CatalogueJoint& known =
+      require_catalogue_joint("verify", gear_of(options, table), std::string(table.plant.joint_model.view()),
+                              {"--motor-inertia_kgm2"});
+  std::printf("--motor-inertia_kgm2 %g, %s\n", known.motor_inertia_kgm2, origin(known).c_str());
+  return known.motor_inertia_kgm2;
+}
+
 /// The spring that is asked for, if one is. Throws InputError.
 std::optional<SpringRequest> requested_spring(const VerifyOptions& options, const GainTable& table) {
   if (!options.spring.given()) {
     if (!options.gear.empty())
-      throw InputError("verify", "--gear", options.gear,
-                       "is the spring of a joint with links behind it: give --load-inertia_kgm2 and "
-                       "--motor-inertia_kgm2 as well, or leave it out");
+      throw InputError(
+          "verify", "--gear", options.gear,
+          "is the spring of a joint with links behind it: give --load-inertia_kgm2 as well, or leave "
+          "it out");
     return std::nullopt;
   }
-  SpringRequest request = spring_request(options.spring, "verify");
+  SpringRequest request = spring_request(options.spring, "verify", usual_motor_inertia_kgm2(options, table));
   (void)spring_box(table.friction, gear_of(options, table), request.motor_inertia_kgm2,
                    request.link_inertia_kgm2);
   return request;

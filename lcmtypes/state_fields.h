@@ -23,6 +23,7 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
     else
       visit(field.name.data(), value);
   });
+  visit("inertia_estimated_kgm2", state.inertia_estimated_kgm2);
   visit("link_position_rad", state.link_position_rad);
 }
 

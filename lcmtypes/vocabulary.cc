@@ -113,6 +113,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "off target";
     case Notice::kLoadHigh:
       return "load high";
+    case Notice::kOtherInertia:
+      return "inertia not as told";
   }
   return "unknown";
 }
@@ -323,6 +325,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.supervision.rest_tolerance_rad";
     case Notice::kLoadHigh:
       return "joint.limits.load_notice_Nm";
+    case Notice::kOtherInertia:
+      return "joint.inertia_kgm2";
   }
   return "";
 }

@@ -68,6 +68,7 @@ enum class Notice : std::int32_t {
   kPositionLate = 1 << 10,
   kOffTarget = 1 << 11,
   kLoadHigh = 1 << 12,
+  kOtherInertia = 1 << 13,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

@@ -1,6 +1,6 @@
 #include "telemetry/topics.h"
 
-#include <algorithm>
+#include "base/durations.h"
 
 namespace strainwave {
 
@@ -14,19 +14,11 @@ const Topic* Topics::find(const std::string& name, double now_s) {
 const Topic* Topics::add(const std::string& name, const std::string& schema_name, const std::string& schema,
                          double now_s, const LcmSource& from) {
   given_up_.reset();
-  if (!may_add(now_s)) return nullptr;
+  if (!new_ones_.try_take(nanoseconds(now_s))) return nullptr;
   if (const auto lost = places_.take(name, from, now_s)) give_up(*lost);
   const std::uint32_t id = next_id_++;
   names_.emplace(id, name);
   return &topics_.insert_or_assign(name, Topic{id, name, schema_name, schema}).first->second;
-}
-
-bool Topics::may_add(double now_s) {
-  room_ = std::min(static_cast<double>(kMax), room_ + kNewPerSecond * std::max(0.0, now_s - room_at_s_));
-  room_at_s_ = now_s;
-  if (room_ < 1.0) return false;
-  room_ -= 1.0;
-  return true;
 }
 
 void Topics::give_up(const std::string& name) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/token_bucket.h"
 #include "transport/fair_places.h"
 
 namespace strainwave {
@@ -43,7 +44,6 @@ class Topics {
   }
 
  private:
-  bool may_add(double now_s);
   void give_up(const std::string& name);
 
   std::map<std::string, Topic> topics_;
@@ -51,8 +51,7 @@ class Topics {
   std::map<std::uint32_t, std::string> names_;
   std::uint32_t next_id_ = 1;
   std::optional<std::uint32_t> given_up_;
-  double room_ = static_cast<double>(kMax);  ///< how many may be added now
-  double room_at_s_ = 0.0;                   ///< when that was
+  TokenBucket new_ones_{kNewPerSecond, static_cast<double>(kMax)};
 };
 
 }  // namespace strainwave

@@ -26,7 +26,8 @@ std::optional<LcmMessage> LcmReassembly::take(const LcmSource& from, std::span<c
       ++counts_.malformed;
       return std::nullopt;
     case LcmDatagram::Kind::kShort:
-      if (parsed.part.size() <= largest_message_bytes_) return LcmMessage{parsed.channel, parsed.part};
+      if (parsed.part.size() <= largest_message_bytes_)
+        return LcmMessage{parsed.channel, parsed.part, parsed.sequence};
       ++counts_.too_long;
       return std::nullopt;
     case LcmDatagram::Kind::kFragment:
@@ -49,7 +50,7 @@ std::optional<LcmMessage> LcmReassembly::take_fragment(const LcmSource& from, co
   if (++slot.parts_here < slot.count) return std::nullopt;
   slot.state = SlotState::kDone;
   if (fits_together(slot))
-    return LcmMessage{slot.channel.view(), std::span(slot.bytes).first(slot.message_bytes)};
+    return LcmMessage{slot.channel.view(), std::span(slot.bytes).first(slot.message_bytes), slot.sequence};
   ++counts_.malformed;
   return std::nullopt;
 }

@@ -29,6 +29,7 @@ struct LcmSource {
 struct LcmMessage {
   std::string_view channel;
   std::span<const std::uint8_t> bytes;
+  std::uint32_t sequence = 0;  ///< its source counts what it sends
 };
 
 class LcmReassembly {

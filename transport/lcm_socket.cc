@@ -61,12 +61,25 @@ void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
   // Viewers and clients on this machine listen at the same port.
   set(descriptor_, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
   set(descriptor_, IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing this group alone");
-  ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &queue_bytes, sizeof queue_bytes);
+  enlarge_queue(queue_bytes);
   // To the group, not to any address: the kernel then keeps unicast away.
   if (::bind(descriptor_, static_cast<sockaddr*>(static_cast<void*>(&group)), sizeof group) != 0)
     throw std::system_error(errno, std::generic_category(), "binding to the group");
   set(descriptor_, IPPROTO_IP, IP_ADD_MEMBERSHIP, ip_mreq{group.sin_addr, {htonl(INADDR_ANY)}},
       "joining the group");
+}
+
+// Who administers the network may go beyond the system's usual limit.
+void LcmSocket::enlarge_queue(int bytes) {
+  if (::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
+    ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+}
+
+int LcmSocket::queue_bytes() const noexcept {
+  int doubled = 0;  // Linux counts what it needs besides
+  socklen_t size = sizeof doubled;
+  ::getsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &doubled, &size);
+  return doubled / 2;
 }
 
 // Before binding, so that nothing comes in unfiltered. The filter sees a datagram from its UDP header on.

@@ -23,7 +23,8 @@ class LcmSocket {
   static constexpr int kQueueBytes = 1 << 20;
 
   /// Joins the group. With a ttl of 0 nothing from another machine is heard, even where the route leads to a real
-  /// interface. `queue_bytes`: room for what comes while nobody receives; the system may allow less. Throws std::system_error.
+  /// interface. `queue_bytes`: room for what comes while nobody receives; the system may give less, unless this
+  /// process administers the network. Throws std::system_error.
   LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes,
             int queue_bytes = kQueueBytes);
   ~LcmSocket();
@@ -31,12 +32,15 @@ class LcmSocket {
   LcmSocket& operator=(const LcmSocket&) = delete;
 
   int descriptor() const noexcept { return descriptor_; }
+  /// What the system gave of the queue that was asked for.
+  int queue_bytes() const noexcept;
   /// Hands at most kBatch datagrams that are here to `take`. Returns how many there were; never waits.
   std::size_t receive(const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take);
 
  private:
   void join(const MulticastAddress& address, int queue_bytes);
   void filter(bool this_machine_only);
+  void enlarge_queue(int bytes);
 
   int descriptor_;
   std::size_t largest_bytes_;

@@ -1,6 +1,8 @@
 // record: every message of a prefix to an LCM event log.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/link/event_log_writer.h"
@@ -38,6 +40,46 @@ class McapRecording {
   Subscription subscription_;
 };
 
+/// Who sends what is recorded, and what of that did not come.
+class Senders {
+ public:
+  Senders(Connection& connection, const std::string& channels)
+      : connection_(connection), subscription_(connection.subscribe(channels, &Senders::on_message, this)) {
+    connection.read_ahead();
+  }
+
+  std::uint64_t missing() const {
+    std::uint64_t sum = 0;
+    for (const LcmSource& source : sources_) sum += connection_.missing(source);
+    return sum;
+  }
+  /// Why, and what to do about it.
+  std::string remedy() const {
+    if (const std::uint64_t without_room = connection_.without_room(); without_room > 0)
+      return fmt::format(
+          "for {} of them there was no room while the file was being written: is the disk too slow?",
+          without_room);
+    const Connection::SocketQueue queue = connection_.socket_queue();
+    if (queue.given_bytes < queue.asked_bytes)
+      return fmt::format(
+          "the system gives {} bytes before the socket of {} asked for: as root, sysctl "
+          "net.core.rmem_max={}",
+          queue.given_bytes, queue.asked_bytes, queue.asked_bytes);
+    return "the network lost them, or this program had no processor for long";
+  }
+
+ private:
+  static constexpr std::size_t kMost = MissingMessages::kSources;
+  void on_message(const ReceivedMessage& message) {
+    if (sources_.size() < kMost && std::ranges::find(sources_, message.from) == sources_.end())
+      sources_.push_back(message.from);
+  }
+
+  Connection& connection_;
+  std::vector<LcmSource> sources_;
+  Subscription subscription_;
+};
+
 /// Waits until the recording is over; an interrupt is a normal end.
 template <typename Log>
 void wait_for_end(Client& client, const Log& log, const Deadline& end) {
@@ -49,13 +91,23 @@ void wait_for_end(Client& client, const Log& log, const Deadline& end) {
 }
 
 template <typename Log>
-void record_into(Log& log, Client& client, const Output& output, const RecordArguments& arguments) {
+void record_into(Log& log, const Senders& senders, Client& client, const Output& output,
+                 const RecordArguments& arguments) {
   constexpr double kNoEnd_s = 1e9;
   wait_for_end(client, log, Deadline(arguments.duration_s.value_or(kNoEnd_s)));
   log.finish();
-  for (const auto& [channel, count] : log.counts())
+  std::int64_t messages = 0;
+  for (const auto& [channel, count] : log.counts()) {
+    messages += count;
     say(output, fmt::format("{}: {} messages in {}", printable(channel), count, arguments.file.string()),
         {{"channel", channel}, {"messages", std::int64_t{count}}, {"file", arguments.file.string()}});
+  }
+  const auto missing = static_cast<std::int64_t>(senders.missing());
+  const std::string lost =
+      missing > 0 ? fmt::format("{} more of the same senders are missing: {}", missing, senders.remedy())
+                  : "none is missing";
+  say(output, fmt::format("{}: {} messages; {}", arguments.file.string(), messages, lost),
+      {{"file", arguments.file.string()}, {"messages", messages}, {"missing", missing}});
 }
 
 }  // namespace
@@ -68,13 +120,14 @@ void record(Client& client, const Output& output, const RecordArguments& argumen
                                               "export makes CSV of it");
   for (const std::string& joint : arguments.joints) client.wait_for_joint(joint);
   if (arguments.joints.empty()) client.wait_for_joints();
+  const Senders senders(client.connection(), recorded_channels(client.options().prefix, arguments.joints));
   if (arguments.mcap) {
     McapRecording log(client, arguments);
-    return record_into(log, client, output, arguments);
+    return record_into(log, senders, client, output, arguments);
   }
   EventLogWriter log(client.connection(), client.options().prefix, arguments.joints, arguments.file,
                      arguments.overwrite);
-  record_into(log, client, output, arguments);
+  record_into(log, senders, client, output, arguments);
 }
 
 }  // namespace strainwave

@@ -21,6 +21,9 @@ constexpr std::string_view kWithoutNetwork = "memq://";
 /// Half a second of 64 joints at 200 Hz: so long a busy machine may leave out who records them.
 constexpr int kSocketQueueBytes = 4 << 20;
 
+/// Some eight seconds of them: a disk may take so long to write what a build beside it has written.
+constexpr std::size_t kReadAheadBytes = 64 << 20;
+
 NoAnswer unavailable(const std::string& lcm_url, const std::string& why) {
   return NoAnswer("LCM is not available on '" + lcm_url + "': " + why);
 }
@@ -65,7 +68,7 @@ Connection::Connection(const std::string& lcm_url) : url_(lcm_url) {
 }
 
 void Connection::publish(const std::string& channel, std::span<const std::uint8_t> bytes) {
-  if (!network_) return keep(channel, bytes, {});
+  if (!network_) return keep({channel, {bytes.begin(), bytes.end()}, utime_now(), {}});
   if (network_->sender.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size())) != 0) {
     throw NoAnswer("LCM did not take a message for " + channel + ": is the network of " + url_ + " up?");
   }
@@ -87,24 +90,55 @@ bool Connection::handle(int timeout_ms) {
 }
 
 void Connection::wait(int timeout_ms) const {
-  pollfd descriptor{network_ ? network_->socket.descriptor() : -1, POLLIN, 0};
+  const int readable = !network_         ? -1
+                       : network_->ahead ? network_->ahead->descriptor()
+                                         : network_->socket.descriptor();
+  pollfd descriptor{readable, POLLIN, 0};
   if (::poll(&descriptor, 1, timeout_ms) < 0 && errno != EINTR)
     throw NoAnswer("LCM stopped working on " + url_);
 }
 
+void Connection::read_ahead() {
+  if (!network_ || network_->ahead) return;
+  missing_.clear();
+  network_->ahead.emplace(network_->socket, kReadAheadBytes);
+}
+
+std::uint64_t Connection::without_room() const noexcept {
+  return network_ && network_->ahead ? network_->ahead->dropped() : 0;
+}
+
+Connection::SocketQueue Connection::socket_queue() const noexcept {
+  return network_ ? SocketQueue{network_->socket.queue_bytes(), kSocketQueueBytes} : SocketQueue{};
+}
+
 void Connection::take_what_came() {
   if (!network_) return;
-  const auto take = [this](const LcmSource& from, std::span<const std::uint8_t> datagram) {
-    const auto message = network_->reassembly.take(from, datagram);
-    if (message) keep(message->channel, message->bytes, from);
-  };
-  while (waiting_.size() < kQueueCapacity && network_->socket.receive(take) == LcmSocket::kBatch) {
+  while (waiting_.size() < kQueueCapacity && receive() == LcmSocket::kBatch) {
   }
 }
 
+std::size_t Connection::receive() {
+  if (network_->ahead)
+    return network_->ahead->receive(
+        [this](const LcmSource& from, std::int64_t received_us, std::span<const std::uint8_t> datagram) {
+          take(from, received_us, datagram);
+        });
+  return network_->socket.receive([this](const LcmSource& from, std::span<const std::uint8_t> datagram) {
+    take(from, utime_now(), datagram);
+  });
+}
+
+void Connection::take(const LcmSource& from, std::int64_t received_us,
+                      std::span<const std::uint8_t> datagram) {
+  const auto message = network_->reassembly.take(from, datagram);
+  if (!message) return;
+  if (network_->ahead) missing_.heard(from, message->sequence);
+  keep({std::string(message->channel), {message->bytes.begin(), message->bytes.end()}, received_us, from});
+}
+
 // Only what somebody wants.
-void Connection::keep(std::string_view channel, std::span<const std::uint8_t> bytes, const LcmSource& from) {
-  Waiting message{std::string(channel), {bytes.begin(), bytes.end()}, utime_now(), from};
+void Connection::keep(Waiting message) {
   const bool wanted = std::ranges::any_of(subscriptions_, [&](const Subscription::Entry& entry) {
     return matches(message.channel, entry.pattern);
   });

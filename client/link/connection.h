@@ -1,6 +1,7 @@
 // The client's way to LCM's network: subscriptions, publishing, waiting. Knows bytes and channels, not messages. What comes in is
 // read by our own receiver (transport/): a crafted datagram ends any program that receives with LCM's library, which only
-// sends here. One thread. Not real-time.
+// sends here. One thread, and with read_ahead() one that reads
+// the network for it. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,17 @@
 #include <lcm/lcm-cpp.hpp>
 #include <list>
 #include <memory>
+#include <optional>
 #include <regex>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "transport/lcm_read_ahead.h"
 #include "transport/lcm_reassembly.h"
 #include "transport/lcm_socket.h"
+#include "transport/missing_messages.h"
 
 namespace strainwave {
 
@@ -77,6 +81,20 @@ class Connection {
   /// Throws ClientError when LCM does not take the message.
   void publish(const std::string& channel, std::span<const std::uint8_t> bytes);
 
+  /// From now on a thread of its own reads the network, ahead of handle() by as much as memory has room for, and missing() counts: for who
+  /// wants to have everything. With memq:// nothing changes.
+  void read_ahead();
+  /// Messages that `from` sent since then and that did not come; all of the network's losses and ours.
+  std::uint64_t missing(const LcmSource& from) const noexcept { return missing_.of(from); }
+  /// Of them, in datagrams: those for which read_ahead() had no room left.
+  std::uint64_t without_room() const noexcept;
+  /// The system's queue before the socket: what it gave, and what was asked for.
+  struct SocketQueue {
+    int given_bytes = 0;
+    int asked_bytes = 0;
+  };
+  SocketQueue socket_queue() const noexcept;
+
   /// Waits up to `timeout_ms` for messages and dispatches one. False: there was none, or a signal came.
   bool handle(int timeout_ms);
 
@@ -87,6 +105,7 @@ class Connection {
     lcm::LCM sender;
     LcmSocket socket;
     LcmReassembly reassembly;
+    std::optional<LcmReadAhead> ahead;  ///< after the socket, which it reads
   };
   struct Waiting {
     std::string channel;
@@ -96,12 +115,15 @@ class Connection {
   };
   void wait(int timeout_ms) const;
   void take_what_came();
-  void keep(std::string_view channel, std::span<const std::uint8_t> bytes, const LcmSource& from);
+  std::size_t receive();
+  void take(const LcmSource& from, std::int64_t received_us, std::span<const std::uint8_t> datagram);
+  void keep(Waiting message);
 
   std::string url_;
   std::unique_ptr<Network> network_;  ///< none with memq://
   Subscription::Entries subscriptions_;
   std::deque<Waiting> waiting_;
+  MissingMessages missing_;
 };
 
 }  // namespace strainwave

@@ -55,7 +55,18 @@ Verdict Admission::pass(const Requester& requester, OrderKind kind, std::int64_t
   verdict.requester = requester;
   verdict.order.kind = kind;
   verdict.order.expires_cycle = challenges_.expiry_cycle(challenge);
+  verdict.stop_count = challenges_.stop_count(requester.joint);
   return verdict;
+}
+
+// Of a message that is not verified: the answer, if there is one yet, says nothing new to anybody.
+bool Admission::repeats(const WireMessage& message, const Requester& requester) const {
+  if (is_unsigned(payload(message)))
+    return unsigned_sequences_.is_last({requester.sender_id, requester.joint}, requester.sender_id,
+                                       requester.sequence);
+  const auto key = security_.keys.find(key_id_of(payload(message)));
+  return key && sequences_.is_last({static_cast<std::int64_t>(*key), requester.joint}, requester.sender_id,
+                                   requester.sequence);
 }
 
 std::optional<Verdict> Admission::check_envelope(const WireMessage& message, const Envelope& envelope,
@@ -66,11 +77,14 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is " + std::to_string(session_id_) +
                       " (session_id on the STATE channel): send again");
-  if (challenges_.expiry_cycle(envelope.challenge) < 0)
+  if (challenges_.expiry_cycle(envelope.challenge) < 0) {
+    // What takes longer than an order lives, as the proof of a table, is asked for again meanwhile.
+    if (repeats(message, requester)) return repeat(requester);
     return refuse(
         requester, Reason::kTooOld,
         "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
         "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
+  }
   if (challenges_.stopped_since(envelope.challenge, requester.joint))
     return refuse(requester, Reason::kTooOld,
                   "the joint was stopped since this order was made: give it anew from the next state");
@@ -168,9 +182,11 @@ Verdict Admission::stop(const WireMessage& message, OrderKind kind, std::int64_t
 
 Verdict Admission::change_owner(Action action, const Requester& requester) {
   const Ownership::Holder sender{requester.key, requester.sender_id};
-  if (action == Action::kTakeOver)
+  if (action == Action::kTakeOver) {
     ownership_.take(requester.joint, sender, now_ns_);
-  else if (!ownership_.release(requester.joint, sender, now_ns_))
+    return pass(requester, OrderKind::kEndStream, 0);
+  }
+  if (!ownership_.release(requester.joint, sender, now_ns_))
     return refuse(requester, Reason::kNotOwner, "only who has the joint can release it");
   Verdict verdict;
   verdict.kind = Verdict::Kind::kDone;

@@ -69,6 +69,7 @@ struct Verdict {
   std::string text;
   Requester requester;
   Order order;                       ///< kOrder
+  std::int64_t stop_count = 0;       ///< kOrder: Admission::stop_count() then
   std::unique_ptr<GainTable> table;  ///< kOrder of a table
   bool revert_table = false;         ///< kOrder: use the previous table again
   std::unique_ptr<LoadedPath> path;  ///< kOrder of a path
@@ -103,6 +104,9 @@ class Admission {
   const Ownership& ownership() const noexcept { return ownership_; }
 
   /// For how many cycles an order that was fresh when it came may wait.
+  /// `joint` has faulted: as after a stop, no order from before is obeyed.
+  void fault(std::size_t joint) noexcept { challenges_.stop(joint); }
+  std::int64_t stop_count(std::size_t joint) const noexcept { return challenges_.stop_count(joint); }
   std::int64_t order_lifetime_cycles() const noexcept { return challenges_.lifetime_cycles(); }
 
   /// A refusal decided elsewhere (by the loop) belongs to the same counts.
@@ -117,6 +121,7 @@ class Admission {
     bool needs_joint;  ///< only the joint's owner may order it
   };
   Verdict judge(std::string_view kind, std::size_t joint, const WireMessage& message);
+  bool repeats(const WireMessage& message, const Requester& requester) const;
   Verdict judge_setpoint(std::size_t joint, const WireMessage& message);
   Verdict judge_command(std::size_t joint, const WireMessage& message);
   Verdict judge_table_message(std::size_t joint, const WireMessage& message);

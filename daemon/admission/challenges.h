@@ -1,6 +1,6 @@
 // What an order must quote to be obeyed: a random number from the daemon's state that is not older than an order may become. It
 // cannot be known before it is published, so that an order which somebody keeps back is worthless soon after, whatever clocks and
-// states that somebody forges. A stop of a joint ends all that were drawn until then for that joint: what was sent before a stop is
+// states that somebody forges. A stop or a fault of a joint ends all that were drawn until then for that joint: what was sent before a stop is
 // not obeyed after it, whichever of the two came first. Time is the loop's own count of periods. Not real-time.
 #pragma once
 
@@ -22,7 +22,8 @@ class Challenges {
   Challenges(std::int64_t lifetime_cycles, std::size_t joints)
       : step_cycles_(std::max<std::int64_t>(1, lifetime_cycles / kPerLifetime)),
         least_step_cycles_(std::max<std::int64_t>(1, lifetime_cycles / kMostPerLifetime)),
-        stops_(joints) {}
+        stops_(joints),
+        stop_counts_(joints) {}
 
   /// How long one is good at most, from when it is drawn.
   std::int64_t lifetime_cycles() const noexcept { return step_cycles_ * (kPerLifetime + 1); }
@@ -39,9 +40,10 @@ class Challenges {
     return drawn_[newest_].challenge;
   }
 
-  /// `joint` is stopped now.
+  /// `joint` is stopped now, by an order or a fault.
   void stop(std::size_t joint) noexcept {
     stops_[joint] = draws_;
+    ++stop_counts_[joint];
     due_soon_ = true;
   }
 
@@ -55,6 +57,8 @@ class Challenges {
     const Drawn* drawn = find(challenge);
     return drawn != nullptr && drawn->number <= stops_[joint];
   }
+  /// How often `joint` was stopped: the same number later means that it was not meanwhile.
+  std::int64_t stop_count(std::size_t joint) const noexcept { return stop_counts_[joint]; }
   std::int64_t cycle() const noexcept { return cycle_; }
 
  private:
@@ -76,6 +80,7 @@ class Challenges {
   std::int64_t cycle_ = 0;
   std::int64_t draws_ = 0;
   std::vector<std::int64_t> stops_;  ///< of each joint: draws_ when it was stopped last
+  std::vector<std::int64_t> stop_counts_;
   bool due_soon_ = false;
   std::array<Drawn, kMostPerLifetime + kPerLifetime + 16> drawn_{};
   std::size_t newest_ = 0;

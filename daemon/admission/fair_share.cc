@@ -15,20 +15,18 @@ bool FairShare::is_proven(std::uint64_t source) const noexcept {
 }
 
 bool FairShare::available(std::uint64_t source, std::int64_t now_ns) noexcept {
-  if (now_ns > filled_ns_) {
-    left_ = std::min(burst_, left_ + static_cast<double>(now_ns - filled_ns_) * per_ns_);
-    filled_ns_ = now_ns;
-  }
-  if (left_ < 1.0) return false;
-  double for_others = is_proven(source) ? 0.0 : burst_ / 8.0;
+  const double left = bucket_.left(now_ns);
+  if (left < 1.0) return false;
+  const double burst = bucket_.burst();
+  double for_others = is_proven(source) ? 0.0 : burst / 8.0;
   for (const Taker& taker : takers_)
     if (taker.taken > 0.0 && taker.source == source)
-      for_others += std::min(taker.taken_by(now_ns), burst_ / 2.0);
-  return left_ > for_others;
+      for_others += std::min(taker.taken_by(now_ns), burst / 2.0);
+  return left > for_others;
 }
 
 void FairShare::take(std::uint64_t source, std::int64_t now_ns) noexcept {
-  left_ -= 1.0;
+  bucket_.take();
   Taker* least = nullptr;
   double least_taken = 0.0;
   for (Taker& taker : takers_) {

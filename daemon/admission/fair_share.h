@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/token_bucket.h"
+
 namespace strainwave {
 
 class FairShare {
@@ -23,8 +25,7 @@ class FairShare {
   static constexpr std::size_t kProven = 64;
 
   /// `per_second` > 0 on the average, `burst` >= 1 at once, of all sources together.
-  FairShare(double per_second, double burst) noexcept
-      : per_ns_(per_second * 1e-9), burst_(burst), left_(burst) {}
+  FairShare(double per_second, double burst) noexcept : bucket_(per_second, burst) {}
 
   /// Whether `source` may have one at `now_ns`; the clock may stand still but not go back.
   bool available(std::uint64_t source, std::int64_t now_ns) noexcept;
@@ -51,10 +52,7 @@ class FairShare {
   };
   bool is_proven(std::uint64_t source) const noexcept;
 
-  double per_ns_;
-  double burst_;
-  double left_;
-  std::int64_t filled_ns_ = 0;
+  TokenBucket bucket_;
   std::array<Taker, kTakers> takers_{};
   std::array<Proof, kProven> proven_{};
 };

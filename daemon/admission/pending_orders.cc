@@ -140,6 +140,9 @@ void PendingOrders::take_proved_table(std::int64_t now_ns) {
   Verdict& verdict = proved->order;
   if (proved->box.reason != Reason::kAccepted)
     return refuse(verdict, proved->box.reason, proved->box.text, now_ns);
+  if (verdict.stop_count != admission_.stop_count(verdict.requester.joint))
+    return refuse(verdict, Reason::kTooOld,
+                  "the joint was stopped or faulted while the table was proved: give it anew", now_ns);
   verdict.text += proved->box.text;
   // It was fresh when it came; the time since then was ours.
   verdict.order.expires_cycle = loop_.statistics().cycle.load() + admission_.order_lifetime_cycles();

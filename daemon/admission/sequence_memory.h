@@ -44,6 +44,12 @@ class SequenceMemory {
     return Judgement::kNew;
   }
 
+  /// Whether this is the very message that was judged last.
+  bool is_last(Identity identity, std::int64_t sender_id, std::int64_t sequence) const {
+    const auto known = last_.find(identity);
+    return known != last_.end() && known->second.sequence == sequence && known->second.sender_id == sender_id;
+  }
+
   /// The last sequence of `identity`, 0 when there is none.
   std::int64_t last(Identity identity) const {
     const auto known = last_.find(identity);

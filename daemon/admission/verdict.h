@@ -25,6 +25,14 @@ inline Verdict refuse(const Requester& requester, Reason reason, const std::stri
   return verdict;
 }
 
+/// Answered as it was before.
+inline Verdict repeat(const Requester& requester) {
+  Verdict verdict;
+  verdict.kind = Verdict::Kind::kRepeat;
+  verdict.requester = requester;
+  return verdict;
+}
+
 /// Counted, and not answered: nobody knows whom.
 inline Verdict discard(Reason reason) {
   Verdict verdict;

@@ -61,6 +61,8 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       zero_(config.homing.required),
       homing_(config.homing),
       controller_(config.controller),
+      inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
+                config.controller.delay_periods}),
       motion_watch_(
           {config.limits.following_error_rad, config.limits.load_Nm, config.limits.load_notice_Nm,
            config.overload_s, config.blocked_s, config.standstill_rad_s,
@@ -138,6 +140,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
   measurement.late_periods = reading().position_late_periods;
   measurement.elapsed_periods =
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
+  weigh(measurement);
   motion_ = controller_.step(measurement);
   refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
@@ -182,6 +185,7 @@ void JointLoop::take_over(const CycleTime& time) noexcept {
   const double measured_rad_s = measured_velocity_rad_s();
   const double velocity_rad_s = std::abs(measured_rad_s) > config_.standstill_rad_s ? measured_rad_s : 0.0;
   controller_.start(reading().joint_position_rad, velocity_rad_s, load_here_Nm());
+  inertia_.forget();
   motion_watch_.begin(reading().joint_position_rad, time.now_ns);
   (void)change_mode(reading().brake_shut ? ModeEvent::kTorqueReady : ModeEvent::kDriveReady, time);
   control(time);
@@ -246,6 +250,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   cycle.target_rad =
       on_path() ? zero_.to_drive_rad(path_->path.last().position_rad) : controller_.target_rad();
   cycle.joint_velocity_rad_s = measured_velocity_rad_s();
+  if (mode_.controlled()) cycle.inertia_kgm2 = inertia_.inertia_kgm2();
   cycle.table_id = table_ != nullptr ? table_->id : 0;
   cycle.temperature_rules = table_ != nullptr ? table_->table.friction.rule_count : 0;
   cycle.notices = notices_;

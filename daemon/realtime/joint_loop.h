@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "control/inertia_estimate.h"
 #include "control/joint_controller.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/cycle_time.h"
@@ -144,6 +145,8 @@ class JointLoop {
   void expire_setpoint(const CycleTime& time) noexcept;
   void advance_homing(const CycleTime& time) noexcept;
   void control(const CycleTime& time) noexcept;
+  void weigh(const JointMeasurement& measurement) noexcept;
+  bool shows_other_inertia() const noexcept;
   void take_over(const CycleTime& time) noexcept;
   double load_here_Nm() const noexcept;
   void check_motion(const CycleTime& time) noexcept;
@@ -202,6 +205,7 @@ class JointLoop {
   JointZero zero_;
   Homing homing_;
   JointController controller_;
+  InertiaEstimate inertia_;
   MotionWatch motion_watch_;
   SpeedGauge speed_gauge_;  ///< while nothing is controlled
   HeldLoad held_;

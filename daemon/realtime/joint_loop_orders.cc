@@ -57,6 +57,8 @@ Ruling JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
       return follower_->pause(static_cast<std::size_t>(index_));
     case OrderKind::kResumePath:
       return follower_->resume(static_cast<std::size_t>(index_));
+    case OrderKind::kEndStream:
+      return ordered_.streamed() ? hold() : Reason::kAccepted;
   }
   return Reason::kUnknownAction;
 }

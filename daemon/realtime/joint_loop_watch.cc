@@ -9,13 +9,34 @@ namespace {
 
 /// A speed this close to its limit is at it.
 constexpr double kAtLimit = 1.0 - 1e-9;
+/// Another inertia than it is told: what the controller is proved to bear, and what the estimate may be off by.
+constexpr double kOtherInertia = 0.3;
+constexpr double kCertainDeviations = 3.0;
 
 }  // namespace
+
+// By the torque that was commanded last. A brake holds whatever the torque.
+void JointLoop::weigh(const JointMeasurement& measurement) noexcept {
+  if (!measurement.has_position || measurement.elapsed_periods != 1 || measurement.late_periods != 0 ||
+      mode_.is(Mode::kReleasing))
+    return inertia_.interrupt();
+  inertia_.step({measurement.joint_position_rad, motion_.output.torque_Nm,
+                 config_.controller.gravity.at(measurement.joint_position_rad)},
+                controller_.loaded_model());
+}
+
+bool JointLoop::shows_other_inertia() const noexcept {
+  const std::optional<double> shown_kgm2 = inertia_.inertia_kgm2();
+  const double told_kgm2 = controller_.loaded_model().inertia_kgm2;
+  return shown_kgm2 && std::abs(*shown_kgm2 - told_kgm2) >
+                           kOtherInertia * told_kgm2 + kCertainDeviations * inertia_.deviation_kgm2();
+}
 
 void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
   if (motion_.monitor != MonitorState::kWatching) notice(Notice::kPlainLaw);
   if (motion_.off_stream) notice(Notice::kOffStream);
+  if (shows_other_inertia()) notice(Notice::kOtherInertia);
   const FuzzyFriction& friction = table_->table.friction;
   if (motion_.gains_in_use == GainsInUse::kFallback)
     notice(Notice::kFallbackGains);

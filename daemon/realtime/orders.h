@@ -20,7 +20,8 @@ enum class OrderKind : std::int32_t {
   kHome,
   kLoadPath,
   kPausePath,
-  kResumePath
+  kResumePath,
+  kEndStream  ///< of the owner until now: the joint comes to rest; a move or path goes on
 };
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.

@@ -29,7 +29,7 @@ bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven
   if (!driven || !has_last_) begin_stretch();
   const bool motionless = driven && has_last_ && stuck(position_rad, torque_Nm, elapsed_s(now_ns));
   doubt_ = jump         ? doubt_number(ReadingDoubt::kJump, std::abs(position_rad - last_position_rad_))
-           : motionless ? doubt_number(ReadingDoubt::kStuck, owed_motion_rad_)
+           : motionless ? doubt_number(ReadingDoubt::kStuck, std::abs(owed_motion_rad_))
                         : 0;
   last_position_rad_ = position_rad;
   last_ns_ = now_ns;
@@ -60,21 +60,29 @@ bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_
   }
   ++unchanged_periods_;
   if (unchanged_periods_ <= kSettlingPeriods) {
+    torques_Nm_.fill(torque_Nm);
     torque_min_Nm_ = torque_Nm;
     torque_max_Nm_ = torque_Nm;
     return false;
   }
-  torque_min_Nm_ = std::min(torque_min_Nm_, torque_Nm);
-  torque_max_Nm_ = std::max(torque_max_Nm_, torque_Nm);
-  const double change_Nm = std::max(torque_Nm - torque_min_Nm_, torque_max_Nm_ - torque_Nm);
-  const double excess_Nm = change_Nm - 2.0 * kFrictionFactor * static_friction_Nm_;
+  hold_extremes(torque_Nm);
+  const double up_Nm = torque_Nm - torque_min_Nm_;
+  const double down_Nm = torque_max_Nm_ - torque_Nm;
+  const double excess_Nm = std::max(up_Nm, down_Nm) - 2.0 * kFrictionFactor * static_friction_Nm_;
   if (excess_Nm <= 0.0) {
     owed_velocity_rad_s_ = 0.0;  // it may have come to rest again
     return false;
   }
-  owed_velocity_rad_s_ += excess_Nm / inertia_kgm2_ * elapsed_s;
+  owed_velocity_rad_s_ += std::copysign(excess_Nm, up_Nm - down_Nm) / inertia_kgm2_ * elapsed_s;
   owed_motion_rad_ += owed_velocity_rad_s_ * elapsed_s;
-  return owed_motion_rad_ > std::max(kStuckCounts * config_.resolution_rad, kStuckFloor_rad);
+  return std::abs(owed_motion_rad_) > std::max(kStuckCounts * config_.resolution_rad, kStuckFloor_rad);
+}
+
+void PositionCheck::hold_extremes(double torque_Nm) noexcept {
+  torques_Nm_[static_cast<std::size_t>(unchanged_periods_) % kLastingPeriods] = torque_Nm;
+  const auto [low, high] = std::minmax_element(torques_Nm_.begin(), torques_Nm_.end());
+  torque_min_Nm_ = std::min(torque_min_Nm_, *high);
+  torque_max_Nm_ = std::max(torque_max_Nm_, *low);
 }
 
 }  // namespace strainwave

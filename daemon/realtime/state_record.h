@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "control/joint_controller.h"
 #include "daemon/gateway/shared_memory.h"
@@ -30,6 +31,7 @@ struct JointCycle {
   std::int64_t table_id = 0;           ///< 0: none
   std::int32_t temperature_rules = 0;  ///< of the table
   std::int32_t notices = 0;
+  std::optional<double> inertia_kgm2{};  ///< as far as motions have shown it
 };
 
 /// Every field but joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).

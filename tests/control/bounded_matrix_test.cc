@@ -44,7 +44,7 @@ TEST(BoundedMatrix, SumsDifferencesAndProductsCoverWhatTheirFactorsMayBe) {
     const Meant a = random_meant(random, 5, 8);
     const Meant b = random_meant(random, 8, 3);
     const Meant c = random_meant(random, 5, 8);
-    ASSERT_TRUE(covers(a.bounded * b.bounded, a.exact * b.exact));
+    ASSERT_TRUE(covers(a.bounded * b.bounded, a.exact.lazyProduct(b.exact)));
     ASSERT_TRUE(covers(a.bounded + c.bounded, a.exact + c.exact));
     ASSERT_TRUE(covers(a.bounded - c.bounded, a.exact - c.exact));
     ASSERT_TRUE(covers(Bounded(0.1) * a.bounded, 0.1 * a.exact));
@@ -56,7 +56,7 @@ TEST(BoundedMatrix, AProductOfExactFactorsIsBoundedToSomeRoundings) {
   std::mt19937_64 random(4);
   const ProofMatrix a = random_matrix(random, 8, 8);
   const BoundedMatrix product = BoundedMatrix(a) * BoundedMatrix(a);
-  const ProofMatrix size = a.cwiseAbs() * a.cwiseAbs();
+  const ProofMatrix size = a.cwiseAbs().lazyProduct(a.cwiseAbs());
   EXPECT_TRUE((product.error.array() <= 10.0 * bounded_detail::kHalfUlp * size.array() + 1e-300).all());
 }
 

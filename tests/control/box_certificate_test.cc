@@ -8,9 +8,12 @@
 #include "control/gain_table_json.h"
 #include "control/gear_catalogue.h"
 #include "control/ts_plant.h"
+#include "tests/support/eigenvalues.h"
 
 namespace strainwave {
 namespace {
+
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 GainTable shipped() {
   return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
@@ -44,14 +47,14 @@ TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
     const double D = any(box.damping_Nms_rad);
     const double b = any({0.0, largest_viscous_Nms_rad(table.friction)});
     // Motor and link positions and velocities, and the torque: d/dt.
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(5, 5);
+    Matrix5 M = Matrix5::Zero();
     M.row(0) << 0, 1, 0, 0, 0;
     M.row(1) << -K / Jm, -(D + b) / Jm, K / Jm, D / Jm, 1 / Jm;
     M.row(2) << 0, 0, 0, 1, 0;
     M.row(3) << K / Jl, D / Jl, -K / Jl, -D / Jl, 0;
-    const Eigen::MatrixXd step = M * (h / 128.0);
-    Eigen::MatrixXd sampled = Eigen::MatrixXd::Identity(5, 5) + step + step * step / 2 +
-                              step * step * step / 6 + step * step * step * step / 24;
+    const Matrix5 step = M * (h / 128.0);
+    Matrix5 sampled = Matrix5::Identity() + step + step * step / 2 + step * step * step / 6 +
+                      step * step * step * step / 24;
     for (int k = 0; k < 7; ++k) sampled = (sampled * sampled).eval();
     for (const GainRow& gain : gains_of(table)) {
       for (int delay = box.least_delay; delay <= box.most_delay; ++delay) {
@@ -65,15 +68,15 @@ TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
         H(0, 0) = 1.0;
         H(0, 1) = h;
         H(5, 1) = 1.0;
-        H.block(1, 1, 4, 4) = sampled.topLeftCorner(4, 4);
+        H.block<4, 4>(1, 1) = sampled.topLeftCorner<4, 4>();
         if (delay == 0) {
-          H.middleRows(1, 4) += sampled.topRightCorner(4, 1) * u;
+          H.middleRows<4>(1) += sampled.topRightCorner<4, 1>() * u;
         } else {
-          H.block(1, n - 1, 4, 1) = sampled.topRightCorner(4, 1);
+          H.block<4, 1>(1, n - 1) = sampled.topRightCorner<4, 1>();
           H.row(6) = u;
           for (int k = 1; k < delay; ++k) H(6 + k, 5 + k) = 1.0;
         }
-        largest = std::max(largest, H.eigenvalues().cwiseAbs().maxCoeff());
+        largest = std::max(largest, testing::spectral_radius(H));
       }
     }
   }

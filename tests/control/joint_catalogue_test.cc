@@ -6,6 +6,7 @@
 #include <string>
 
 #include "control/gain_table_json.h"
+#include "control/gear_catalogue.h"
 
 namespace strainwave {
 namespace {
@@ -45,6 +46,18 @@ TEST(JointCatalogue, HasTheCataloguesFrictionAtTheJointsSide) {
   EXPECT_EQ(catalogue_joint().friction_at(-60.0, kRatio).coulomb_Nm,
             catalogue_joint().friction_at(-10.0, kRatio).coulomb_Nm);
   EXPECT_EQ(find_catalogue_joint("another"), nullptr);
+}
+
+TEST(JointCatalogue, HasTheActuatorsOwnInertiaAndFindsItByItsGear) {
+  const CatalogueJoint* const joint = find_catalogue_joint_with_gear("csf-17-50");
+  ASSERT_NE(joint, nullptr);
+  EXPECT_EQ(joint->model, "rhs17-6006");
+  EXPECT_EQ(joint->motor_inertia_kgm2, 0.089) << "inertia_at_output of the data sheet";
+  EXPECT_EQ(find_catalogue_joint_with_gear("csf-20-50"), nullptr);
+  for (const CatalogueJoint& each : joint_catalogue()) {
+    ASSERT_NE(find_gear(each.gear), nullptr) << each.gear;
+    EXPECT_EQ(find_gear(each.gear)->ratio, kRatio) << "that of its friction's motor side";
+  }
 }
 
 TEST(JointCatalogue, AllowsWhatIsFittedToItAndWhatAStifferJointWouldIdentify) {

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <limits>
 #include <random>
 
 #include "control/gain_table.h"
+#include "tests/support/eigenvalues.h"
 
 namespace strainwave {
 namespace {
@@ -134,8 +134,7 @@ TEST(PositiveDefinite, TheMarginIsTheSmallestEigenvalue) {
     ProofMatrix matrix = ProofMatrix::NullaryExpr(size, size, [&] { return beside * any(-1.0, 1.0); });
     matrix = (0.5 * (matrix + matrix.transpose())).eval();
     for (int k = 0; k < size; ++k) matrix(k, k) = any(0.5, 2.0);  // balanced as it is
-    const double expected =
-        Eigen::SelfAdjointEigenSolver<ProofMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    const double expected = testing::smallest_eigenvalue(matrix);
     const auto result = test_positive_definite(matrix, ProofMatrix::Zero(size, size), size);
     ++(result.certain ? certain : refused);
     ASSERT_NEAR(result.margin, expected, 1e-12) << matrix;

@@ -65,6 +65,18 @@ void expect_consistent(const Reference& from, const Reference& to) {
               from.position_rad + 0.5 * kPeriod_s * (from.velocity_rad_s + to.velocity_rad_s), 1e-12);
 }
 
+TEST(ReferenceShaper, ReturnsToWhereItBeganAtRestHoweverOftenItBeginsAnew) {
+  ReferenceShaper shaper(0.001);
+  shaper.set_limits({5.0, 60.0, 60.0});
+  shaper.reset(0.25, 0.0);
+  (void)shaper.step();
+  for (int time = 0; time < 10; ++time) {
+    shaper.restart(shaper.position_rad() + 1e-4, 0.0);
+    (void)shaper.step();
+  }
+  EXPECT_EQ(shaper.target_rad(), 0.25);
+}
+
 TEST(ReferenceShaper, StartsAtRestWhereItWasReset) {
   ReferenceShaper shaper(kPeriod_s);
   shaper.reset(0.25, 0.0);

@@ -72,6 +72,55 @@ TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
   EXPECT_EQ(run("verify " + file("t.json") + " " + joint), 1) << output_;
 }
 
+TEST_F(DesignProgram, TakesWhatIsNotGivenFromTheCataloguesActuatorWithTheGear) {
+  const std::string design = "gains --gear csf-17-50 --load-inertia_kgm2 0.095..0.1 --damping_Nms_rad 1 ";
+  ASSERT_EQ(run(design + "--out " + file("t.json")), 0) << output_;
+  EXPECT_NE(output_.find("--friction data/tables/rhs17-6006-friction.json, of rhs17-6006"), std::string::npos)
+      << output_;
+  EXPECT_NE(output_.find("--motor-inertia_kgm2 0.089, of rhs17-6006"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("--inertia_kgm2 0.189, motor and heaviest link"), std::string::npos) << output_;
+  const GainTable taken = read_gain_table(file("t.json"));
+  EXPECT_EQ(taken.box.motor_inertia_kgm2, 0.089);
+  EXPECT_DOUBLE_EQ(taken.plant.inertia_kgm2, 0.189);
+
+  const std::string friction = "--friction " + kData + "tables/rhs17-6006-friction.json ";
+  ASSERT_EQ(run(design + friction + "--motor-inertia_kgm2 0.09 --inertia_kgm2 0.2 --out " + file("t.json")),
+            0)
+      << output_;
+  EXPECT_EQ(output_.find("catalogue"), std::string::npos) << output_;
+  const GainTable given = read_gain_table(file("t.json"));
+  EXPECT_EQ(given.box.motor_inertia_kgm2, 0.09);
+  EXPECT_EQ(given.plant.inertia_kgm2, 0.2);
+  EXPECT_EQ(taken.provenance.friction_sha256.view(), given.provenance.friction_sha256.view())
+      << "the file that is compiled in";
+  EXPECT_EQ(run("verify " + file("t.json") + " --load-inertia_kgm2 0.1 --damping_Nms_rad 1"), 0) << output_;
+  EXPECT_NE(output_.find("--motor-inertia_kgm2 0.09, of the table's box"), std::string::npos) << output_;
+  const std::string rigid = "verify " + kData + "tables/rhs17-6006.json --load-inertia_kgm2 0.1 ";
+  EXPECT_EQ(run(rigid + "--gear csf-17-50"), 0) << output_;
+  EXPECT_NE(output_.find("--motor-inertia_kgm2 0.089, of rhs17-6006"), std::string::npos) << output_;
+}
+
+TEST_F(DesignProgram, NamesTheOptionsThatAreNeededWhereTheCatalogueKnowsNoActuator) {
+  const auto refused = [&](const std::string& command, const std::vector<std::string>& mentions) {
+    EXPECT_EQ(run(command + " --out " + file("t.json")), 2) << output_;
+    for (const std::string& word : mentions)
+      EXPECT_NE(output_.find(word), std::string::npos) << word << "\n" << output_;
+  };
+  const std::string friction = "--friction " + kData + "tables/rhs17-6006-friction.json ";
+  refused("gains", {"give --friction,", "--gear csf-17-50"});
+  refused("gains --gear csf-20-50", {"csf-20-50", "give --friction"});
+  EXPECT_EQ(output_.find("--motor-inertia_kgm2"), std::string::npos) << output_;
+  refused("gains --gear csf-20-50 --load-inertia_kgm2 0.1", {"give --friction and --motor-inertia_kgm2"});
+  refused("gains --gear csf-20-50 --load-inertia_kgm2 0.1 " + friction, {"give --motor-inertia_kgm2"});
+  refused("gains --gear csf-17-50 --joint-model own --load-inertia_kgm2 0.1 " + friction,
+          {"joint model = own", "give --motor-inertia_kgm2"});
+  const std::string rigid = "verify " + kData + "tables/rhs17-6006.json --load-inertia_kgm2 0.1";
+  EXPECT_EQ(run(rigid), 2);
+  EXPECT_NE(output_.find("give --motor-inertia_kgm2, or --gear csf-17-50"), std::string::npos) << output_;
+  EXPECT_EQ(run(rigid + " --gear csf-20-50"), 2);
+  EXPECT_NE(output_.find("give --motor-inertia_kgm2"), std::string::npos) << output_;
+}
+
 TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {
   ASSERT_EQ(run("fit " + kData + "no_load_torque.csv --non-increasing rules --out " + file("friction.json")),
             0)

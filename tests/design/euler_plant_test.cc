@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "control/certificate.h"
+#include "tests/support/eigenvalues.h"
 
 namespace strainwave {
 namespace {
@@ -63,7 +62,7 @@ TEST(EulerPlant, ItsCertificateSaysNothingOfAJointThatIsHeld) {
   EXPECT_TRUE(certify(gains, euler).certified);
   EXPECT_FALSE(certify(gains, plant, friction).certified);
   const Eigen::Matrix2d held = loop(sampled_dynamics(plant, 0.0, false));
-  EXPECT_NEAR(held.eigenvalues().cwiseAbs().maxCoeff(), 1.41, 0.01);
+  EXPECT_NEAR(testing::spectral_radius(held), 1.41, 0.01);
 }
 
 }  // namespace

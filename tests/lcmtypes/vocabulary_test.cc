@@ -64,7 +64,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {512, Notice::kOffStream, "off the stream"},
                                      {1024, Notice::kPositionLate, "position late"},
                                      {2048, Notice::kOffTarget, "off target"},
-                                     {4096, Notice::kLoadHigh, "load high"}};
+                                     {4096, Notice::kLoadHigh, "load high"},
+                                     {8192, Notice::kOtherInertia, "inertia not as told"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},

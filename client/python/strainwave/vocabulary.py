@@ -164,6 +164,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     POSITION_LATE = 1 << 10
     OFF_TARGET = 1 << 11
     LOAD_HIGH = 1 << 12
+    OTHER_INERTIA = 1 << 13
 
     @property
     def texts(self):
@@ -191,6 +192,7 @@ _NOTICE_TEXTS = {
     Notice.POSITION_LATE: "position late",
     Notice.OFF_TARGET: "off target",
     Notice.LOAD_HIGH: "load high",
+    Notice.OTHER_INERTIA: "inertia not as told",
 }
 
 

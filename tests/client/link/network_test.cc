@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "client/options/command_line.h"
@@ -14,6 +15,7 @@
 #include "lcmtypes/wire.h"
 #include "tests/client/link/running_daemon.h"
 #include "tests/support/fragment_attack.h"
+#include "tests/support/multicast_sender.h"
 
 namespace strainwave {
 namespace {
@@ -54,6 +56,30 @@ TEST(ClientOverMulticast, RecordsWhatItReceives) {
   int states = 0;
   for (LogEvent event; reader.next(event);) states += event.channel == "SW.elbow.STATE" ? 1 : 0;
   EXPECT_GT(states, 0);
+  EXPECT_NE(result.out.find("; none is missing\n"), std::string::npos) << result.out;
+  std::filesystem::remove(file);
+}
+
+TEST(ClientOverMulticast, RecordTellsHowManyMessagesAreMissing) {
+  const std::string url = own_url();
+  const auto file =
+      std::filesystem::path(::testing::TempDir()) / ("missing_record_" + std::to_string(::getpid()) + ".lcm");
+  std::jthread sending([&](const std::stop_token& stop) {
+    const testing::MulticastSender sender(static_cast<std::uint16_t>(parse_udpm_url(url)->port));
+    for (std::uint32_t sequence = 0; !stop.stop_requested(); sequence += 3) {
+      sender.send(testing::short_datagram("SW.elbow.STATE", encode(state_v1{}), sequence));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  const Result result =
+      run(url, {"--json", "record", "elbow", "--out", file.c_str(), "--duration_s", "0.3", "--overwrite"});
+  EXPECT_EQ(result.status, ExitStatus::kDone) << result.err;
+  const std::string last = result.out.substr(result.out.rfind('\n', result.out.size() - 2) + 1);
+  const auto summary = nlohmann::json::parse(last);
+  EXPECT_GT(summary.at("messages").get<int>(), 10) << result.out;
+  // Two between one and the next; a few at the edges count, but are not recorded.
+  EXPECT_NEAR(summary.at("missing").get<double>(), 2.0 * summary.at("messages").get<double>(), 20.0)
+      << result.out;
   std::filesystem::remove(file);
 }
 

@@ -140,6 +140,24 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) 
   EXPECT_EQ(consider(recorded).reason, Reason::kTooOld);
 }
 
+// The proof of a table takes longer than an order lives: who asks again meanwhile is not told that it is not obeyed.
+TEST_F(SignedAdmission, ARepetitionOfTheLastOrderIsOneHoweverOldItIsAndObeyedOnce) {
+  const WireMessage last = wire(kSetpoint, filled<setpoint_v2>(1, 1000), &operator_);
+  ASSERT_EQ(consider(last).kind, Verdict::Kind::kOrder);
+  for (std::int64_t cycle = 0; cycle <= 5000; cycle += 5) admission_.advance(cycle, 10'000 + cycle);
+  EXPECT_EQ(consider(last).kind, Verdict::Kind::kRepeat);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1001), &operator_)).reason, Reason::kTooOld);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 1000), &operator_)).reason, Reason::kTooOld);
+}
+
+TEST_F(SignedAdmission, NothingThatWasSentBeforeAFaultIsObeyedAfterIt) {
+  const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
+  const std::int64_t stops = admission_.stop_count(0);
+  admission_.fault(0);
+  EXPECT_EQ(consider(move).reason, Reason::kTooOld);
+  EXPECT_NE(admission_.stop_count(0), stops) << "a table that is proved meanwhile is not taken";
+}
+
 TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless) {
   // Somebody on the path lets the second move pass first, then delivers the one that came before it.
   const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
@@ -189,7 +207,7 @@ TEST_F(SignedAdmission, LetsOnlyAnEngineerTakeAJointOver) {
   EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 1, 2), &operator_)).reason,
             Reason::kRoleNotAllowed);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 2, 3), &engineer_)).kind,
-            Verdict::Kind::kDone);
+            Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 4), &engineer_)).kind, Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 5), &operator_)).reason, Reason::kNotOwner);
 }

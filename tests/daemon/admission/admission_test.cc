@@ -219,14 +219,16 @@ TEST_F(AdmissionTest, LetsAnotherHoldAndStopAJointThatSomebodyHasButNotMoveIt) {
   EXPECT_EQ(consider(wire("SW.wrist.SETPOINT", others)).kind, Verdict::Kind::kOrder);
 }
 
-TEST_F(AdmissionTest, ReleasesAndTakesOverWithoutTheLoop) {
+TEST_F(AdmissionTest, ReleasesWithoutTheLoopAndTakesOverWithTheEndOfAStream) {
   admission_.settle(consider(wire("SW.elbow.SETPOINT", setpoint(0.5))).requester, true, 0);
   EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kRelease))).kind, Verdict::Kind::kDone);
   EXPECT_EQ(admission_.ownership().owner_id(0, 0), 0);
   EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kRelease))).reason, Reason::kNotOwner);
   command_v1 take = command(Action::kTakeOver);
   take.sender_id = 2;
-  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", take)).kind, Verdict::Kind::kDone);
+  const Verdict taken = consider(wire("SW.elbow.COMMAND", take));
+  EXPECT_EQ(taken.kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(taken.order.kind, OrderKind::kEndStream);
   EXPECT_EQ(admission_.ownership().owner_id(0, 0), 2);
 }
 

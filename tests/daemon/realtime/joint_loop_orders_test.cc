@@ -136,6 +136,29 @@ TEST_F(JointLoopOrders, OfAHoldEndAStreamForGood) {
   EXPECT_NEAR(state().joint_position_rad, held_rad, 1e-4);
 }
 
+// Of the owner until now, with its samples that are for later.
+TEST_F(JointLoopOrders, ThatTakeAJointOverEndAStreamAndLeaveAMove) {
+  bench_.bring_to_hold(0);
+  for (int sample = 0; sample < 8; ++sample)
+    ASSERT_EQ(bench_.order(0, Order{.kind = OrderKind::kSetpoint,
+                                    .position_rad = 0.1 * sample,
+                                    .valid_for_s = 2.0,
+                                    .stream_id = 1,
+                                    .begins_stream = sample == 0,
+                                    .at_cycle = bench_.cycle() + 50 + 100 * sample}),
+              Reason::kAccepted);
+  bench_.run(0.2);
+  ASSERT_EQ(bench_.order(0, OrderKind::kEndStream), Reason::kAccepted);
+  bench_.run(0.2);
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+  EXPECT_LT(state().joint_position_rad, 0.3);
+  ASSERT_EQ(bench_.move(0, 0.6), Reason::kAccepted);
+  bench_.run(0.05);
+  ASSERT_EQ(bench_.order(0, OrderKind::kEndStream), Reason::kAccepted);
+  bench_.run(1.5);
+  EXPECT_NEAR(state().joint_position_rad, 0.6, 1e-3);
+}
+
 TEST_F(JointLoopOrders, OfAStreamThatAFaultOrADisableEndedMoveNothingAfterAnEnable) {
   for (const bool by_fault : {true, false}) {
     SCOPED_TRACE(by_fault);

@@ -62,6 +62,16 @@ TEST_F(PositionCheckTest, RefusesAPositionThatStandsWhileTheTorqueMustMoveTheJoi
   EXPECT_NEAR(cycles, 2, 1);
 }
 
+// A landing's pushes move the joint within a coarse count, and friction ends each.
+TEST_F(PositionCheckTest, BelievesPushesToAndFroThatTheReadingIsTooCoarseFor) {
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(see(1.0, 0.0));
+  for (int push = 0; push < 1000; ++push) {
+    const double side = push % 2 == 0 ? 1.0 : -1.0;
+    ASSERT_TRUE(see(1.0, side * 25.0)) << push;
+    for (int i = 0; i < 9; ++i) ASSERT_TRUE(see(1.0, 0.0)) << push;
+  }
+}
+
 TEST_F(PositionCheckTest, BelievesAJointThatStandsUnderALoadHoweverLarge) {
   for (int i = 0; i < 10000; ++i) ASSERT_TRUE(see(1.0, 30.0));
 }

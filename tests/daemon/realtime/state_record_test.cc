@@ -29,6 +29,7 @@ class StateRecordTest : public ::testing::Test {
     cycle.table_id = 77;
     cycle.temperature_rules = 2;
     cycle.notices = 5;
+    cycle.inertia_kgm2 = inertia_kgm2_;
     fill_record(cycle, record_);
     return record_.state;
   }
@@ -40,6 +41,7 @@ class StateRecordTest : public ::testing::Test {
   OrderedTarget ordered_;
   TemperatureCheck temperature_{TemperatureCheckConfig{}};
   TemperatureWeights weights_;
+  std::optional<double> inertia_kgm2_;
   StateRecord record_;
 };
 
@@ -70,6 +72,12 @@ TEST_F(StateRecordTest, ShowsTheLinkFromTheSameZeroAndNoNumberWhereNothingMeasur
   EXPECT_TRUE(std::isnan(filled().link_position_rad));
   reading_.has_link_position = true;
   EXPECT_EQ(filled().link_position_rad, 1.25);
+}
+
+TEST_F(StateRecordTest, ShowsNoInertiaBeforeMotionsHaveShownOne) {
+  EXPECT_TRUE(std::isnan(filled().inertia_estimated_kgm2));
+  inertia_kgm2_ = 0.18;
+  EXPECT_EQ(filled().inertia_estimated_kgm2, 0.18);
 }
 
 TEST_F(StateRecordTest, ShowsTheTargetToTheBitAsItWasOrdered) {

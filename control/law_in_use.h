@@ -1,0 +1,77 @@
+// A table's law as it is in use: scheduled gains while the temperature is known, temperature-free ones otherwise, and both softer where the
+// certified ones shake the joint. Real-time safe. Joint side, SI.
+//
+//   change of gains   the integral is chosen so that the next torque is what the gains before it would have given:
+//                       u'(x, integral') = u(x, integral)
+//   softer            gains and the integral's share of the torque: F' = F / 4; until begin_anew(), whatever table comes
+//   a count makes     by its position                           resolution max_i |F_i1|
+//                     and as velocity from reading to reading   resolution max_i (|F_i1| + |F_i2| / T)
+#pragma once
+
+#include <optional>
+
+#include "control/gains_in_use.h"
+#include "control/scheduled_controller.h"
+
+namespace strainwave {
+
+class LawInUse {
+ public:
+  /// `period_s` > 0; `encoder_resolution_rad` >= 0.
+  LawInUse(double period_s, double encoder_resolution_rad) noexcept
+      : period_s_(period_s), encoder_resolution_rad_(encoder_resolution_rad) {}
+
+  /// Takes a table that has passed find_defect().
+  void load(const GainTable& table) noexcept;
+  bool loaded() const noexcept { return loaded_; }
+  /// Nothing is remembered but table and temperature, and the gains are the table's.
+  void begin_anew() noexcept;
+  /// By the temperature of this period; friction stays that of the last that was known.
+  void choose_gains(const std::optional<double>& temperature_C) noexcept;
+  void soften() noexcept { set_soft(true); }
+  bool soft() const noexcept { return soft_; }
+
+  /// One period. The first after a change of gains goes on from the torque of those before it.
+  ControllerOutput step(const ControllerInput& input) noexcept;
+  /// Another torque than the law's is applied: the next of the law's continues none.
+  void interrupt() noexcept { outgoing_.reset(); }
+  void forget_integral() noexcept { active().reset(); }
+  /// What the integral holds of a joint at rest.
+  double integral_torque_Nm() const noexcept { return active().integral_torque_Nm(); }
+
+  GainsInUse gains_in_use() const noexcept { return gains_in_use_; }
+  const FrictionParameters& friction() const noexcept { return primary_.friction(); }
+  const TemperatureWeights& temperature_weights() const noexcept { return primary_.temperature_weights(); }
+  /// alpha_0 at rest.
+  double zero_velocity_weight() const noexcept { return zero_velocity_weight_; }
+  /// What a count makes, >= 0.
+  double count_torque_Nm(bool smooth_velocity) const noexcept {
+    return smooth_velocity ? position_count_Nm_ : reading_count_Nm_;
+  }
+
+ private:
+  const ScheduledController& active() const noexcept {
+    return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
+  }
+  ScheduledController& active() noexcept {
+    return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
+  }
+  void keep_outgoing() noexcept;
+  void set_soft(bool soft) noexcept;
+
+  double period_s_;
+  double encoder_resolution_rad_;
+  ScheduledController primary_;
+  ScheduledController fallback_;
+  std::optional<ScheduledController>
+      outgoing_;                         ///< what was active before the gains changed, until the next torque
+  std::optional<double> temperature_C_;  ///< the last that was known
+  GainsInUse gains_in_use_ = GainsInUse::kNone;
+  double position_count_Nm_ = 0.0;
+  double reading_count_Nm_ = 0.0;
+  double zero_velocity_weight_ = 1.0;
+  bool loaded_ = false;
+  bool soft_ = false;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,60 @@
+#include "design/spring_design.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/input_error.h"
+#include "base/printable.h"
+#include "control/box_certificate.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr int kQuarters = 4;  // of a decade of the torque's weight
+constexpr int kSoftest = 4;   // decades: a hundredth of the stiffness that was asked for
+
+}  // namespace
+
+SpringDesign design_on_spring(Controller controller, TableRequest request, const std::string& gear,
+                              const SpringRequest& spring) {
+  if (spring.most_delay > kMaxBoxDelay)
+    throw InputError("gains", "--delay", std::to_string(spring.most_delay),
+                     "must be at most " + std::to_string(kMaxBoxDelay) + " in a table");
+  const double first = request.design.weights.torque;
+  SpringVerdict verdict;
+  const auto try_weight = [&](int quarters) {
+    request.design.weights.torque = first * std::pow(10.0, quarters / 4.0);
+    GainTable table = design_table(controller, request);
+    verdict = box_on_spring(table, gear, spring);
+    if (verdict.certified) table.box = verdict.box;
+    return table;
+  };
+  SpringDesign best{try_weight(0), {}};
+  int refused = 0;
+  int certified = 0;
+  while (!verdict.certified) {
+    refused = certified;
+    certified += kQuarters;
+    if (certified > kSoftest * kQuarters)
+      throw NotAchieved("gains: no gains are certified on this spring, down to a torque weight of " +
+                        number_text(request.design.weights.torque) + ": " + verdict.text);
+    best.table = try_weight(certified);
+  }
+  best.text = verdict.text;
+  while (certified - refused > 1) {
+    const int middle = (certified + refused) / 2;
+    const GainTable table = try_weight(middle);
+    (verdict.certified ? certified : refused) = middle;
+    if (verdict.certified) best = {table, verdict.text};
+  }
+  const BoxReport report = certify_box(best.table);
+  if (!report.certified) throw NotAchieved("gains: the box's cells do not prove it: " + report.text);
+  std::ostringstream text;
+  text << "torque weight " << best.table.primary.weights.torque << "\n"
+       << best.text << "the table's box: " << describe(best.table.box) << "\n";
+  best.text = text.str();
+  return best;
+}
+
+}  // namespace strainwave

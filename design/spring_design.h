@@ -1,0 +1,22 @@
+// Gains for a joint whose gear is a spring: the most aggressive of a family that are certified on the whole box. Offline.
+#pragma once
+
+#include <string>
+
+#include "design/controller_design.h"
+#include "design/spring_options.h"
+
+namespace strainwave {
+
+struct SpringDesign {
+  GainTable table;   ///< with its box
+  std::string text;  ///< the weight that was found and what proves it, in lines
+};
+
+/// Of gains over the torque's weight, from that of `request` on, the first that are certified, to a quarter of a decade. Throws
+/// InputError where no table can hold what is asked for, NotAchieved with the last refusal when those of the largest weight are
+/// not certified either.
+SpringDesign design_on_spring(Controller controller, TableRequest request, const std::string& gear,
+                              const SpringRequest& spring);
+
+}  // namespace strainwave

@@ -1,0 +1,97 @@
+#include "control/inertia_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/control/watched_joint.h"
+
+namespace strainwave::testing {
+namespace {
+
+struct Case {
+  TwoMassData joint;
+  double told_kgm2 = 0.178;  ///< what the table is for
+  double temperature_C = 20.0;
+  double load_Nm = 0.0;  ///< that nobody tells
+};
+
+/// Friction of `table` there, `factor` times.
+TwoMassData with_friction(const GainTable& table, double temperature_C, double factor) {
+  const FrictionParameters friction = table.friction.blend(table.friction.weights(temperature_C));
+  TwoMassData data;
+  data.static_Nm = factor * friction.static_Nm;
+  data.coulomb_Nm = factor * friction.coulomb_Nm;
+  data.viscous_Nms_rad = factor * friction.viscous_Nms_rad;
+  data.stribeck_rad_s = 0.5 * table.friction.velocity.zero_width_rad_s;
+  return data;
+}
+
+/// The daemon's controller by default moves the joint, a second each, and the estimate looks on.
+class Watched {
+ public:
+  explicit Watched(const Case& what)
+      : table_(table_for(what.told_kgm2)),
+        what_(what),
+        joint_(what.joint),
+        controller_(config_for(false, joint_.count_rad())),
+        estimate_({0.001, joint_.count_rad(), 1}) {
+    controller_.load(table_);
+    controller_.start(joint_.reading_rad());
+    model_.friction = table_.friction.blend(table_.friction.weights(what.temperature_C));
+    model_.stribeck = {0.5 * table_.friction.velocity.zero_width_rad_s, 2.0};
+    model_.friction_scale_Nm = table_.friction.least_static_Nm();
+  }
+  void move(const std::vector<double>& targets) {
+    for (const double target_rad : targets) {
+      controller_.set_target(target_rad);
+      for (int k = 0; k < 1000; ++k) {
+        estimate_.step({joint_.reading_rad(), torque_Nm_, 0.0}, model_);
+        JointMeasurement measurement;
+        measurement.joint_position_rad = joint_.reading_rad();
+        measurement.temperature_C = what_.temperature_C;
+        measurement.temperature_valid = true;
+        torque_Nm_ = controller_.step(measurement).output.torque_Nm;
+        joint_.step(torque_Nm_, -what_.load_Nm);
+      }
+    }
+  }
+  const InertiaEstimate& estimate() const { return estimate_; }
+  InertiaEstimate& estimate() { return estimate_; }
+
+ private:
+  GainTable table_;
+  Case what_;
+  TwoMassJoint joint_;
+  JointController controller_;
+  InertiaEstimate estimate_;
+  JointModel model_;
+  double torque_Nm_ = 0.0;
+};
+
+TEST(InertiaEstimate, FindsWhatHangsOnTheSpringWhateverItWasTold) {
+  for (const double link_kgm2 : {0.0, 0.03, 0.089, 0.267})
+    for (const double temperature_C : {-5.0, 20.0, 40.0})
+      for (const double factor : {0.7, 1.0, 1.3})
+        for (const double load_Nm : {0.0, 2.0}) {
+          Case what;
+          what.temperature_C = temperature_C;
+          what.joint = with_friction(table_for(what.told_kgm2), temperature_C, factor);
+          what.joint.link_kgm2 = link_kgm2;
+          what.joint.damping_Nms_rad = 1.0;
+          what.load_Nm = load_Nm;
+          Watched watched(what);
+          watched.move({0.2, 0.0, 0.5, 0.0});
+          const double true_kgm2 = what.joint.motor_kgm2 + link_kgm2;
+          SCOPED_TRACE(::testing::Message()
+                       << link_kgm2 << " kg m2, " << temperature_C << " degC, friction x " << factor
+                       << ", load " << load_Nm << " N.m");
+          const auto found = watched.estimate().inertia_kgm2();
+          ASSERT_TRUE(found);
+          EXPECT_NEAR(*found, true_kgm2, 0.05 * true_kgm2);
+        }
+}
+
+}  // namespace
+}  // namespace strainwave::testing

@@ -1,0 +1,125 @@
+#include "control/law_in_use.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "control/gain_table_json.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+constexpr double kCount_rad = 2e-5;
+
+GainTable table(const char* name) {
+  return read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + name);
+}
+
+ControllerInput input_at(double error_rad, double velocity_rad_s) {
+  ControllerInput input;
+  input.joint_position_rad = error_rad;
+  input.joint_velocity_rad_s = velocity_rad_s;
+  input.planned = true;
+  input.torque_limit_Nm = 34.0;
+  return input;
+}
+
+/// Its integral holds something.
+LawInUse running(double temperature_C = 20.0) {
+  LawInUse law(kPeriod_s, kCount_rad);
+  law.load(table("c4.json"));
+  law.choose_gains(temperature_C);
+  for (int k = 0; k < 200; ++k) law.step(input_at(1e-3, 0.0));
+  return law;
+}
+
+double next_torque_Nm(LawInUse law, double velocity_rad_s = 0.3) {
+  return law.step(input_at(-2e-3, velocity_rad_s)).torque_Nm;
+}
+
+TEST(LawInUse, GoesOnFromTheTorqueOfTheGainsBeforeAChange) {
+  const LawInUse before = running();
+  const double expected_Nm = next_torque_Nm(before);
+  ASSERT_LT(std::abs(expected_Nm), 30.0) << "not saturated";
+  LawInUse without_temperature = before;
+  without_temperature.choose_gains({});
+  EXPECT_EQ(without_temperature.gains_in_use(), GainsInUse::kFallback);
+  EXPECT_NEAR(next_torque_Nm(without_temperature), expected_Nm, 1e-9);
+  LawInUse other_table = before;
+  other_table.load(table("c3.json"));
+  EXPECT_NEAR(next_torque_Nm(other_table), expected_Nm, 1e-9);
+  // Two changes before a torque: still the torque of the first.
+  other_table.choose_gains({});
+  EXPECT_NEAR(next_torque_Nm(other_table), expected_Nm, 1e-9);
+}
+
+TEST(LawInUse, ContinuesNoTorqueOnceAnotherWasApplied) {
+  LawInUse law = running();
+  const double expected_Nm = next_torque_Nm(law);
+  law.choose_gains({});
+  law.interrupt();
+  EXPECT_GT(std::abs(next_torque_Nm(law) - expected_Nm), 0.01);
+}
+
+TEST(LawInUse, KeepsAQuarterOfItsGainsAndAllOfItsIntegralsTorqueWhenItIsSoft) {
+  LawInUse law = running();
+  LawInUse soft = law;
+  soft.soften();
+  EXPECT_TRUE(soft.soft());
+  EXPECT_NEAR(soft.integral_torque_Nm(), law.integral_torque_Nm(), 1e-9);
+  EXPECT_NE(soft.integral_torque_Nm(), 0.0);
+  for (const bool smooth : {false, true})
+    EXPECT_EQ(soft.count_torque_Nm(smooth), 0.25 * law.count_torque_Nm(smooth));
+  law.forget_integral();
+  soft.forget_integral();
+  const double moving_rad_s = 2.0;
+  EXPECT_NEAR(soft.step(input_at(0.0, moving_rad_s)).feedback_torque_Nm,
+              0.25 * law.step(input_at(0.0, moving_rad_s)).feedback_torque_Nm, 1e-9);
+}
+
+TEST(LawInUse, StaysSoftWithAnyTableUntilItBeginsAnew) {
+  LawInUse law = running();
+  const double count_Nm = law.count_torque_Nm(false);
+  law.soften();
+  law.soften();
+  law.load(table("c4.json"));
+  EXPECT_TRUE(law.soft());
+  EXPECT_EQ(law.count_torque_Nm(false), 0.25 * count_Nm);
+  law.begin_anew();
+  EXPECT_FALSE(law.soft());
+  EXPECT_EQ(law.count_torque_Nm(false), count_Nm);
+  EXPECT_EQ(law.integral_torque_Nm(), 0.0);
+  EXPECT_EQ(law.gains_in_use(), GainsInUse::kNone);
+}
+
+TEST(LawInUse, ACountMakesMoreWhereTheVelocityIsMadeOfReadings) {
+  const LawInUse law = running();
+  EXPECT_GT(law.count_torque_Nm(true), 0.0);
+  EXPECT_GT(law.count_torque_Nm(false), law.count_torque_Nm(true));
+  LawInUse exact(kPeriod_s, 0.0);
+  exact.load(table("c4.json"));
+  EXPECT_EQ(exact.count_torque_Nm(false), 0.0);
+}
+
+TEST(LawInUse, KnowsFrictionOfTheLastTemperatureThatWasKnown) {
+  LawInUse law = running(10.0);
+  const double cold_Nm = law.friction().coulomb_Nm;
+  law.choose_gains({});
+  EXPECT_EQ(law.friction().coulomb_Nm, cold_Nm);
+  law.load(table("c4.json"));
+  EXPECT_EQ(law.friction().coulomb_Nm, cold_Nm) << "a new table at the same temperature";
+  law.choose_gains(40.0);
+  EXPECT_LT(law.friction().coulomb_Nm, cold_Nm);
+}
+
+TEST(LawInUse, SaysWhetherItHasATable) {
+  LawInUse law(kPeriod_s, kCount_rad);
+  EXPECT_FALSE(law.loaded());
+  law.load(table("c4.json"));
+  law.begin_anew();
+  EXPECT_TRUE(law.loaded());
+}
+
+}  // namespace
+}  // namespace strainwave

@@ -1,0 +1,15 @@
+#include "tests/support/eigenvalues.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace strainwave::testing {
+
+double spectral_radius(const Eigen::MatrixXd& matrix) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double smallest_eigenvalue(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
+
+}  // namespace strainwave::testing
