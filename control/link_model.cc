@@ -2,8 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
+
+#include "control/riccati.h"
 
 namespace strainwave {
 
@@ -25,8 +28,6 @@ constexpr double kTorqueShare = 0.12;
 constexpr double kLinkShare = 1.0 / 86.0;
 constexpr double kMotorShare = 1.0 / 14.0;
 constexpr double kSpeedShare = 1.0 / 18.0;
-// The iteration has converged long before.
-constexpr int kIterations = 2000;
 
 struct Sampled {
   Matrix A;
@@ -99,17 +100,14 @@ LinkGains LinkModel::regulate(double torque_limit_Nm, double period_s) const noe
   const double speed_rad_s = wind_up_rad * free_free_frequency_rad_s(motor_inertia_kgm2, link_inertia_kgm2,
                                                                      spring.stiffness_2_Nm_rad);
   const auto weight = [](double scale) { return 1.0 / (scale * scale); };
-  const Matrix Q = Vector(weight(kLinkShare * wind_up_rad), weight(kSpeedShare * speed_rad_s),
-                          weight(kMotorShare * wind_up_rad), weight(kSpeedShare * speed_rad_s))
-                       .asDiagonal();
-  Matrix P = Q;
-  Eigen::RowVector4d F = Eigen::RowVector4d::Zero();
-  for (int i = 0; i < kIterations; ++i) {
-    F = (B.transpose() * P * A) / (weight(torque_Nm) + B.dot(P * B));
-    const Matrix next = Q + A.transpose() * P * (A - B * F);
-    P = 0.5 * (next + next.transpose());
-  }
-  return {F(0), F(1), F(2), F(3)};
+  const Vector weights(weight(kLinkShare * wind_up_rad), weight(kSpeedShare * speed_rad_s),
+                       weight(kMotorShare * wind_up_rad), weight(kSpeedShare * speed_rad_s));
+  const double torque_weight = weight(torque_Nm);
+  const auto P = solve_riccati<4>(A, B, weights, torque_weight);
+  assert(P);  // a spring and a torque on one of its ends can always be stabilised
+  const Eigen::RowVector4d F =
+      P ? optimal_gain<4>(A, B, torque_weight, *P) : Eigen::RowVector4d::Zero().eval();
+  return {-F(0), -F(1), -F(2), -F(3)};
 }
 
 double regulated_torque_Nm(const LinkGains& gains, const LinkState& should_be, const LinkState& is) noexcept {

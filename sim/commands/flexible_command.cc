@@ -51,6 +51,8 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   for (const TextTable& table :
        {flexible_summary("The grid", grid, contenders), price_table(grid, contenders, 0)})
     std::cout << table.markdown() << '\n';
+  const TextTable lost = lost_cells(grid, contenders, 0);
+  std::cout << (lost.rows.empty() ? contenders.front().name + " loses no cell\n" : lost.markdown()) << '\n';
   std::cout << "written to " << out.string() << "\n";
 }
 
@@ -109,9 +111,9 @@ void add_flexible_command(CLI::App& program, CommandBody& chosen) {
                       "folder with total-*/c1.json .. c4.json (default: the installed tables)");
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->add_flag("--full", options->full, "every contender, each further effect, and joints at random");
-  command->add_flag(
-      "--peers", options->peers,
-      "the daemon told of its spring against cascade and disturbance observer, on the grid alone");
+  command->add_flag("--peers", options->peers,
+                    "the daemon told of its spring against servo cascades, disturbance observer and LQG, on "
+                    "the grid alone");
   command->add_option("--joints", options->joints, "number of random joints, with --full")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

@@ -98,6 +98,27 @@ TextTable price_cells(const std::vector<FlexibleRow>& rows, const std::vector<Co
   return table;
 }
 
+TextTable lost_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
+                     std::size_t judged) {
+  TextTable table;
+  table.title = "Cells that " + contenders[judged].name + " loses (link above 40 urad, over the limit)";
+  table.header = {"against",    "link (kg.m2)", "stiffness", "damping", "temperature (degC)",
+                  "step (rad)", "its ratio",    "theirs"};
+  for (std::size_t c = 0; c < contenders.size(); ++c) {
+    if (c == judged) continue;
+    for (const FlexibleRow& row : rows) {
+      const double its = row.results[judged].link_counted_ratio;
+      const double theirs = row.results[c].link_counted_ratio;
+      if (its < theirs) continue;
+      table.rows.push_back({contenders[c].name, number(row.cell.link_inertia_kgm2),
+                            number(row.cell.stiffness_scale), number(row.cell.damping_ratio),
+                            number(row.cell.temperature_C), number(row.cell.step_rad), number(its),
+                            number(theirs)});
+    }
+  }
+  return table;
+}
+
 TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders) {
   TextTable table;
   table.header = {"controller",

@@ -23,6 +23,10 @@ TextTable price_table(const std::vector<FlexibleRow>& rows, const std::vector<Co
 TextTable price_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
                       std::size_t judged);
 
+/// The cells in which `judged` is no better than another, and both of their ratios.
+TextTable lost_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
+                     std::size_t judged);
+
 /// How many cells of each link inertia oscillate or diverge, per contender.
 TextTable oscillation_table(const std::string& title, const std::vector<FlexibleRow>& rows,
                             const std::vector<Contender>& contenders);

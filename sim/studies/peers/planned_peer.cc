@@ -6,6 +6,7 @@
 
 #include "sim/studies/peers/cascade.h"
 #include "sim/studies/peers/disturbance_observer.h"
+#include "sim/studies/peers/lqg.h"
 
 namespace strainwave {
 
@@ -70,9 +71,11 @@ std::vector<Contender> peer_contenders() {
                          [](const ServoJoint& joint) { return std::make_unique<CascadePeer>(joint, false); }),
           peer_contender("cascade with feed-forward",
                          [](const ServoJoint& joint) { return std::make_unique<CascadePeer>(joint, true); }),
-          peer_contender("disturbance observer", [](const ServoJoint& joint) {
-            return std::make_unique<DisturbanceObserverPeer>(joint);
-          })};
+          peer_contender("cascade with feed-forward and notch", &notched_cascade),
+          peer_contender(
+              "disturbance observer",
+              [](const ServoJoint& joint) { return std::make_unique<DisturbanceObserverPeer>(joint); }),
+          peer_contender("LQG", [](const ServoJoint& joint) { return std::make_unique<LqgPeer>(joint); })};
 }
 
 }  // namespace strainwave

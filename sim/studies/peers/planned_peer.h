@@ -30,7 +30,8 @@ class PlannedPeer final : public LoopController {
   bool started_ = false;
 };
 
-/// What a user would take instead: "cascade", "cascade with feed-forward", "disturbance observer". Each on a plant with a torque limit.
+/// What a user would take instead: "cascade", "cascade with feed-forward", "cascade with feed-forward and notch", "disturbance observer",
+/// "LQG". Each on a joint with a spring and a torque limit.
 std::vector<Contender> peer_contenders();
 
 }  // namespace strainwave

@@ -22,7 +22,7 @@ ClosedLoopResult run_step(const Contender& contender, const JointPlantConfig& pl
 }
 
 TEST(PlannedPeer, BringsTheLinkToItsTargetWithEachOfThePeers) {
-  ASSERT_EQ(peer_contenders().size(), 3U);
+  ASSERT_EQ(peer_contenders().size(), 5U);
   for (const Contender& contender : peer_contenders())
     for (const double step_rad : {0.1, 1.0}) {
       const auto trace = on_the_link(run_step(contender, flexible_plant(), step_rad).trace);
@@ -67,6 +67,23 @@ TEST(CascadePeer, LagsAMotionWithoutFeedForwardAndNotWithIt) {
     }
     EXPECT_NEAR(lag_rad, feedforward ? 0.0 : 0.5 / (0.25 * velocity_bandwidth_rad_s(servo)), 1e-3);
   }
+}
+
+TEST(CascadePeer, AsksForNothingAtTheResonanceBehindItsNotch) {
+  const ServoJoint joint = servo_joint(flexible_plant());
+  const auto largest_Nm = [&](ServoPeer& peer) {
+    double largest = 0.0;
+    peer.reset(0.0);
+    for (int k = 0; k < 4000; ++k) {
+      const double reading_rad = 1e-3 * std::sin(joint.resonance_rad_s * joint.period_s * k);
+      const double torque_Nm = peer.step({0.0, 0.0, 0.0}, reading_rad);
+      if (k >= 3000) largest = std::max(largest, std::abs(torque_Nm));
+    }
+    return largest;
+  };
+  CascadePeer plain(joint, true);
+  EXPECT_GT(largest_Nm(plain), 5.0);
+  EXPECT_LT(largest_Nm(*notched_cascade(joint)), 1e-6);
 }
 
 }  // namespace

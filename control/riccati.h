@@ -1,0 +1,27 @@
+// The discrete algebraic Riccati equation of one linear plant: the optimal cost without limits. Not real-time.
+// Source: Chu, Fan, Lin and Wang, "Structure-preserving algorithms for periodic discrete-time algebraic Riccati
+// equations", Int. J. Control 77 (2004): doubling.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace strainwave {
+
+/// P of  P = A'PA - A'PB (R + B'PB)^-1 B'PA + W,  so that the least sum x'Wx + u'Ru of x+ = A x + B u is
+/// x0'P x0. A n x n, B n, W the diagonal of a positive matrix, R > 0. Nothing when (A, B) cannot be stabilised
+/// or the doubling does not converge. n: 4, or Eigen::Dynamic.
+template <int n>
+std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<double, n, n>& A,
+                                                         const Eigen::Matrix<double, n, 1>& B,
+                                                         const Eigen::Matrix<double, n, 1>& W, double R);
+
+/// F of u = F x with that cost:  F = -(R + B'PB)^-1 B'PA.
+template <int n>
+Eigen::Matrix<double, 1, n> optimal_gain(const Eigen::Matrix<double, n, n>& A,
+                                         const Eigen::Matrix<double, n, 1>& B, double R,
+                                         const Eigen::Matrix<double, n, n>& P) {
+  return -(B.transpose() * P * A) / (R + B.dot(P * B));
+}
+
+}  // namespace strainwave
