@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "control/link_velocity.h"
 #include "control/units.h"
 
 namespace strainwave {
@@ -46,6 +47,7 @@ StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexc
   estimator.observer.edge_deviation_counts = config.encoder_deviation_counts;
   estimator.observer.sampling_deviation_s = config.sampling_deviation_s;
   estimator.delay_periods = config.delay_periods;
+  if (config.link) estimator.velocity_share = velocity_share(config.encoder_side, config.period_s);
   return estimator;
 }
 
@@ -92,11 +94,12 @@ JointController::JointController(const JointControllerConfig& config) noexcept
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
   assert(config.gravity.torque_Nm == 0.0 || !config.use_observer);
-  if (config.link) link_motion_.emplace(link_config(config));
+  const bool follows_model = config.link && config.encoder_side == EncoderSide::kMotor;
+  if (follows_model) link_motion_.emplace(link_config(config));
   if (config.use_shaping && config.jerk_limit_rad_s3) {
     jerk_limit_.emplace(motion_, *config.jerk_limit_rad_s3, config.period_s);
     ordered_jerk_ = jerk_limit_;
-  } else if (config.use_shaping && !config.rigid && !config.link) {
+  } else if (config.use_shaping && !config.rigid && !follows_model) {
     easing_ = JerkLimit::spread_over(kEasing_s, config.period_s);
   }
   shaper_.set_limits(motion_);
@@ -142,6 +145,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   fallback_.reset();
   reference_ = {position_rad, begin_rad_s, 0.0};
   ordered_reference_ = reference_;
+  setpoint_velocity_rad_s_ = begin_rad_s;
   planned_ = {0.0, begin_rad_s, 0.0};
   motor_plan_ = {};
   link_share_ = 1.0;
@@ -229,6 +233,8 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
     go_on_yielding(elapsed_periods);
   else if (!goes_on_anew(measurement))
     advance_reference(elapsed_periods);
+  setpoint_velocity_rad_s_ =
+      smoothed(setpoint_velocity_rad_s_, reference_.velocity_rad_s, state_.velocity_share(), elapsed_periods);
   follow_friction(elapsed_periods);
   if (!yields()) choose_phase(measurement);
   follow_disturbance(elapsed_periods);
