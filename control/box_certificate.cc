@@ -96,9 +96,9 @@ BoxReport certify_box(const GainTable& table) {
   const std::vector<GainRow> gains = gains_of(table);
   double margin = std::numeric_limits<double>::infinity();
   for (const BoxCell& cell : cells_of(box)) {
-    const SpringReport proof =
-        certify(gains, spring_box(table, cell), {table.plant.period_s, cell.delay_periods, 1.0},
-                lyapunov_of(cell), kMostBoxInequalities - report.inequalities);
+    const SpringReport proof = certify(gains, spring_box(table, cell),
+                                       {table.plant.period_s, cell.delay_periods, 1.0, box.encoder_side},
+                                       lyapunov_of(cell), kMostBoxInequalities - report.inequalities);
     report.inequalities += proof.inequalities;
     if (proof.certified && proof.margin >= margin) continue;
     margin = proof.margin;

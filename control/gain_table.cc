@@ -147,10 +147,6 @@ void inspect_box(Inspector& inspector, const GainTable& table) {
                           box.most_delay == 0,
                       "box: a rigid one, without cells, must say nothing of a spring");
   } else {
-    inspector.require(
-        box.encoder_side == EncoderSide::kMotor,
-        "box.encoder_side = link: must be motor where the joint has a spring: no gains with the spring "
-        "before the encoder are certified");
     inspector.require(!table.plant.gear.view().empty(),
                       "plant.gear: must be named where the joint has a spring");
     inspector.in_range("box.motor_inertia_kgm2", box.motor_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "control/link_velocity.h"
 #include "control/units.h"
 
 namespace strainwave {
@@ -33,6 +34,7 @@ StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexc
   estimator.observer.edge_deviation_counts = config.encoder_deviation_counts;
   estimator.observer.sampling_deviation_s = config.sampling_deviation_s;
   estimator.delay_periods = config.delay_periods;
+  if (config.link) estimator.velocity_share = velocity_share(config.encoder_side, config.period_s);
   return estimator;
 }
 
@@ -50,11 +52,16 @@ MotionLimits motion_limits(const JointControllerConfig& config) noexcept {
   return JerkLimit::possible(config.motion, *config.jerk_limit_rad_s3, config.period_s);
 }
 
+// The model's motor is at the encoder.
+bool follows_model(const JointControllerConfig& config) noexcept {
+  return config.link && config.encoder_side == EncoderSide::kMotor;
+}
+
 ReferencePlan plan_for(const JointControllerConfig& config) noexcept {
   if (config.use_shaping && config.jerk_limit_rad_s3)
     return ReferencePlan::limited(
         config.period_s, JerkLimit(motion_limits(config), *config.jerk_limit_rad_s3, config.period_s));
-  if (config.use_shaping && !config.rigid && !config.link)
+  if (config.use_shaping && !config.rigid && !follows_model(config))
     return ReferencePlan::eased(config.period_s, JerkLimit::spread_over(kEasing_s, config.period_s));
   return ReferencePlan::plain(config.period_s);
 }
@@ -91,7 +98,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
   assert(config.gravity.torque_Nm == 0.0 || !config.use_observer);
-  if (config.link) link_motion_.emplace(link_config(config));
+  if (follows_model(config)) link_motion_.emplace(link_config(config));
   plan_.set_limits(motion_);
   ordered_.set_limits(motion_);
 }
@@ -122,6 +129,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   law_.begin_anew();
   reference_ = {position_rad, begin_rad_s, 0.0};
   ordered_reference_ = reference_;
+  setpoint_velocity_rad_s_ = begin_rad_s;
   planned_ = {0.0, begin_rad_s, 0.0};
   motor_plan_ = {};
   link_share_ = 1.0;
@@ -193,6 +201,8 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
     go_on_yielding(elapsed_periods);
   else if (!goes_on_anew(measurement))
     advance_reference(elapsed_periods);
+  setpoint_velocity_rad_s_ =
+      smoothed(setpoint_velocity_rad_s_, reference_.velocity_rad_s, state_.velocity_share(), elapsed_periods);
   follow_friction(elapsed_periods);
   if (!yields()) choose_phase(measurement);
   follow_disturbance(elapsed_periods);

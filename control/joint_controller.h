@@ -24,6 +24,7 @@
 
 #include "control/chatter_monitor.h"
 #include "control/eased_disturbance.h"
+#include "control/encoder_side.h"
 #include "control/friction_side.h"
 #include "control/gain_table.h"
 #include "control/gains_in_use.h"
@@ -80,8 +81,10 @@ struct JointControllerConfig {
   bool use_landing = false;  ///< the last counts by pushes; only with rigid, use_observer and use_rest
   bool use_monitor = true;   ///< without it only to study what it prevents
   /// Motions that do not swing the link; only with use_shaping, without rigid. The observer knows one inertia and is then not used.
-  /// The encoder is then the motor's, the target the link's, and both inertias together are the table's. Its gravity is the one below.
+  /// The target is the link's, and both inertias together are the joint's. Its gravity is the one below.
   std::optional<LinkModel> link;
+  /// The motor's, whose motion is the model's; or the link's: no model is then followed, and the law is on its reading (link_velocity.h).
+  EncoderSide encoder_side = EncoderSide::kMotor;
   /// What gravity makes of link and payload, as far as it is told; only without use_observer, which finds it by itself. Loads
   /// that are known otherwise come on top.
   GravityLoad gravity;
@@ -257,6 +260,7 @@ class JointController {
   JointModel model_;   ///< the table's, at this temperature
   Reference reference_;
   Reference ordered_reference_;
+  double setpoint_velocity_rad_s_ = 0.0;  ///< the reference's, as late as the estimate of the joint's
   Reference planned_;        ///< with a link: of a rigid joint, from which the link's motion is made
   MotorPlan motor_plan_;     ///< with a link
   double link_share_ = 1.0;  ///< of the acceleration that a rigid joint could have

@@ -193,7 +193,7 @@ ControllerOutput JointController::track() noexcept {
   input.joint_position_rad = state_.then().position_rad;
   input.joint_velocity_rad_s = state_.then().velocity_rad_s;
   input.setpoint_position_rad = reference_.position_rad;
-  input.setpoint_velocity_rad_s = reference_.velocity_rad_s;
+  input.setpoint_velocity_rad_s = setpoint_velocity_rad_s_;
   // Static friction pushed towards the target from either side hunts for the last counts, and a spring turns that
   // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the integral.
   const bool moves = torque_is_planned();

@@ -126,7 +126,7 @@ class BoxProof {
   int states() const { return static_cast<int>(P_.value.rows()); }
 
   PositiveDefiniteResult test(const BoundedMatrix& sampled, const GainRow& gain) {
-    const BoundedMatrix H = spring_loop(sampled, gain, loop_.period_s, loop_.delay_periods);
+    const BoundedMatrix H = spring_loop(sampled, gain, loop_);
     const Bounded by_rate = Bounded(1.0) / (Bounded(loop_.decay_rate) * loop_.decay_rate);
     const BoundedMatrix fall = P_ - by_rate * (H.transpose() * (P_ * H));
     ++report_.inequalities;
@@ -177,7 +177,7 @@ SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const
 
 double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
   const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
-  const ProofMatrix H = spring_loop(sampled, gain, loop.period_s, loop.delay_periods).value;
+  const ProofMatrix H = spring_loop(sampled, gain, loop).value;
   if (!H.allFinite()) return std::numeric_limits<double>::infinity();
   // Gelfand: the limit of |H^n|^(1/n), n = 2^k. Compiling Eigen's solver takes ten seconds.
   ProofMatrix power = H;

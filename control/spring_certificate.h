@@ -32,13 +32,6 @@ struct SpringBox {
   BoxRange viscous_Nms_rad;         ///< >= 0, of the motor's side
 };
 
-/// The loop that is closed around them.
-struct SpringLoop {
-  double period_s = 0.0;    ///< > 0
-  int delay_periods = 0;    ///< 0..kMaxSpringDelay
-  double decay_rate = 1.0;  ///< r in (0, 1]
-};
-
 /// A corner of a box with its sampled plant, [A B; 0 1], and the errors of rounding.
 struct SpringCorner {
   SpringPlant plant;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "control/link_velocity.h"
+
 namespace strainwave {
 
 namespace {
@@ -103,19 +105,25 @@ ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& chan
   return (1.0 + kTerms * 256.0 * bounded_detail::kHalfUlp) * 0.125 * (sum + in_units(d, tail));
 }
 
-BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, double period_s,
-                          int delay_periods) {
+BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, const SpringLoop& loop) {
+  const int delay_periods = loop.delay_periods;
   assert(delay_periods >= 0 && delay_periods <= kMaxSpringDelay);
   const Eigen::Index n = kSpringLoopStates + delay_periods;
-  const Bounded by_difference = Bounded(gain(2)) / period_s;
+  const Bounded share = velocity_share(loop.encoder_side, loop.period_s);
+  const Bounded by_difference = share * gain(2) / loop.period_s;
   BoundedMatrix torque(1, n);
   torque.set(0, 0, gain(0));
-  torque.set(0, 1, Bounded(gain(1)) + by_difference);
   torque.set(0, 5, -by_difference);
   BoundedMatrix H(n, n);
   H.set(0, 0, 1.0);
-  H.set(0, 1, period_s);
-  H.set(5, 1, 1.0);
+  H.set(5, 5, Bounded(1.0) - share);
+  // Of the states in y: the motor's position, and the link's place beside it.
+  for (const Eigen::Index y : {1, 3}) {
+    if (y == 3 && loop.encoder_side == EncoderSide::kMotor) break;
+    torque.set(0, y, Bounded(gain(1)) + by_difference);
+    H.set(0, y, loop.period_s);
+    H.set(5, y, share);
+  }
   for (Eigen::Index i = 0; i < kSpringPlantStates; ++i)
     for (Eigen::Index j = 0; j < kSpringPlantStates; ++j)
       H.set(1 + i, 1 + j, {sampled.value(i, j), sampled.error(i, j)});

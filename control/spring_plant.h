@@ -8,13 +8,15 @@
 // spring of several slopes is a K between its least and its largest. State of the plant and of the loop, delay d:
 //
 //   p  = [ thm - r, wm, s, v ]
-//   x  = [ integral, p, thm - r one period ago, u one period ago, ..., u d periods ago ]
+//   y  = thm - r, or thl - r = thm - r + s where the encoder is the link's
+//   x  = [ integral, p, z, u one period ago, ..., u d periods ago ]
 //   p+ = A p + B u(d periods ago)          [A B; 0 1] = exp(h [Ac Bc; 0 0])
-//   u  = F_0 integral + F_1 (thm - r) + F_2 (thm - thm one period ago) / h
-//   integral+ = integral + h (thm - r)
+//   u  = F_0 integral + F_1 y + F_2 a (y - z) / h
+//   z+ = z + a (y - z),   integral+ = integral + h y
 //
-// which is StateEstimator's velocity from two readings and ScheduledController's law, to the last term. The exponential is summed as
-// a Taylor series; what is left out of it is bounded with the weighted norm max_i sum_j |M_ij| d_j / d_i.
+// a = 1 at the motor: z is the last reading, and its velocity that of two readings; at the link a = velocity_share() (link_velocity.h), and
+// a (y - z) / h what it makes of them. So StateEstimator has it, and ScheduledController the law, to the last term. The exponential is summed
+// as a Taylor series; what is left out of it is bounded with the weighted norm max_i sum_j |M_ij| d_j / d_i.
 #pragma once
 
 #include <array>
@@ -49,8 +51,15 @@ BoundedMatrix spring_exponential(const BoundedMatrix& generator);
 /// bounds |M + t N|, `change` |N|, both entry by entry.
 ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& change);
 
-/// x+ = H x with `sampled` = [A B; 0 1]. 0 <= delay_periods <= kMaxSpringDelay.
-BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, double period_s,
-                          int delay_periods);
+/// The loop that is closed around a joint.
+struct SpringLoop {
+  double period_s = 0.0;    ///< > 0
+  int delay_periods = 0;    ///< 0..kMaxSpringDelay
+  double decay_rate = 1.0;  ///< r in (0, 1], what a certificate asks for
+  EncoderSide encoder_side = EncoderSide::kMotor;
+};
+
+/// x+ = H x with `sampled` = [A B; 0 1].
+BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, const SpringLoop& loop);
 
 }  // namespace strainwave

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "control/link_velocity.h"
+
 namespace strainwave {
 
 namespace {
@@ -25,6 +27,7 @@ void StateEstimator::reset(double position_rad, double velocity_rad_s, double lo
   torques_Nm_.fill(load_Nm);
   previous_position_rad_ = position_rad;
   steady_position_rad_ = previous_steady_rad_ = position_rad;
+  read_velocity_rad_s_ = velocity_rad_s;
   usual_load_Nm_ = load_Nm;
   late_periods_ = 0;
   still_periods_ = 0;
@@ -63,6 +66,7 @@ void StateEstimator::begin_anew(const JointMeasurement& measurement, const Joint
   const double position_rad = measurement.joint_position_rad;
   const double velocity_rad_s = mean_velocity_rad_s(measurement);
   observer_.reset(position_rad, model.friction_scale_Nm, velocity_rad_s, usual_load_Nm_);
+  read_velocity_rad_s_ = velocity_rad_s;
   first_ = true;
 }
 
@@ -130,11 +134,13 @@ void StateEstimator::follow_reading(double position_rad) noexcept {
 void StateEstimator::read(const JointMeasurement& measurement, EstimateSource source) noexcept {
   now_ = {};
   now_.position_rad = measurement.joint_position_rad;
-  now_.velocity_rad_s = measurement.joint_velocity_rad_s;
-  if (!measurement.has_velocity)
-    now_.velocity_rad_s = source == EstimateSource::kReadingsAtRest
-                              ? (steady_position_rad_ - previous_steady_rad_) / elapsed_s(measurement)
-                              : mean_velocity_rad_s(measurement);
+  const double mean_rad_s = source == EstimateSource::kReadingsAtRest
+                                ? (steady_position_rad_ - previous_steady_rad_) / elapsed_s(measurement)
+                                : mean_velocity_rad_s(measurement);
+  read_velocity_rad_s_ = smoothed(read_velocity_rad_s_, mean_rad_s, config_.velocity_share,
+                                  std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods));
+  const bool measured = measurement.has_velocity && config_.velocity_share == 1.0;
+  now_.velocity_rad_s = measured ? measurement.joint_velocity_rad_s : read_velocity_rad_s_;
   now_.disturbance.load_Nm = usual_load_Nm_;
 }
 

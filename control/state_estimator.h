@@ -49,6 +49,9 @@ enum class EstimateSource {
 struct StateEstimatorConfig {
   VelocityObserverConfig observer;
   int delay_periods = 0;  ///< between a torque's computation and its effect, 0..kMaxControlDelay
+  /// Of each difference of two readings in the velocity, without observer (control/link_velocity.h), in (0, 1]. Below 1 a velocity that
+  /// the drive measures is not used.
+  double velocity_share = 1.0;
 };
 
 class StateEstimator {
@@ -70,6 +73,7 @@ class StateEstimator {
   const JointModel& model() const noexcept { return adapted_; }
   /// By how many periods the newest position is late, as far as they count.
   int late_periods() const noexcept { return late_periods_; }
+  double velocity_share() const noexcept { return config_.velocity_share; }
   /// Since the encoder's reading changed, or count_still_anew().
   int still_periods() const noexcept { return still_periods_; }
   void count_still_anew() noexcept { still_periods_ = 0; }
@@ -99,7 +103,8 @@ class StateEstimator {
   double previous_position_rad_ = 0.0;
   double steady_position_rad_ = 0.0;  ///< follows the reading with a play of a count to either side
   double previous_steady_rad_ = 0.0;
-  double usual_load_Nm_ = 0.0;  ///< at the start, then the observer's slow part: known without one
+  double read_velocity_rad_s_ = 0.0;  ///< what the readings tell
+  double usual_load_Nm_ = 0.0;        ///< at the start, then the observer's slow part: known without one
   int late_periods_ = 0;
   int still_periods_ = 0;
   bool first_ = true;

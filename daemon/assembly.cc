@@ -55,7 +55,7 @@ LoopParts assemble_loop(const DaemonConfig& config) {
 ExpectedJoint expected_joint(const JointConfig& joint) {
   const JointControllerConfig& controller = joint.loop.controller;
   return {joint.plant, controller.torque_limit_Nm, controller.link, controller.delay_periods,
-          joint.encoder_side};
+          controller.encoder_side};
 }
 
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config) {

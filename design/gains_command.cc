@@ -120,10 +120,6 @@ RequestedJoint read_joint(const GainsOptions& options, const CLI::App& command) 
     std::printf("--friction %s, %s\n", kCatalogueFrictionFile, origin(*known).c_str());
   }
   if (!options.spring.given()) return joint;
-  if (options.encoder_side == "link")
-    throw InputError(
-        "gains", "--encoder-side", options.encoder_side,
-        "must be motor with --load-inertia_kgm2: no gains with the spring before the encoder are certified");
   joint.spring = spring_request(options.spring, "gains", known != nullptr ? known->motor_inertia_kgm2 : 0.0);
   if (!options.spring.motor_inertia_kgm2)
     std::printf("--motor-inertia_kgm2 %g, %s\n", joint.spring->motor_inertia_kgm2, origin(*known).c_str());
@@ -221,9 +217,8 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
       ->check(CLI::IsMember({"euler", "zoh"}))
       ->capture_default_str();
   command
-      .add_option(
-          "--encoder-side", options.encoder_side,
-          "where the joint's position is measured; the daemon compares it; link: of a rigid joint only")
+      .add_option("--encoder-side", options.encoder_side,
+                  "where the joint's position is measured; the daemon compares it")
       ->check(CLI::IsMember({"motor", "link"}))
       ->capture_default_str();
   command.add_option("--torque-limit_Nm", options.torque_limit_Nm, "largest torque at the joint side")

@@ -85,7 +85,7 @@ SpringVerdict judge(const GainTable& table, const std::string& gear, const Sprin
   box.damping_Nms_rad = request.damping_Nms_rad;
   const std::vector<GainRow> gains = gains_of(table);
   SpringVerdict verdict;
-  verdict.box = {EncoderSide::kMotor,
+  verdict.box = {table.box.encoder_side,
                  box.motor_inertia_kgm2,
                  box.link_inertia_kgm2,
                  box.stiffness_Nm_rad,
@@ -96,7 +96,8 @@ SpringVerdict judge(const GainTable& table, const std::string& gear, const Sprin
                  {}};
   for (int delay = request.most_delay; delay >= request.least_delay; --delay) {
     const int room = for_a_table ? kMaxBoxCells - verdict.box.cell_count : kMostCells;
-    const SpringProof proof = prove_spring_box(gains, box, {table.plant.period_s, delay, 1.0}, room);
+    const SpringProof proof =
+        prove_spring_box(gains, box, {table.plant.period_s, delay, 1.0, table.box.encoder_side}, room);
     verdict.certified = verdict.certified && proof.outcome == SpringOutcome::kCertified;
     verdict.text += "with the spring, delay " + std::to_string(delay) + ": " + describe(proof) + "\n";
     if (for_a_table && !verdict.certified) break;

@@ -38,8 +38,7 @@ std::vector<Eigen::MatrixXd> loops_of(std::span<const GainRow> gains, const Spri
   std::vector<Eigen::MatrixXd> loops;
   for (const SpringCorner& corner : spring_corners(box, loop.period_s).corners)
     for (const GainRow& gain : gains)
-      loops.emplace_back(spring_loop(corner.sampled, gain, loop.period_s, loop.delay_periods).value /
-                         loop.decay_rate);
+      loops.emplace_back(spring_loop(corner.sampled, gain, loop).value / loop.decay_rate);
   return loops;
 }
 

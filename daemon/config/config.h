@@ -40,7 +40,6 @@ struct DriveOnBus {
 struct JointConfig {
   std::string name;
   PlantIdentity plant;
-  EncoderSide encoder_side = EncoderSide::kMotor;
   JointLoopConfig loop;
   std::string driver;
   std::string group;  ///< name of the joints that stop together; empty: none

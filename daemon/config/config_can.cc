@@ -206,7 +206,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
-  joint.encoder_side = read_encoder_side(section, joint.loop.controller.rigid);
+  read_encoder_side(section, joint.loop.controller);
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);

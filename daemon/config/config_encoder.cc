@@ -7,24 +7,27 @@ namespace strainwave {
 namespace {
 
 const char* const kWhy =
-    ": gains are designed for the motor's side, and unstable with the gear's spring before the encoder; "
-    "joint.control.rigid = true "
-    "says that there is no such spring";
+    "with the gear's spring before the encoder; joint.control.rigid = true says that there is no such spring";
 
 }  // namespace
 
-EncoderSide read_encoder_side(TomlSection& section, bool rigid, const std::string& truth) {
+void read_encoder_side(TomlSection& section, JointControllerConfig& controller, const std::string& truth) {
   const std::string side = truth.empty() ? section.choice("encoder_side", {"motor", "link"})
                                          : section.choice_or("encoder_side", truth, {"motor", "link"});
-  if (side == "link" && !rigid) section.fail("encoder_side", std::string("\"motor\" is allowed") + kWhy);
-  return side == "link" ? EncoderSide::kLink : EncoderSide::kMotor;
+  if (side == "link" && !controller.rigid && !controller.link)
+    section.fail("encoder_side",
+                 std::string("\"motor\" is allowed: gains for the motor's side are unstable ") + kWhy +
+                     ", joint.control.gear and load_inertia_kgm2 tell of it, and take a table of gains "
+                     "--encoder-side link");
+  controller.encoder_side = side == "link" ? EncoderSide::kLink : EncoderSide::kMotor;
 }
 
 void require_motor_encoder(const TomlSection& section, double encoder_turns_per_joint_turn, double gear_ratio,
                            bool rigid) {
   if (rigid || std::abs(encoder_turns_per_joint_turn - gear_ratio) <= 1e-6 * gear_ratio) return;
-  section.fail("encoder_turns_per_joint_turn", "joint.gear_ratio = " + std::to_string(gear_ratio) +
-                                                   ", an encoder on the motor, is allowed" + kWhy);
+  section.fail("encoder_turns_per_joint_turn",
+               "joint.gear_ratio = " + std::to_string(gear_ratio) +
+                   ", an encoder on the motor, is allowed: gains are unstable " + kWhy);
 }
 
 }  // namespace strainwave

@@ -50,6 +50,9 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   if (features.link && plant.effects.transmission) {
     const Transmission& gear = *plant.effects.transmission;
     config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+    if (!table.box.rigid()) config.encoder_side = table.box.encoder_side;
+    if (config.encoder_side == EncoderSide::kLink)
+      config.encoder_resolution_rad = plant.link_encoder.resolution_rad();
   }
   if (features.gravity) config.gravity = plant.effects.gravity;
   config.use_monitor = features.monitor;

@@ -25,7 +25,7 @@ ProofMatrix lyapunov(const SpringBox& box) {
   const SpringPlant plant{box.motor_inertia_kgm2, middle(box.link_inertia_kgm2), middle(box.stiffness_Nm_rad),
                           middle(box.damping_Nms_rad), middle(box.viscous_Nms_rad)};
   const BoundedMatrix sampled = spring_exponential(spring_generator(plant, kLoop.period_s));
-  LoopMatrix H = spring_loop(sampled, kGains[0], kLoop.period_s, kLoop.delay_periods).value;
+  LoopMatrix H = spring_loop(sampled, kGains[0], kLoop).value;
   LoopState weights;
   weights << 0.1, 1.0, 1e-4, 100.0, 1e-4, 1e-2, 1e-6;
   LoopMatrix P = weights.asDiagonal();
@@ -55,7 +55,7 @@ TEST(SpringCertificate, WhatItCertifiesFallsAlongARandomWalkThroughTheBox) {
     const SpringPlant plant{kBox.motor_inertia_kgm2, any(kBox.link_inertia_kgm2), any(kBox.stiffness_Nm_rad),
                             any(kBox.damping_Nms_rad), any(kBox.viscous_Nms_rad)};
     const BoundedMatrix sampled = spring_exponential(spring_generator(plant, kLoop.period_s));
-    const LoopMatrix H = spring_loop(sampled, kGains[0], kLoop.period_s, kLoop.delay_periods).value;
+    const LoopMatrix H = spring_loop(sampled, kGains[0], kLoop).value;
     const LoopState next = H * x;
     ASSERT_LT(next.dot(P * next), x.dot(P * x)) << k;
     x = next;
@@ -114,7 +114,7 @@ TEST(SpringCertificate, TheRadiusIsThatOfTheLargestEigenvalue) {
     const GainRow gain(any(-1e3, 0.0), any(-3e3, 0.0), any(-60.0, 5.0));
     const SpringLoop loop{1e-3, i % (kMaxSpringDelay + 1), 1.0};
     const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
-    const ProofMatrix H = spring_loop(sampled, gain, loop.period_s, loop.delay_periods).value;
+    const ProofMatrix H = spring_loop(sampled, gain, loop).value;
     const double expected = testing::spectral_radius(H);
     ASSERT_NEAR(spring_loop_radius(plant, gain, loop), expected, 1e-8 * expected) << i;
     if (expected > 1.0) ++unstable;

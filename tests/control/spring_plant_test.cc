@@ -6,6 +6,7 @@
 #include <deque>
 #include <random>
 
+#include "control/link_velocity.h"
 #include "control/scheduled_controller.h"
 #include "control/state_estimator.h"
 #include "control/ts_plant.h"
@@ -156,35 +157,41 @@ TEST(SpringPlant, TheLoopIsWhatEstimatorAndLawDo) {
   friction.rules[0].width_C = 1.0;
   PlantIdentity plant;
   plant.period_s = kPeriod_s;
-  for (const int delay : {0, 1, 2, 3}) {
-    StateEstimatorConfig config;
-    config.observer.period_s = kPeriod_s;
-    config.delay_periods = delay;
-    StateEstimator estimator(config);
-    ScheduledController law(gains, friction, plant);
-    const double setpoint_rad = 0.3;
-    Eigen::Vector4d state(0.31, 0.0, 0.0, 0.0);
-    estimator.reset(state(0), 0.0, 0.0, 1.0);
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(kSpringLoopStates + delay);
-    x(1) = x(5) = state(0) - setpoint_rad;
-    const ProofMatrix E = sampled(kJoint).value;
-    const ProofMatrix H = spring_loop(sampled(kJoint), kGain, kPeriod_s, delay).value;
-    std::deque<double> under_way(static_cast<std::size_t>(delay), 0.0);
-    for (int k = 0; k < 400; ++k) {
-      estimator.step({.joint_position_rad = state(0)}, {}, EstimateSource::kReadings);
-      ControllerInput input;
-      input.joint_position_rad = estimator.then().position_rad;
-      input.joint_velocity_rad_s = estimator.then().velocity_rad_s;
-      input.setpoint_position_rad = setpoint_rad;
-      input.planned = true;
-      input.torque_limit_Nm = 1e6;
-      under_way.push_back(law.step(input).torque_Nm);
-      const double acting_Nm = under_way.front();
-      under_way.pop_front();
-      ASSERT_NEAR(x(1), state(0) - setpoint_rad, 1e-11 * (1.0 + std::abs(x(1)))) << delay << " " << k;
-      ASSERT_NEAR(x(3), state(2), 1e-11 * (1.0 + std::abs(x(3)))) << delay << " " << k;
-      state = (E.topLeftCorner(4, 4) * state + E.topRightCorner(4, 1) * acting_Nm).eval();
-      x = (H * x).eval();
+  for (const EncoderSide side : {EncoderSide::kMotor, EncoderSide::kLink}) {
+    for (const int delay : {0, 1, 2, 3}) {
+      StateEstimatorConfig config;
+      config.observer.period_s = kPeriod_s;
+      config.delay_periods = delay;
+      config.velocity_share = velocity_share(side, kPeriod_s);
+      StateEstimator estimator(config);
+      ScheduledController law(gains, friction, plant);
+      const double setpoint_rad = 0.3;
+      Eigen::Vector4d state(0.31, 0.0, 0.001, 0.0);
+      const auto reading_rad = [&] { return state(0) + (side == EncoderSide::kLink ? state(2) : 0.0); };
+      estimator.reset(reading_rad(), 0.0, 0.0, 1.0);
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(kSpringLoopStates + delay);
+      x(1) = state(0) - setpoint_rad;
+      x(3) = state(2);
+      x(5) = reading_rad() - setpoint_rad;
+      const ProofMatrix E = sampled(kJoint).value;
+      const ProofMatrix H = spring_loop(sampled(kJoint), kGain, {kPeriod_s, delay, 1.0, side}).value;
+      std::deque<double> under_way(static_cast<std::size_t>(delay), 0.0);
+      for (int k = 0; k < 400; ++k) {
+        estimator.step({.joint_position_rad = reading_rad()}, {}, EstimateSource::kReadings);
+        ControllerInput input;
+        input.joint_position_rad = estimator.then().position_rad;
+        input.joint_velocity_rad_s = estimator.then().velocity_rad_s;
+        input.setpoint_position_rad = setpoint_rad;
+        input.planned = true;
+        input.torque_limit_Nm = 1e6;
+        under_way.push_back(law.step(input).torque_Nm);
+        const double acting_Nm = under_way.front();
+        under_way.pop_front();
+        ASSERT_NEAR(x(1), state(0) - setpoint_rad, 1e-11 * (1.0 + std::abs(x(1)))) << delay << " " << k;
+        ASSERT_NEAR(x(3), state(2), 1e-11 * (1.0 + std::abs(x(3)))) << delay << " " << k;
+        state = (E.topLeftCorner(4, 4) * state + E.topRightCorner(4, 1) * acting_Nm).eval();
+        x = (H * x).eval();
+      }
     }
   }
 }

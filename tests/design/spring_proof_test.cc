@@ -86,7 +86,7 @@ TEST(SpringProof, WhatIsProvedFallsAlongARandomWalkThroughACell) {
     const SpringPlant plant{0.089, any(cell.link_inertia_kgm2), any(cell.stiffness_Nm_rad), 0.0,
                             any(cell.viscous_Nms_rad)};
     const BoundedMatrix sampled = spring_exponential(spring_generator(plant, kLoop.period_s));
-    const Eigen::VectorXd next = spring_loop(sampled, blend / sum, kLoop.period_s, 1).value * x;
+    const Eigen::VectorXd next = spring_loop(sampled, blend / sum, kLoop).value * x;
     ASSERT_LT(next.dot(*P * next), x.dot(*P * x)) << k;
     x = next;
   }

@@ -127,11 +127,12 @@ class TableAdmissionOnASpring : public ::testing::Test {
   GainTable table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
 
   /// On a joint that is told of its gear, csf-17-50, and a link.
-  TableVerdict judge(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089) const {
+  TableVerdict judge(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089,
+                     EncoderSide side = EncoderSide::kMotor) const {
     PlantIdentity plant = table_.plant;
     plant.inertia_kgm2 = motor_kgm2 + link_kgm2;
     const LinkModel link{motor_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
-    return judge_table(table_, {plant, table_.torque_limit_Nm, link, delay_periods});
+    return judge_table(table_, {plant, table_.torque_limit_Nm, link, delay_periods, side});
   }
   void expect_outside(const TableVerdict& verdict, const char* quantity) const {
     EXPECT_EQ(verdict.reason, Reason::kTableIdentity) << verdict.text;
@@ -139,6 +140,18 @@ class TableAdmissionOnASpring : public ::testing::Test {
     EXPECT_NE(verdict.text.find("certified for"), std::string::npos) << verdict.text;
   }
 };
+
+TEST_F(TableAdmissionOnASpring, TakesOnlyATableForTheSideOfItsEncoder) {
+  EXPECT_EQ(judge(0.1, 1).reason, Reason::kAccepted);
+  EXPECT_EQ(judge(0.1, 1, 0.089, EncoderSide::kLink).reason, Reason::kTableIdentity);
+  table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-link.json");
+  const TableVerdict proved = judge(0.1, 1, 0.089, EncoderSide::kLink);
+  EXPECT_EQ(proved.reason, Reason::kAccepted) << proved.text;
+  EXPECT_NE(proved.text.find("encoder on the link"), std::string::npos) << proved.text;
+  const TableVerdict refused = judge(0.1, 1);
+  EXPECT_EQ(refused.reason, Reason::kTableIdentity);
+  EXPECT_NE(refused.text.find("--encoder-side motor"), std::string::npos) << refused.text;
+}
 
 TEST_F(TableAdmissionOnASpring, AcceptsEveryLinkOfTheBoxAndSaysWhatIsProved) {
   for (const double link_kgm2 : {0.05, 0.3}) {

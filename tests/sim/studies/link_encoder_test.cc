@@ -1,0 +1,97 @@
+// The plain law on the reading of an encoder behind the gear's spring, with the table that is certified for it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/gain_table_json.h"
+#include "control/gear_catalogue.h"
+#include "sim/joint/reference_plant.h"
+#include "sim/studies/flexible_study.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kDamping_Nms_rad = 1.0;
+
+GainTable shipped() {
+  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-link.json");
+}
+
+FlexibleCell cell(double link_kgm2, double delay_periods, double temperature_C, double step_rad) {
+  FlexibleCell cell{link_kgm2, 1.0, 0.0, temperature_C, step_rad, "none", realistic_plant(), {}, 4.0};
+  Transmission gear;
+  gear.link_inertia_kgm2 = link_kgm2;
+  gear.spring = find_gear("csf-17-50")->spring;
+  gear.damping_Nms_rad = kDamping_Nms_rad;
+  cell.nominal.effects.transmission = gear;
+  cell.nominal.delay.periods = delay_periods;
+  cell.nominal.link_encoder.counts_per_joint_revolution = kReferenceCountsPerRevolution;
+  cell.nominal.feedback = EncoderSide::kLink;
+  cell.plant = cell.nominal;
+  return cell;
+}
+
+Contender told(const GainTable& table) {
+  ExtendedFeatures features = daemon_defaults();
+  features.link = true;
+  features.motion = {5.0, 60.0, 60.0};
+  return extended_contender("link", table, features);
+}
+
+struct LinkArrival {
+  double error_rad = 0.0;  ///< of the link, at the end
+  double swing_rad = 0.0;  ///< from peak to peak over the last second
+  double overshoot_rad = 0.0;
+  int reversals = 0;  ///< of a torque of 1 N m and more, over the last second
+  MonitorState monitor = MonitorState::kWatching;
+  double within_mrad_s = 0.0;  ///< from when on the link stays within a milliradian
+};
+
+LinkArrival run(const FlexibleCell& cell, const GainTable& table) {
+  const ClosedLoopResult result = run_cell(cell, told(table));
+  LinkArrival arrival;
+  arrival.monitor = result.monitor;
+  double low = INFINITY;
+  double high = -INFINITY;
+  double side = 0.0;
+  for (const TracePoint& point : result.trace) {
+    const double error_rad = point.link_position_rad - cell.step_rad;
+    arrival.overshoot_rad = std::max(arrival.overshoot_rad, error_rad);
+    if (std::abs(error_rad) > 1e-3) arrival.within_mrad_s = point.time_s;
+    arrival.error_rad = error_rad;
+    if (point.time_s < cell.duration_s - 1.0) continue;
+    low = std::min(low, error_rad);
+    high = std::max(high, error_rad);
+    if (std::abs(point.wanted_torque_Nm) < 1.0) continue;
+    if (side * point.wanted_torque_Nm < 0.0) ++arrival.reversals;
+    side = point.wanted_torque_Nm;
+  }
+  arrival.swing_rad = high - low;
+  return arrival;
+}
+
+// Outside the box as well: a link of 0.05 and one of 0.3 kg m2.
+TEST(LinkEncoder, ArrivesWithoutOscillatingWhateverTheLink) {
+  const GainTable table = shipped();
+  for (int delay = table.box.least_delay; delay <= table.box.most_delay; ++delay) {
+    for (const double link_kgm2 : {0.05, 0.085, 0.1, 0.115, 0.3}) {
+      for (const double temperature_C : {-10.0, 20.0, 40.0}) {
+        for (const double step_rad : {0.001, 0.01, 0.1, 1.0}) {
+          const LinkArrival arrival = run(cell(link_kgm2, delay, temperature_C, step_rad), table);
+          SCOPED_TRACE(::testing::Message() << "delay " << delay << ", link " << link_kgm2 << " kg m2, "
+                                            << temperature_C << " degC, " << step_rad << " rad");
+          EXPECT_EQ(arrival.monitor, MonitorState::kWatching);
+          EXPECT_LT(std::abs(arrival.error_rad), 0.5e-3);
+          EXPECT_LT(arrival.swing_rad, 20e-6) << "two counts";
+          EXPECT_EQ(arrival.reversals, 0);
+          EXPECT_LT(arrival.overshoot_rad, 2e-3);
+          EXPECT_LT(arrival.within_mrad_s, 0.4);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strainwave
