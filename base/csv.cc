@@ -66,8 +66,11 @@ std::size_t CsvRows<Field>::column(const std::string& name) const {
 
 template <typename Field>
 void CsvRows<Field>::require_columns(const std::vector<std::string>& names) const {
+  constexpr std::size_t kShown = 100;
+  std::string header = joined(columns);
+  if (header.size() > kShown) header = header.substr(0, kShown) + "...";
   if (columns != names)
-    throw InputError(source + ":" + std::to_string(header_line), "header", joined(columns),
+    throw InputError(source + ":" + std::to_string(header_line), "header", header,
                      "must be '" + joined(names) + "'");
 }
 

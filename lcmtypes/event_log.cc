@@ -14,8 +14,9 @@ constexpr std::uint64_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
 
 EventLogReader::EventLogReader(const std::filesystem::path& file)
     : name_(file.string()), file_(file, std::ios::binary) {
-  if (!file_ || std::filesystem::is_directory(file))
-    throw InputError(name_ + ": cannot be read: is it there, and may you read it?");
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) throw InputError(name_ + ": is a folder, not a file");
+  if (!file_) throw InputError(name_ + ": cannot be read: is it there, and may you read it?");
 }
 
 // Big-endian, as everything on LCM's wire.

@@ -107,7 +107,11 @@ void record_into(Log& log, const Senders& senders, Client& client, const Output&
       missing > 0 ? fmt::format("{} more of the same senders are missing: {}", missing, senders.remedy())
                   : "none is missing";
   say(output, fmt::format("{}: {} messages; {}", arguments.file.string(), messages, lost),
-      {{"file", arguments.file.string()}, {"messages", messages}, {"missing", missing}});
+      {{"file", arguments.file.string()},
+       {"messages", messages},
+       {"missing", missing},
+       {"without_room", static_cast<std::int64_t>(client.connection().without_room())},
+       {"socket_queue_bytes", std::int64_t{client.connection().socket_queue().given_bytes}}});
 }
 
 }  // namespace

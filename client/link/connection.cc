@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::string_view kWithoutNetwork = "memq://";
 
-/// Half a second of 64 joints at 200 Hz: so long a busy machine may leave out who records them.
-constexpr int kSocketQueueBytes = 4 << 20;
+/// A second of 64 joints at 200 Hz. A gateway that got no processor sends all at once what its ring holds, 8192 states, which is more than half of
+/// that; and a busy machine may leave out who records them.
+constexpr int kSocketQueueBytes = 8 << 20;
 
 /// Some eight seconds of them: a disk may take so long to write what a build beside it has written.
 constexpr std::size_t kReadAheadBytes = 64 << 20;

@@ -37,6 +37,14 @@ std::filesystem::path public_path(const std::filesystem::path& path) {
   return path.string() + ".pub";
 }
 
+SecretKeyText parse(std::string_view line, const std::filesystem::path& path) {
+  try {
+    return parse_secret_line(line);
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 SecretKeyText read_secret_key(const std::filesystem::path& path) {
@@ -46,18 +54,16 @@ SecretKeyText read_secret_key(const std::filesystem::path& path) {
   if (::fstat(file.get(), &status) != 0) fail(path, "the key cannot be read");
   if (!S_ISREG(status.st_mode))
     throw InputError(path.string() + ": is not a file: give a key of strainwavectl keygen");
-  if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-    throw InputError(path.string() + ": other users can reach this secret key: chmod 600 " + path.string() +
-                     ", and make a new key if they may have read it");
   std::array<char, 512> text{};
   const ssize_t size = ::read(file.get(), text.data(), text.size());
   if (size < 0) fail(path, "the key cannot be read");
   const std::string_view content(text.data(), static_cast<std::size_t>(size));
-  try {
-    return parse_secret_line(content.substr(0, content.find('\n')));
-  } catch (const InputError& error) {
-    throw InputError(path.string() + ": " + error.what());
-  }
+  // First whether it is one: a public key is for everybody to read.
+  const SecretKeyText key = parse(content.substr(0, content.find('\n')), path);
+  if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    throw InputError(path.string() + ": other users can reach this secret key: chmod 600 " + path.string() +
+                     ", and make a new key if they may have read it");
+  return key;
 }
 
 AuthorizedKey write_new_key(const std::filesystem::path& path, Role role, const std::string& comment) {

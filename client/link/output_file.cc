@@ -8,8 +8,10 @@
 namespace strainwave {
 
 UniqueFd claim_output(const std::filesystem::path& file, bool overwrite) {
-  refuse_to_replace(file, overwrite);
   std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw ClientError(ExitStatus::kUsage, file.string() + ": is a folder: name a file");
+  refuse_to_replace(file, overwrite);
   // Into a pipe or a device, several may write.
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
     return UniqueFd();

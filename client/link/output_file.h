@@ -27,14 +27,17 @@ inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite)
 }
 
 /// Opens `file`, which is made if it is not there, for one writer: as long as the descriptor is open nobody else claims it. Throws ClientError
-/// (usage) as above, when it cannot be written, and when somebody else writes it now; then it is as it was.
+/// (usage) as above, when it is a folder, when it cannot be written, and when somebody else writes it now; then it is as it was.
 UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
 
-/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one.
+/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one, and when one that is to be it has another format's name.
 inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
   if (!mcap && is_named(file, ".mcap"))
     throw ClientError(ExitStatus::kUsage,
                       file.string() + " would be no MCAP file: say --mcap, or choose another name");
+  if (mcap && (is_named(file, ".lcm") || is_named(file, ".csv")))
+    throw ClientError(ExitStatus::kUsage,
+                      file.string() + " would be an MCAP file: leave --mcap out, or choose another name");
 }
 
 /// That `file` could not be created or opened for writing.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/manual/command_line.h"
 #include "client/options/command_options.h"
@@ -26,14 +27,26 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_hardware_commands(app, invocation);
 }
 
+/// Wherever a command has them among its words.
+std::vector<std::string> named_joints(const CLI::App& command) {
+  const auto words = [&](const char* option) {
+    const CLI::Option* const found = command.get_option_no_throw(option);
+    return found != nullptr ? found->results() : std::vector<std::string>{};
+  };
+  std::vector<std::string> joints = words("JOINT");
+  if (joints.empty()) joints = words("--joint");
+  const std::vector<std::string> others = words("JOINT POSITION_rad");
+  for (std::size_t i = 0; i < others.size(); i += 2) joints.push_back(others[i]);
+  if (const std::vector<std::string> table = words("[JOINT] FILE"); table.size() > 1)
+    joints = {table.front()};
+  return joints;
+}
+
 /// For whom `app` was to do what, as far as it was understood.
 FailedCommand failed_command(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) return {};
-  FailedCommand command{chosen.front()->get_name(), {}};
-  if (const CLI::Option* joints = chosen.front()->get_option_no_throw("JOINT"))
-    command.joints = joints->results();
-  return command;
+  return {chosen.front()->get_name(), named_joints(*chosen.front())};
 }
 
 void run(const Invocation& invocation, const Output& output) {

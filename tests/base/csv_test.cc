@@ -40,6 +40,20 @@ TEST(Csv, RefusesFilesWithoutData) {
   EXPECT_NE(message_of("a,b\n"), "");
 }
 
+TEST(Csv, OfAnotherHeaderWithManyColumnsTheBeginningIsQuoted) {
+  std::string line = "a";
+  for (int i = 0; i < 100; ++i) line += ",column" + std::to_string(i);
+  try {
+    parse_csv_text(line + "\n1" + std::string(100, ',') + "\n", "file.csv").require_columns({"a", "c"});
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_TRUE(text.starts_with("file.csv:1: header = a,column0,")) << text;
+    EXPECT_TRUE(text.ends_with("...: must be 'a,c'")) << text;
+    EXPECT_LT(text.size(), 150U);
+  }
+}
+
 TEST(Csv, AnotherHeaderIsNamedWithItsLine) {
   try {
     parse_csv("# note\na,b\n1,2\n", "file.csv").require_columns({"a", "c"});

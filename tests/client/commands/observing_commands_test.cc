@@ -95,6 +95,24 @@ TEST_F(CommandsTest, RecordNeverReplacesAFileUnasked) {
   EXPECT_EQ(attempt(true), ExitStatus::kDone);
 }
 
+TEST_F(CommandsTest, RecordRefusesAFolderAndTheNameOfAnotherFormat) {
+  const TemporaryFolder folder;
+  daemon.publish_state();
+  const auto attempt = [&](const std::filesystem::path& file, bool mcap) {
+    return status_of([&] { record(client, output, {{"elbow"}, file, 0.01, true, mcap}); });
+  };
+  for (const bool mcap : {false, true}) {
+    EXPECT_EQ(attempt(folder.path(), mcap), ExitStatus::kUsage);
+    EXPECT_TRUE(message_has("is a folder: name a file")) << message;
+    for (const char* name : {"a.lcm", "a.csv", "a.mcap"}) {
+      const bool right = mcap ? name == std::string("a.mcap") : name == std::string("a.lcm");
+      EXPECT_EQ(attempt(folder.path() / name, mcap), right ? ExitStatus::kDone : ExitStatus::kUsage) << name;
+      EXPECT_EQ(std::filesystem::exists(folder.path() / name), right) << name;
+    }
+    std::filesystem::remove(folder.path() / (mcap ? "a.mcap" : "a.lcm"));
+  }
+}
+
 TEST_F(CommandsTest, RecordLeavesAFileAloneThatAnotherRecorderWrites) {
   const TemporaryFolder folder;
   daemon.publish_state();

@@ -33,6 +33,15 @@ class EventLogs : public ::testing::Test {
   Output output_{out_, false};
 };
 
+TEST_F(EventLogs, AreNoFolders) {
+  try {
+    export_log(output_, {folder_, folder_ / "a.csv"});
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is a folder, not a file"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(EventLogs, WhatTheClientWritesLcmsOwnReaderReads) {
   Connection connection("memq://");
   const auto path = folder_ / "a.lcm";

@@ -56,6 +56,18 @@ TEST_F(KeyFile, NeverOverwritesAKeyOrItsPublicLine) {
   EXPECT_FALSE(std::filesystem::exists(path_.string() + ".pub"));
 }
 
+TEST_F(KeyFile, IsSaidToBeThePublicOneThoughThatMayBeReadByOthers) {
+  write_new_key(path_, Role::kOperator, "");
+  try {
+    read_secret_key(path_.string() + ".pub");
+    FAIL() << "taken for a secret key";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("this is a public key: give the file without .pub"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(KeyFile, IsRefusedWhenOthersCanReadIt) {
   write_new_key(path_, Role::kOperator, "");
   for (const mode_t mode : {0640U, 0604U, 0620U}) {
