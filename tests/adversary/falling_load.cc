@@ -204,7 +204,8 @@ TEST_F(FallingLoad, ADelayCostsASagOnlyWhereTheControlLawDoesNotReckonWithIt) {
     EXPECT_EQ(mode(), Mode::kHolding);
   }
   for (const int reckoned_periods : {0, 1}) {
-    EXPECT_LT(sag_rad(1, reckoned_periods, -kLoad_Nm), kKnownSag_rad) << "the load is known, the joint left alone";
+    EXPECT_LT(sag_rad(1, reckoned_periods, -kLoad_Nm), kKnownSag_rad)
+        << "the load is known, the joint left alone";
     EXPECT_EQ(mode(), Mode::kHolding);
   }
 }
