@@ -216,10 +216,10 @@ void export_flight_record(const Output& output, const ExportArguments& arguments
 }  // namespace
 
 void export_log(const Output& output, const ExportArguments& arguments) {
-  refuse_name_of_mcap(arguments.out, arguments.mcap);
   std::error_code neither_is_there;
   if (std::filesystem::equivalent(arguments.log, arguments.out, neither_is_there))
     throw ClientError(ExitStatus::kUsage, arguments.out.string() + " is what is read: choose another name");
+  refuse_name_of_mcap(arguments.out, arguments.mcap);
   if (is_flight_record(arguments.log)) return export_flight_record(output, arguments);
   const LogSpan span = span_of(arguments.log);  // before anything is created
   if (arguments.mcap)

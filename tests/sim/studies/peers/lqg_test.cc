@@ -66,14 +66,14 @@ TEST(Lqg, ItsFilterIsTheOneWithTheLeastCovariance) {
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(design.filter(i), L(i), 1e-6 * std::abs(L(i))) << i;
 }
 
-/// The linear joint under the peer, from 1 mrad off and at rest: how far the link is at the end of half a second.
+/// The linear joint under the peer, from 1 mrad off and at rest: how far the link is at the end of a second.
 double left_rad(const ServoJoint& joint, double load_Nm) {
   LqgPeer peer(joint);
   const Eigen::Matrix<double, 5, 5> sampled = design_lqg(joint, lqg_weights(joint)).sampled;
   Eigen::Matrix<double, 5, 1> state = 1e-3 * Eigen::Matrix<double, 5, 1>::Unit(0);
   std::array<double, LqgPeer::kMaxDelay + 1> torques_Nm{};
   peer.reset(state(0));
-  for (int k = 0; k < 500; ++k) {
+  for (int k = 0; k < 1000; ++k) {
     std::rotate(torques_Nm.begin(), torques_Nm.end() - 1, torques_Nm.end());
     torques_Nm.front() = peer.step({0.0, 0.0, 0.0}, state(0));
     state(4) = torques_Nm.at(static_cast<std::size_t>(joint.delay_periods)) - load_Nm;
