@@ -11,10 +11,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -113,10 +113,8 @@ std::vector<JointMeasurement> record(const Kind& kind) {
     run.push_back(measurement_of(sample, plant.sensor_temperature_C() + kTemperatureNoise_C * noise));
     order(controller, k);
     const JointStep step = controller.step(run.back());
-    if (step.monitor != MonitorState::kWatching) {
-      std::fprintf(stderr, "%s: the monitor has stepped in, the figures mean nothing\n", kind.name.c_str());
-      std::exit(1);
-    }
+    if (step.monitor != MonitorState::kWatching)
+      throw std::runtime_error(kind.name + ": the monitor has stepped in, the figures mean nothing");
     plant.step(step.output.torque_Nm);
   }
   return run;

@@ -64,7 +64,7 @@ constexpr double kSwingLimit = 1.55;
 constexpr double kDistrust_s = 0.05;
 constexpr double kDistrustLimit = 0.5;
 // After the fallback: what still counts as chatter, and how long it may last, half of it with the law's own gains. With the time to
-// notice it no chatter lasts longer than some third of a second; on a long move it may begin only where the reference brakes.
+// notice it no chatter lasts longer than half a second; on a long move it may begin only where the reference brakes.
 constexpr double kGoesOn = 0.6;  // share of the limits
 constexpr double kPatience_s = 0.2;
 

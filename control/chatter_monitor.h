@@ -2,10 +2,11 @@
 // or an encoder that the table and the configuration do not know. Real-time safe, O(1) a period.
 //
 // What counts is a reversal: the torque beyond what the planned motion needs changes its sign, from more than
-// a threshold on one side to more than it on the other. Planned motion, however hard, makes none. There are two
-// thresholds, shares of static friction: a strong reversal is more than the law's own friction compensation
+// a threshold on one side to more than it on the other. Planned motion, however hard, makes none. Thresholds are
+// shares of static friction (chatter_monitor.cc): a strong reversal is more than the law's own friction compensation
 // makes, and counts always; a weak one could just move the joint, and counts once the reference has come to
-// rest for a while; where it has rested for long, in a level of its own, since a sound joint then makes none. Where the plan needs all
+// rest for a while; where it has rested for long, in a level of its own, since a sound joint then makes none; and half a second after the reference has come to
+// rest what hums about the torque's own mean, weaker than that, too: a joint that gives way before it slides can. Where the plan needs all
 // of the torque nothing beyond it can be commanded: there the reversals of the whole torque count, less those of the plan. Each
 // fills a level that leaks:
 //

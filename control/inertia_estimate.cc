@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-// A mean over kSpan must have moved by so many counts: its way is certain then, and its velocity to a tenth.
+// A mean over a span must have moved by so many counts: its way is certain then, and its velocity to a tenth.
 constexpr double kLeastCounts = 6.0;
 // Where positions are exact.
 constexpr double kLeastTravel_rad = 1e-6;
@@ -28,7 +28,25 @@ constexpr double information_of(double deviation) {
   return 1.0 / (deviation * deviation);
 }
 
+// Of means and windows. Faster loops than 0.1 ms have shorter ones.
+constexpr double kSpan_s = 0.004;
+constexpr double kWindow_s = 0.02;
+constexpr int kLongestSpan = 40;
+constexpr int kLongestWindow = 200;
+
+int periods_of(double duration_s, double period_s, int least, int most) noexcept {
+  return static_cast<int>(
+      std::clamp(std::round(duration_s / period_s), static_cast<double>(least), static_cast<double>(most)));
+}
+
 }  // namespace
+
+InertiaEstimate::InertiaEstimate(const InertiaEstimateConfig& config) noexcept
+    : config_(config),
+      span_(periods_of(kSpan_s, config.period_s, 2, kLongestSpan)),
+      window_(periods_of(kWindow_s, config.period_s, 5, kLongestWindow)) {
+  static_assert(kRoom > static_cast<unsigned>(kLongestSpan + kLongestWindow + kMaxControlDelay));
+}
 
 const InertiaEstimate::Sums& InertiaEstimate::sums(int periods_ago) const noexcept {
   return sums_[(now_ - static_cast<unsigned>(periods_ago)) % kRoom];
@@ -37,10 +55,10 @@ const InertiaEstimate::Sums& InertiaEstimate::sums(int periods_ago) const noexce
 InertiaEstimate::Means InertiaEstimate::means(int periods_ago) const noexcept {
   Means mean;
   mean.velocity_rad_s =
-      (sums(periods_ago).position_rad - sums(periods_ago + kSpan).position_rad) / (kSpan * config_.period_s);
+      (sums(periods_ago).position_rad - sums(periods_ago + span_).position_rad) / (span_ * config_.period_s);
   // Trapezoids: what is summed up is linear between samples where the torque is held.
-  for (int k = 0; k <= kSpan; ++k) {
-    const double share = (k == 0 || k == kSpan ? 0.5 : 1.0) / kSpan;
+  for (int k = 0; k <= span_; ++k) {
+    const double share = (k == 0 || k == span_ ? 0.5 : 1.0) / span_;
     mean.impulse_Nms += share * sums(periods_ago + k).impulse_Nms;
     mean.friction_Nms += share * sums(periods_ago + k).friction_Nms;
   }
@@ -58,27 +76,27 @@ void InertiaEstimate::step(const Sample& sample, const JointModel& model) noexce
   next.impulse_Nms = anew ? 0.0 : before.impulse_Nms + acting_Nm * config_.period_s;
   next.friction_Nms = anew ? 0.0 : before.friction_Nms;
   samples_ = std::min(samples_ + 1, static_cast<int>(kRoom));
-  if (samples_ <= std::max(kSpan, config_.delay_periods)) return;
+  if (samples_ <= std::max(span_, config_.delay_periods)) return;
 
-  const double travel_rad = next.position_rad - sums(kSpan).position_rad;
+  const double travel_rad = next.position_rad - sums(span_).position_rad;
   const double least_rad = std::max(kLeastCounts * config_.encoder_resolution_rad, kLeastTravel_rad);
   const int way = std::abs(travel_rad) < least_rad ? 0 : static_cast<int>(sign(travel_rad));
-  next.friction_Nms += way * model.friction_Nm(travel_rad / (kSpan * config_.period_s)) * config_.period_s;
+  next.friction_Nms += way * model.friction_Nm(travel_rad / (span_ * config_.period_s)) * config_.period_s;
   moving_ = way == 0 || way != way_ ? 0 : moving_ + 1;
   way_ = way;
-  if (moving_ < kSpan + kWindow) return;
+  if (moving_ < span_ + window_) return;
   learn(model.friction_scale_Nm);
   // The next window begins with the mean that this one ended with.
-  moving_ = kSpan;
+  moving_ = span_;
 }
 
 void InertiaEstimate::learn(double friction_scale_Nm) noexcept {
   const Means end = means(0);
-  const Means begin = means(kWindow);
-  const double noise_Nms = kNoiseShare * friction_scale_Nm * kWindow * config_.period_s;
+  const Means begin = means(window_);
+  const double noise_Nms = kNoiseShare * friction_scale_Nm * window_ * config_.period_s;
   const Eigen::Vector3d by =
       Eigen::Vector3d(end.velocity_rad_s - begin.velocity_rad_s, end.friction_Nms - begin.friction_Nms,
-                      friction_scale_Nm * kWindow * config_.period_s) /
+                      friction_scale_Nm * window_ * config_.period_s) /
       noise_Nms;
   const double shown = (end.impulse_Nms - begin.impulse_Nms) / noise_Nms;
   normal_ = kKept * normal_ + by * by.transpose();

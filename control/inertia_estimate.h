@@ -5,8 +5,8 @@
 //   I = integral of (torque - load as it is told),   R = integral of the table's friction, with the sign of the motion
 //
 // J, k (how much of the table's friction there is) and c (a load that nobody tells) are fitted by least squares over windows of T, what
-// lies back counting less. Of w, I and R the means over kSpan periods are taken, which makes the velocity of so many counts one, and the
-// equation stays exact. T is longer than a swing of the gear's spring, so that motor and link count as one. Only windows in which the joint
+// lies back counting less. Of w, I and R the means over 4 ms are taken, which makes the velocity of so many counts one, and the
+// equation stays exact. T is 20 ms, about a swing of the gear's spring (catalogue: 12 to 36 ms), so that motor and link count as one. Only windows in which the joint
 // moves one way all the time tell anything: stiction balances whatever there is. At first k is 1 and c is 0, as far as friction is known;
 // what J was told is not used.
 #pragma once
@@ -37,7 +37,7 @@ class InertiaEstimate {
     double told_load_Nm = 0.0;
   };
 
-  explicit InertiaEstimate(const InertiaEstimateConfig& config) noexcept : config_(config) {}
+  explicit InertiaEstimate(const InertiaEstimateConfig& config) noexcept;
 
   /// The next period's; `model` says what friction there is by the table, and its scale. Where a reading is missing or a period was
   /// left out interrupt() is called in its place.
@@ -54,16 +54,15 @@ class InertiaEstimate {
   static constexpr double kKnown = 0.1;
 
  private:
-  static constexpr int kSpan = 4;         ///< periods of a mean
-  static constexpr int kWindow = 20;      ///< T, periods
-  static constexpr unsigned kRoom = 32U;  ///< a power of two, above kSpan + kWindow and kMaxControlDelay
+  static constexpr unsigned kRoom =
+      512U;  ///< a power of two, above the longest span and window, and kMaxControlDelay
 
   struct Sums {
     double position_rad = 0.0;
     double impulse_Nms = 0.0;   ///< I
     double friction_Nms = 0.0;  ///< R
   };
-  /// Means over kSpan.
+  /// Means over a span.
   struct Means {
     double velocity_rad_s = 0.0;
     double impulse_Nms = 0.0;
@@ -74,6 +73,8 @@ class InertiaEstimate {
   void learn(double friction_scale_Nm) noexcept;
 
   InertiaEstimateConfig config_;
+  int span_;                               ///< periods of a mean
+  int window_;                             ///< T, periods
   std::array<double, kRoom> torque_Nm_{};  ///< commanded, less the load
   std::array<Sums, kRoom> sums_{};
   unsigned now_ = 0;

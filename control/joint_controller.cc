@@ -27,6 +27,11 @@ constexpr double kTurnCounts = 2.0;
 // which swing at 28 to 86 Hz, it leaves half of the slowest and a seventh of the fastest.
 constexpr double kEasing_s = 0.02;
 
+/// Of a velocity by readings.
+double velocity_share(const JointControllerConfig& config) noexcept {
+  return config.link ? velocity_share(config.encoder_side, config.period_s) : 1.0;
+}
+
 StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexcept {
   StateEstimatorConfig estimator;
   estimator.observer.period_s = config.period_s;
@@ -34,7 +39,7 @@ StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexc
   estimator.observer.edge_deviation_counts = config.encoder_deviation_counts;
   estimator.observer.sampling_deviation_s = config.sampling_deviation_s;
   estimator.delay_periods = config.delay_periods;
-  if (config.link) estimator.velocity_share = velocity_share(config.encoder_side, config.period_s);
+  estimator.velocity_share = velocity_share(config);
   return estimator;
 }
 
@@ -91,7 +96,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       monitor_(config.period_s),
       friction_side_(kTurnCounts * count_rad()),
       rest_detector_(config.encoder_resolution_rad),
-      law_(config.period_s, config.encoder_resolution_rad),
+      law_(config.period_s, config.encoder_resolution_rad, velocity_share(config)),
       handover_(config.period_s),
       motion_(motion_limits(config)) {
   config_.motion = motion_;

@@ -61,7 +61,7 @@ struct JointControllerConfig {
   MotorLimits motor;
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
   /// Of the reference, > 0; with use_shaping. Where it is so low that kMaxMeanPeriods do not suffice, accelerations are lower, too.
-  /// Without it moves that begin at rest are eased where a spring may hang on the joint that nobody told of: a step of the acceleration
+  /// Without it moves that begin at rest are eased where a spring may hang on the joint that no model follows: a step of the acceleration
   /// swings it.
   std::optional<double> jerk_limit_rad_s3;
   /// How long a stream whose samples do not come goes on as it was; at least two of its intervals, at most 0.2 s.

@@ -67,7 +67,8 @@ void JointController::go_on_from_here() noexcept {
   const double position_rad = state_.now().position_rad;
   // What two counts make of a joint that rests is no motion to brake.
   const double shown_rad_s = state_.now().velocity_rad_s;
-  const bool rests = std::abs(shown_rad_s) * config_.period_s <= kRestCounts * count_rad();
+  const bool rests =
+      !torque_is_planned() && std::abs(shown_rad_s) * config_.period_s <= kRestCounts * count_rad();
   const double velocity_rad_s = rests ? 0.0 : std::clamp(shown_rad_s, -fastest, fastest);
   reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;

@@ -12,12 +12,11 @@ namespace {
 constexpr double kSoftShare = 0.25;
 
 // Torque that a count makes, per rad: by the position, and by the velocity where that is the difference of two readings.
-double largest_gain_Nm_rad(const GainTable& table, double period_s, bool smooth_velocity) noexcept {
+double largest_gain_Nm_rad(const GainTable& table, double velocity_by_rad) noexcept {
   double largest = 0.0;
   for (int rule = 0; rule < table.primary.rule_count; ++rule) {
     const GainRow gain = table.primary.gain(rule);
-    const double by_velocity = smooth_velocity ? 0.0 : std::abs(gain(2)) / period_s;
-    largest = std::max(largest, std::abs(gain(1)) + by_velocity);
+    largest = std::max(largest, std::abs(gain(1)) + std::abs(gain(2)) * velocity_by_rad);
   }
   return largest;
 }
@@ -29,8 +28,8 @@ void LawInUse::load(const GainTable& table) noexcept {
   primary_ = ScheduledController(table.primary, table.friction, table.plant);
   fallback_ = ScheduledController(table.fallback, table.friction, table.plant);
   if (temperature_C_) primary_.set_temperature(*temperature_C_);
-  position_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, period_s_, true);
-  reading_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, period_s_, false);
+  position_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, 0.0);
+  reading_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, velocity_share_ / period_s_);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
   if (std::exchange(soft_, false)) soften();
   loaded_ = true;

@@ -17,9 +17,11 @@ namespace strainwave {
 
 class LawInUse {
  public:
-  /// `period_s` > 0; `encoder_resolution_rad` >= 0.
-  LawInUse(double period_s, double encoder_resolution_rad) noexcept
-      : period_s_(period_s), encoder_resolution_rad_(encoder_resolution_rad) {}
+  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as StateEstimatorConfig has it.
+  LawInUse(double period_s, double encoder_resolution_rad, double velocity_share = 1.0) noexcept
+      : period_s_(period_s),
+        encoder_resolution_rad_(encoder_resolution_rad),
+        velocity_share_(velocity_share) {}
 
   /// Takes a table that has passed find_defect().
   void load(const GainTable& table) noexcept;
@@ -61,6 +63,7 @@ class LawInUse {
 
   double period_s_;
   double encoder_resolution_rad_;
+  double velocity_share_;
   ScheduledController primary_;
   ScheduledController fallback_;
   std::optional<ScheduledController>

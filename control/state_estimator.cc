@@ -14,6 +14,10 @@ constexpr double kUsualLoad_s = 0.1;
 // To either side: three neighbouring readings with a bit for rounding.
 constexpr double kPlayCounts = 1.01;
 
+// Of a count in a period: what is left of a smoothed velocity of readings that have stopped changing.
+constexpr double kFaded = 0.01;
+constexpr double kLeastMotion_rad = 1e-12;
+
 }  // namespace
 
 StateEstimator::StateEstimator(const StateEstimatorConfig& config) noexcept
@@ -139,6 +143,10 @@ void StateEstimator::read(const JointMeasurement& measurement, EstimateSource so
                                 : mean_velocity_rad_s(measurement);
   read_velocity_rad_s_ = smoothed(read_velocity_rad_s_, mean_rad_s, config_.velocity_share,
                                   std::clamp(measurement.elapsed_periods, 1, kMaxElapsedPeriods));
+  // A mean that fades never ends by itself, and what rests moves by exactly nothing.
+  const double least_rad = std::max(kFaded * config_.observer.encoder_resolution_rad, kLeastMotion_rad);
+  if (mean_rad_s == 0.0 && std::abs(read_velocity_rad_s_) * config_.observer.period_s < least_rad)
+    read_velocity_rad_s_ = 0.0;
   const bool measured = measurement.has_velocity && config_.velocity_share == 1.0;
   now_.velocity_rad_s = measured ? measurement.joint_velocity_rad_s : read_velocity_rad_s_;
   now_.disturbance.load_Nm = usual_load_Nm_;

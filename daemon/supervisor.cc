@@ -157,10 +157,10 @@ void Supervisor::run() {
 }
 
 void Supervisor::turn(std::int64_t now_ns) {
+  take_events();  // first: what was ordered before a fault is not obeyed after it
   publish_challenge();
   take_messages(now_ns);
   orders_.take_replies(now_ns);
-  take_events();
   log_buses();
   publish_owners(now_ns);
   take_states(now_ns);

@@ -24,7 +24,7 @@ SpringDesign design_on_spring(Controller controller, TableRequest request, const
   const double first = request.design.weights.torque;
   SpringVerdict verdict;
   const auto try_weight = [&](int quarters) {
-    request.design.weights.torque = first * std::pow(10.0, quarters / 4.0);
+    request.design.weights.torque = first * std::pow(10.0, static_cast<double>(quarters) / kQuarters);
     GainTable table = design_table(controller, request);
     verdict = box_on_spring(table, gear, spring);
     if (verdict.certified) table.box = verdict.box;

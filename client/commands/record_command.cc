@@ -1,4 +1,4 @@
-// record: every message of a prefix to an LCM event log.
+// record: every message of a prefix to an LCM event log or an MCAP file.
 #include <fmt/format.h>
 
 #include <algorithm>

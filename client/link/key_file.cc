@@ -59,7 +59,7 @@ SecretKeyText read_secret_key(const std::filesystem::path& path) {
   if (size < 0) fail(path, "the key cannot be read");
   const std::string_view content(text.data(), static_cast<std::size_t>(size));
   // First whether it is one: a public key is for everybody to read.
-  const SecretKeyText key = parse(content.substr(0, content.find('\n')), path);
+  SecretKeyText key = parse(content.substr(0, content.find('\n')), path);
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     throw InputError(path.string() + ": other users can reach this secret key: chmod 600 " + path.string() +
                      ", and make a new key if they may have read it");

@@ -103,10 +103,10 @@ class Admission {
   }
   const Ownership& ownership() const noexcept { return ownership_; }
 
-  /// For how many cycles an order that was fresh when it came may wait.
   /// `joint` has faulted: as after a stop, no order from before is obeyed.
   void fault(std::size_t joint) noexcept { challenges_.stop(joint); }
   std::int64_t stop_count(std::size_t joint) const noexcept { return challenges_.stop_count(joint); }
+  /// For how many cycles an order that was fresh when it came may wait.
   std::int64_t order_lifetime_cycles() const noexcept { return challenges_.lifetime_cycles(); }
 
   /// A refusal decided elsewhere (by the loop) belongs to the same counts.

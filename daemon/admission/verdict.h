@@ -29,6 +29,7 @@ inline Verdict refuse(const Requester& requester, Reason reason, const std::stri
 inline Verdict repeat(const Requester& requester) {
   Verdict verdict;
   verdict.kind = Verdict::Kind::kRepeat;
+  verdict.reason = Reason::kOldSequence;
   verdict.requester = requester;
   return verdict;
 }

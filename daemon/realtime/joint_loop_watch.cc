@@ -9,7 +9,7 @@ namespace {
 
 /// A speed this close to its limit is at it.
 constexpr double kAtLimit = 1.0 - 1e-9;
-/// Another inertia than it is told: what the controller is proved to bear, and what the estimate may be off by.
+/// Another inertia than it is told: what studies show that the controller bears (docs/flexible-joint.md), and what the estimate may be off by.
 constexpr double kOtherInertia = 0.3;
 constexpr double kCertainDeviations = 3.0;
 

@@ -58,7 +58,7 @@ bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_
     begin_stretch();
     return false;
   }
-  ++unchanged_periods_;
+  unchanged_periods_ = std::min(unchanged_periods_ + 1, kSettlingPeriods + 1);
   if (unchanged_periods_ <= kSettlingPeriods) {
     torques_Nm_.fill(torque_Nm);
     torque_min_Nm_ = torque_Nm;
@@ -79,7 +79,8 @@ bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_
 }
 
 void PositionCheck::hold_extremes(double torque_Nm) noexcept {
-  torques_Nm_[static_cast<std::size_t>(unchanged_periods_) % kLastingPeriods] = torque_Nm;
+  std::rotate(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
+  torques_Nm_.front() = torque_Nm;
   const auto [low, high] = std::minmax_element(torques_Nm_.begin(), torques_Nm_.end());
   torque_min_Nm_ = std::min(torque_min_Nm_, *high);
   torque_max_Nm_ = std::max(torque_max_Nm_, *low);

@@ -6,22 +6,11 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "sim/studies/statistics.h"
 
 namespace strainwave {
 
 namespace {
-
-double percentile(std::vector<double> values, double fraction) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
-}
-
-double geometric_mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += std::log(value);
-  return values.empty() ? 0.0 : std::exp(sum / static_cast<double>(values.size()));
-}
 
 template <typename Value>
 std::vector<double> values_of(const std::vector<FlexibleRow>& rows, std::size_t contender,

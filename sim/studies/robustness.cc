@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "base/parallel.h"
 #include "sim/studies/link_limit.h"
+#include "sim/studies/statistics.h"
 #include "sim/studies/time_optimal.h"
 
 namespace strainwave {
@@ -63,11 +64,6 @@ ClosedLoopConfig drawn_config(const RobustnessConfig& config, std::size_t index,
   result.setpoint_rad = TimeProfile::constant(config.setpoint_rad, {"setpoint_position_rad"});
   result.duration_s = config.duration_s;
   return result;
-}
-
-double percentile(std::vector<double> values, double fraction) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
 }
 
 template <typename Value>

@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "control/joint_model.h"
 #include "control/scheduled_controller.h"
+#include "sim/studies/statistics.h"
 
 namespace strainwave {
 
@@ -45,12 +46,6 @@ std::vector<double> ratios(const std::vector<TemperatureRow>& rows, const std::s
     values.push_back(row_of(rows, way, sensor, motion, temperature_C).error.rms_rad /
                      row_of(rows, over_way, kRightSensor, motion, temperature_C).error.rms_rad);
   return values;
-}
-
-double geometric_mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += std::log(value);
-  return std::exp(sum / static_cast<double>(values.size()));
 }
 
 std::string below_percent(double ratio) {

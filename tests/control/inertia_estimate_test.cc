@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -91,6 +93,41 @@ TEST(InertiaEstimate, FindsWhatHangsOnTheSpringWhateverItWasTold) {
           ASSERT_TRUE(found);
           EXPECT_NEAR(*found, true_kgm2, 0.05 * true_kgm2);
         }
+}
+
+// Windows last as long, whatever the period.
+TEST(InertiaEstimate, IsTheSameForFasterAndSlowerLoops) {
+  for (const double period_s : {1e-4, 2.5e-4, 1e-3, 4e-3}) {
+    constexpr double kInertia_kgm2 = 0.2;
+    InertiaEstimate estimate({period_s, 2e-5, 2});
+    JointModel model;
+    model.friction_scale_Nm = 1.0;
+    double position_rad = 0.0;
+    double velocity_rad_s = 0.5;
+    std::array<double, 3> torques_Nm{};
+    const int periods = static_cast<int>(3.0 / period_s);
+    for (int k = 0; k < periods; ++k) {
+      std::rotate(torques_Nm.begin(), torques_Nm.end() - 1, torques_Nm.end());
+      torques_Nm[0] = 2.0 * std::cos(20.0 * k * period_s);
+      const double gained_rad_s = torques_Nm[2] / kInertia_kgm2 * period_s;
+      position_rad += period_s * (velocity_rad_s + 0.5 * gained_rad_s);
+      velocity_rad_s += gained_rad_s;
+      estimate.step({2e-5 * std::nearbyint(position_rad / 2e-5), torques_Nm[0], 0.0}, model);
+    }
+    ASSERT_TRUE(estimate.inertia_kgm2()) << period_s;
+    EXPECT_NEAR(*estimate.inertia_kgm2(), kInertia_kgm2, 0.03 * kInertia_kgm2) << period_s;
+  }
+}
+
+TEST(InertiaEstimate, IsForgottenWithTheLoad) {
+  Case what;
+  what.joint = with_friction(table_for(what.told_kgm2), what.temperature_C, 1.0);
+  Watched watched(what);
+  EXPECT_FALSE(watched.estimate().inertia_kgm2());
+  watched.move({0.3, 0.0});
+  ASSERT_TRUE(watched.estimate().inertia_kgm2());
+  watched.estimate().forget();
+  EXPECT_FALSE(watched.estimate().inertia_kgm2());
 }
 
 }  // namespace

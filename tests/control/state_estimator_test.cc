@@ -210,5 +210,21 @@ TEST(StateEstimator, LearnsNothingFromAPositionThatIsNoReading) {
   EXPECT_EQ(told.now().position_rad, 0.0);
 }
 
+// A mean fades and never ends by itself: what rests must be seen to rest.
+TEST(StateEstimator, ASmoothedVelocityOfAReadingThatStandsIsSoonExactlyZero) {
+  for (const double resolution_rad : {0.0, 2e-5}) {
+    StateEstimatorConfig config;
+    config.observer.period_s = 1e-3;
+    config.observer.encoder_resolution_rad = resolution_rad;
+    config.velocity_share = 0.125;
+    StateEstimator estimator(config);
+    estimator.reset(0.0, 0.0, 0.0, 1.0);
+    estimator.step({.joint_position_rad = 4e-5}, {}, EstimateSource::kReadings);
+    EXPECT_GT(estimator.now().velocity_rad_s, 0.0);
+    for (int k = 0; k < 150; ++k) estimator.step({.joint_position_rad = 4e-5}, {}, EstimateSource::kReadings);
+    EXPECT_EQ(estimator.now().velocity_rad_s, 0.0) << resolution_rad;
+  }
+}
+
 }  // namespace
 }  // namespace strainwave
