@@ -35,7 +35,7 @@ constexpr double kLeastChange = 0.003;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
 // Counts by which the reading of a joint that stands as it was found may flicker. What is farther leaves the rest at once.
-constexpr double kFlickerCounts = 1.5;
+constexpr double kStandingFlickerCounts = 1.5;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void JointController::choose_phase(const JointMeasurement& measurement) noexcept
   }
   // By a load, once no brake holds it any more.
   const double shown_rad = std::abs(measurement.joint_position_rad - plan_.target_rad());
-  const bool taken = stands_ && shown_rad > kFlickerCounts * count_rad();
+  const bool taken = stands_ && shown_rad > kStandingFlickerCounts * count_rad();
   if (stands_ && !taken) return;
   // A push that is planned to its end has become another over periods that were left out.
   const bool planned = config_.delay_periods > 1;
