@@ -86,8 +86,9 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
         "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
   }
   if (challenges_.stopped_since(envelope.challenge, requester.joint))
-    return refuse(requester, Reason::kTooOld,
-                  "the joint was stopped or has faulted since this order was made: give it anew from the next state");
+    return refuse(
+        requester, Reason::kTooOld,
+        "the joint was stopped or has faulted since this order was made: give it anew from the next state");
   if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
   return envelope.needs_joint ? check_owner(requester) : std::nullopt;
 }
