@@ -17,6 +17,8 @@ namespace strainwave {
 namespace {
 
 constexpr std::size_t kDatagramsPerTurn = 256;
+/// A turn ends however far behind it is: with little of a processor it would publish for seconds, and a stop would wait for it.
+constexpr std::size_t kStatesPerTurn = 64;
 /// Some client's largest burst, for several clients at once.
 constexpr std::size_t kWaitingOrders = 256;
 constexpr std::size_t kWaitingStops = 64;
@@ -67,10 +69,11 @@ void Gateway::open_network() {
 
 void Gateway::turn(int wait_ms) {
   pollfd descriptor{socket_->descriptor(), POLLIN, 0};
-  if (::poll(&descriptor, 1, wait_ms) > 0) receive();
+  if (::poll(&descriptor, 1, behind_ ? 0 : wait_ms) > 0) receive();
   hand_over();
-  publish_states();
+  // Answers before states: they are few, and somebody waits for each.
   publish_messages();
+  behind_ = !publish_states();
 }
 
 void Gateway::receive() {
@@ -118,20 +121,27 @@ void Gateway::hand_over() {
   if (::write(wake_fd_, &byte, 1) != 1) return;  // it is full of wakes: the core will look
 }
 
-void Gateway::publish_states() {
+bool Gateway::publish_states() {
   StateRecord record{};
-  while (outbound_.states.read(state_cursor_, record, states_dropped_)) {
-    const auto joint = static_cast<std::size_t>(record.joint_index);
-    if (joint >= outbound_.joint_count) continue;
-    record.state.utime = utime_now();
-    record.state.session_id = outbound_.session_id;
-    record.state.challenge = outbound_.challenge.load(std::memory_order_relaxed);
-    record.state.owner_id = outbound_.leases[joint].owner_id.load(std::memory_order_relaxed);
-    record.state.lease_s = outbound_.leases[joint].lease_s.load(std::memory_order_relaxed);
-    lcm_.publish(channel(outbound_.prefix.view(), outbound_.joint_names[joint].view(), channel_kind::kState),
-                 &record.state);
+  std::size_t taken = 0;
+  while (taken < kStatesPerTurn && outbound_.states.read(state_cursor_, record, states_dropped_)) {
+    ++taken;
+    publish(record);
   }
   inbound_.state_records_dropped.store(states_dropped_, std::memory_order_relaxed);
+  return taken < kStatesPerTurn;
+}
+
+void Gateway::publish(StateRecord& record) {
+  const auto joint = static_cast<std::size_t>(record.joint_index);
+  if (joint >= outbound_.joint_count) return;
+  record.state.utime = utime_now();
+  record.state.session_id = outbound_.session_id;
+  record.state.challenge = outbound_.challenge.load(std::memory_order_relaxed);
+  record.state.owner_id = outbound_.leases[joint].owner_id.load(std::memory_order_relaxed);
+  record.state.lease_s = outbound_.leases[joint].lease_s.load(std::memory_order_relaxed);
+  lcm_.publish(channel(outbound_.prefix.view(), outbound_.joint_names[joint].view(), channel_kind::kState),
+               &record.state);
 }
 
 void Gateway::publish_messages() {

@@ -26,7 +26,8 @@ class Gateway {
   bool good() const noexcept { return problem_.empty(); }
   const std::string& problem() const noexcept { return problem_; }
 
-  /// Waits at most `wait_ms` for datagrams, takes a bounded number of them, then publishes what is new.
+  /// Waits at most `wait_ms` for datagrams, takes a bounded number of them, then publishes every message and a bounded number of
+  /// states. Does not wait while there are more of these.
   void turn(int wait_ms);
 
  private:
@@ -35,7 +36,9 @@ class Gateway {
   void sort(const LcmSource& from, std::span<const std::uint8_t> datagram);
   void note_state(std::span<const std::uint8_t> bytes);
   void hand_over();
-  void publish_states();
+  /// Whether none is left.
+  bool publish_states();
+  void publish(StateRecord& record);
   void publish_messages();
 
   const OutboundMemory& outbound_;
@@ -50,6 +53,7 @@ class Gateway {
   std::uint64_t state_cursor_;
   std::uint64_t message_cursor_;
   std::uint64_t states_dropped_ = 0;
+  bool behind_ = false;  ///< states were left to the next turn
 };
 
 }  // namespace strainwave
