@@ -522,6 +522,8 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwave-sim robustness --table x --draws 1.5", {"--draws", "1.5", "a whole number is allowed"}},
     {"strainwavectl statsu", {"'statsu' is not a command", "did you mean status?"}},
     {"strainwavectl banana", {"'banana' is not a command", "there are status"}},
+    {"strainwavectl stop --all", {"'stop' is not a command", "hold"}},
+    {"strainwavectl mvoe elbow 1 --wait", {"'mvoe' is not a command", "did you mean move?"}},
     {"strainwavectl --tiemout_s 1 status", {"--tiemout_s is not an option", "did you mean --timeout_s?"}},
     {"strainwavectl move elbow", {"POSITION_rad is required"}},
     {"strainwavectl move elbow 1 --speed 2",
