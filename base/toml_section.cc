@@ -226,7 +226,7 @@ void TomlSection::refuse_unknown_keys() const {
     if (asked_.contains(name)) continue;
     const std::string* nearest = nearest_word(name, known);
     const std::string hint =
-        nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are: " + join(known, "");
+        nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are " + join(known, "") + ".";
     fail(name, "unknown key; " + hint + " Physical quantities carry their unit in the key.");
   }
 }

@@ -26,6 +26,8 @@ set(CPACK_COMPONENT_DAEMON_DESCRIPTION "Real-time control of strain-wave joints
 # The libraries that the programs link are found by dpkg-shlibdeps.
 set(CPACK_DEBIAN_DAEMON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_DEPENDS "systemd (>= 252), udev, iproute2")
+# strainwavectl plot-record draws with it.
+set(CPACK_DEBIAN_DAEMON_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_DAEMON_PACKAGE_SUGGESTS "strainwave-design, strainwave-spy")
 set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/packaging/strainwave/postinst;${PROJECT_SOURCE_DIR}/packaging/strainwave/prerm;${PROJECT_SOURCE_DIR}/packaging/strainwave/postrm;${PROJECT_SOURCE_DIR}/packaging/strainwave/conffiles")

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace strainwave {
 
@@ -10,6 +12,13 @@ enum class EncoderSide : std::int32_t { kMotor = 0, kLink = 1 };
 /// "motor" or "link".
 constexpr const char* to_text(EncoderSide side) noexcept {
   return side == EncoderSide::kLink ? "link" : "motor";
+}
+
+/// The side of that word; nothing of another.
+constexpr std::optional<EncoderSide> encoder_side_from_text(std::string_view text) noexcept {
+  for (const EncoderSide side : {EncoderSide::kMotor, EncoderSide::kLink})
+    if (text == to_text(side)) return side;
+  return std::nullopt;
 }
 
 }  // namespace strainwave

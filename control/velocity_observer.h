@@ -6,7 +6,8 @@
 // truncated at the edge). So a count change tells the position to within what the joint moves in a period,
 // and a joint at rest learns nothing from the same reading again. The estimate is quiet: at rest, with less
 // torque than friction holds, velocity is exactly zero. Source: assumed-density filtering, Maybeck,
-// "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12.
+// "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12. It knows one mass: what the motions of a joint with a spring
+// show of its inertia, inertia_estimate.h tells.
 #pragma once
 
 #include <Eigen/Core>

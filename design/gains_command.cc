@@ -9,8 +9,10 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
+#include "control/encoder_side.h"
 #include "control/gain_table_json.h"
 #include "control/gear_catalogue.h"
+#include "control/joint_catalogue.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
@@ -22,16 +24,16 @@ namespace strainwave {
 
 namespace {
 
-// The reference case: the RHS-17-6006 of the source with its weights.
+// The reference case: the source's joint, which the catalogue begins with, and its weights.
 struct GainsOptions {
   std::string friction;
   std::string rules_side = "joint";
   std::string out;
   std::string name;
   std::string controller = "C4";
-  std::string joint_model = "rhs17-6006";
+  std::string joint_model = joint_catalogue().front().model;
   std::string gear;
-  double inertia_kgm2 = 0.089;
+  double inertia_kgm2 = joint_catalogue().front().motor_inertia_kgm2;
   double gear_ratio = 50.0;
   double period_s = 1e-3;
   std::string sampling = "zoh";
@@ -45,7 +47,7 @@ struct GainsOptions {
   double max_position_rad = 0.0;
   double max_velocity_rad_s = 0.0;
   double max_integral_rad_s = 0.0;
-  std::string encoder_side = "motor";
+  std::string encoder_side = to_text(EncoderSide::kMotor);
   SpringOptions spring;
 };
 
@@ -150,7 +152,7 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
   design.max_position_rad = given("--max-position_rad", options.max_position_rad);
   design.max_velocity_rad_s = given("--max-velocity_rad_s", options.max_velocity_rad_s);
   design.max_integral_rad_s = given("--max-integral_rad_s", options.max_integral_rad_s);
-  request.encoder_side = options.encoder_side == "link" ? EncoderSide::kLink : EncoderSide::kMotor;
+  request.encoder_side = encoder_side_from_text(options.encoder_side).value();
   request.torque_limit_Nm = options.torque_limit_Nm;
   request.created_utc = utc_now();
   check_request(design);
@@ -219,7 +221,7 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
   command
       .add_option("--encoder-side", options.encoder_side,
                   "where the joint's position is measured; the daemon compares it")
-      ->check(CLI::IsMember({"motor", "link"}))
+      ->check(CLI::IsMember({to_text(EncoderSide::kMotor), to_text(EncoderSide::kLink)}))
       ->capture_default_str();
   command.add_option("--torque-limit_Nm", options.torque_limit_Nm, "largest torque at the joint side")
       ->capture_default_str();

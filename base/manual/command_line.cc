@@ -75,14 +75,16 @@ std::string list(const std::vector<std::string>& words) {
 
 /// What is wrong with words that nothing took.
 std::string explain(const CLI::App& app, const std::vector<std::string>& left) {
+  const std::vector<std::string> commands = command_names(app);
+  const bool no_command = app.get_subcommands().empty() && !commands.empty();
   const auto option =
       std::find_if(left.begin(), left.end(), [](const std::string& word) { return word.starts_with("-"); });
-  if (option != left.end()) {
+  // Of a command that is none, no option is one either.
+  if (option != left.end() && !(no_command && option != left.begin())) {
     const std::string name = option->substr(0, option->find('='));
     return name + " is not an option" + suggestion(name, option_names(app));
   }
-  const std::vector<std::string> commands = command_names(app);
-  if (app.get_subcommands().empty() && !commands.empty()) {
+  if (no_command) {
     const std::string hint = suggestion(left.front(), commands);
     return "'" + left.front() + "' is not a command" +
            (hint.empty() ? "; there are " + list(commands) : hint);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/link/client_error.h"
+#include "client/text/text.h"
 
 namespace strainwave {
 
@@ -98,11 +99,13 @@ std::string to_text(const IdentifyPlan& plan) {
   std::string text;
   for (const Sweep& sweep : plan.sweeps)
     text += fmt::format("  {:8.4f} rad/s  {:+.3f} to {:+.3f} rad and back, {:.2f} s each way\n",
-                        sweep.speed_rad_s, sweep.from_rad, sweep.to_rad, sweep.steady_s);
+                        sweep.speed_rad_s, without_negative_zero(sweep.from_rad, 3),
+                        without_negative_zero(sweep.to_rad, 3), sweep.steady_s);
   for (const double speed : plan.left_out_rad_s)
     text += fmt::format("  {:8.4f} rad/s  left out: the range is too short\n", speed);
   return text + fmt::format("  about {:.0f} s, between {:+.3f} and {:+.3f} rad, at most {:.1f} N.m\n",
-                            plan.duration_s, plan.range_rad.first, plan.range_rad.second, plan.max_torque_Nm);
+                            plan.duration_s, without_negative_zero(plan.range_rad.first, 3),
+                            without_negative_zero(plan.range_rad.second, 3), plan.max_torque_Nm);
 }
 
 std::string to_json(const IdentifyPlan& plan, const std::string& joint) {

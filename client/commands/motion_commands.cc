@@ -4,6 +4,7 @@
 #include "client/commands/commands.h"
 #include "client/link/client_error.h"
 #include "client/link/motion.h"
+#include "client/text/text.h"
 
 namespace strainwave {
 
@@ -27,7 +28,7 @@ auto interruptible(const std::string& joint, const std::string& goes_on, const W
 void home(Client& client, const Output& output, const std::string& joint) {
   interruptible(joint, "homing", [&] { home_joint(client, joint); });
   const double position_rad = client.find(joint)->state.joint_position_rad;
-  say(output, fmt::format("{}: homed, holding at {:.6f} rad", joint, position_rad),
+  say(output, fmt::format("{}: homed, holding at {:.6f} rad", joint, without_negative_zero(position_rad, 6)),
       {{"joint", joint}, {"homed", true}, {"position_rad", position_rad}});
 }
 

@@ -4,6 +4,7 @@
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
 #include "client/link/orders.h"
+#include "client/text/text.h"
 
 namespace strainwave {
 
@@ -21,7 +22,7 @@ void enable(Client& client, const Output& output, const std::string& joint) {
   const std::string mode(to_text(mode_of(view)));
   say(output,
       fmt::format("{}: {}, {} at {:.6f} rad", joint, already ? "enabled already" : "enabled", mode,
-                  view.state.joint_position_rad),
+                  without_negative_zero(view.state.joint_position_rad, 6)),
       {{"joint", joint},
        {"mode", mode},
        {"position_rad", view.state.joint_position_rad},

@@ -111,7 +111,9 @@ class ArrivalWatch {
   }
   /// From the order to when it was inside for good.
   double duration_s() const { return std::max(0.0, seconds_between(start_, *inside_)); }
-  double error_rad(const JointView& view) const { return target_rad_ - view.state.joint_position_rad; }
+  double error_rad(const JointView& view) const {
+    return target_rad_ - view.state.joint_position_rad + 0.0;  // of a negative zero a plain one
+  }
 
  private:
   double target_rad_;

@@ -26,7 +26,7 @@ double JointView::period_s() const noexcept {
 }
 
 double tracking_error_rad(const JointView& view) noexcept {
-  return tracking_error_rad(view.state, view.period_s());
+  return tracking_error_rad(view.state, view.period_s()) + 0.0;  // of a negative zero a plain one
 }
 
 std::vector<std::string> StateView::joints(const std::string& prefix) const {

@@ -5,6 +5,7 @@
 
 #include "base/csv.h"
 #include "client/text/message_csv.h"
+#include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
@@ -36,7 +37,8 @@ std::string state_csv_values(const state_v1& state, int weights) {
     } else {
       line += fmt::format(",{}", csv_number(value));
       if (name == "mode") line += fmt::format(",{}", to_text(static_cast<Mode>(state.mode)));
-      if (name == "fault") line += fmt::format(",{}", to_text(static_cast<Fault>(state.fault)));
+      if (name == "fault")
+        line += fmt::format(",{}", fault_words(static_cast<Fault>(state.fault), state.drive_error));
     }
   });
   return line;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "client/link/client_error.h"
@@ -29,6 +30,13 @@ constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClam
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   return text == "d" || text.starts_with("deg") || text == "\xC2\xB0";
+}
+
+/// `value`, of a negative zero a plain one.
+template <typename Number>
+Number plain_zero(Number value) {
+  if constexpr (std::is_floating_point_v<Number>) return value + Number{0};
+  return value;
 }
 
 /// What a number of the state means, for the fields that are codes; else empty.
@@ -103,8 +111,12 @@ std::string display_name(const JointName& name, const std::vector<JointName>& na
   return several ? name.prefix + "." + name.joint : name.joint;
 }
 
+double without_negative_zero(double value, int decimals) noexcept {
+  return std::abs(value) <= 0.5 * std::pow(10.0, -decimals) ? 0.0 : value;
+}
+
 std::string temperature_text(double temperature_C) {
-  return std::isnan(temperature_C) ? "-" : fmt::format("{:+.1f}", temperature_C);
+  return std::isnan(temperature_C) ? "-" : fmt::format("{:+.1f}", without_negative_zero(temperature_C, 1));
 }
 
 std::string state_header() {
@@ -115,11 +127,12 @@ std::string state_header() {
 
 std::string state_row(const std::string& joint, const JointView& view, double age_s) {
   const state_v1& state = view.state;
-  return fmt::format("{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>13}  {:<16}  {}", joint,
-                     to_text(static_cast<Mode>(state.mode)), state.setpoint_position_rad,
-                     state.joint_position_rad, tracking_error_rad(view), state.torque_commanded_Nm,
-                     temperature_text(state.temperature_used_C),
-                     to_text(static_cast<GainsInUse>(state.gains_in_use)), state_notes(view, age_s));
+  return fmt::format(
+      "{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>13}  {:<16}  {}", joint,
+      to_text(static_cast<Mode>(state.mode)), without_negative_zero(state.setpoint_position_rad, 6),
+      without_negative_zero(state.joint_position_rad, 6), tracking_error_rad(view),
+      without_negative_zero(state.torque_commanded_Nm, 3), temperature_text(state.temperature_used_C),
+      to_text(static_cast<GainsInUse>(state.gains_in_use)), state_notes(view, age_s));
 }
 
 std::string state_notes(const JointView& view, double age_s) {
@@ -142,7 +155,7 @@ std::string state_details(const std::string& joint, const JointView& view, doubl
       text += fmt::format("{:<24} {:.4f}\n", name, fmt::join(value.first(in_use), " "));
     } else {
       const std::string words = meaning(name, view.state);
-      text += fmt::format("{:<24} {}{}\n", name, value, words.empty() ? "" : " (" + words + ")");
+      text += fmt::format("{:<24} {}{}\n", name, plain_zero(value), words.empty() ? "" : " (" + words + ")");
     }
   });
   if (const std::string notes = state_notes(view, age_s); !notes.empty()) {

@@ -27,6 +27,9 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns, std
 /// "elbow", or "SW.elbow" when `names` has joints of several daemons.
 std::string display_name(const JointName& name, const std::vector<JointName>& names);
 
+/// `value` for printing with so many decimals: what they show nothing of is a plain 0, so that no "-0.0" is read.
+double without_negative_zero(double value, int decimals) noexcept;
+
 /// "+21.5", or "-" as long as no temperature is known: temperature_status tells why.
 std::string temperature_text(double temperature_C);
 

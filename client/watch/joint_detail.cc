@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "client/link/orders.h"
 #include "client/text/text.h"
@@ -55,7 +56,8 @@ std::string position_scale(const WatchedJoint& joint) {
   constexpr int kScale = 21;
   std::string scale(kScale, '-');
   scale[static_cast<std::size_t>(std::clamp(share * kScale, 0.0, kScale - 1.0))] = '|';
-  return fmt::format("{:+.2f} [{}] {:+.2f} rad, ", limits.position_min_rad, scale, limits.position_max_rad);
+  return fmt::format("{:+.2f} [{}] {:+.2f} rad, ", without_negative_zero(limits.position_min_rad, 2), scale,
+                     without_negative_zero(limits.position_max_rad, 2));
 }
 
 std::string limits_text(const WatchedJoint& joint) {
@@ -95,10 +97,11 @@ std::string rejects_text(const WatchModel& model, const WatchedJoint& joint) {
 
 void put_text(const WatchModel& model, const WatchedJoint& joint, Lines& lines) {
   const state_v1& state = joint.view.state;
-  lines.put("joint",
-            fmt::format("{} {}, target {:+.6f} rad, setpoint {:+.6f} rad, speed {:+.4f} rad/s",
-                        name_of(model, joint), to_text(mode_of(joint.view)), state.target_position_rad,
-                        state.setpoint_position_rad, state.joint_velocity_rad_s));
+  lines.put("joint", fmt::format("{} {}, target {:+.6f} rad, setpoint {:+.6f} rad, speed {:+.4f} rad/s",
+                                 name_of(model, joint), to_text(mode_of(joint.view)),
+                                 without_negative_zero(state.target_position_rad, 6),
+                                 without_negative_zero(state.setpoint_position_rad, 6),
+                                 without_negative_zero(state.joint_velocity_rad_s, 4)));
   if (const std::string notes = state_notes(joint.view, joint.age_s); !notes.empty())
     lines.put("notes", notes, style_of(joint));
   for (std::size_t i = 0; i < std::min(kRefusalsShown, model.refusals.size()); ++i)
@@ -116,16 +119,23 @@ struct Curve {
   const std::deque<double>* values;
   double least_span;
   bool with_zero;
-  const char* format;
+  std::optional<int> decimals;  ///< none: two digits and an exponent
 };
+
+std::string scale_text(const Curve& curve, double value) {
+  constexpr double kPlainZero = 0.0;  // added to a negative one, makes it plain
+  return curve.decimals
+             ? fmt::format("{:>+11.{}f}", without_negative_zero(value, *curve.decimals), *curve.decimals)
+             : fmt::format("{:>+11.1e}", value + kPlainZero);
+}
 
 void draw_plot(const Curve& curve, bool unicode, Screen& screen, int row, int column, int width, int height) {
   const int room = width - kLabelWidth;
   const PlotScale scale =
       scale_of(*curve.values, plot_capacity(room, unicode), curve.least_span, curve.with_zero);
-  screen.put(row, column, fmt::format(fmt::runtime(curve.format), scale.high), Style::kDim);
+  screen.put(row, column, scale_text(curve, scale.high), Style::kDim);
   screen.put(row + height / 2, column, curve.name, Style::kTitle);
-  screen.put(row + height - 1, column, fmt::format(fmt::runtime(curve.format), scale.low), Style::kDim);
+  screen.put(row + height - 1, column, scale_text(curve, scale.low), Style::kDim);
   const std::vector<std::string> lines = plot(*curve.values, scale, room, height, unicode);
   for (int i = 0; i < height; ++i) {
     screen.put(row + i, column + kLabelWidth - 1, unicode ? "│" : "|", Style::kDim);
@@ -136,10 +146,10 @@ void draw_plot(const Curve& curve, bool unicode, Screen& screen, int row, int co
 void draw_plots(const WatchModel& model, const WatchedJoint& joint, Screen& screen, int first, int end) {
   const PlotSpans spans = plot_spans(joint);
   const std::array<Curve, 4> curves{{
-      {"error_rad", &joint.history.error_rad, spans.error_rad, true, "{:>+11.1e}"},
-      {"torque_Nm", &joint.history.torque_Nm, spans.torque_Nm, true, "{:>+11.2f}"},
-      {"position_rad", &joint.history.position_rad, spans.position_rad, false, "{:>+11.5f}"},
-      {"temp_C", &joint.history.temperature_C, spans.temperature_C, false, "{:>+11.1f}"},
+      {"error_rad", &joint.history.error_rad, spans.error_rad, true, std::nullopt},
+      {"torque_Nm", &joint.history.torque_Nm, spans.torque_Nm, true, 2},
+      {"position_rad", &joint.history.position_rad, spans.position_rad, false, 5},
+      {"temp_C", &joint.history.temperature_C, spans.temperature_C, false, 1},
   }};
   const int abreast = screen.columns() >= kTwoPlotsAbreast ? 2 : 1;
   const int width = (screen.columns() - (abreast - 1)) / abreast;

@@ -35,11 +35,11 @@ const std::array<Column, 10> kColumns{{
      [](const WatchModel&, const WatchedJoint& j) { return std::string(to_text(mode_of(j.view))); }},
     {"setpoint_rad", 12, 6,
      [](const WatchModel&, const WatchedJoint& j) {
-       return fmt::format("{:+12.6f}", j.view.state.setpoint_position_rad);
+       return fmt::format("{:+12.6f}", without_negative_zero(j.view.state.setpoint_position_rad, 6));
      }},
     {"position_rad", 12, 1,
      [](const WatchModel&, const WatchedJoint& j) {
-       return fmt::format("{:+12.6f}", j.view.state.joint_position_rad);
+       return fmt::format("{:+12.6f}", without_negative_zero(j.view.state.joint_position_rad, 6));
      }},
     {"error_rad", 9, 2,
      [](const WatchModel&, const WatchedJoint& j) {
@@ -47,7 +47,7 @@ const std::array<Column, 10> kColumns{{
      }},
     {"torque_Nm", 9, 3,
      [](const WatchModel&, const WatchedJoint& j) {
-       return fmt::format("{:+9.3f}", j.view.state.torque_applied_Nm);
+       return fmt::format("{:+9.3f}", without_negative_zero(j.view.state.torque_applied_Nm, 3));
      }},
     {"temp_C", 6, 4,
      [](const WatchModel&, const WatchedJoint& j) {

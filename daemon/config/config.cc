@@ -111,13 +111,14 @@ SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
   if (security.unsigned_allowed && !simulated)
     section.fail("unsigned_orders",
                  "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
+  const std::string keys = section.text_or("authorized_keys", "");
+  section.refuse_unknown_keys();  // first: what is missing may be there under another name
   if (section.has("authorized_keys"))
-    security.keys = read_authorized_keys(credential_or_file(folder / section.text("authorized_keys")));
+    security.keys = read_authorized_keys(credential_or_file(folder / keys));
   else if (!security.unsigned_allowed)
     section.fail("authorized_keys",
                  "give the file with the public keys that may give orders (strainwavectl keygen makes "
                  "one), or, with simulated joints alone, security.unsigned_orders = \"allow\"");
-  section.refuse_unknown_keys();
   return security;
 }
 
@@ -157,9 +158,9 @@ DaemonConfig read_config(const std::filesystem::path& path) {
     root.fail("recorder", "fewer seconds are allowed: " + std::to_string(std::lround(recorder_MB)) +
                               " MB of memory would be locked for " + std::to_string(config.joints.size()) +
                               " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)));
-  config.security =
-      read_security(root.section_or_empty("security"), config.loop, config.joints, path.parent_path());
+  const TomlSection security = root.section_or_empty("security");
   root.refuse_unknown_keys();
+  config.security = read_security(security, config.loop, config.joints, path.parent_path());
   // Who can write this file decides what its joints do.
   for (const JointConfig& joint : config.joints) require_protected(path, writers_allowed(joint));
   config.warnings = root.warnings();

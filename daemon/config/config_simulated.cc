@@ -39,7 +39,7 @@ TimeProfile read_load(TomlSection& section, const std::filesystem::path& folder)
 // What the controller is told of the drive, as with a real one: by default what is true of it.
 void read_what_is_told(TomlSection& section, const JointPlantConfig& plant, JointConfig& joint) {
   JointControllerConfig& controller = joint.loop.controller;
-  read_encoder_side(section, controller, plant.feedback == EncoderSide::kLink ? "link" : "motor");
+  read_encoder_side(section, controller, plant.feedback);
   const long delay_periods = std::lround(plant.delay.periods);
   if (delay_periods > kMaxControlDelay && !section.has("delay_periods"))
     section.fail("delay_periods", "it must be given, 0 to " + std::to_string(kMaxControlDelay) +

@@ -140,7 +140,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
   measurement.late_periods = reading().position_late_periods;
   measurement.elapsed_periods =
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
-  weigh(measurement);
+  estimate_inertia(measurement);
   motion_ = controller_.step(measurement);
   refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);

@@ -145,7 +145,7 @@ class JointLoop {
   void expire_setpoint(const CycleTime& time) noexcept;
   void advance_homing(const CycleTime& time) noexcept;
   void control(const CycleTime& time) noexcept;
-  void weigh(const JointMeasurement& measurement) noexcept;
+  void estimate_inertia(const JointMeasurement& measurement) noexcept;
   bool shows_other_inertia() const noexcept;
   void take_over(const CycleTime& time) noexcept;
   double load_here_Nm() const noexcept;

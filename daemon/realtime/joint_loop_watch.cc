@@ -16,7 +16,7 @@ constexpr double kCertainDeviations = 3.0;
 }  // namespace
 
 // By the torque that was commanded last. A brake holds whatever the torque.
-void JointLoop::weigh(const JointMeasurement& measurement) noexcept {
+void JointLoop::estimate_inertia(const JointMeasurement& measurement) noexcept {
   if (!measurement.has_position || measurement.elapsed_periods != 1 || measurement.late_periods != 0 ||
       mode_.is(Mode::kReleasing))
     return inertia_.interrupt();

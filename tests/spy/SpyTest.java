@@ -18,6 +18,7 @@ import javax.swing.JMenuItem;
 import javax.swing.JTable;
 import javax.swing.SwingUtilities;
 import strainwave.spy.JointPlot;
+import strainwave.spy.Numbers;
 
 /**
  * Starts the viewer as strainwave-spy does, in a real X server, beside a running daemon, and uses it with mouse events: every
@@ -32,6 +33,11 @@ final class SpyTest {
       "strainwave.timing_v1"));
 
   public static void main(String[] arguments) throws Exception {
+    expectText("+0.000", "%+.3f", -0.0);
+    expectText("0.0", "%.1f", -0.04);
+    expectText("-0.1", "%.1f", -0.06);
+    expectText("+0.0e+00", "%+.1e", -0.0);
+    expectText("-1.0e-09", "%+.1e", -1e-9);
     lcm.spy.Spy.main(new String[0]);
     final JTable table = await("the viewer's table", () -> find(JTable.class));
     for (Map.Entry<String, String> expected : TYPES.entrySet())
@@ -53,6 +59,9 @@ final class SpyTest {
     final JointPlot plot = await("the plot's window", () -> find(JointPlot.class));
     place(SwingUtilities.getWindowAncestor(plot), 645, 0, 780, 780);
 
+    final String[] zeros = plot.labels(-1e-12);
+    System.out.println("a little below zero is labelled " + Arrays.toString(zeros));
+    if (!Arrays.stream(zeros).allMatch("0"::equals)) System.exit(1);
     await("200 points of every curve",
         () -> Arrays.stream(plot.drawnPoints()).allMatch(points -> points >= 200) ? plot : null);
     // Labels change with the motion, and the axes follow at the next drawing: mostly they are aligned, however busy the machine.
@@ -97,6 +106,13 @@ final class SpyTest {
       Thread.sleep(100);
     }
     return null;
+  }
+
+  private static void expectText(String expected, String format, double value) {
+    final String text = Numbers.text(format, value);
+    if (text.equals(expected)) return;
+    System.err.println(value + " by " + format + " is " + text + ", not " + expected);
+    System.exit(1);
   }
 
   private static <T> T seenOrEnd(String what, T found) {

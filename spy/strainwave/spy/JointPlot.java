@@ -79,6 +79,11 @@ public final class JointPlot extends JPanel {
         .toArray(int[][]::new);
   }
 
+  /** For tests: how each chart's value axis writes `value`. */
+  public String[] labels(double value) {
+    return Arrays.stream(all).map(chart -> chart.getAxisY().getFormatter().format(value)).toArray(String[]::new);
+  }
+
   private static ITrace2D trace(String name, Color color, float width) {
     final ITrace2D trace = new Trace2DLtd(POINTS, name);
     trace.setColor(color);
@@ -92,6 +97,7 @@ public final class JointPlot extends JPanel {
     for (ITrace2D trace : traces) chart.addTrace(trace);
     title(chart.getAxisX(), "s");
     title(chart.getAxisY(), unit);
+    chart.getAxisY().setFormatter(new Numbers.Labels());
     chart.getAxisY().setPaintGrid(true);
     final JPanel place = new JPanel(new BorderLayout());
     place.setBackground(chart.getBackground());
@@ -154,9 +160,10 @@ public final class JointPlot extends JPanel {
     final state_v1 state = sample.state();
     final String mode = state.mode >= 0 && state.mode < MODES.length ? MODES[state.mode] : "mode " + state.mode;
     final String fault = state.fault == 0 ? "" : ", fault " + state.fault + " (docs/faults.md)";
-    return String.format("%s%s   position %+.6f rad   error %+.1e rad   torque %+.3f N m   %s", mode, fault,
-        state.joint_position_rad, sample.error_rad(), state.torque_applied_Nm,
+    return String.format("%s%s   position %s rad   error %s rad   torque %s N m   %s", mode, fault,
+        Numbers.text("%+.6f", state.joint_position_rad), Numbers.text("%+.1e", sample.error_rad()),
+        Numbers.text("%+.3f", state.torque_applied_Nm),
         Double.isNaN(state.temperature_used_C) ? "no temperature"
-                                               : String.format("%.1f °C", state.temperature_used_C));
+                                               : Numbers.text("%.1f", state.temperature_used_C) + " °C");
   }
 }

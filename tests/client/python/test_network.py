@@ -1,4 +1,4 @@
-"""Over real multicast: what anybody may send to the group, and a daemon that wants signatures. In scripts/private-network."""
+"""Over real multicast: what anybody may send to the group, a daemon that wants signatures, and which group is meant. In scripts/private-network."""
 import os
 import pathlib
 import random
@@ -8,9 +8,9 @@ import tempfile
 import time
 import unittest
 
-from strainwave import Joint, Mode, NoAnswer, Reason, Refused, messages, state_v1
+from strainwave import InvalidInput, Joint, Mode, NoAnswer, Reason, Refused, messages, state_v1
 from strainwave.lcm_wire import encode_short
-from strainwave.network import Network
+from strainwave.network import Network, parse_url
 
 GROUP = "239.255.76.67"
 SOURCE = pathlib.Path(os.environ["STRAINWAVE_SOURCE_DIR"])
@@ -113,6 +113,18 @@ class ADaemonThatWantsSignatures(unittest.TestCase):
         self.daemon.wait(60)
         with self.assertRaisesRegex(NoAnswer, "the stop was sent 4 times, and nothing answered"):
             elbow.disable()
+
+
+class Urls(unittest.TestCase):
+    def test_are_read_as_lcm_does(self):
+        self.assertEqual(parse_url("udpm://239.1.2.3:99?ttl=1"), ("239.1.2.3", 99, 1))
+        self.assertEqual(parse_url("udpm://"), ("239.255.76.67", 7667, 0))
+
+    def test_that_are_none_are_refused(self):
+        for url in ("", "tcpq://1.2.3.4:5", "udpm://10.0.0.1:7667", "udpm://239.255.76.67:0", "udpm://239.255.76.67:99999",
+                    "udpm://239.255.76.67:x", "udpm://host:7667", "udpm://239.255.76.67?ttl=x", 5):
+            with self.assertRaisesRegex(InvalidInput, "lcm_url = "):
+                parse_url(url)
 
 
 if __name__ == "__main__":

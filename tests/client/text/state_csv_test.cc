@@ -9,6 +9,8 @@
 #include <random>
 #include <sstream>
 
+#include "lcmtypes/reading_doubt.h"
+
 namespace strainwave {
 namespace {
 
@@ -38,6 +40,12 @@ TEST(StateCsv, HasTheWeightsInUseAndWordsForNumbers) {
   };
   EXPECT_EQ(at("mode_text"), "homing");
   EXPECT_EQ(at("fault_text"), "following error");
+  state.fault = 5;
+  state.drive_error = doubt_number(ReadingDoubt::kJump, 0.05);
+  EXPECT_NE(state_csv_values(state, 3).find(
+                ",5,implausible reading: the position jumped by 0.05 rad from one reading to the next,"),
+            std::string::npos)
+      << state_csv_values(state, 3);
   EXPECT_EQ(at("temperature_weights_1"), "0");
   EXPECT_EQ(at("temperature_weights_2"), "") << "this state has two rules";
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "client/link/client_error.h"
@@ -78,6 +80,35 @@ TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
        {"elbow", "holding", "+0.100000", "+0.100002", "-2.0e-06", "-3.250", "-10.0", "scheduled"}) {
     EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
   }
+}
+
+TEST(StateRow, ShowsNoNegativeZero) {
+  JointView view = healthy();
+  view.state.setpoint_position_rad = -0.0;
+  view.state.joint_position_rad = -4e-7;
+  view.state.torque_commanded_Nm = -4e-4;
+  view.state.torque_applied_Nm = -0.0;
+  view.state.temperature_used_C = -0.04;
+  view.state.target_position_rad = -0.0;
+  const std::string row = state_row("elbow", view, 0.0);
+  EXPECT_EQ(row.find("-0.0"), std::string::npos) << row;
+  const std::string details =
+      state_details("elbow", view, 0.0);  // digit for digit, but for the sign of nothing
+  EXPECT_EQ(details.find(" -0\n"), std::string::npos) << details;
+  EXPECT_NE(details.find("-0.0004"), std::string::npos) << details;
+  view.state = healthy().state;
+  view.state.setpoint_position_rad = -0.0;
+  EXPECT_NE(state_row("elbow", view, 0.0).find("+0.0e+00"), std::string::npos);
+}
+
+TEST(NegativeZero, IsPlainAndAllElseIsKept) {
+  for (const double nothing : {-0.0, 0.0, -0.04, 0.04})
+    EXPECT_FALSE(std::signbit(without_negative_zero(nothing, 1))) << nothing;
+  for (const double something : {-0.06, -0.1, 0.06, -30.0})
+    EXPECT_EQ(without_negative_zero(something, 1), something);
+  EXPECT_TRUE(std::isnan(without_negative_zero(std::numeric_limits<double>::quiet_NaN(), 1)));
+  EXPECT_EQ(temperature_text(-0.04), "+0.0");
+  EXPECT_EQ(temperature_text(-0.06), "-0.1");
 }
 
 TEST(StateRow, ShowsNoNumberForATemperatureThatWasNeverSeen) {

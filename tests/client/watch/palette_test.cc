@@ -23,7 +23,7 @@ TEST(Palette, IsReadOnBlackAndOnWhite) {
     if (paint.foreground < 0) continue;  // the terminal's own on its own
     ASSERT_GE(paint.foreground, 16);
     for (const int background : {kBlack, kWhite})
-      EXPECT_GE(contrast(paint.foreground, paint.background < 0 ? background : paint.background), 4.0)
+      EXPECT_GE(contrast(paint.foreground, paint.background < 0 ? background : paint.background), 4.5)
           << static_cast<int>(style) << " on " << background;
   }
 }

@@ -109,7 +109,7 @@ TEST_P(WatchPicture, CanBeReadOnItsTerminal) {
   for (int row = 0; row < drawn.rows(); ++row)
     for (int column = 0; column < drawn.columns(); ++column) {
       const auto colours = colours_of(drawn.at(row, column), theme_);
-      ASSERT_GE(contrast(colours.foreground, colours.background), 4.0) << row << ", " << column;
+      ASSERT_GE(contrast(colours.foreground, colours.background), 4.5) << row << ", " << column;
     }
 }
 
@@ -141,6 +141,25 @@ TEST_P(WatchPicture, ASelectedFaultStandsOut) {
   const auto plain = colours_of({" ", Style::kPlain, true}, theme_);
   const auto alarm = colours_of(cell, theme_);
   EXPECT_NE(std::pair(plain.foreground, plain.background), std::pair(alarm.foreground, alarm.background));
+}
+
+TEST_P(WatchPicture, HasNoNegativeZero) {
+  WatchedJoint& joint = model_.joints.front();
+  state_v1& state = joint.view.state;
+  state.joint_position_rad = state.setpoint_position_rad = state.joint_velocity_rad_s = -1e-8;
+  state.torque_applied_Nm = state.target_position_rad = -0.0;
+  state.temperature_used_C = -0.04;
+  joint.limits->position_min_rad = -1e-5;
+  joint.history.error_rad = {-0.0};
+  joint.history.torque_Nm = {-0.001, 10.0};
+  joint.history.temperature_C = {-0.04, 10.0};
+  joint.history.position_rad = {-1e-6, 1.0};
+  const Screen drawn = screen();
+  for (int row = 0; row < drawn.rows(); ++row) {
+    const std::string text = drawn.text(row) + " ";
+    const auto zero = text.find("-0.0");
+    EXPECT_TRUE(zero == text.npos || text.find_first_of("123456789e", zero) < text.find(' ', zero)) << text;
+  }
 }
 
 TEST_P(WatchPicture, UsesItsRoom) {

@@ -1,0 +1,66 @@
+"""A network that a test plays, and a test of the orders that a joint sends on it; each kind of order has a test file of its own."""
+import threading
+import unittest
+
+from strainwave import Joint, Mode, Reason, ack_v1, command_v1, messages, path_v1, setpoint_v2, state_v1
+from strainwave.network import Network
+
+COMMAND, SETPOINT, PATH = "SW.elbow.COMMAND", "SW.elbow.SETPOINT", "SW.elbow.PATH"
+TYPES = {COMMAND: command_v1, SETPOINT: setpoint_v2, PATH: path_v1}
+
+
+class PlayedNetwork:
+    """Of Network what a joint needs; `daemon` sees each message as it is published and may answer at once."""
+
+    url = "udpm://played"
+    listen, wait_until = Network.listen, Network.wait_until
+
+    def __init__(self):
+        self.changed = threading.Condition(threading.RLock())
+        self.joints = set()
+        self._handlers = {}
+        self.published = []
+        self.daemon = lambda channel, message: None
+
+    def publish(self, channel, message):
+        self.published.append((channel, message))
+        self.daemon(channel, message)
+
+    def deliver(self, kind, message):
+        with self.changed:
+            for handler in self._handlers[f"SW.elbow.{kind}".encode()]:
+                handler()(message.encode())
+            self.changed.notify_all()
+
+
+def published(channel, message):
+    return messages.decode_exactly(TYPES[channel], message)
+
+
+class PlayedOrders(unittest.TestCase):
+    def setUp(self):
+        self.network = PlayedNetwork()
+        shared = Network.shared
+        self.addCleanup(setattr, Network, "shared", shared)
+        Network.shared = lambda url=None: self.network
+        self.elbow = Joint("elbow", key="", timeout_s=30)
+        self.impatient_elbow = Joint("elbow", key="", timeout_s=0.2)
+        self.state = messages.blank(state_v1)
+        self.state.session_id, self.state.challenge = 11, 22
+
+    def publish_state(self, mode=Mode.HOLDING, **fields):
+        self.state.mode = int(mode)
+        for name, value in fields.items():
+            setattr(self.state, name, value)
+        self.network.deliver("STATE", self.state)
+
+    def answer(self, order, accepted=1, reason=Reason.ACCEPTED, text="", **fields):
+        ack = messages.blank(ack_v1)
+        ack.sender_id, ack.sequence, ack.accepted, ack.reason = order.sender_id, order.sequence, accepted, int(reason)
+        ack.text = text.encode().ljust(232, b"\0")
+        for name, value in fields.items():
+            setattr(ack, name, value)
+        self.network.deliver("ACK", ack)
+
+    def orders(self):
+        return [published(*entry) for entry in self.network.published]

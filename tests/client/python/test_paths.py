@@ -1,0 +1,45 @@
+"""Paths over a network that the test plays."""
+import unittest
+
+from played_orders import PATH, PlayedOrders, published
+from strainwave import Action, InvalidInput, Path, Reason, Refused
+
+
+class Paths(PlayedOrders):
+    KNOTS = [(0, 0.25, 0), (0.5, 0.5, 0.75), (1, 0.75, 0)]
+
+    def test_are_loaded_and_then_started(self):
+        self.publish_state()
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        path = Path({self.elbow: self.KNOTS})
+        path.start()
+        path.pause()
+        path.resume()
+        part, *commands = self.orders()
+        self.assertNotEqual(part.path_id, 0)
+        self.assertEqual((part.joint_count, part.knot_count), (1, 3))
+        knots = list(zip(part.time_s, part.position_rad, part.velocity_rad_s))
+        self.assertEqual(knots[:3], self.KNOTS)
+        self.assertEqual([order.action for order in commands], [Action.RESUME, Action.PAUSE, Action.RESUME])
+
+    def test_that_are_refused_start_nothing(self):
+        self.publish_state()
+        self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE, "elbow, knot 1")
+        with self.assertRaisesRegex(Refused, "elbow: its part of the path refused .3, out of range.: elbow, knot 1"):
+            Path({self.elbow: self.KNOTS}).start()
+        self.assertEqual([channel for channel, _ in self.network.published], [PATH])
+
+    def test_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
+        Path({self.elbow: [(i, 0, 0) for i in range(320)]})
+        for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knots"),
+                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1 = 'x'"),
+                             ([0, 0.25, 0], "knot 0 = 0: .time_s"), (None, "None: a list of knots")):
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                Path({self.elbow: knots})
+        for wrong, words in (({"elbow": self.KNOTS}, "'elbow': a Joint is allowed, as Joint\\('elbow'\\)"), (self.KNOTS, "{joint: ")):
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                Path(wrong)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,134 @@
+"""Streams over a network that the test plays: which cycles samples are for, what is late, and how a stream ends."""
+import unittest
+
+from played_orders import COMMAND, SETPOINT, PlayedOrders, published
+from strainwave import InvalidInput, Mode, NotDone, Reason, Refused, limits_v1, messages
+
+
+class Streams(PlayedOrders):
+    def stream(self, **options):
+        limits = messages.blank(limits_v1)
+        limits.period_s, limits.position_min_rad, limits.position_max_rad = 0.001, -1.0, 1.0
+        self.publish_state(Mode.TRACKING, cycle=1000)
+        self.network.deliver("LIMITS", limits)
+        return self.elbow.stream(**options)
+
+    def test_send_samples_for_cycles_that_far_apart(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.9)
+        for t in (5.0, 5.01, 5.0251):
+            self.assertTrue(stream.put(t, 0.5, 2.0))
+        first, second, third = self.orders()
+        self.assertEqual((second.at_cycle - first.at_cycle, third.at_cycle - first.at_cycle), (10, 25))
+        self.assertGreaterEqual(first.at_cycle, 1900)
+        self.assertEqual([order.begins_stream for order in self.orders()], [1, 0, 0])
+        self.assertEqual({(order.stream_id, order.derivatives, order.velocity_rad_s) for order in self.orders()},
+                         {(first.stream_id, 1, 2.0)})
+
+    def test_leave_out_and_count_samples_that_are_late(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(valid_for_s=3.0)
+        stream.put(0, 0.5)
+        self.publish_state(Mode.TRACKING, cycle=3000)
+        self.assertFalse(stream.put(1, 0.5))
+        self.assertEqual((stream.late, len(self.network.published)), (1, 1))
+        self.publish_state(Mode.TRACKING, cycle=9000)
+        with self.assertRaisesRegex(NotDone, "the stream is over"):
+            stream.put(4, 0.5)
+
+    def test_that_have_ended_raise_with_the_next_sample(self):
+        def daemon(*entry):
+            order = published(*entry)
+            self.answer(order, order.begins_stream, Reason.STREAM_ENDED if not order.begins_stream else Reason.ACCEPTED)
+
+        self.network.daemon = daemon
+        stream = self.stream(ahead_s=0.9)
+        stream.put(0, 0.1)
+        stream.put(0.01, 0.1)
+        with self.assertRaisesRegex(Refused, "setpoint stream has ended"):
+            stream.put(0.02, 0.1)
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.03, 0.1)
+        self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
+
+    def test_refuse_samples_after_their_close_and_begin_nothing(self):
+        def daemon(channel, message):
+            self.answer(published(channel, message))
+            self.publish_state(Mode.HOLDING, cycle=3000)
+
+        self.network.daemon = daemon
+        with self.stream(ahead_s=0.9) as stream:
+            stream.put(0, 0.1)
+        sent = len(self.network.published)
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.5, 0.1)
+        self.assertEqual(len(self.network.published), sent)
+
+    def stream_refused(self, reason, **answer):
+        """A stream whose second sample is refused; the joint holds when it is told to."""
+        def daemon(channel, message):
+            order = published(channel, message)
+            refused = channel == SETPOINT and not order.begins_stream
+            self.answer(order, not refused, reason if refused else Reason.ACCEPTED,
+                        **({name: value(order) for name, value in answer.items()} if refused else {}))
+            if channel == COMMAND:
+                self.publish_state(Mode.HOLDING, cycle=3000)
+
+        self.network.daemon = daemon
+        return self.stream(ahead_s=0.9)
+
+    def test_count_samples_that_a_later_one_overtook_and_go_on(self):
+        stream = self.stream_refused(Reason.OLD_SEQUENCE, last_sequence=lambda order: order.sequence)
+        for t in (0, 0.01, 0.02):
+            stream.put(t, 0.1)
+        self.assertGreaterEqual(stream.late, 1)
+
+    def test_end_when_another_program_is_ahead(self):
+        stream = self.stream_refused(Reason.OLD_SEQUENCE, last_sequence=lambda order: order.sequence + 5)
+        stream.put(0, 0.1)
+        stream.put(0.01, 0.1)
+        with self.assertRaisesRegex(Refused, "sequence not rising"):
+            stream.put(0.02, 0.1)
+
+    def test_whose_samples_are_refused_end_in_a_hold_and_leave_the_next_stream_alone(self):
+        with self.assertRaises(Refused), self.stream_refused(Reason.OUT_OF_RANGE) as stream:
+            for t in (0, 0.01, 0.02):
+                stream.put(t, 0.1)
+        self.assertEqual(self.network.published[-1][0], COMMAND)
+        late_refusal = next(order for order in self.orders() if order.sequence and not getattr(order, "begins_stream", 1))
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.9)
+        stream.put(0, 0.1)
+        self.answer(late_refusal, False, Reason.OUT_OF_RANGE)
+        self.assertTrue(stream.put(0.01, 0.1))
+        self.assertTrue(stream.put(0.02, 0.1))
+
+    def test_stop_with_what_their_program_raises(self):
+        def daemon(channel, message):
+            order = published(channel, message)
+            self.answer(order)
+            if channel == COMMAND:
+                self.publish_state(Mode.HOLDING)
+
+        self.network.daemon = daemon
+        with self.assertRaises(ZeroDivisionError), self.stream() as stream:
+            stream.put(0, 0.1)
+            stream.put(0.01, 1 / 0)
+        self.assertEqual([channel for channel, _ in self.network.published], [SETPOINT, COMMAND])
+        self.assertEqual(self.orders()[-1].action, 3)
+
+    def test_refuse_samples_that_make_no_sense_before_anything_is_sent(self):
+        stream = self.stream()
+        for attempt, words in ((lambda: stream.put(0, 1.5), r"position_rad = 1.5: -1.0 to 1.0 is allowed"),
+                               (lambda: stream.put(float("nan"), 0), "t = nan"), (lambda: stream.put(0, "there"), "position_rad = 'there'"),
+                               (lambda: stream.put(0, 0, acceleration_rad_s2=1), "only with velocity_rad_s"),
+                               (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
+                               (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
+                               (lambda: self.elbow.stream(ahead_s=1.5), "ahead_s = 1.5: above 0 to 0.9")):
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                attempt()
+        self.assertEqual(self.network.published, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
