@@ -107,6 +107,23 @@ TEST(ReferencePlan, EasesEveryMotionUntilItEndsIt) {
   EXPECT_GT(largest_step_rad_s2(plan, last, 80), 50.0);
 }
 
+// As docs/theory.md tells of a hold.
+TEST(ReferencePlan, StopsFartherByItsLagTimesTheSpeed) {
+  ReferencePlan plan = eased();
+  plan.ease();
+  plan.set_target(10.0);
+  Reference last;
+  for (int k = 0; k < 300; ++k) last = plan.step();
+  ASSERT_NEAR(last.velocity_rad_s, kLimits.velocity_rad_s, 1e-9);
+  const Reference at = plan.step();
+  plan.stop();
+  while (!plan.rests()) last = plan.step();
+  const double speed = at.velocity_rad_s;
+  // The sample of the stop itself is one more period.
+  EXPECT_NEAR(last.position_rad - at.position_rad - kPeriod_s * speed,
+              speed * 0.5 * kMean_s + 0.5 * speed * speed / kLimits.deceleration_rad_s2, 1e-5);
+}
+
 TEST(ReferencePlan, GoesOnWhereTheMeanIsWhereEasingEnds) {
   ReferencePlan plan = eased();
   plan.ease();
