@@ -13,6 +13,14 @@ constexpr double kFirstInterval_s = 0.01;
 constexpr double kLeastAhead_s = 0.02;
 // What is bridged when samples are missing.
 constexpr double kBridgedIntervals = 2.0;
+// A motion is smooth whose acceleration changes by no more than this share of the limit from one sample to the next.
+constexpr double kSmooth = 0.1;
+// For so long a smooth motion's acceleration goes on.
+constexpr double kSmoothIntervals = 2.5;
+// Streams whose jerk is carried on: just those of 100 Hz.
+constexpr double kSlow_s = 0.009;
+// By so much of an interval a sample is late before it is missing.
+constexpr double kLate = 0.5;
 constexpr double kLongestBridge_s = 0.2;
 // Share of the room beyond the samples in which a target is back.
 constexpr double kBack = 0.5;
@@ -61,7 +69,7 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   if (sample.in_periods > 0) {
     knot.at += static_cast<double>(sample.in_periods);
   } else {
-    clock_in(sample.position_rad);
+    clock_in(sample);
     knot.at = arrival_;
   }
   // What is not newer than the last has nothing to add.
@@ -69,11 +77,13 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   if (waiting_.empty() && now_ > to_.at && !to_.rests()) missed_ = true;
   if (std::exchange(missed_, false) && past_count_ > 0) catch_up_in(knot.at - past_[0].at);
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
-  const Knot* last = sample_before(knot.at);
-  const Before before{last, last != nullptr ? sample_before(last->at) : nullptr};
+  const double apart_s = sample.derivatives == 0 && sample.in_periods == 0 ? 2.0 * kApart_s : kApart_s;
+  const Knot* last = sample_before(knot.at, apart_s);
+  const Before before{last, last != nullptr ? sample_before(last->at, apart_s) : nullptr};
   mean_s_ = last != nullptr ? seconds(knot.at - last->at) : 0.0;
   mean_rad_s_ = last != nullptr ? (knot.position_rad - last->position_rad) / mean_s_ : 0.0;
   knot.due = knot.at;
+  knot.sent_ahead = knot.at - present() - lead_;
   knot.load = sample.load;
   knot.sent_rad_s = sample.velocity_rad_s;
   if (sample.derivatives > 0 && contradicts_itself(knot, before)) sample.derivatives = 0;
@@ -83,10 +93,13 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   }
   knot.moving = sample.derivatives > 0;
   estimate_derivatives(sample, before, knot);
+  knot.smooth =
+      before.first != nullptr && std::abs(knot.jerk_rad_s3) * mean_s_ <= kSmooth * reach_.acceleration_rad_s2;
   remember(knot);
   if (sample.in_periods > 0) return queue(sample, knot);
   waiting_.clear();
-  lead_to(carried_forward(sample, knot, lead_ + least_ahead()));
+  const double ahead = lead_ + least_ahead();
+  lead_to(carried_forward(sample, knot, ahead, ahead));
 }
 
 // Between samples, in periods.
@@ -102,33 +115,6 @@ double StreamTarget::least_ahead() const noexcept {
 // Whatever comes meanwhile.
 void StreamTarget::catch_up_in(double periods) noexcept {
   caught_up_at_ = std::max(caught_up_at_, now_ + std::min(periods, kLongestBridge_s / period_s_));
-}
-
-// By `least_ahead` periods from its time, or until what was missed is caught up with.
-StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, const Knot& knot,
-                                                 double least_ahead) const noexcept {
-  const double interval = expected_interval();
-  // One that was held up has its time behind it.
-  const double late = present() - knot.at > interval ? present() - knot.at : 0.0;
-  const double ahead = std::max(late + least_ahead, caught_up_at_ - knot.at);
-  const double lag = sample.derivatives == 0 ? std::clamp(least_ahead, 0.0, interval) : 0.0;
-  const double carried_s = knot.velocity_rad_s == 0.0 ? 0.0 : seconds(ahead - lag);
-  // The jerk matters to slow streams; in fast ones it would be their noise.
-  const double jerk_rad_s3 = ahead <= interval + lead_ ? knot.jerk_rad_s3 : 0.0;
-  Knot carried = knot;
-  carried.carried = true;
-  carried.at = std::max(knot.at + ahead, now_ + 1.0);
-  carried.due = std::max(knot.at + least_ahead, now_ + 1.0);
-  carried.acceleration_rad_s2 += carried_s * jerk_rad_s3;
-  carried.velocity_rad_s += carried_s * (knot.acceleration_rad_s2 + 0.5 * carried_s * jerk_rad_s3);
-  carried.position_rad +=
-      carried_s *
-      (knot.velocity_rad_s + carried_s * (0.5 * knot.acceleration_rad_s2 + carried_s * jerk_rad_s3 / 6.0));
-  if (mean_s_ == 0.0) return carried;
-  const double line_rad = knot.position_rad + carried_s * mean_rad_s_;
-  const double farthest_rad = 0.5 * reach_.acceleration_rad_s2 * carried_s * (carried_s + mean_s_);
-  carried.position_rad = std::clamp(carried.position_rad, line_rad - farthest_rad, line_rad + farthest_rad);
-  return carried;
 }
 
 double StreamTarget::way_ahead_rad() const noexcept {
@@ -204,9 +190,10 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
     return target;
   }
   // Where the motion was carried on, and until it has caught up, it has the speed that its acceleration made of the samples'.
-  const double carried_rad_s = now_ > to_.at          ? std::abs(target.velocity_rad_s)
-                               : now_ < caught_up_at_ ? std::abs(to_.velocity_rad_s)
-                                                      : 0.0;
+  const bool carried = now_ < caught_up_at_ || (to_.carried && to_.smooth);
+  const double carried_rad_s = now_ > to_.at ? std::abs(target.velocity_rad_s)
+                               : carried     ? std::abs(to_.velocity_rad_s)
+                                             : 0.0;
   const Hull known = this->known();
   const double fastest_rad_s = std::min(std::max(known.fastest_rad_s, carried_rad_s), reach_.velocity_rad_s);
   const double since_s = std::max(0.0, seconds(std::max(now_, caught_up_at_) - past_[0].at));
@@ -258,7 +245,8 @@ StreamTarget::State StreamTarget::at(double period) noexcept {
 }
 
 double StreamTarget::longest_bridge_s() const noexcept {
-  return std::min(std::max(bridge_s_, kBridgedIntervals * seconds(expected_interval())), kLongestBridge_s);
+  const double interval_s = seconds(expected_interval());
+  return std::min(std::max(bridge_s_, kBridgedIntervals * interval_s) + kLate * interval_s, kLongestBridge_s);
 }
 
 StreamTarget::State StreamTarget::between(double period) const noexcept {
@@ -279,16 +267,26 @@ StreamTarget::State StreamTarget::between(double period) const noexcept {
           (2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / (T * T)};
 }
 
-// As it was: with its acceleration for one interval, and then with the velocity that this gave.
+// In fast streams it would be their noise.
+double StreamTarget::carried_on_jerk_rad_s3(const Knot& knot) const noexcept {
+  return knot.smooth && seconds(expected_interval()) > kSlow_s ? knot.jerk_rad_s3 : 0.0;
+}
+
+// As it was: with its acceleration for an interval, or where it is smooth for as long as samples may be missing, and then with the velocity
+// that this gave.
 StreamTarget::State StreamTarget::beyond(double period) const noexcept {
-  const double interval_s = seconds(expected_interval());
-  const double since_s = seconds(period - to_.at);
-  const double speeding_s = std::min(since_s, interval_s);
-  const double velocity_rad_s = to_.velocity_rad_s + speeding_s * to_.acceleration_rad_s2;
   if (to_.velocity_rad_s == 0.0) return {to_.position_rad, 0.0, 0.0};
-  return {to_.position_rad + 0.5 * (to_.velocity_rad_s + velocity_rad_s) * speeding_s +
+  const double since_s = seconds(period - to_.at);
+  const double intervals = to_.smooth ? kSmoothIntervals : 1.0;
+  const double speeding_s = std::min(since_s, intervals * seconds(expected_interval()));
+  const double jerk_rad_s3 = carried_on_jerk_rad_s3(to_);
+  const double velocity_rad_s =
+      to_.velocity_rad_s + speeding_s * (to_.acceleration_rad_s2 + 0.5 * speeding_s * jerk_rad_s3);
+  return {to_.position_rad +
+              speeding_s * (to_.velocity_rad_s +
+                            speeding_s * (0.5 * to_.acceleration_rad_s2 + speeding_s * jerk_rad_s3 / 6.0)) +
               velocity_rad_s * (since_s - speeding_s),
-          velocity_rad_s, since_s < interval_s ? to_.acceleration_rad_s2 : 0.0};
+          velocity_rad_s, since_s <= speeding_s ? to_.acceleration_rad_s2 + speeding_s * jerk_rad_s3 : 0.0};
 }
 
 }  // namespace strainwave

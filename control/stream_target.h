@@ -7,7 +7,7 @@
 //                       loop over the arrivals). Who follows is later than the target by a known time, by which the target
 //                       is ahead of the samples. A knot for which too little time is left is carried forward to one interval
 //                       from now, 20 ms at least, so that what a network does to arrivals makes no jerks
-//   velocity            the sample's own, and the motion has no lag; else from three positions 10 ms apart, or
+//   velocity            the sample's own, and the motion has no lag; else from three positions 10 ms (not stamped: 20 ms) apart, or
 //                       consecutive ones where they lie farther apart:
 //                         d01 + (t0 - t1) (d01 - d12) / (t0 - t2),  dij = (pi - pj) / (ti - tj)
 //                       and the motion lags one interval. Accelerations that are not given by velocities, likewise
@@ -17,7 +17,10 @@
 //                       could take it: A t (t + T) / 2, T between the two
 //   load                along a straight line from knot to knot; without a sample's time it is there an interval after the sample. After
 //                       the last it stays
-//   no new sample       the motion goes on as it was for `bridge_s`, two intervals at least, 0.2 s at most, and then has
+//   arrival             a sample that comes late was held up, or those before it were lost. Its place on the motion tells which; where it does
+//                       not, they were lost until they come after all. What was held up says nothing of the sender's clock
+//   no new sample       the motion goes on as it was, with its acceleration and in slow streams its jerk, for `bridge_s`, two intervals at
+//                       least, from half an interval after the next was due, 0.2 s at most, and then has
 //                       ended: the joint is to come to rest. A target that stands still stays where it is
 //   missed              a motion that was carried on, or has ended, and goes on, is caught up with in the time since its last sample, 0.2 s at
 //                       most: until then every knot is carried forward to the end of that time
@@ -113,11 +116,13 @@ class StreamTarget {
     double position_rad = 0.0;
     double velocity_rad_s = 0.0;
     double acceleration_rad_s2 = 0.0;
-    double jerk_rad_s3 = 0.0;  ///< as three samples show it
+    double jerk_rad_s3 = 0.0;  ///< as three samples show it, or four positions of a slow stream
     ToldLoad load{};
+    double sent_ahead = 0.0;  ///< periods from when it came until `at`, and the lead
     double sent_rad_s = 0.0;  ///< the velocity that came with it, believed or not
     bool moving = false;      ///< one came with it, and is believed
     bool carried = false;     ///< forward: not what was sent
+    bool smooth = false;  ///< three samples show its acceleration, which changes little from one to the next
     double due = 0.0;  ///< period: from then on the next sample is missed; before `at` only while catching up
     bool rests() const noexcept { return velocity_rad_s == 0.0 && acceleration_rad_s2 == 0.0; }
   };
@@ -199,12 +204,14 @@ class StreamTarget {
   double seconds(double periods) const noexcept { return periods * period_s_; }
   double expected_interval() const noexcept;
   bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
-  void clock_in(double position_rad) noexcept;
-  double intervals_in(double gap, double position_rad) const noexcept;
+  void clock_in(const StreamSample& sample) noexcept;
+  double intervals_in(double gap, const StreamSample& sample) noexcept;
+  double nearest_of(double most, double farthest, const StreamSample& sample) const noexcept;
   void remember(const Knot& knot) noexcept;
-  const Knot* sample_before(double period) const noexcept;
+  const Knot* sample_before(double period, double apart_s) const noexcept;
   void estimate_derivatives(const StreamSample& sample, const Before& before, Knot& knot) noexcept;
-  Knot carried_forward(const StreamSample& sample, const Knot& knot, double ahead) const noexcept;
+  Knot carried_forward(const StreamSample& sample, const Knot& knot, double least_ahead,
+                       double lag) const noexcept;
   double least_ahead() const noexcept;
   void catch_up_in(double periods) noexcept;
   void queue(const StreamSample& sample, const Knot& knot) noexcept;
@@ -221,6 +228,7 @@ class StreamTarget {
   State between(double period) const noexcept;
   State beyond(double period) const noexcept;
   double longest_bridge_s() const noexcept;
+  double carried_on_jerk_rad_s3(const Knot& knot) const noexcept;
   Hull known() const noexcept;
 
   double period_s_;
@@ -242,6 +250,8 @@ class StreamTarget {
   double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come
   double arrival_ = 0.0;            ///< of the last sample, smoothed
   double caught_up_at_ = 0.0;       ///< period: until then what was missed is caught up with
+  int counted_lost_ = 0;            ///< intervals before the last sample
+  int held_up_ = 0;                 ///< samples in a row
   int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
