@@ -111,6 +111,18 @@ class Orders(unittest.TestCase):
         self.elbow.release()
         self.assertEqual([order.challenge for order in self.orders()], [22, 23])
 
+    def test_that_a_stop_of_somebody_else_has_overtaken_are_not_given_anew(self):
+        self.publish_state()
+
+        def daemon(*entry):
+            self.answer(published(*entry), 0, Reason.SUPERSEDED)
+            self.publish_state(challenge=23)
+
+        self.network.daemon = daemon
+        with self.assertRaisesRegex(Refused, "superseded"):
+            self.elbow.release()
+        self.assertEqual(len(self.network.published), 1)
+
     def test_that_are_refused_say_why_by_name_and_are_not_repeated(self):
         self.publish_state()
         self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE, "from \x1b[31m-1 to 1")
@@ -242,19 +254,23 @@ class Orders(unittest.TestCase):
             stream.put(4, 0.5)
 
     def test_of_a_stream_that_has_ended_raise_with_the_next_sample(self):
-        def daemon(*entry):
-            order = published(*entry)
-            self.answer(order, order.begins_stream, Reason.STREAM_ENDED if not order.begins_stream else Reason.ACCEPTED)
+        for reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
+            with self.subTest(reason):
+                def daemon(*entry):
+                    order = published(*entry)
+                    self.answer(order, order.begins_stream, reason if not order.begins_stream else Reason.ACCEPTED)
 
-        self.network.daemon = daemon
-        stream = self.stream(ahead_s=0.9)
-        stream.put(0, 0.1)
-        stream.put(0.01, 0.1)
-        with self.assertRaisesRegex(Refused, "setpoint stream has ended"):
-            stream.put(0.02, 0.1)
-        with self.assertRaisesRegex(NotDone, "this stream is over"):
-            stream.put(0.03, 0.1)
-        self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
+                self.network.published.clear()
+                self.network.daemon = daemon
+                stream = self.stream(ahead_s=0.9)
+                stream.put(0, 0.1)
+                stream.put(0.01, 0.1)
+                with self.assertRaises(Refused) as caught:
+                    stream.put(0.02, 0.1)
+                self.assertIs(caught.exception.reason, reason)
+                with self.assertRaisesRegex(NotDone, "this stream is over"):
+                    stream.put(0.03, 0.1)
+                self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
 
     def test_of_a_stream_after_its_close_are_refused_and_begin_nothing(self):
         def daemon(channel, message):
