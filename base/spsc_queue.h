@@ -24,6 +24,11 @@ class SpscQueue {
     return true;
   }
 
+  /// Writer: how many more can be pushed, at least.
+  std::size_t room() const noexcept {
+    return Capacity - (head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire));
+  }
+
   /// Reader: false when the queue is empty.
   bool pop(T& item) noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);

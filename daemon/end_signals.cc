@@ -8,14 +8,20 @@
 #include <cerrno>
 #include <system_error>
 
+#include "daemon/gateway/sanitized.h"
+
 namespace strainwave {
 
 namespace {
 
-// Every signal that somebody or something may send and that would kill the core, in motion: they all end it in order. What is
-// left (SIGSEGV and its kin) tells that it is broken; SIGKILL and SIGSTOP nobody can refuse.
+// Every signal that somebody or something may send and that would kill the core, in motion: they all end it in order. SIGKILL and
+// SIGSTOP nobody can refuse.
 constexpr std::array kEndSignals{SIGTERM, SIGINT,    SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR2,   SIGALRM,
                                  SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGXCPU, SIGSTKFLT, SIGTRAP};
+
+// Those that say that the program is broken come here only when somebody sent them: what the kernel raises for an instruction, and
+// abort(), which lets its own through, kill though they are blocked. A sanitizer reports by them.
+constexpr std::array kSignalsOfDefects{SIGABRT, SIGSYS, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
 }  // namespace
 
@@ -24,6 +30,8 @@ EndSignals::EndSignals() {
   ::sigemptyset(&signals);
   ::sigaddset(&signals, SIGCHLD);
   for (const int signal : kEndSignals) ::sigaddset(&signals, signal);
+  for (const int signal : kSignalsOfDefects)
+    if (!kSanitized) ::sigaddset(&signals, signal);
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) ::sigaddset(&signals, signal);
   // A terminal must not be able to make the loop stand still.
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);

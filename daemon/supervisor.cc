@@ -13,6 +13,7 @@
 #include "daemon/admission/verdict.h"
 #include "daemon/assembly.h"
 #include "daemon/drive_check.h"
+#include "daemon/gateway/preference.h"
 #include "daemon/initial_table.h"
 #include "daemon/realtime/realtime_setup.h"
 #include "lcmtypes/channels.h"
@@ -132,13 +133,14 @@ void Supervisor::load_initial_tables() {
 
 void Supervisor::run() {
   if (config_.gateway_user.uid < 0) hide_memory_from_own_user();
-  // The gateway first: a process started by a real-time one would inherit too much.
-  gateway_.start();
+  gateway_.start();  // first: a process started by a real-time one would inherit too much
   flight_records_.start();
   orders_.start();
   log_buses();
   publish_challenge();  // the first state has one
   loop_.start();
+  // After what computes in threads of its own was started, which this is not for.
+  if (const std::string refusal = prefer_this_thread(); !refusal.empty()) spdlog::warn("{}", refusal);
   if (loop_.real_time_refusal().empty())
     spdlog::info("real time: SCHED_FIFO priority {}, memory locked", config_.loop.priority);
   else
@@ -160,6 +162,7 @@ void Supervisor::turn(std::int64_t now_ns) {
   take_events();  // first: what was ordered before a fault is not obeyed after it
   publish_challenge();
   take_messages(now_ns);
+  publish_challenge();  // a stop is not answered before states carry the challenge that is good after it
   orders_.take_replies(now_ns);
   log_buses();
   publish_owners(now_ns);
@@ -170,8 +173,8 @@ void Supervisor::turn(std::int64_t now_ns) {
 }
 
 void Supervisor::wait(std::int64_t wait_ms) {
-  // While the loop owes a reply, look often: it has no way to wake anybody.
-  const int timeout_ms = orders_.waiting() ? 1 : static_cast<int>(wait_ms);
+  const int timeout_ms =
+      orders_.waiting() ? 1 : static_cast<int>(wait_ms);  // a loop that owes a reply wakes nobody
   std::array<pollfd, 2> descriptors{{{wake_.core_end(), POLLIN, 0}, {signals_.descriptor(), POLLIN, 0}}};
   if (::poll(descriptors.data(), descriptors.size(), timeout_ms) <= 0) return;
   wake_.take();
@@ -184,13 +187,11 @@ void Supervisor::wait(std::int64_t wait_ms) {
   loop_.request_stop();
 }
 
-// What orders must quote, and who has which joint.
 void Supervisor::publish_challenge() {
   std::int64_t random = 0;
   ::randombytes_buf(&random, sizeof random);
-  outbound_.challenge.store(
-      admission_.advance(loop_.statistics().cycle.load(std::memory_order_acquire), random),
-      std::memory_order_relaxed);
+  const std::int64_t cycle = loop_.statistics().cycle.load(std::memory_order_acquire);
+  outbound_.challenge.store(admission_.advance(cycle, random), std::memory_order_relaxed);
 }
 
 void Supervisor::publish_owners(std::int64_t now_ns) {
@@ -230,7 +231,7 @@ void Supervisor::take_events() {
   while (loop_.events().pop(event)) {
     const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
     if (event.to == Mode::kFaulted) {
-      admission_.fault(static_cast<std::size_t>(event.joint));
+      admission_.fault(static_cast<std::size_t>(event.joint), event.cycle);
       const std::string_view key = configuration_key(event.fault);
       spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
                     fault_words(event.fault, event.drive_error),

@@ -17,12 +17,12 @@ namespace {
 
 // The daemon takes a second; the way there takes some of it.
 constexpr double kFarthestAhead_s = 0.9;
-constexpr double kLongestValid_s = 3600.0;
+constexpr double kLongestValid_s = 10.0;
 
 StreamOptions checked(const StreamOptions& options) {
   checked_number("ahead_s", options.ahead_s, "above 0 to 0.9",
                  options.ahead_s > 0.0 && options.ahead_s <= kFarthestAhead_s);
-  checked_number("valid_for_s", options.valid_for_s, "above 0 to 3600",
+  checked_number("valid_for_s", options.valid_for_s, "above 0 to 10",
                  options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValid_s);
   checked_number("speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
                  options.speed_limit_rad_s >= 0.0);
@@ -180,7 +180,7 @@ void Stream::wait_until_due(std::int64_t cycle) {
 void Stream::check_refusals() {
   while (const auto refusal = link_->client().take_refusal()) {
     if (refusal->reason != Reason::kTooOld && !refusal->overtaken) {
-      if (refusal->reason == Reason::kStreamEnded) {
+      if (refusal->reason == Reason::kStreamEnded || refusal->reason == Reason::kSuperseded) {
         over_ = true;
         last_cycle_.reset();  // whoever ended it has the joint
       }

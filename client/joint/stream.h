@@ -14,7 +14,7 @@ class Stream;
 struct StreamOptions {
   /// How long before its time a sample is sent: what the network and this program may be late by. Above 0 to 0.9.
   double ahead_s = 0.1;
-  /// The stream ends when no sample comes for so long; the joint comes to rest before that. Above 0 to 3600.
+  /// The stream ends when no sample comes for so long; the joint comes to rest before that. Above 0 to 10.
   double valid_for_s = 2.0;
   double speed_limit_rad_s = 0.0;  ///< 0: as fast as the joint may
   /// The stream of another joint of this daemon: the same time is the same cycle then.

@@ -58,8 +58,8 @@ std::vector<JointName> Client::wait_for_heard() {
   return heard();
 }
 
-// Refused unread: the order took too long, or another program of this key was ahead. It was not obeyed, so it
-// may be given anew.
+// Refused unread: the order took too long, a stop of this sender's came before it, or another program of this key was ahead. It was not
+// obeyed, so it may be given anew. Not one that somebody else's stop overtook: he wants the joint to stand.
 bool Client::may_try_again(const std::string& joint, const Answer& answer, const Quote& quote) {
   if (answer.reason == Reason::kOldSequence && ack_) {
     sender_.rise_above(ack_->last_sequence);

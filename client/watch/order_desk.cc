@@ -98,7 +98,7 @@ void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, std
   waiting_.push_back({send(), send, joint, full_name(joint), std::move(batch), quote(joint).challenge, 0});
 }
 
-// It was not obeyed, so it may be given anew.
+// It was not obeyed, so it may be given anew; but not after somebody else's stop.
 bool OrderDesk::renew(Waiting& waiting, const ack_v1& refusal) {
   const auto reason = static_cast<Reason>(refusal.reason);
   if (reason == Reason::kOldSequence) sender_.rise_above(refusal.last_sequence);

@@ -54,6 +54,7 @@ Verdict Admission::pass(const Requester& requester, OrderKind kind, std::int64_t
   verdict.kind = Verdict::Kind::kOrder;
   verdict.requester = requester;
   verdict.order.kind = kind;
+  verdict.order.challenge_cycle = challenges_.drawn_cycle(challenge);
   verdict.order.expires_cycle = challenges_.expiry_cycle(challenge);
   verdict.stop_count = challenges_.stop_count(requester.joint);
   return verdict;
@@ -77,7 +78,14 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is " + std::to_string(session_id_) +
                       " (session_id on the STATE channel): send again");
-  if (challenges_.expiry_cycle(envelope.challenge) < 0) {
+  if (auto verdict = check_fresh(message, envelope.challenge, requester)) return verdict;
+  if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
+  return envelope.needs_joint ? check_owner(requester) : std::nullopt;
+}
+
+std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::int64_t challenge,
+                                              const Requester& requester) const {
+  if (challenges_.expiry_cycle(challenge) < 0) {
     // What takes longer than an order lives, as the proof of a table, is asked for again meanwhile.
     if (repeats(message, requester)) return repeat(requester);
     return refuse(
@@ -85,12 +93,19 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
         "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
         "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
   }
-  if (challenges_.stopped_since(envelope.challenge, requester.joint))
-    return refuse(
-        requester, Reason::kTooOld,
-        "the joint was stopped or has faulted since this order was made: give it anew from the next state");
-  if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
-  return envelope.needs_joint ? check_owner(requester) : std::nullopt;
+  switch (challenges_.since(challenge, requester.joint, {requester.sender_id, requester.sequence})) {
+    case Since::kNothing:
+      return std::nullopt;
+    case Since::kOwnStop:
+      return refuse(requester, Reason::kTooOld,
+                    "the order quotes a challenge from before a stop that its sender gave, or from before a "
+                    "fault: give it anew from the next state");
+    case Since::kOthersStop:
+      break;
+  }
+  return refuse(requester, Reason::kSuperseded,
+                "somebody stopped or held the joint since this order was made: see whether it may still be "
+                "wanted, then give it anew");
 }
 
 std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role needed, Requester& requester,
@@ -177,17 +192,14 @@ Verdict Admission::stop(const WireMessage& message, OrderKind kind, std::int64_t
   const bool meant_for_us = session_id == session_id_ && challenges_.expiry_cycle(challenge) >= 0;
   if (meant_for_us && !is_unsigned(payload(message)))
     (void)check_sender(message, Role::kOperator, requester, stop_verifications_);
-  challenges_.stop(requester.joint);
+  challenges_.stop(requester.joint, {requester.sender_id, requester.sequence});
   return pass(requester, kind, 0);
 }
 
-Verdict Admission::change_owner(Action action, const Requester& requester) {
-  const Ownership::Holder sender{requester.key, requester.sender_id};
-  if (action == Action::kTakeOver) {
-    ownership_.take(requester.joint, sender, now_ns_);
-    return pass(requester, OrderKind::kEndStream, 0);
-  }
-  if (!ownership_.release(requester.joint, sender, now_ns_))
+Verdict Admission::change_owner(Action action, Requester requester) {
+  requester.takes_over = action == Action::kTakeOver;
+  if (requester.takes_over) return pass(requester, OrderKind::kEndStream, 0);
+  if (!ownership_.release(requester.joint, {requester.key, requester.sender_id}, now_ns_))
     return refuse(requester, Reason::kNotOwner, "only who has the joint can release it");
   Verdict verdict;
   verdict.kind = Verdict::Kind::kDone;

@@ -48,9 +48,11 @@ struct Requester {
   /// From somebody who may give orders, and new: its answer is worth remembering for a resend. Others could
   /// make the daemon forget answers or flood the bus with new ones.
   bool authentic = false;
-  bool stop = false;      ///< of a disable or hold, whose answers have a share of their own
-  bool owns = false;      ///< the order needed the joint: Admission::settle() wants to know what became of it
-  std::int64_t key = -1;  ///< index of the key that signed, -1: none
+  bool stop = false;  ///< of a disable or hold, whose answers have a share of their own
+  bool owns = false;  ///< the order needed the joint: Admission::settle() wants to know what became of it
+  bool takes_over =
+      false;  ///< of a take-over: the joint is his once its order is with the loop, Admission::take_over()
+  std::int64_t key = -1;           ///< index of the key that signed, -1: none
   std::int64_t last_sequence = 0;  ///< with kOldSequence: what the sequence must rise above
   std::uint64_t source = 0;        ///< as WireMessage::source
 };
@@ -101,10 +103,14 @@ class Admission {
     if (requester.owns)
       ownership_.settle(requester.joint, {requester.key, requester.sender_id}, accepted, now_ns);
   }
+  /// The order that ends his predecessor's stream is on its way: whatever the joint obeys after it is his.
+  void take_over(const Requester& requester, std::int64_t now_ns) {
+    ownership_.take(requester.joint, {requester.key, requester.sender_id}, now_ns);
+  }
   const Ownership& ownership() const noexcept { return ownership_; }
 
-  /// `joint` has faulted: as after a stop, no order from before is obeyed.
-  void fault(std::size_t joint) noexcept { challenges_.stop(joint); }
+  /// `joint` has faulted in `cycle`: as after a stop, no order from before is obeyed.
+  void fault(std::size_t joint, std::int64_t cycle) noexcept { challenges_.fault(joint, cycle); }
   std::int64_t stop_count(std::size_t joint) const noexcept { return challenges_.stop_count(joint); }
   /// For how many cycles an order that was fresh when it came may wait.
   std::int64_t order_lifetime_cycles() const noexcept { return challenges_.lifetime_cycles(); }
@@ -135,12 +141,14 @@ class Admission {
   std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed,
                                       Requester& requester);
   std::optional<Verdict> check_sequence(SequenceMemory& memory, std::int64_t who, Requester& requester) const;
+  std::optional<Verdict> check_fresh(const WireMessage& message, std::int64_t challenge,
+                                     const Requester& requester) const;
   std::optional<Verdict> check_owner(Requester& requester);
   std::optional<Verdict> check_sender(const WireMessage& message, Role needed, Requester& requester,
                                       FairShare& verifications);
   Verdict stop(const WireMessage& message, OrderKind kind, std::int64_t session_id, std::int64_t challenge,
                Requester requester);
-  Verdict change_owner(Action action, const Requester& requester);
+  Verdict change_owner(Action action, Requester requester);
   Verdict pass(const Requester& requester, OrderKind kind, std::int64_t challenge) const;
 
   std::string prefix_;

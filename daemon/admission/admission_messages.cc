@@ -17,7 +17,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kMaxValidFor_s = 3600.0;
+// Of a stream that says nothing: the joint rests by then, and the torque it was told of stays. Twice what an owner may be silent for.
+constexpr double kMaxValidFor_s = 10.0;
 constexpr double kMaxInjection_s = 3600.0;
 // Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
 constexpr double kMaxVelocity_rad_s = 1000.0;

@@ -1,17 +1,21 @@
 // Bounds how often something may happen on the average, with a reserve for bursts, whoever asks for it, and shares it among those who
 // ask: whoever took more of late must leave more for the others, so that one who floods is refused while one who comes for the first
-// time is not. Sources that proved who they are have the last of the reserve to themselves. Bounded memory. Time is an argument. Not for
-// the loop.
+// time is not. Sources that proved who they are have the last of the reserve to themselves, and what comes from their addresses the last
+// but that. Bounded memory. Time is an argument. Not for the loop.
 //
-// A source that took w within the last second or so (each counts for exp(-age / 1 s)) gets another one only where more is left than
-//   min(w, burst / 2) + burst / 8,     without the burst / 8 for a proven source.
-// Against k that take what they can, w = rate / k: all together get the rate, and one that is new finds enough as long as k is
-// fewer than the rate per second.
+// A source that took w within the last seconds (each counts for exp(-age / 4 s)) gets another one only where more is left than
+//   (burst / 2) w / (w + burst / 8) + burst / 8
+// without the last burst / 8 for a proven source, and with half of it for the address of one. The first one that a source takes so weighs
+// four. Against k that take what they can, once each has had its first: all together get the rate, and one that is new finds enough as
+// long as k is fewer than two seconds' rate, and than the sources that are remembered.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
 
 #include "base/token_bucket.h"
 
@@ -19,15 +23,18 @@ namespace strainwave {
 
 class FairShare {
  public:
-  /// Beyond it the source that took the least is forgotten.
-  static constexpr std::size_t kTakers = 256;
+  /// A source has its place in one of the rows; where that is full, the one that took the least is forgotten.
+  static constexpr std::size_t kRows = 512;
+  static constexpr std::size_t kTakersInRow = 8;
   /// Beyond it the one whose proof is oldest is.
   static constexpr std::size_t kProven = 64;
 
-  /// `per_second` > 0 on the average, `burst` >= 1 at once, of all sources together.
-  FairShare(double per_second, double burst) noexcept : bucket_(per_second, burst) {}
+  /// `per_second` > 0 on the average, `burst` >= 1 at once, of all sources together. `salt`: nobody outside can tell which sources have
+  /// one row.
+  FairShare(double per_second, double burst, std::uint64_t salt = std::random_device{}())
+      : bucket_(per_second, burst), salt_(salt), takers_(kRows * kTakersInRow) {}
 
-  /// Whether `source` may have one at `now_ns`; the clock may stand still but not go back.
+  /// Whether `source` (an address, and 16 bits of a port) may have one at `now_ns`; the clock may stand still but not go back.
   bool available(std::uint64_t source, std::int64_t now_ns) noexcept;
   /// `source` has had one at `now_ns`.
   void take(std::uint64_t source, std::int64_t now_ns) noexcept;
@@ -50,10 +57,12 @@ class FairShare {
     std::uint64_t source = 0;
     std::int64_t at_ns = -1;  ///< -1: free
   };
-  bool is_proven(std::uint64_t source) const noexcept;
+  std::span<Taker> row_of(std::uint64_t source) noexcept;
+  double kept_for_proven(std::uint64_t source) const noexcept;
 
   TokenBucket bucket_;
-  std::array<Taker, kTakers> takers_{};
+  std::uint64_t salt_;
+  std::vector<Taker> takers_;
   std::array<Proof, kProven> proven_{};
 };
 

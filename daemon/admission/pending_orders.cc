@@ -75,7 +75,9 @@ std::string advice(const Reply& reply, OrderKind kind) {
              ", and this stream of setpoints is not under way: it expired, or a hold, stop, fault, enable or "
              "another order ended it; begin a new one";
     case Reason::kTooOld:
-      return mode + ": the order waited in the daemon for longer than an order lives; give it anew";
+      return mode +
+             ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
+             "give it anew";
     case Reason::kNotHomed:
       return mode + ", and its position is not known: strainwavectl home first";
     case Reason::kAtLimitSwitch:
@@ -99,6 +101,7 @@ PendingOrders::PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& 
       admission_(admission),
       answers_(answers),
       books_(loop.joint_count()),
+      latest_stops_(loop.joint_count()),
       unanswered_(loop.joint_count()) {}
 
 bool PendingOrders::load_first_table(std::size_t joint, const GainTable& table) {
@@ -141,16 +144,16 @@ void PendingOrders::take_proved_table(std::int64_t now_ns) {
   if (proved->box.reason != Reason::kAccepted)
     return refuse(verdict, proved->box.reason, proved->box.text, now_ns);
   if (verdict.stop_count != admission_.stop_count(verdict.requester.joint))
-    return refuse(verdict, Reason::kTooOld,
+    return refuse(verdict, Reason::kSuperseded,
                   "the joint was stopped or faulted while the table was proved: give it anew", now_ns);
   verdict.text += proved->box.text;
-  // It was fresh when it came; the time since then was ours.
-  verdict.order.expires_cycle = loop_.statistics().cycle.load() + admission_.order_lifetime_cycles();
+  verdict.order.expires_cycle =
+      loop_.statistics().cycle.load() + admission_.order_lifetime_cycles();  // fresh when it came
   give(verdict, now_ns);
 }
 
 void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
-  const std::size_t joint = verdict.requester.joint;
+  if (verdict.requester.stop && joins_equal_stop(verdict)) return;
   std::int64_t table_id = 0;
   const bool is_table = verdict.order.kind == OrderKind::kUseTable;
   if (is_table && !prepare_table(verdict, table_id))
@@ -158,15 +161,45 @@ void PendingOrders::give(Verdict& verdict, std::int64_t now_ns) {
   if (verdict.order.kind == OrderKind::kLoadPath && !prepare_path(verdict))
     return refuse(verdict, Reason::kBusy, "another path is just being taken over", now_ns);
   verdict.order.id = next_order_id_++;
-  if (!loop_.joint(joint).orders().push(verdict.order)) {
+  if (!push(verdict)) {
     undo_preparation(verdict);
     return refuse(verdict, Reason::kBusy,
-                  "too many orders at once, at most " + std::to_string(kWaitingOrders) +
+                  "too many orders at once, at most " + std::to_string(kWaitingOrders - kPlacesForStops) +
                       " of a joint may wait for its loop: send fewer, or wait for answers",
                   now_ns);
   }
+  if (verdict.requester.takes_over) admission_.take_over(verdict.requester, now_ns);
   pending_[verdict.order.id] = {verdict.requester, verdict.text, now_ns + kReplyTimeout_ns, table_id,
                                 verdict.order.kind};
+}
+
+// After any other order there is yet room for a disable and a hold, and of those only one each waits that no other order follows.
+bool PendingOrders::push(const Verdict& verdict) {
+  const std::size_t joint = verdict.requester.joint;
+  OrderQueue& queue = loop_.joint(joint).orders();
+  const bool stop = verdict.requester.stop;
+  if ((!stop && queue.room() <= kPlacesForStops) || !queue.push(verdict.order)) return false;
+  if (stop)
+    latest_stop(verdict) = verdict.order.id;
+  else if (verdict.order.kind == OrderKind::kResumePath)  // of several joints
+    latest_stops_.assign(latest_stops_.size(), {});
+  else
+    latest_stops_[joint] = {};
+  return true;
+}
+
+std::int64_t& PendingOrders::latest_stop(const Verdict& verdict) {
+  LatestStops& latest = latest_stops_[verdict.requester.joint];
+  return verdict.order.kind == OrderKind::kDisable ? latest.disable_id : latest.hold_id;
+}
+
+bool PendingOrders::joins_equal_stop(const Verdict& verdict) {
+  const auto equal = pending_.find(latest_stop(verdict));
+  if (equal == pending_.end()) return false;
+  std::vector<Requester>& companions = equal->second.companions;
+  const std::size_t places = verdict.requester.authentic ? kCompanions : kCompanions / 2;
+  if (companions.size() < places) companions.push_back(verdict.requester);
+  return true;
 }
 
 void PendingOrders::refuse(Verdict& verdict, Reason reason, const std::string& text, std::int64_t now_ns) {
@@ -181,6 +214,17 @@ void PendingOrders::refuse(Verdict& verdict, Reason reason, const std::string& t
 void PendingOrders::answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns) {
   FairShare& share = to.stop ? stop_answers_ : stranger_answers_;
   if (to.authentic || share.try_take(to.source, now_ns)) answers_.answer(to, reason, text);
+}
+
+void PendingOrders::answer_all(const Pending& pending, Reason reason, const std::string& text,
+                               std::int64_t now_ns) {
+  const bool counts = reason != Reason::kAccepted && reason != Reason::kTimedOut;
+  if (counts) admission_.count_reject(reason);
+  answer(pending.requester, reason, text, now_ns);
+  for (const Requester& companion : pending.companions) {
+    if (counts) admission_.count_reject(reason);
+    answer(companion, reason, text, now_ns);
+  }
 }
 
 // Puts the table into a slot that the loop does not use, or names the slot to return to.
@@ -226,9 +270,8 @@ void PendingOrders::take_replies(std::int64_t now_ns) {
     if (found == pending_.end()) continue;
     const Pending& pending = found->second;
     if (pending.table_id != 0) books_[pending.requester.joint].end(accepted);
-    if (!accepted) admission_.count_reject(reply.reason);
     admission_.settle(pending.requester, accepted, now_ns);
-    answer(pending.requester, reply.reason, accepted ? pending.text : advice(reply, pending.kind), now_ns);
+    answer_all(pending, reply.reason, accepted ? pending.text : advice(reply, pending.kind), now_ns);
     pending_.erase(found);
   }
   std::erase_if(pending_, [&](const auto& entry) {
@@ -239,7 +282,7 @@ void PendingOrders::take_replies(std::int64_t now_ns) {
 }
 
 void PendingOrders::give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns) {
-  answer(pending.requester, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
+  answer_all(pending, Reason::kTimedOut, "the loop did not answer in 0.5 s: look at the state", now_ns);
   if (pending.table_id != 0)
     unanswered_[pending.requester.joint] = {order_id, pending.table_id, loop_.statistics().cycle.load()};
 }

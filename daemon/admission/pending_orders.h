@@ -26,6 +26,10 @@ class PendingOrders {
   static constexpr double kStopAnswersPer_s = 1000.0;
   static constexpr double kStopAnswersAtOnce = 200.0;
   static constexpr std::int64_t kReplyTimeout_ns = 500'000'000;
+  /// Of the places in which orders of a joint wait for its loop: a disable and a hold always find one.
+  static constexpr std::size_t kPlacesForStops = 2;
+  /// Senders of equal stops that are told the one reply to them, beyond the first; half of the places are for those who sign.
+  static constexpr std::size_t kCompanions = 1024;
 
   PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers);
 
@@ -54,6 +58,12 @@ class PendingOrders {
     std::int64_t deadline_ns;
     std::int64_t table_id;  ///< of a table order, else 0
     OrderKind kind;
+    std::vector<Requester> companions = {};  ///< of equal stops that came before its reply
+  };
+  /// Stops that nothing but stops came after: another one would do no more. 0: none.
+  struct LatestStops {
+    std::int64_t disable_id = 0;
+    std::int64_t hold_id = 0;
   };
   /// A table order whose reply did not come.
   struct Unanswered {
@@ -63,18 +73,23 @@ class PendingOrders {
   };
   void obey(Verdict& verdict, std::int64_t now_ns);
   void give(Verdict& verdict, std::int64_t now_ns);
+  bool push(const Verdict& verdict);
+  bool joins_equal_stop(const Verdict& verdict);
+  std::int64_t& latest_stop(const Verdict& verdict);
   void take_proved_table(std::int64_t now_ns);
   bool prepare_table(Verdict& verdict, std::int64_t& table_id);
   bool prepare_path(Verdict& verdict);
   void undo_preparation(const Verdict& verdict);
   void refuse(Verdict& verdict, Reason reason, const std::string& text, std::int64_t now_ns);
   void answer(const Requester& to, Reason reason, const std::string& text, std::int64_t now_ns);
+  void answer_all(const Pending& pending, Reason reason, const std::string& text, std::int64_t now_ns);
   void give_up(std::int64_t order_id, const Pending& pending, std::int64_t now_ns);
 
   RealtimeLoop& loop_;
   Admission& admission_;
   Answers& answers_;
   std::vector<TableBook> books_;
+  std::vector<LatestStops> latest_stops_;    ///< by joint
   std::vector<Unanswered> unanswered_;       ///< by joint: its book is busy until this is known
   std::map<std::int64_t, Pending> pending_;  ///< orders without a reply yet, by order id
   TableProver prover_;

@@ -33,9 +33,9 @@ class SequenceMemory {
   /// Call only for a message that is known to come from `identity`, and whose challenge is recent at `cycle`.
   Judgement judge(Identity identity, std::int64_t sender_id, std::int64_t sequence, std::int64_t cycle) {
     const auto known = last_.find(identity);
+    if (is_last(identity, sender_id, sequence)) return Judgement::kRepeat;
     if (known != last_.end()) {
       const Last& last = known->second;
-      if (sequence == last.sequence && sender_id == last.sender_id) return Judgement::kRepeat;
       if (sequence <= last.sequence && cycle - last.cycle <= lifetime_cycles_) return Judgement::kOld;
     } else if (last_.size() >= bound_) {
       forget_longest_silent();

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "base/printable.h"
+#include "base/protected_file.h"
 #include "control/units.h"
 
 namespace strainwave {
@@ -143,6 +144,15 @@ void doubt_folder(const TomlSection& section, std::string_view key, const std::f
     section.warn(key, "nothing can be written there by the user " + std::to_string(::geteuid()) + ": " +
                           there.string() + ": " + std::generic_category().message(errno) +
                           "; name another folder, or have this one made for the daemon's user");
+  else if (const auto exposure = find_exposure(there, Writers::kGroup))
+    section.warn(key,
+                 "somebody else can write there, and put what never was in place of a record: " + *exposure);
+  else if (there == std::filesystem::absolute(folder).lexically_normal() &&
+           (std::filesystem::status(there, error).permissions() & std::filesystem::perms::others_write) !=
+               std::filesystem::perms::none)
+    section.warn(
+        key,
+        "everybody can write there, and leave what looks like a record: name a folder of the daemon's own");
 }
 
 void doubt_loop(const TomlSection& section, const LoopConfig& loop) {

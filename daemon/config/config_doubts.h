@@ -30,7 +30,8 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
 /// Of [daemon], already read into `loop`.
 void doubt_loop(const TomlSection& section, const LoopConfig& loop);
 
-/// Of the folder that `key` names, which is made when something is written: that it cannot be made, or nothing written into it, by whoever asks.
+/// Of the folder that `key` names, which is made when something is written: that it cannot be made, or nothing written into it, by whoever asks; or
+/// that others can, too, as they may with no file that decides something.
 void doubt_folder(const TomlSection& section, std::string_view key, const std::filesystem::path& folder);
 
 }  // namespace strainwave

@@ -147,7 +147,7 @@ void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_d
   give_up_capabilities();
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) fail("giving up new privileges");
   if (!kSanitized && ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0) fail("forbidding inspection");
-  for (const auto resource : {RLIMIT_CORE, RLIMIT_RTPRIO, RLIMIT_MEMLOCK, RLIMIT_MSGQUEUE})
+  for (const auto resource : {RLIMIT_CORE, RLIMIT_RTPRIO, RLIMIT_NICE, RLIMIT_MEMLOCK, RLIMIT_MSGQUEUE})
     limit(resource, 0);
 }
 

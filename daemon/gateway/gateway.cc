@@ -21,7 +21,8 @@ constexpr std::size_t kDatagramsPerTurn = 256;
 constexpr std::size_t kStatesPerTurn = 64;
 /// Some client's largest burst, for several clients at once.
 constexpr std::size_t kWaitingOrders = 256;
-constexpr std::size_t kWaitingStops = 64;
+/// Of as many ports as may stop at once: each has one turn.
+constexpr std::size_t kWaitingStops = 256;
 
 // Moves messages into a lane while it has room. Whether there were any.
 bool fill(InboundLane& lane, const std::atomic<std::uint64_t>& taken, OrderQueue& queue) noexcept {

@@ -12,6 +12,7 @@
 #include "daemon/gateway/gateway.h"
 #include "daemon/gateway/gateway_activation.h"
 #include "daemon/gateway/gateway_process.h"
+#include "daemon/gateway/preference.h"
 #include "daemon/gateway/service_watchdog.h"
 
 namespace {
@@ -42,6 +43,7 @@ int run() {
     std::fputs("strainwave-gateway: the shared memory is not strainwaved's\n", stderr);
     return 1;
   }
+  (void)prefer_this_thread();  // the core says it when it is refused
   give_up_privileges(outbound.gateway_uid, outbound.gateway_gid, kGatewayFirstFreeFd);
   // Without its core it has no purpose, though it hang. (After the change of user, which clears this.)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

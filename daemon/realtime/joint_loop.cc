@@ -226,6 +226,7 @@ bool JointLoop::change_mode(ModeEvent event, const CycleTime& time) noexcept {
 
 void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   (void)events_.push({index_, time.cycle, from, mode(), mode_.fault(), mode_.drive_error()});
+  if (mode_.is(Mode::kFaulted)) faulted_cycle_ = time.cycle;
   if (from == Mode::kHoming) homing_.abort();
   if (mode_.is(Mode::kStopping)) controller_.stop();
   // At rest: what the joint carries is known now, and something else holds it from here on.

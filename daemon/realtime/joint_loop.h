@@ -210,8 +210,9 @@ class JointLoop {
   SpeedGauge speed_gauge_;  ///< while nothing is controlled
   HeldLoad held_;
   Service service_ = Service::kServing;
-  JointStep motion_;          ///< of this period
-  std::int32_t notices_ = 0;  ///< of this period
+  std::int64_t faulted_cycle_ = -1;  ///< the last in which it faulted
+  JointStep motion_;                 ///< of this period
+  std::int32_t notices_ = 0;         ///< of this period
   StateRecord record_{};
 };
 

@@ -24,8 +24,10 @@ double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
 void JointLoop::take_orders(const CycleTime& time) noexcept {
   Order order;
   while (orders_.pop(order)) {
-    // The loop may have stood still while the order waited.
-    const bool too_old = order.expires_cycle >= 0 && time.cycle > order.expires_cycle;
+    // The loop may have stood still while the order waited, or the joint may have faulted.
+    const bool waited_long = order.expires_cycle >= 0 && time.cycle > order.expires_cycle;
+    const bool from_before_fault = order.challenge_cycle >= 0 && order.challenge_cycle <= faulted_cycle_;
+    const bool too_old = waited_long || from_before_fault;
     const Ruling ruling = too_old ? Ruling(Reason::kTooOld) : obey(order, time);
     if (order.kind == OrderKind::kLoadPath) path_slots_.judged();
     // A full reply queue loses the answer, not the order; the client sees a time-out and asks the state.

@@ -42,7 +42,9 @@ struct Order {
   std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
   std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: as it comes
   std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
-  std::int32_t path_slot = 0;        ///< kLoadPath
+  std::int64_t challenge_cycle =
+      -1;  ///< its challenge is of this one: after a fault in it or later it is too old; -1: never
+  std::int32_t path_slot = 0;  ///< kLoadPath
 };
 
 /// What the loop makes of an order, and of a refusal by a number that number and the bound that it met; else both are 0:
@@ -51,7 +53,7 @@ struct Order {
 ///   kOutOfRange of a table          its torque limit, and the torque that holds the joint, N.m
 ///   kOutOfRange of a path           how far from its setpoint it begins, and how far it may, rad
 ///   kWrongMode of a resume          joints that have their part of the path, and how many there must be
-///   kTooOld of a setpoint           its at_cycle, and the present cycle; 0 and 0 when it waited too long
+///   kTooOld of a setpoint           its at_cycle, and the present cycle; 0 and 0 when it waited too long or is from before a fault
 struct Ruling {
   Ruling(Reason given) noexcept : reason(given) {}  // implicit: most are a reason alone
   Ruling(Reason given, double refused, double bound) noexcept : reason(given), value(refused), limit(bound) {}

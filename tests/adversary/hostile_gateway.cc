@@ -86,6 +86,9 @@ const std::map<std::string, Attempt> kAttempts{
     {"signal the core by its descriptor",
      [](const Prey& p) { return has(static_cast<int>(::syscall(SYS_pidfd_open, p.core, 0))); }},
     {"schedule the core", schedule_core},
+    {"put the core behind everybody",
+     [](const Prey& p) { return done(::setpriority(PRIO_PROCESS, static_cast<id_t>(p.core), 19)); }},
+    {"go before everybody", [](const Prey&) { return done(::setpriority(PRIO_PROCESS, 0, -20)); }},
     {"move the core to another processor",
      [](const Prey& p) {
        cpu_set_t set;

@@ -96,6 +96,7 @@ TEST_P(Cannot, DoIt) {
 
 INSTANTIATE_TEST_SUITE_P(HostileGateway, Cannot,
                          ::testing::Values("open a CAN socket", "schedule the core",
+                                           "put the core behind everybody", "go before everybody",
                                            "move the core to another processor", "trace the core",
                                            "write the core's memory", "start a program",
                                            "shrink the shared memory", "write the shared file"),

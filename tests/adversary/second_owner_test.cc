@@ -48,6 +48,32 @@ TEST_F(SecondOwner, MayStopTheJointAllTheSame) {
   EXPECT_TRUE(intruder_->wait_for_mode("elbow", Mode::kOff)) << daemon_->log();
 }
 
+// The owner's move, and the other's hold at the same instant: whichever comes first, the joint stands.
+TEST_F(SecondOwner, WhoHoldsTheJointIsNotOverruledByAMoveThatWasOrderedBefore) {
+  ASSERT_TRUE(owner_moves(0.1).accepted);
+  for (int i = 0; i < 10; ++i) {
+    owner_->pump(std::chrono::milliseconds(300));
+    const setpoint_v2 move = owner_->make_setpoint("elbow", i % 2 == 0 ? 0.6 : 0.1);
+    ASSERT_TRUE(intruder_orders(Action::kHold).accepted);
+    const Answer overtaken = send(*owner_, "SETPOINT", move);
+    EXPECT_EQ(overtaken.reason, Reason::kSuperseded) << overtaken.text;
+  }
+  owner_->pump(std::chrono::milliseconds(300));
+  EXPECT_EQ(owner_->state("elbow")->mode, static_cast<std::int32_t>(Mode::kHolding));
+  EXPECT_NEAR(owner_->state("elbow")->joint_position_rad, 0.1, 1e-2);
+}
+
+// Two programs, one after the other: what the second hears is from after the stop that the first was told of.
+TEST_F(SecondOwner, MayEnableTheJointOnceAnotherProgramsDisableIsAnswered) {
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(intruder_orders(Action::kDisable).accepted) << i;
+    TestClient program;
+    const Answer enabled = send(program, "COMMAND", program.make_command("elbow", Action::kEnable));
+    EXPECT_NE(enabled.reason, Reason::kSuperseded) << i << enabled.text;
+    EXPECT_NE(enabled.reason, Reason::kTooOld) << i << enabled.text;
+  }
+}
+
 TEST_F(SecondOwner, MayNotTakeOverUnlessHeIsAnEngineer) {
   ASSERT_TRUE(owner_moves(0.1).accepted);
   EXPECT_EQ(intruder_orders(Action::kTakeOver).reason, Reason::kRoleNotAllowed);

@@ -169,7 +169,7 @@ TEST_F(StrangerTest, CannotMoveTheJointAfterAHoldWithAMoveThatHeWithheld) {
     stranger_stops(Action::kHold);
     stranger_.send("SW.elbow.SETPOINT", withheld);
     const Answer late = client_->wait_for_answer(move.sequence);
-    EXPECT_EQ(late.reason, Reason::kTooOld) << late.text;
+    EXPECT_EQ(late.reason, Reason::kSuperseded) << late.text;
   }
   client_->pump(milliseconds(500));
   EXPECT_EQ(mode(), static_cast<std::int32_t>(Mode::kHolding));
@@ -184,7 +184,7 @@ TEST_F(StrangerTest, CannotEnableTheJointAfterADisableWithAnEnableThatHeWithheld
     ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kOff));
     stranger_.send("SW.elbow.COMMAND", withheld);
     const Answer late = client_->wait_for_answer(enable_order.sequence);
-    EXPECT_EQ(late.reason, Reason::kTooOld) << late.text;
+    EXPECT_EQ(late.reason, Reason::kSuperseded) << late.text;
     client_->pump(milliseconds(100));
     EXPECT_EQ(mode(), static_cast<std::int32_t>(Mode::kOff));
     enable(*client_);

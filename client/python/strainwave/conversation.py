@@ -143,7 +143,8 @@ class Conversation:
             with self.network.changed:
                 del self._awaited[sequence]
 
-    # Refused unread: the order took too long, or another program of this key was ahead. It was not obeyed.
+    # Refused unread: the order took too long, a stop of this sender's came before it, or another program of this key was ahead. It was
+    # not obeyed. Not one that somebody else's stop overtook: he wants the joint to stand.
     def _may_try_again(self, answer, quoted):
         if answer.reason == Reason.OLD_SEQUENCE:
             self.sender.rise_above(answer.last_sequence)

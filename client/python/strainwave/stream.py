@@ -39,7 +39,7 @@ class Stream:
         self.late = 0  # samples that came after their time, or after a later one, and were left out
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
         self._ahead_s = check_number("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
-        self._valid_for_s = check_number("valid_for_s", valid_for_s, "above 0 to 3600", lambda s: 0 < s <= 3600)
+        self._valid_for_s = check_number("valid_for_s", valid_for_s, "above 0 to 10", lambda s: 0 < s <= 10)
         self._speed_limit_rad_s = speed_limit_rad_s
         self._base = beside._base if beside else TimeBase()
         self._stream_id = conversation.sender.next_sequence()
@@ -152,7 +152,7 @@ class Stream:
         while (refusal := self._conversation.take_refusal()) is not None:
             reason, text, overtaken = refusal
             if reason != Reason.TOO_OLD and not overtaken:
-                if reason == Reason.STREAM_ENDED:
+                if reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
                     self._over, self._last_cycle = True, None  # whoever ended it has the joint
                 raise Refused(self._joint.name, "a setpoint of the stream", reason, text)
             self.late += 1

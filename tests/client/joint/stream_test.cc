@@ -130,14 +130,18 @@ TEST_F(StreamTest, LeavesOutWhatComesAfterItsTime) {
 }
 
 TEST_F(StreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
-  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kStreamEnded; };
-  auto stream = joint.stream();
-  stream.put(0.0, 0.1);
-  try {
-    for (int i = 1; i < 1000; ++i) stream.put(0.01 * i, 0.1);
-    FAIL() << "went on";
-  } catch (const Refused& error) {
-    EXPECT_EQ(error.reason(), Reason::kStreamEnded);
+  for (const Reason reason : {Reason::kStreamEnded, Reason::kSuperseded}) {
+    daemon.daemon().reason = Reason::kAccepted;
+    daemon.daemon().after_answer = [this, reason] { daemon.daemon().reason = reason; };
+    auto stream = joint.stream();
+    stream.put(0.0, 0.1);
+    try {
+      for (int i = 1; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+      FAIL() << "went on";
+    } catch (const Refused& error) {
+      EXPECT_EQ(error.reason(), reason);
+    }
+    EXPECT_THROW(stream.put(20.0, 0.1), NotDone) << "over";
   }
 }
 

@@ -135,6 +135,18 @@ TEST_F(ClientTest, GivesAnOrderThatCameTooLateAnewFromANewerState) {
   EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->challenge, 101);
 }
 
+TEST_F(ClientTest, GivesNoOrderAnewThatAStopOfSomebodyElseHasOvertaken) {
+  daemon.publish_state();
+  daemon.reason = Reason::kSuperseded;
+  daemon.after_answer = [&] {
+    ++daemon.state.challenge;
+    daemon.publish_state();
+  };
+  const Answer answer = order("elbow");
+  EXPECT_EQ(answer.reason, Reason::kSuperseded);
+  EXPECT_EQ(daemon.heard().size(), 1U);
+}
+
 TEST_F(ClientTest, RisesAboveTheSequenceThatTheDaemonNames) {
   daemon.publish_state();
   daemon.reason = Reason::kOldSequence;

@@ -52,6 +52,18 @@ class Orders(PlayedOrders):
         self.elbow.release()
         self.assertEqual([order.challenge for order in self.orders()], [22, 23])
 
+    def test_that_a_stop_of_somebody_else_has_overtaken_are_not_given_anew(self):
+        self.publish_state()
+
+        def daemon(*entry):
+            self.answer(published(*entry), 0, Reason.SUPERSEDED)
+            self.publish_state(challenge=23)
+
+        self.network.daemon = daemon
+        with self.assertRaisesRegex(Refused, "superseded"):
+            self.elbow.release()
+        self.assertEqual(len(self.network.published), 1)
+
     def test_that_are_refused_say_why_by_name_and_are_not_repeated(self):
         self.publish_state()
         self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE, "from \x1b[31m-1 to 1")

@@ -36,20 +36,24 @@ class Streams(PlayedOrders):
         with self.assertRaisesRegex(NotDone, "the stream is over"):
             stream.put(4, 0.5)
 
-    def test_that_have_ended_raise_with_the_next_sample(self):
-        def daemon(*entry):
-            order = published(*entry)
-            self.answer(order, order.begins_stream, Reason.STREAM_ENDED if not order.begins_stream else Reason.ACCEPTED)
+    def test_of_a_stream_that_has_ended_raise_with_the_next_sample(self):
+        for reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
+            with self.subTest(reason):
+                def daemon(*entry):
+                    order = published(*entry)
+                    self.answer(order, order.begins_stream, reason if not order.begins_stream else Reason.ACCEPTED)
 
-        self.network.daemon = daemon
-        stream = self.stream(ahead_s=0.9)
-        stream.put(0, 0.1)
-        stream.put(0.01, 0.1)
-        with self.assertRaisesRegex(Refused, "setpoint stream has ended"):
-            stream.put(0.02, 0.1)
-        with self.assertRaisesRegex(NotDone, "this stream is over"):
-            stream.put(0.03, 0.1)
-        self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
+                self.network.published.clear()
+                self.network.daemon = daemon
+                stream = self.stream(ahead_s=0.9)
+                stream.put(0, 0.1)
+                stream.put(0.01, 0.1)
+                with self.assertRaises(Refused) as caught:
+                    stream.put(0.02, 0.1)
+                self.assertIs(caught.exception.reason, reason)
+                with self.assertRaisesRegex(NotDone, "this stream is over"):
+                    stream.put(0.03, 0.1)
+                self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
 
     def test_refuse_samples_after_their_close_and_begin_nothing(self):
         def daemon(channel, message):

@@ -102,6 +102,20 @@ TEST_F(OrderDeskTest, AnOrderThatWasTooOldIsGivenAnewWithTheNewestState) {
   EXPECT_EQ(desk.message(), "ARM2.elbow: enable accepted");
 }
 
+TEST_F(OrderDeskTest, AnOrderThatAStopOfSomebodyElseHasOvertakenIsNotGivenAnew) {
+  OrderDesk desk(connection_, states_, "", 0.4);
+  daemon_.state.challenge = 1;
+  daemon_.publish_state();
+  handle(0.05, desk);
+  daemon_.reason = Reason::kSuperseded;
+  desk.order({"ARM2", "elbow"}, Action::kEnable);
+  daemon_.state.challenge = 2;
+  daemon_.publish_state();
+  handle(0.1, desk);
+  EXPECT_EQ(daemon_.heard().size(), 1U);
+  EXPECT_TRUE(desk.alarm());
+}
+
 TEST_F(OrderDeskTest, SaysThatThereIsNoFaultInsteadOfClearingIt) {
   OrderDesk desk(connection_, states_, "", 0.4);
   daemon_.publish_state(Mode::kHolding);

@@ -140,7 +140,6 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) 
   EXPECT_EQ(consider(recorded).reason, Reason::kTooOld);
 }
 
-// The proof of a table takes longer than an order lives: who asks again meanwhile is not told that it is not obeyed.
 TEST_F(SignedAdmission, ARepetitionOfTheLastOrderIsOneHoweverOldItIsAndObeyedOnce) {
   const WireMessage last = wire(kSetpoint, filled<setpoint_v2>(1, 1000), &operator_);
   ASSERT_EQ(consider(last).kind, Verdict::Kind::kOrder);
@@ -153,7 +152,7 @@ TEST_F(SignedAdmission, ARepetitionOfTheLastOrderIsOneHoweverOldItIsAndObeyedOnc
 TEST_F(SignedAdmission, NothingThatWasSentBeforeAFaultIsObeyedAfterIt) {
   const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
   const std::int64_t stops = admission_.stop_count(0);
-  admission_.fault(0);
+  admission_.fault(0, 0);
   EXPECT_EQ(consider(move).reason, Reason::kTooOld);
   EXPECT_NE(admission_.stop_count(0), stops) << "a table that is proved meanwhile is not taken";
 }
@@ -173,9 +172,16 @@ TEST_F(SignedAdmission, NothingThatWasSentBeforeAStopIsObeyedAfterIt) {
     const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
     const WireMessage enable = wire(kCommand, command(Action::kEnable, 1, 101), &operator_);
     ASSERT_EQ(consider(wire(kCommand, command(stop, 2, 1), nullptr)).kind, Verdict::Kind::kOrder);
-    EXPECT_EQ(consider(move).reason, Reason::kTooOld);
-    EXPECT_EQ(consider(enable).reason, Reason::kTooOld);
+    EXPECT_EQ(consider(move).reason, Reason::kSuperseded);
+    EXPECT_EQ(consider(enable).reason, Reason::kSuperseded);
   }
+}
+
+TEST_F(SignedAdmission, WhoStoppedTheJointHimselfMayGiveAnewWhatHeOrderedAfterThat) {
+  ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 1, 100), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 101), &operator_)).reason, Reason::kTooOld);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 99), &operator_)).reason, Reason::kSuperseded)
+      << "ordered before he stopped it, in another window";
 }
 
 TEST_F(SignedAdmission, AStopOfOneJointLeavesTheOthersTheirOrders) {
@@ -206,8 +212,9 @@ TEST_F(SignedAdmission, LetsOnlyAnEngineerTakeAJointOver) {
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 1), &engineer_)).reason, Reason::kNotOwner);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 1, 2), &operator_)).reason,
             Reason::kRoleNotAllowed);
-  EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 2, 3), &engineer_)).kind,
-            Verdict::Kind::kOrder);
+  const Verdict taken = consider(wire(kCommand, command(Action::kTakeOver, 2, 3), &engineer_));
+  ASSERT_EQ(taken.kind, Verdict::Kind::kOrder);
+  admission_.take_over(taken.requester, now_ns_);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 4), &engineer_)).kind, Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 5), &operator_)).reason, Reason::kNotOwner);
 }
@@ -245,27 +252,32 @@ TEST_F(SignedAdmission, CountsReplaysAgainstTheSameBoundButNotGoodOrders) {
     ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v2>(1, i), &operator_), 0).kind,
               Verdict::Kind::kOrder);
   for (int i = 0; i < kOrders; ++i) admission_.consider(recorded, 0);
-  // Half of what there is, the other half being for others.
-  EXPECT_EQ(rejects(Reason::kOldSequence),
-            static_cast<std::int64_t>(Admission::kWastedVerificationsAtOnce / 2.0));
+  // Half of what there is and a little more, the rest being for others.
+  const auto verified = static_cast<double>(rejects(Reason::kOldSequence));
+  EXPECT_GE(verified, 0.5 * Admission::kWastedVerificationsAtOnce);
+  EXPECT_LE(verified, 0.6 * Admission::kWastedVerificationsAtOnce);
   EXPECT_EQ(rejects(Reason::kOldSequence) + rejects(Reason::kBusy), kOrders);
 }
 
-// Each from a source of its own, as a program that is started for one order; the forger has as many as he likes up to hundreds.
+// Each from a source of its own, as a program that is started for one order; the forger has as many as he likes up to two thousand.
 TEST_F(SignedAdmission, VerifiesGoodOrdersAndStopsAmongForgeriesFromManySources) {
-  for (const Action action : {Action::kClearFault, Action::kDisable}) {
-    WireMessage forged = wire(kCommand, command(action, 1, 1), &operator_);
-    forged.bytes[forged.size - 1] ^= 1;
-    const std::int64_t begin_ns = now_ns_;
-    for (int i = 0; i < 10'000; ++i) {  // five in a millisecond
-      forged.source = static_cast<std::uint64_t>(i % 200);
-      admission_.consider(forged, now_ns_ = begin_ns + i * 200'000);
-      if (i % 500 != 499) continue;
-      WireMessage good = wire(kCommand, command(action, 7, ++sequence_), &operator_);
-      good.source = static_cast<std::uint64_t>(1000 + i);
-      EXPECT_TRUE(admission_.consider(good, now_ns_).requester.authentic) << i << ", " << to_text(action);
+  constexpr std::uint64_t kElsewhere = 1U << 20U;
+  constexpr int kWarmUp = 15'000;  // until each of the ports has had its first
+  for (const Action action : {Action::kClearFault, Action::kDisable})
+    for (const int ports : {200, 400, 2000}) {
+      WireMessage forged = wire(kCommand, command(action, 1, 1), &operator_);
+      forged.bytes[forged.size - 1] ^= 1;
+      const std::int64_t begin_ns = now_ns_;
+      for (std::int64_t i = 0; i < 25'000; ++i) {  // five in a millisecond
+        forged.source = static_cast<std::uint64_t>(i % ports);
+        admission_.consider(forged, now_ns_ = begin_ns + i * 200'000);
+        if (i % 500 != 499 || i < kWarmUp) continue;
+        WireMessage good = wire(kCommand, command(action, 7, ++sequence_), &operator_);
+        good.source = kElsewhere * static_cast<std::uint64_t>(++sequence_);
+        EXPECT_TRUE(admission_.consider(good, now_ns_).requester.authentic)
+            << i << ", " << to_text(action) << " beside " << ports;
+      }
     }
-  }
 }
 
 TEST_F(SignedAdmission, VerifiesWhoWasRightBeforeHoweverManySourcesForge) {

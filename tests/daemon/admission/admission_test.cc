@@ -194,6 +194,16 @@ TEST_F(AdmissionTest, RefusesAnOrderThatWasKeptBackForLongerThanItLives) {
   EXPECT_EQ(admission_.ownership().owner_id(0, 1), 0);
 }
 
+TEST_F(AdmissionTest, SaysOfWhichCycleAnOrdersChallengeIsForWhomAFaultMayComeBefore) {
+  admission_.advance(500, kChallenge + 1);
+  setpoint_v2 move = setpoint(0.5);
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", move)).order.challenge_cycle, 0);
+  move = setpoint(0.5);
+  move.challenge = kChallenge + 1;
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", move)).order.challenge_cycle, 500);
+  EXPECT_EQ(consider(wire("SW.elbow.COMMAND", command(Action::kHold))).order.challenge_cycle, -1);
+}
+
 TEST_F(AdmissionTest, SaysInWhichCycleAnOrderExpiresThatMustYetWaitForItsLoop) {
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", setpoint(0.5)));
   EXPECT_EQ(verdict.order.expires_cycle, 1125);
@@ -229,6 +239,9 @@ TEST_F(AdmissionTest, ReleasesWithoutTheLoopAndTakesOverWithTheEndOfAStream) {
   const Verdict taken = consider(wire("SW.elbow.COMMAND", take));
   EXPECT_EQ(taken.kind, Verdict::Kind::kOrder);
   EXPECT_EQ(taken.order.kind, OrderKind::kEndStream);
+  EXPECT_EQ(admission_.ownership().owner_id(0, 0), 0) << "the stream's end is not under way yet";
+  ASSERT_TRUE(taken.requester.takes_over);
+  admission_.take_over(taken.requester, 0);
   EXPECT_EQ(admission_.ownership().owner_id(0, 0), 2);
 }
 
@@ -247,6 +260,18 @@ TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
   ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
   EXPECT_EQ(verdict.order.stream_id, 7);
   EXPECT_TRUE(verdict.order.begins_stream);
+}
+
+TEST_F(AdmissionTest, WantsAStreamToSaySomethingEveryTenSecondsAtLeast) {
+  setpoint_v2 sample = setpoint(0.5);
+  sample.stream_id = 7;
+  sample.valid_for_s = 10.0;
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", sample)).kind, Verdict::Kind::kOrder);
+  sample.sequence = ++sequence_;
+  sample.valid_for_s = 10.1;
+  const Verdict refused = consider(wire("SW.elbow.SETPOINT", sample));
+  EXPECT_EQ(refused.reason, Reason::kOutOfRange);
+  EXPECT_NE(refused.text.find("at most 10 s"), std::string::npos) << refused.text;
 }
 
 TEST_F(AdmissionTest, PassesNothingButStopsOnceTheDaemonEnds) {

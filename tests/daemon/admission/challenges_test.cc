@@ -31,22 +31,56 @@ TEST(Challenges, ThatAreNewestLiveAtLeastForTheLifetime) {
 TEST(Challenges, DrawnBeforeAStopAreOverForThatJointAlone) {
   Challenges challenges(kLifetime, 2);
   const std::int64_t before = challenges.advance(0, 11);
-  challenges.stop(1);
-  EXPECT_TRUE(challenges.stopped_since(before, 1));
-  EXPECT_FALSE(challenges.stopped_since(before, 0));
-  const std::int64_t after = challenges.advance(kLifetime / 50, 12);
+  challenges.stop(1, {2, 10});
+  EXPECT_EQ(challenges.since(before, 1, {1, 5}), Since::kOthersStop);
+  EXPECT_EQ(challenges.since(before, 0, {1, 5}), Since::kNothing);
+  const std::int64_t after = challenges.advance(0, 12);
   EXPECT_NE(after, before) << "a new one comes at once";
-  EXPECT_FALSE(challenges.stopped_since(after, 1));
-  EXPECT_TRUE(challenges.stopped_since(before, 1));
+  EXPECT_EQ(challenges.since(after, 1, {1, 5}), Since::kNothing);
+  EXPECT_EQ(challenges.since(before, 1, {1, 5}), Since::kOthersStop);
+}
+
+TEST(Challenges, TellAStopThatItsSenderGaveBeforeFromOneThatOvertookHim) {
+  Challenges challenges(kLifetime, 1);
+  const std::int64_t before = challenges.advance(0, 11);
+  challenges.stop(0, {1, 10});
+  EXPECT_EQ(challenges.since(before, 0, {1, 11}), Since::kOwnStop);
+  EXPECT_EQ(challenges.since(before, 0, {1, 10}), Since::kOthersStop) << "in another window of his";
+  EXPECT_EQ(challenges.since(before, 0, {1, 9}), Since::kOthersStop);
+  challenges.stop(0, {2, 1});
+  EXPECT_EQ(challenges.since(before, 0, {1, 11}), Since::kOthersStop);
+  challenges.stop(0, {1, 12});
+  EXPECT_EQ(challenges.since(before, 0, {1, 13}), Since::kOthersStop) << "somebody else's came between";
+  const std::int64_t later = challenges.advance(1, 12);
+  challenges.stop(0, {1, 14});
+  EXPECT_EQ(challenges.since(later, 0, {1, 15}), Since::kOwnStop) << "the other's was before";
+  EXPECT_EQ(challenges.since(before, 0, {1, 15}), Since::kOthersStop);
+}
+
+TEST(Challenges, DrawnInTheCycleOfAFaultOrBeforeAreOverAndTheNextIsDrawnInALaterOne) {
+  Challenges challenges(kLifetime, 1);
+  const std::int64_t before = challenges.advance(100, 11);
+  challenges.fault(0, 100);
+  EXPECT_EQ(challenges.since(before, 0, {1, 1}), Since::kOwnStop) << "its sender may give it anew";
+  EXPECT_EQ(challenges.advance(100, 12), before);
+  const std::int64_t after = challenges.advance(101, 13);
+  EXPECT_EQ(after, 13);
+  EXPECT_EQ(challenges.since(after, 0, {1, 1}), Since::kNothing);
+  EXPECT_EQ(challenges.drawn_cycle(after), 101);
+  EXPECT_EQ(challenges.drawn_cycle(4711), -1);
 }
 
 TEST(Challenges, AreNotForgottenHoweverManyStopsThereAre) {
-  Challenges challenges(kLifetime, 2);
-  const std::int64_t first = challenges.advance(0, 11);
-  for (std::int64_t cycle = 1; cycle < kLifetime; ++cycle) {
-    challenges.stop(1);
-    challenges.advance(cycle, 100 + cycle);
-    ASSERT_GE(challenges.expiry_cycle(first), 0) << cycle;
+  for (const std::int64_t lifetime :
+       {std::int64_t{100}, std::int64_t{199}, kLifetime, std::int64_t{10'000}}) {
+    Challenges challenges(lifetime, 2);
+    std::int64_t first = 0;
+    for (std::int64_t cycle = 0; cycle < 5 * lifetime; ++cycle) {
+      const std::int64_t newest = challenges.advance(cycle, 100 + cycle);
+      challenges.stop(1, {1, cycle});
+      if (cycle % lifetime == 0) first = newest;
+      ASSERT_GE(challenges.expiry_cycle(first), 0) << cycle << " of " << lifetime;
+    }
   }
 }
 

@@ -131,11 +131,11 @@ TEST_F(PathAdmissionTest, IsStartedOnlyByWhoHasAllOfItsJoints) {
   EXPECT_EQ(verdict.order.kind, OrderKind::kResumePath);
 }
 
-TEST_F(PathAdmissionTest, IsTooOldAfterAStop) {
+TEST_F(PathAdmissionTest, IsOvertakenByAStop) {
   auto stop = order<command_v1>(3);
   stop.action = static_cast<std::int32_t>(Action::kHold);
   ASSERT_EQ(admission_.consider(wire("SW.elbow.COMMAND", stop), 0).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(path(3)).reason, Reason::kTooOld);
+  EXPECT_EQ(consider(path(3)).reason, Reason::kSuperseded);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <memory>
 #include <strainwave/ack_v1.hpp>
 #include <string>
+#include <vector>
 
 #include "control/gain_table_json.h"
 #include "lcmtypes/wire.h"
@@ -35,7 +36,8 @@ class PendingOrdersTest : public ::testing::Test {
     verdict.requester.sender_id = 1;
     verdict.requester.sequence = ++sequence_;
     verdict.requester.authentic = authentic;
-    verdict.requester.stop = kind == OrderKind::kDisable;
+    verdict.requester.stop = kind == OrderKind::kDisable || kind == OrderKind::kHold;
+    verdict.requester.takes_over = kind == OrderKind::kEndStream;
     if (kind == OrderKind::kUseTable) verdict.table = std::make_unique<GainTable>(testing::demo_table());
     orders_.handle(verdict, now_ns_);
     return verdict;
@@ -200,6 +202,61 @@ TEST_F(PendingOrdersTest, OfWhoProvesWhoHeIsAreAnsweredHoweverManyStopsAreForged
   obey(true);
   orders_.take_replies(now_ns_);
   EXPECT_EQ(acceptances(), 1);
+}
+
+TEST_F(PendingOrdersTest, LeaveStopsTheirPlacesHoweverManyOrdersWait) {
+  int passed = 0;
+  while (order(OrderKind::kEnable, true).kind == Verdict::Kind::kOrder && passed < 1000) ++passed;
+  EXPECT_EQ(passed, static_cast<int>(kWaitingOrders - PendingOrders::kPlacesForStops));
+  for (const OrderKind stop : {OrderKind::kHold, OrderKind::kDisable})
+    EXPECT_EQ(order(stop).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(order(OrderKind::kEnable, true).reason, Reason::kBusy);
+}
+
+TEST_F(PendingOrdersTest, AreOneForTheLoopWhenTheyAreEqualStopsAndAllAreAnsweredByItsReply) {
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_EQ(order(OrderKind::kDisable, i % 3 == 0).kind, Verdict::Kind::kOrder) << i;
+    EXPECT_EQ(order(OrderKind::kHold, true).kind, Verdict::Kind::kOrder) << i;
+  }
+  Order taken;
+  int count = 0;
+  while (loop_.joint(0).orders().pop(taken)) {
+    ++count;
+    (void)loop_.replies().push({taken.id, Reason::kAccepted, Mode::kOff});
+    EXPECT_EQ(acceptances(), 0) << "none before the loop's reply";
+  }
+  EXPECT_EQ(count, 2);
+  orders_.take_replies(now_ns_);
+  EXPECT_FALSE(orders_.waiting());
+  EXPECT_EQ(acceptances(), 120);
+}
+
+TEST_F(PendingOrdersTest, ThatFollowAStopLetAnEqualOneAfterThemThrough) {
+  const auto waiting = [this] {
+    std::vector<OrderKind> kinds;
+    for (Order order; loop_.joint(0).orders().pop(order);) kinds.push_back(order.kind);
+    return kinds;
+  };
+  using Kinds = std::vector<OrderKind>;
+  order(OrderKind::kHold);
+  order(OrderKind::kEnable);
+  order(OrderKind::kHold);
+  order(OrderKind::kHold);
+  EXPECT_EQ(waiting(), (Kinds{OrderKind::kHold, OrderKind::kEnable, OrderKind::kHold}));
+  obey(true);
+  orders_.take_replies(now_ns_ += PendingOrders::kReplyTimeout_ns + 1);
+  order(OrderKind::kHold);
+  EXPECT_EQ(waiting(), Kinds{OrderKind::kHold}) << "the ones before were given up";
+}
+
+TEST_F(PendingOrdersTest, ThatTakeAJointOverDoSoOnceTheStreamsEndIsUnderWay) {
+  while (order(OrderKind::kEnable, true).kind == Verdict::Kind::kOrder) {
+  }
+  EXPECT_EQ(order(OrderKind::kEndStream, true).reason, Reason::kBusy);
+  EXPECT_EQ(admission_.ownership().owner_id(0, now_ns_), 0) << "the stream goes on, with its owner";
+  obey(false);
+  EXPECT_EQ(order(OrderKind::kEndStream, true).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(admission_.ownership().owner_id(0, now_ns_), 1);
 }
 
 }  // namespace

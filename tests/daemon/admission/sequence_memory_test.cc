@@ -20,6 +20,8 @@ TEST(SequenceMemory, TellsRisingRepeatedAndOldApart) {
   EXPECT_EQ(memory.judge({0, 0}, 1, 9, 2), Judgement::kOld);
   EXPECT_EQ(memory.judge({0, 0}, 1, 100, 3), Judgement::kNew);
   EXPECT_EQ(memory.last({0, 0}), 100);
+  EXPECT_TRUE(memory.is_last({0, 0}, 1, 100));
+  EXPECT_EQ(memory.judge({0, 0}, 1, 100, 10 * kLifetime), Judgement::kRepeat) << "however late it comes";
 }
 
 TEST(SequenceMemory, WantsTheSequenceToRiseOverAllSendersOfAKeyAndOverNoOtherKeyOrJoint) {

@@ -83,6 +83,25 @@ TEST_F(RecorderConfigTest, DoubtsADirectoryInWhichNothingCanBeWritten) {
                   {"recorder.directory = \"closed/records\"", "/closed: Permission denied"});
 }
 
+TEST_F(RecorderConfigTest, DoubtsADirectoryInWhichOthersCanWrite) {
+  using std::filesystem::perms;
+  const std::filesystem::path open = folder_ / "open";
+  std::filesystem::create_directory(open);
+  const auto doubts = [&](const std::string& directory, perms permissions) {
+    std::filesystem::permissions(open, permissions);
+    std::string text;
+    for (const std::string& warning :
+         read(joint("a") + "[recorder]\ndirectory = \"" + directory + "\"\n").warnings)
+      text += warning;
+    return text;
+  };
+  expect_mentions(doubts("open", perms::all), {"recorder.directory = \"open\"", "can write there"});
+  expect_mentions(doubts("open/made/later", perms::all), {"somebody else can write there", "/open"});
+  expect_mentions(doubts("open", perms::all | perms::sticky_bit), {"everybody can write there"});
+  EXPECT_EQ(doubts("open/made/later", perms::all | perms::sticky_bit), "") << "as a folder under /tmp";
+  EXPECT_EQ(doubts("open", perms::owner_all | perms::group_all), "");
+}
+
 TEST_F(RecorderConfigTest, RefusesRecordsThatDoNotFitIntoMemory) {
   std::string text;
   for (int i = 0; i < 64; ++i) text += joint("j" + std::to_string(i));

@@ -197,6 +197,30 @@ TEST_F(JointLoopOrders, ThatWaitedBeyondTheirTimeAreRefused) {
   EXPECT_EQ(bench_.order(0, late), Reason::kAccepted);
 }
 
+// Whoever clears a fault has seen it: an order that was on its way when the joint faulted is not about that fault.
+TEST_F(JointLoopOrders, ThatWaitedWhileTheJointFaultedAreRefused) {
+  bench_.bring_to_hold(0);
+  Order order;
+  order.kind = OrderKind::kClearFault;
+  order.challenge_cycle = bench_.cycle();
+  bench_.joint(0).raise_fault(Fault::kGroup, bench_.time());
+  const std::int64_t faulted_cycle = bench_.cycle();
+  for (const std::int64_t challenge_cycle : {faulted_cycle - 1, faulted_cycle}) {
+    order.challenge_cycle = challenge_cycle;
+    EXPECT_EQ(bench_.order(0, order), Reason::kTooOld) << challenge_cycle - faulted_cycle;
+    EXPECT_EQ(bench_.mode(0), Mode::kFaulted);
+  }
+  order.challenge_cycle = faulted_cycle + 1;
+  EXPECT_EQ(bench_.order(0, order), Reason::kAccepted);
+  order.kind = OrderKind::kEnable;
+  order.challenge_cycle = faulted_cycle;
+  EXPECT_EQ(bench_.order(0, order), Reason::kTooOld) << "the fault is cleared: the enable is from before it";
+  EXPECT_EQ(bench_.mode(0), Mode::kOff);
+  order.kind = OrderKind::kDisable;
+  order.challenge_cycle = -1;
+  EXPECT_NE(bench_.order(0, order), Reason::kTooOld);
+}
+
 TEST_F(JointLoopOrders, DoNotExpireAMove) {
   bench_.bring_to_hold(0);
   ASSERT_EQ(bench_.move(0, 0.5), Reason::kAccepted);
