@@ -36,7 +36,7 @@ class Streams(PlayedOrders):
         with self.assertRaisesRegex(NotDone, "the stream is over"):
             stream.put(4, 0.5)
 
-    def test_of_a_stream_that_has_ended_raise_with_the_next_sample(self):
+    def test_that_have_ended_raise_with_the_next_sample(self):
         for reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
             with self.subTest(reason):
                 def daemon(*entry):
