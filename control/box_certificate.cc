@@ -20,8 +20,8 @@ std::string text_of(const BoxRange& range) {
   return text.str();
 }
 
-ProofMatrix lyapunov_of(const BoxCell& cell) {
-  const int n = kSpringLoopStates + cell.delay_periods;
+ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods) {
+  const int n = spring_loop_states(cell.delay_periods, lead_periods);
   ProofMatrix P(n, n);
   std::size_t entry = 0;
   for (int i = 0; i < n; ++i)
@@ -96,9 +96,10 @@ BoxReport certify_box(const GainTable& table) {
   const std::vector<GainRow> gains = gains_of(table);
   double margin = std::numeric_limits<double>::infinity();
   for (const BoxCell& cell : cells_of(box)) {
-    const SpringReport proof = certify(gains, spring_box(table, cell),
-                                       {table.plant.period_s, cell.delay_periods, 1.0, box.encoder_side},
-                                       lyapunov_of(cell), kMostBoxInequalities - report.inequalities);
+    const SpringReport proof =
+        certify(gains, spring_box(table, cell),
+                {table.plant.period_s, cell.delay_periods, 1.0, box.encoder_side, box.lead_periods},
+                lyapunov_of(cell, box.lead_periods), kMostBoxInequalities - report.inequalities);
     report.inequalities += proof.inequalities;
     if (proof.certified && proof.margin >= margin) continue;
     margin = proof.margin;
@@ -144,7 +145,9 @@ std::string describe(const CertifiedBox& box) {
          text_of(box.link_inertia_kgm2) + " kg m2, stiffness " + text_of(box.stiffness_Nm_rad) +
          " N m/rad, damping " + text_of(box.damping_Nms_rad) + " N m s/rad, delay " +
          text_of({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +
-         " periods, encoder on the " + to_text(box.encoder_side);
+         " periods, encoder on the " + to_text(box.encoder_side) +
+         (box.lead_periods == 0.0 ? ""
+                                  : ", lead " + text_of({box.lead_periods, box.lead_periods}) + " periods");
 }
 
 }  // namespace strainwave

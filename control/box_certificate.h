@@ -2,8 +2,8 @@
 // gain rule, every blend of them and the fallback are stable on every joint of the box, and that the cells leave nothing of it out.
 // Not real-time. Source: spring_certificate.h, of each cell.
 //
-// Proved is the feedback in the loop that the daemon closes around the encoder on the box's side (its velocity from the readings, torques
-// under way), for every delay of the box, any temperature taken for any other, viscous friction from 0 to the largest of the rules; stiffness
+// Proved is the feedback in the loop that the daemon closes around the encoder on the box's side (its velocity from the readings, its lead,
+// torques under way), for every delay of the box, any temperature taken for any other, viscous friction from 0 to the largest of the rules; stiffness
 // and link inertia may vary within a cell from sample to sample, damping and friction within the box. Not proved: what varies across
 // cells, as a wind-up over several slopes does where those have cells of their own; observer, planned motion and friction that is fed
 // forward; counts, stiction, a torque at its limit.

@@ -21,15 +21,19 @@ struct BoxRange {
 /// Cells of all delays together, and the delays there may be.
 inline constexpr int kMaxBoxCells = 24;
 inline constexpr int kMaxBoxDelay = 2;
-/// States of the loop around a joint with a spring (spring_plant.h) without delay; each period of delay adds one.
+inline constexpr double kMaxLeadPeriods = 10.0;
+/// States of the loop around a joint with a spring (spring_plant.h) without delay; each period of delay adds one, and a lead one.
 inline constexpr int kSpringLoopStates = 6;
 
+constexpr int spring_loop_states(int delay_periods, double lead_periods) noexcept {
+  return kSpringLoopStates + delay_periods + (lead_periods != 0.0 ? 1 : 0);
+}
 /// The upper triangle of a cell's P, a row and a column for each state of the loop. `delay_periods` >= 0.
-constexpr std::size_t cell_entries(int delay_periods) noexcept {
-  const std::size_t n = std::size_t{kSpringLoopStates} + static_cast<std::size_t>(delay_periods);
+constexpr std::size_t cell_entries(int delay_periods, double lead_periods) noexcept {
+  const auto n = static_cast<std::size_t>(spring_loop_states(delay_periods, lead_periods));
   return n * (n + 1) / 2;
 }
-inline constexpr std::size_t kCellEntries = cell_entries(kMaxBoxDelay);
+inline constexpr std::size_t kCellEntries = cell_entries(kMaxBoxDelay, kMaxLeadPeriods);
 
 /// A part of the box with one P; in it stiffness and link inertia may be another at every sample.
 struct BoxCell {
@@ -48,6 +52,8 @@ struct CertifiedBox {
   BoxRange damping_Nms_rad;         ///< >= 0, of the wind-up's speed
   std::int32_t least_delay = 0;  ///< periods between a torque's computation and its effect, 0..kMaxBoxDelay
   std::int32_t most_delay = 0;
+  /// Of the feedback on these joints, 0..kMaxLeadPeriods: scheduled_controller.h. Joints that are told of no spring have none.
+  double lead_periods = 0.0;
   std::int32_t cell_count = 0;  ///< 0: rigid
   std::array<BoxCell, kMaxBoxCells> cells{};
 

@@ -109,7 +109,7 @@ void inspect_cell(Inspector& inspector, const CertifiedBox& box, const BoxCell& 
   for (std::size_t i = 0; i < kCellEntries; ++i) {
     const std::string entry = key + "P[" + std::to_string(i) + "]";
     inspector.in_range(entry, cell.P[i], -kMaxLyapunov, kMaxLyapunov);
-    inspector.require(i < cell_entries(cell.delay_periods) || cell.P[i] == 0.0,
+    inspector.require(i < cell_entries(cell.delay_periods, box.lead_periods) || cell.P[i] == 0.0,
                       entry + ": must be 0 beyond the matrix");
   }
 }
@@ -140,11 +140,12 @@ void inspect_box(Inspector& inspector, const GainTable& table) {
   inspector.in_range("box.cell_count", box.cell_count, 0, kMaxBoxCells);
   inspector.in_range("box.delay_periods[0]", box.least_delay, 0, kMaxBoxDelay);
   inspector.in_range("box.delay_periods[1]", box.most_delay, box.least_delay, kMaxBoxDelay);
+  inspector.in_range("box.lead_periods", box.lead_periods, 0.0, kMaxLeadPeriods);
   if (!inspector.ok()) return;
   if (box.rigid()) {
     inspector.require(box.motor_inertia_kgm2 == 0.0 && is_zero(box.link_inertia_kgm2) &&
                           is_zero(box.stiffness_Nm_rad) && is_zero(box.damping_Nms_rad) &&
-                          box.most_delay == 0,
+                          box.most_delay == 0 && box.lead_periods == 0.0,
                       "box: a rigid one, without cells, must say nothing of a spring");
   } else {
     inspector.require(!table.plant.gear.view().empty(),

@@ -68,20 +68,22 @@ ordered_json box_to_json(const CertifiedBox& box) {
   ordered_json cells = ordered_json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i) {
     const BoxCell& cell = box.cells[i];
-    const auto P = std::span(cell.P).first(cell_entries(cell.delay_periods));
+    const auto P = std::span(cell.P).first(cell_entries(cell.delay_periods, box.lead_periods));
     cells.push_back({{"delay_periods", cell.delay_periods},
                      {"stiffness_Nm_rad", range_to_json(cell.stiffness_Nm_rad)},
                      {"link_inertia_kgm2", range_to_json(cell.link_inertia_kgm2)},
                      {"P", std::vector<double>(P.begin(), P.end())}});
   }
-  return {{"joint", kSpringName},
-          {"encoder_side", to_text(box.encoder_side)},
-          {"motor_inertia_kgm2", box.motor_inertia_kgm2},
-          {"link_inertia_kgm2", range_to_json(box.link_inertia_kgm2)},
-          {"stiffness_Nm_rad", range_to_json(box.stiffness_Nm_rad)},
-          {"damping_Nms_rad", range_to_json(box.damping_Nms_rad)},
-          {"delay_periods", {box.least_delay, box.most_delay}},
-          {"cells", std::move(cells)}};
+  ordered_json document = {{"joint", kSpringName},
+                           {"encoder_side", to_text(box.encoder_side)},
+                           {"motor_inertia_kgm2", box.motor_inertia_kgm2},
+                           {"link_inertia_kgm2", range_to_json(box.link_inertia_kgm2)},
+                           {"stiffness_Nm_rad", range_to_json(box.stiffness_Nm_rad)},
+                           {"damping_Nms_rad", range_to_json(box.damping_Nms_rad)},
+                           {"delay_periods", {box.least_delay, box.most_delay}}};
+  if (box.lead_periods != 0.0) document["lead_periods"] = box.lead_periods;
+  document["cells"] = std::move(cells);
+  return document;
 }
 
 /// One of two names.
@@ -105,12 +107,12 @@ std::int32_t delay_from_number(const StrictObject& object, double value) {
                    std::to_string(kMaxBoxDelay));
 }
 
-BoxCell cell_from_json(StrictObject& object) {
+BoxCell cell_from_json(StrictObject& object, double lead_periods) {
   BoxCell cell;
   cell.delay_periods = delay_from_number(object, object.number("delay_periods"));
   cell.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
   cell.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
-  std::ranges::copy(object.numbers("P", cell_entries(cell.delay_periods)), cell.P.begin());
+  std::ranges::copy(object.numbers("P", cell_entries(cell.delay_periods, lead_periods)), cell.P.begin());
   object.finish();
   return cell;
 }
@@ -129,9 +131,10 @@ CertifiedBox box_from_json(StrictObject object) {
     const BoxRange delays = range_from_json(object, "delay_periods");
     box.least_delay = delay_from_number(object, delays.from);
     box.most_delay = delay_from_number(object, delays.to);
+    if (object.has("lead_periods")) box.lead_periods = object.number("lead_periods");
     std::vector<StrictObject> cells = object.objects("cells", 1, kMaxBoxCells);
     box.cell_count = static_cast<std::int32_t>(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) box.cells[i] = cell_from_json(cells[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i) box.cells[i] = cell_from_json(cells[i], box.lead_periods);
   }
   object.finish();
   return box;

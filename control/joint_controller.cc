@@ -96,7 +96,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       monitor_(config.period_s),
       friction_side_(kTurnCounts * count_rad()),
       rest_detector_(config.encoder_resolution_rad),
-      law_(config.period_s, config.encoder_resolution_rad, velocity_share(config)),
+      law_(config.period_s, config.encoder_resolution_rad, velocity_share(config), config.link.has_value()),
       handover_(config.period_s),
       motion_(motion_limits(config)) {
   config_.motion = motion_;

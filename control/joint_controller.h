@@ -192,7 +192,7 @@ class JointController {
   bool torque_is_planned() const noexcept;
   EstimateSource estimate_source() const noexcept;
 
-  ControllerOutput track() noexcept;
+  ControllerOutput track(int elapsed_periods) noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
   double planned_torque_Nm() const noexcept;
   void follow_disturbance(int elapsed_periods) noexcept;

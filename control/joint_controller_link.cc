@@ -52,6 +52,7 @@ bool JointController::correct_link(double reading_rad) noexcept {
   const double distance_rad = std::abs(reading_rad - rest_position_rad());
   if (!corrections_.begins(reading_rad, distance_rad, state_.still_periods())) return false;
   ++replans_;
+  law_.reference_jumps();
   const double from_rad = link_motion_->reset(reading_rad);
   plan_.go_on_from(from_rad, 0.0);
   planned_ = {};
@@ -70,6 +71,7 @@ void JointController::go_on_from_here() noexcept {
   const bool rests =
       !torque_is_planned() && std::abs(shown_rad_s) * config_.period_s <= kRestCounts * count_rad();
   const double velocity_rad_s = rests ? 0.0 : std::clamp(shown_rad_s, -fastest, fastest);
+  law_.reference_jumps();
   reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
   plan_.go_on_from(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad,

@@ -116,7 +116,7 @@ void JointController::ask_for_new_plan() noexcept {
 }
 
 ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
-  if (phase_ == MotionPhase::kTracking) return track();
+  if (phase_ == MotionPhase::kTracking) return track(measurement.elapsed_periods);
   law_.interrupt();
   if (phase_ == MotionPhase::kYielding)
     return apply(yielding_.load_Nm + config_.gravity.at(state_.now().position_rad) + told_load_.torque_Nm);
@@ -188,8 +188,9 @@ double JointController::planned_torque_Nm() const noexcept {
          disturbance_.value().load_Nm + config_.gravity.at(reference_.position_rad) + told_load_.torque_Nm;
 }
 
-ControllerOutput JointController::track() noexcept {
+ControllerOutput JointController::track(int elapsed_periods) noexcept {
   ControllerInput input;
+  input.elapsed_periods = elapsed_periods;
   input.joint_position_rad = state_.then().position_rad;
   input.joint_velocity_rad_s = state_.then().velocity_rad_s;
   input.setpoint_position_rad = reference_.position_rad;

@@ -25,11 +25,13 @@ double largest_gain_Nm_rad(const GainTable& table, double velocity_by_rad) noexc
 
 void LawInUse::load(const GainTable& table) noexcept {
   keep_outgoing();
-  primary_ = ScheduledController(table.primary, table.friction, table.plant);
-  fallback_ = ScheduledController(table.fallback, table.friction, table.plant);
+  const double lead_periods = told_of_spring_ ? table.box.lead_periods : 0.0;
+  primary_ = ScheduledController(table.primary, table.friction, table.plant, lead_periods);
+  fallback_ = ScheduledController(table.fallback, table.friction, table.plant, lead_periods);
   if (temperature_C_) primary_.set_temperature(*temperature_C_);
   position_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, 0.0);
-  reading_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, velocity_share_ / period_s_);
+  reading_count_Nm_ = encoder_resolution_rad_ * largest_gain_Nm_rad(table, velocity_share_ / period_s_) *
+                      (1.0 + lead_periods);
   zero_velocity_weight_ = table.friction.velocity.zero_weight(0.0);
   if (std::exchange(soft_, false)) soften();
   loaded_ = true;
@@ -55,7 +57,10 @@ void LawInUse::choose_gains(const std::optional<double>& temperature_C) noexcept
 }
 
 ControllerOutput LawInUse::step(const ControllerInput& input) noexcept {
-  if (outgoing_) active().carry_over(input, outgoing_->step(input).torque_Nm);
+  if (outgoing_) {
+    const std::optional<double> last_law_Nm = outgoing_->last_law_Nm();
+    active().carry_over(input, outgoing_->step(input).torque_Nm, last_law_Nm);
+  }
   outgoing_.reset();
   return active().step(input);
 }

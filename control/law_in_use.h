@@ -5,7 +5,8 @@
 //                       u'(x, integral') = u(x, integral)
 //   softer            gains and the integral's share of the torque: F' = F / 4; until begin_anew(), whatever table comes
 //   a count makes     by its position                           resolution max_i |F_i1|
-//                     and as velocity from reading to reading   resolution max_i (|F_i1| + |F_i2| / T)
+//                     and as velocity from reading to reading   resolution max_i (|F_i1| + |F_i2| / T) (1 + n)
+//   a lead n          the table's, where the joint is told of its spring; it begins anew after interrupt()
 #pragma once
 
 #include <optional>
@@ -17,11 +18,14 @@ namespace strainwave {
 
 class LawInUse {
  public:
-  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as StateEstimatorConfig has it.
-  LawInUse(double period_s, double encoder_resolution_rad, double velocity_share = 1.0) noexcept
+  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as StateEstimatorConfig has it. On a joint that is
+  /// `told_of_spring` the law has its table's lead.
+  LawInUse(double period_s, double encoder_resolution_rad, double velocity_share = 1.0,
+           bool told_of_spring = false) noexcept
       : period_s_(period_s),
         encoder_resolution_rad_(encoder_resolution_rad),
-        velocity_share_(velocity_share) {}
+        velocity_share_(velocity_share),
+        told_of_spring_(told_of_spring) {}
 
   /// Takes a table that has passed find_defect().
   void load(const GainTable& table) noexcept;
@@ -36,7 +40,15 @@ class LawInUse {
   /// One period. The first after a change of gains goes on from the torque of those before it.
   ControllerOutput step(const ControllerInput& input) noexcept;
   /// Another torque than the law's is applied: the next of the law's continues none.
-  void interrupt() noexcept { outgoing_.reset(); }
+  void interrupt() noexcept {
+    outgoing_.reset();
+    active().interrupt();
+  }
+  /// The reference begins anew from where the joint is.
+  void reference_jumps() noexcept {
+    active().interrupt();
+    if (outgoing_) outgoing_->interrupt();
+  }
   void forget_integral() noexcept { active().reset(); }
   /// What the integral holds of a joint at rest.
   double integral_torque_Nm() const noexcept { return active().integral_torque_Nm(); }
@@ -64,6 +76,7 @@ class LawInUse {
   double period_s_;
   double encoder_resolution_rad_;
   double velocity_share_;
+  bool told_of_spring_;
   ScheduledController primary_;
   ScheduledController fallback_;
   std::optional<ScheduledController>

@@ -24,11 +24,12 @@ double velocity_error_rad_s(const ControllerInput& input) noexcept {
 }  // namespace
 
 ScheduledController::ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
-                                         const PlantIdentity& plant) noexcept
+                                         const PlantIdentity& plant, double lead_periods) noexcept
     : memberships_(friction),
       zero_weight_(friction.velocity),
       zero_velocity_gain_(gains.gain(0)),
       period_s_(plant.period_s),
+      lead_periods_(lead_periods),
       scheduled_(gains.scheduled()),
       has_integrator_(gains.has_integrator != 0) {
   for (int i = 0; i < friction.rule_count; ++i) {
@@ -95,21 +96,31 @@ void ScheduledController::keep_slow_part(const ControllerInput& input) noexcept 
   const bool jumped = !input.planned && input.setpoint_position_rad != last_setpoint_rad;
   if (jumped && !saturated_) slow_rad_s_ = integral_rad_s_ + fast_part(input, last_setpoint_rad);
   if (jumped || saturated_) integral_rad_s_ = slow_rad_s_ - fast_part(input, input.setpoint_position_rad);
+  if (jumped) interrupt();
+}
+
+// u = l + lead (l - l one period ago).
+double ScheduledController::lead_in(const ControllerInput& input) const noexcept {
+  return last_law_Nm_ ? lead_periods_ / std::max(1, input.elapsed_periods) : 0.0;
 }
 
 ControllerOutput ScheduledController::step(const ControllerInput& input) noexcept {
   keep_slow_part(input);
   const Terms terms = evaluate(input);
-  const double wanted_Nm = terms.feedback_Nm + terms.feedforward_Nm;
+  const double lead = lead_in(input);
+  const double feedback_Nm =
+      lead == 0.0 ? terms.law_Nm : terms.law_Nm + lead * (terms.law_Nm - *last_law_Nm_);
+  const double wanted_Nm = feedback_Nm + terms.feedforward_Nm;
   const double lowest_Nm = std::max(-input.torque_limit_Nm, input.torque_min_Nm);
   const double highest_Nm = std::min(input.torque_limit_Nm, input.torque_max_Nm);
   const double torque_Nm = std::min(std::max(wanted_Nm, lowest_Nm), highest_Nm);
   saturated_ = torque_Nm != wanted_Nm;
   slow_rad_s_ = integral_rad_s_ + fast_part(input, input.setpoint_position_rad);
   if (has_integrator_) integral_rad_s_ += period_s_ * position_error_rad(input);
+  last_law_Nm_ = terms.law_Nm;
   last_setpoint_rad_ = input.setpoint_position_rad;
   has_setpoint_ = true;
-  return {torque_Nm, terms.feedback_Nm, terms.feedforward_Nm, terms.zero_weight, saturated_};
+  return {torque_Nm, feedback_Nm, terms.feedforward_Nm, terms.zero_weight, saturated_};
 }
 
 void ScheduledController::soften(double share) noexcept {
@@ -119,11 +130,13 @@ void ScheduledController::soften(double share) noexcept {
   const double fast_rad_s = slow_rad_s_ - integral_rad_s_;
   integral_rad_s_ /= share;
   slow_rad_s_ = integral_rad_s_ + fast_rad_s;
+  interrupt();
 }
 
 void ScheduledController::reset() noexcept {
   integral_rad_s_ = 0.0;
   slow_rad_s_ = 0.0;
+  interrupt();
   has_setpoint_ = false;
   saturated_ = false;
 }
@@ -135,14 +148,19 @@ double ScheduledController::integral_torque_Nm() const noexcept {
          integral_rad_s_;
 }
 
-void ScheduledController::carry_over(const ControllerInput& input, double torque_Nm) noexcept {
+void ScheduledController::carry_over(const ControllerInput& input, double torque_Nm,
+                                     std::optional<double> last_law_Nm) noexcept {
+  last_law_Nm_ = last_law_Nm;
   last_setpoint_rad_ = input.setpoint_position_rad;
   has_setpoint_ = true;
   saturated_ = false;
   if (!has_integrator_) return;
   const Terms terms = evaluate(input);
-  if (terms.integral_gain != 0.0)
-    integral_rad_s_ += (torque_Nm - terms.feedback_Nm - terms.feedforward_Nm) / terms.integral_gain;
+  if (terms.integral_gain == 0.0) return;
+  const double lead = lead_in(input);
+  const double feedback_Nm = torque_Nm - terms.feedforward_Nm;
+  const double law_Nm = lead == 0.0 ? feedback_Nm : (feedback_Nm + lead * *last_law_Nm_) / (1.0 + lead);
+  integral_rad_s_ += (law_Nm - terms.law_Nm) / terms.integral_gain;
 }
 
 }  // namespace strainwave

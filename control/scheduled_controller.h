@@ -5,7 +5,9 @@
 //   x = [ integral e, e, velocity - setpoint velocity ]
 //   d = sign(-e): towards the setpoint
 //
-//   feedback               u = (alpha_0 F_0 + (1 - alpha_0) sum_i w_i(T) F_i) x
+//   law                    l = (alpha_0 F_0 + (1 - alpha_0) sum_i w_i(T) F_i) x
+//   feedback               u = l, or with a lead of n periods on a joint with a spring
+//                          u = l + n (l - l one period ago)
 //   friction compensation
 //     moving               f = alpha_0 Fs(T) d + (1 - alpha_0) Fc(T) sign(velocity)
 //     at rest              f = (1 + margin) Fs(T) d
@@ -25,10 +27,15 @@
 // so the integral that costs least for a given e and velocity is the one that leaves `slow` where it was. A
 // new setpoint and a saturated torque therefore keep `slow`: neither winds up, neither raises V, and the
 // certificate still holds.
+//
+// A lead makes up for the periods by which a torque acts late (control/spring_plant.h has it in the loop that is certified). The first
+// sample, and the first after any at which x or F jumped, has no l one period ago: there u = l. Over periods that were left out l is taken
+// to have changed evenly.
 #pragma once
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "control/gain_table.h"
 
@@ -46,6 +53,7 @@ struct ControllerInput {
   /// Nearer than this to the setpoint a joint at rest is left alone.
   double rest_zone_rad = 1e-6;
   double torque_limit_Nm = 0.0;  ///< >= 0
+  int elapsed_periods = 1;       ///< >= 1, since the last sample
   /// What the supply leaves of it at this speed.
   double torque_min_Nm = -std::numeric_limits<double>::infinity();
   double torque_max_Nm = std::numeric_limits<double>::infinity();
@@ -63,9 +71,9 @@ struct ControllerOutput {
 class ScheduledController {
  public:
   ScheduledController() = default;
-  /// `gains` and `friction` must have passed find_defect(). What the law needs of them is copied.
-  ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction,
-                      const PlantIdentity& plant) noexcept;
+  /// `gains` and `friction` must have passed find_defect(). What the law needs of them is copied. `lead_periods` >= 0.
+  ScheduledController(const FeedbackGains& gains, const FuzzyFriction& friction, const PlantIdentity& plant,
+                      double lead_periods = 0.0) noexcept;
 
   /// Layer 1: recomputes the temperature weights and everything that depends only on them. May be called at a
   /// slower rate than step(). The temperature must be finite; it is clamped to the table's range.
@@ -74,14 +82,19 @@ class ScheduledController {
   /// Layer 2 and the control law: one sample.
   ControllerOutput step(const ControllerInput& input) noexcept;
 
-  /// Forgets the integral.
+  /// Forgets the integral and the last sample.
   void reset() noexcept;
+  /// Until the next sample x jumps, or another torque is applied.
+  void interrupt() noexcept { last_law_Nm_.reset(); }
   /// From now on the gains are `share` > 0 times what they were; what the integral holds is the same torque.
   void soften(double share) noexcept;
 
   /// Chooses the integral so that step(input) would give `torque_Nm` (unless it saturates): the change-over
-  /// from another controller makes no torque step. Without an integrator it does nothing.
-  void carry_over(const ControllerInput& input, double torque_Nm) noexcept;
+  /// from another controller, which had `last_law_Nm` one period ago, makes no torque step. Without an integrator the lead alone goes on.
+  void carry_over(const ControllerInput& input, double torque_Nm,
+                  std::optional<double> last_law_Nm = {}) noexcept;
+  /// l one period ago, if there was one.
+  std::optional<double> last_law_Nm() const noexcept { return last_law_Nm_; }
 
   const TemperatureWeights& temperature_weights() const noexcept { return weights_; }
   /// Friction at the last temperature; the table's, also for controllers that do not use it.
@@ -92,12 +105,13 @@ class ScheduledController {
 
  private:
   struct Terms {
-    double feedback_Nm, feedforward_Nm, integral_gain, zero_weight;
+    double law_Nm, feedforward_Nm, integral_gain, zero_weight;
   };
   Terms evaluate(const ControllerInput& input) const noexcept;
   double friction_torque_Nm(const ControllerInput& input, double zero_weight) const noexcept;
   void keep_slow_part(const ControllerInput& input) noexcept;
   double fast_part(const ControllerInput& input, double setpoint_position_rad) const noexcept;
+  double lead_in(const ControllerInput& input) const noexcept;
 
   /// What layer 1 blends, a column per temperature rule: static_Nm, coulomb_Nm, viscous_Nms_rad, then the
   /// gain at high velocity. One array, so that the blend is one sum of vectors.
@@ -108,6 +122,7 @@ class ScheduledController {
   ZeroVelocityWeight zero_weight_;
   GainRow zero_velocity_gain_ = GainRow::Zero();  ///< F_0; of a controller without temperature its only gain
   double period_s_ = 0.0;
+  double lead_periods_ = 0.0;
   bool scheduled_ = false;
   bool has_integrator_ = false;
 
@@ -118,6 +133,7 @@ class ScheduledController {
   double velocity_share_s2_ = 0.0;                ///< P_02 / P_00
   double integral_rad_s_ = 0.0;
   double slow_rad_s_ = 0.0;  ///< of the last sample
+  std::optional<double> last_law_Nm_;
   double last_setpoint_rad_ = 0.0;
   bool has_setpoint_ = false;
   bool saturated_ = false;  ///< at the last sample

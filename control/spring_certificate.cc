@@ -90,6 +90,52 @@ SpringCorners spring_corners(const SpringBox& box, double period_s) {
 
 namespace {
 
+// Gauss and Jordan, without pivots: of a matrix that is positive definite. Approximate.
+ProofMatrix inverse(ProofMatrix matrix) {
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    const double pivot = matrix(k, k);
+    matrix(k, k) = 1.0;
+    matrix.row(k) /= pivot;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      if (i == k) continue;
+      const double share = matrix(i, k);
+      matrix(i, k) = 0.0;
+      matrix.row(i) -= share * matrix.row(k);
+    }
+  }
+  return matrix;
+}
+
+}  // namespace
+
+// Any l > 0 proves; this one makes both terms as large, in the fall's own norm.
+BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const Bounded& by_rate) {
+  const Eigen::Index n = P.value.rows();
+  const BoundedMatrix middle(H.value);
+  const BoundedMatrix PH = P * middle;
+  const ProofMatrix by_fall = inverse(P.value - by_rate.value * H.value.transpose().lazyProduct(PH.value));
+  ProofMatrix a = ProofMatrix::Zero(n, n);
+  ProofMatrix b = ProofMatrix::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ProofMatrix row = PH.value.row(i);
+    const double of_row = std::sqrt(row.lazyProduct(by_fall).lazyProduct(row.transpose())(0, 0));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (H.error(i, j) == 0.0) continue;
+      const double l = std::sqrt(by_fall(j, j)) / of_row;
+      a(i, i) += BoundedMatrix::kUp * H.error(i, j) * l;
+      b(j, j) += BoundedMatrix::kUp * H.error(i, j) / l;
+    }
+  }
+  const BoundedMatrix twice = middle.transpose() + PH.transpose() * BoundedMatrix(BoundedMatrix::kUp * a);
+  BoundedMatrix fall = P - by_rate * (twice * PH + BoundedMatrix(BoundedMatrix::kUp * b));
+  const ProofMatrix of_P = P.magnitude().lazyProduct(H.error);
+  const ProofMatrix second = H.error.transpose().lazyProduct(of_P);
+  fall.error = BoundedMatrix::kUp * (fall.error + BoundedMatrix::kUp * by_rate.value * second);
+  return fall;
+}
+
+namespace {
+
 enum class Outcome { kProved, kLostBetweenCorners, kRefused };
 
 class BoxProof {
@@ -126,9 +172,8 @@ class BoxProof {
   int states() const { return static_cast<int>(P_.value.rows()); }
 
   PositiveDefiniteResult test(const BoundedMatrix& sampled, const GainRow& gain) {
-    const BoundedMatrix H = spring_loop(sampled, gain, loop_);
     const Bounded by_rate = Bounded(1.0) / (Bounded(loop_.decay_rate) * loop_.decay_rate);
-    const BoundedMatrix fall = P_ - by_rate * (H.transpose() * (P_ * H));
+    const BoundedMatrix fall = least_fall(P_, spring_loop(sampled, gain, loop_), by_rate);
     ++report_.inequalities;
     return test_positive_definite(fall.value, fall.error, states());
   }
@@ -226,7 +271,11 @@ std::string describe(const SpringReport& report) {
   } else {
     text << "none (not positive on its diagonal)";
   }
-  text << " at " << describe(report.worst) << ", gain rule " << report.worst_gain;
+  if (report.worst.motor_inertia_kgm2 == 0.0) {
+    text << " of P itself";
+  } else {
+    text << " at " << describe(report.worst) << ", gain rule " << report.worst_gain;
+  }
   return text.str();
 }
 

@@ -10,8 +10,12 @@
 // Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D and b, so that its exponential is what interpolates those of the
 // box's 16 corners, within E (interpolation_error(), summed over the four). With |E_v| <= E
 //   H = sum_v lambda_v (H_v + E_v),    |H x| <= max_v |(H_v + E_v) x|   in the norm x' P x
-// and every inequality is tested with E added to the errors of H_v. H is affine in the gain, so that the same holds for blends. Where E
-// is what a proof fails on, the box is cut in two, with the same P: E falls by four.
+// and every inequality is tested for all H that are nearer to H_v than X, entry by entry: E and rounding. With w_i the rows of P H_v, e_j
+// unit vectors, D the difference and any l_ij > 0
+//   D' P H_v + H_v' P D <= sum_ij X_ij (l_ij w_i w_i' + e_j e_j' / l_ij) = (P H_v)' diag(a) (P H_v) + diag(b)
+//   |D' P D| <= X' |P| X                   entry by entry
+// H is affine in the gain, so that the same holds for blends. Where E is what a proof fails on, the box is cut in two, with the same P: E
+// falls by four.
 #pragma once
 
 #include <limits>
@@ -46,15 +50,18 @@ struct SpringCorners {
 };
 SpringCorners spring_corners(const SpringBox& box, double period_s);
 
+/// No more, as a symmetric matrix, than P - H' P H by_rate for any H within its errors. P exact, `by_rate` = 1 / r^2.
+BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const Bounded& by_rate);
+
 struct SpringReport {
   bool certified = false;
   int inequalities = 0;
   double margin = 0.0;  ///< the least, as PositiveDefiniteResult::margin
-  SpringPlant worst;    ///< the corner that has it, of the box or of a part
+  SpringPlant worst;    ///< the corner that has it, of the box or of a part; zeros: P > 0 itself
   int worst_gain = 0;
 };
 
-/// P: kSpringLoopStates + delay rows and columns. At least one gain. Not certified is what needs more than `most_inequalities`.
+/// P: a row and a column for each of loop.states(). At least one gain. Not certified is what needs more than `most_inequalities`.
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                      const ProofMatrix& P, int most_inequalities = std::numeric_limits<int>::max());
 

@@ -105,40 +105,58 @@ ProofMatrix interpolation_error(const ProofMatrix& size, const ProofMatrix& chan
   return (1.0 + kTerms * 256.0 * bounded_detail::kHalfUlp) * 0.125 * (sum + in_units(d, tail));
 }
 
+namespace {
+
+void set_row(BoundedMatrix& H, Eigen::Index row, const BoundedMatrix& entries) {
+  for (Eigen::Index j = 0; j < H.value.cols(); ++j) H.set(row, j, {entries.value(0, j), entries.error(0, j)});
+}
+
+// u of l, which is a state, too.
+BoundedMatrix with_lead(const BoundedMatrix& law, double lead_periods) {
+  BoundedMatrix torque = (Bounded(1.0) + lead_periods) * law;
+  torque.set(0, law.value.cols() - 1, -lead_periods);
+  return torque;
+}
+
+}  // namespace
+
 BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, const SpringLoop& loop) {
   const int delay_periods = loop.delay_periods;
   assert(delay_periods >= 0 && delay_periods <= kMaxSpringDelay);
-  const Eigen::Index n = kSpringLoopStates + delay_periods;
+  const Eigen::Index n = loop.states();
   const Bounded share = velocity_share(loop.encoder_side, loop.period_s);
   const Bounded by_difference = share * gain(2) / loop.period_s;
-  BoundedMatrix torque(1, n);
-  torque.set(0, 0, gain(0));
-  torque.set(0, 5, -by_difference);
+  BoundedMatrix law(1, n);
+  law.set(0, 0, gain(0));
+  law.set(0, 5, -by_difference);
   BoundedMatrix H(n, n);
   H.set(0, 0, 1.0);
   H.set(5, 5, Bounded(1.0) - share);
   // Of the states in y: the motor's position, and the link's place beside it.
   for (const Eigen::Index y : {1, 3}) {
     if (y == 3 && loop.encoder_side == EncoderSide::kMotor) break;
-    torque.set(0, y, Bounded(gain(1)) + by_difference);
+    law.set(0, y, Bounded(gain(1)) + by_difference);
     H.set(0, y, loop.period_s);
     H.set(5, y, share);
   }
   for (Eigen::Index i = 0; i < kSpringPlantStates; ++i)
     for (Eigen::Index j = 0; j < kSpringPlantStates; ++j)
       H.set(1 + i, 1 + j, {sampled.value(i, j), sampled.error(i, j)});
+  const bool leads = loop.lead_periods != 0.0;
+  if (leads) set_row(H, n - 1, law);
+  const BoundedMatrix torque = leads ? with_lead(law, loop.lead_periods) : law;
   BoundedMatrix input(n, n);
   for (Eigen::Index i = 0; i < kSpringPlantStates; ++i)
     input.set(1 + i, 0, {sampled.value(i, kSpringPlantStates), sampled.error(i, kSpringPlantStates)});
   if (delay_periods == 0) {
     BoundedMatrix first(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) first.set(0, j, {torque.value(0, j), torque.error(0, j)});
+    set_row(first, 0, torque);
     return H + input * first;
   }
-  for (Eigen::Index j = 0; j < n; ++j) H.set(kSpringLoopStates, j, {torque.value(0, j), torque.error(0, j)});
+  set_row(H, kSpringLoopStates, torque);
   for (int i = 1; i < delay_periods; ++i) H.set(kSpringLoopStates + i, kSpringLoopStates + i - 1, 1.0);
   for (Eigen::Index i = 1; i <= kSpringPlantStates; ++i)
-    H.set(i, n - 1, {input.value(i, 0), input.error(i, 0)});
+    H.set(i, kSpringLoopStates + delay_periods - 1, {input.value(i, 0), input.error(i, 0)});
   return H;
 }
 

@@ -9,9 +9,10 @@
 //
 //   p  = [ thm - r, wm, s, v ]
 //   y  = thm - r, or thl - r = thm - r + s where the encoder is the link's
-//   x  = [ integral, p, z, u one period ago, ..., u d periods ago ]
+//   x  = [ integral, p, z, u one period ago, ..., u d periods ago, l one period ago ]
 //   p+ = A p + B u(d periods ago)          [A B; 0 1] = exp(h [Ac Bc; 0 0])
-//   u  = F_0 integral + F_1 y + F_2 a (y - z) / h
+//   l  = F_0 integral + F_1 y + F_2 a (y - z) / h
+//   u  = l + n (l - l one period ago)      n: the lead; without one l one period ago is no state
 //   z+ = z + a (y - z),   integral+ = integral + h y
 //
 // a = 1 at the motor: z is the last reading, and its velocity that of two readings; at the link a = velocity_share() (link_velocity.h), and
@@ -36,9 +37,9 @@ struct SpringPlant {
   double viscous_Nms_rad = 0.0;     ///< b >= 0
 };
 
-/// States of the plant; of the loop kSpringLoopStates (certified_box.h) + d.
+/// States of the plant; of the loop spring_loop_states() (certified_box.h).
 inline constexpr int kSpringPlantStates = 4;
-inline constexpr int kMaxSpringDelay = kMaxProofStates - kSpringLoopStates;
+inline constexpr int kMaxSpringDelay = kMaxProofStates - kSpringLoopStates - 1;
 
 /// h [Ac Bc; 0 0], 5 x 5, each entry rounded a few times.
 BoundedMatrix spring_generator(const SpringPlant& plant, double period_s);
@@ -57,6 +58,9 @@ struct SpringLoop {
   int delay_periods = 0;    ///< 0..kMaxSpringDelay
   double decay_rate = 1.0;  ///< r in (0, 1], what a certificate asks for
   EncoderSide encoder_side = EncoderSide::kMotor;
+  double lead_periods = 0.0;  ///< n >= 0
+
+  int states() const noexcept { return spring_loop_states(delay_periods, lead_periods); }
 };
 
 /// x+ = H x with `sampled` = [A B; 0 1].

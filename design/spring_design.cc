@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kQuarters = 4;  // of a decade of the torque's weight
 constexpr int kSoftest = 4;   // decades: a hundredth of the stiffness that was asked for
+// Of a torque that acts two periods late the velocity of two readings is two and a half periods old. Of the family for links of 0.05 to 0.3
+// kg m2 behind a size 17 gear 1.5 periods are too few without damping, 2.5 too many for the stiffer gains.
+constexpr double kLeadPeriods = 2.0;
 
 }  // namespace
 
@@ -27,6 +30,11 @@ SpringDesign design_on_spring(Controller controller, TableRequest request, const
     request.design.weights.torque = first * std::pow(10.0, static_cast<double>(quarters) / kQuarters);
     GainTable table = design_table(controller, request);
     verdict = box_on_spring(table, gear, spring);
+    if (!verdict.certified && request.encoder_side == EncoderSide::kMotor) {
+      table.box.lead_periods = kLeadPeriods;
+      const SpringVerdict with_lead = box_on_spring(table, gear, spring);
+      if (with_lead.certified) verdict = with_lead;
+    }
     if (verdict.certified) table.box = verdict.box;
     return table;
   };

@@ -13,7 +13,8 @@ struct SpringDesign {
   std::string text;  ///< the weight that was found and what proves it, in lines
 };
 
-/// Of gains over the torque's weight, from that of `request` on, the first that are certified, to a quarter of a decade. Throws
+/// Of gains over the torque's weight, from that of `request` on, the first that are certified, to a quarter of a decade; on the motor's
+/// encoder with a lead where they are not without. Throws
 /// InputError where no table can hold what is asked for, NotAchieved with the last refusal when those of the largest weight are
 /// not certified either.
 SpringDesign design_on_spring(Controller controller, TableRequest request, const std::string& gear,

@@ -92,12 +92,13 @@ SpringVerdict judge(const GainTable& table, const std::string& gear, const Sprin
                  box.damping_Nms_rad,
                  request.least_delay,
                  request.most_delay,
+                 table.box.lead_periods,
                  0,
                  {}};
   for (int delay = request.most_delay; delay >= request.least_delay; --delay) {
     const int room = for_a_table ? kMaxBoxCells - verdict.box.cell_count : kMostCells;
-    const SpringProof proof =
-        prove_spring_box(gains, box, {table.plant.period_s, delay, 1.0, table.box.encoder_side}, room);
+    const SpringProof proof = prove_spring_box(
+        gains, box, {table.plant.period_s, delay, 1.0, table.box.encoder_side, table.box.lead_periods}, room);
     verdict.certified = verdict.certified && proof.outcome == SpringOutcome::kCertified;
     verdict.text += "with the spring, delay " + std::to_string(delay) + ": " + describe(proof) + "\n";
     if (for_a_table && !verdict.certified) break;

@@ -27,7 +27,7 @@ constexpr int kDoublings = 24;
 constexpr double kNarrowest = 1.002;
 
 Eigen::VectorXd fall_of(const SpringLoop& loop) {
-  Eigen::VectorXd fall = Eigen::VectorXd::Constant(kSpringLoopStates + loop.delay_periods, kTorqueFall);
+  Eigen::VectorXd fall = Eigen::VectorXd::Constant(loop.states(), kTorqueFall);
   fall.head<kSpringLoopStates>() =
       Eigen::Map<const Eigen::Matrix<double, kSpringLoopStates, 1>>(kFall.data());
   return fall;

@@ -56,6 +56,7 @@ void visit_box(const Copy& copy, Box& box, Message& message) {
   visit_range(copy, box.damping_Nms_rad, message.box_damping_Nms_rad);
   copy(box.least_delay, message.box_delay_periods[0]);
   copy(box.most_delay, message.box_delay_periods[1]);
+  copy(box.lead_periods, message.box_lead_periods);
   copy(box.cell_count, message.box_cell_count);
   for (std::size_t i = 0; i < box.cells.size(); ++i) {
     copy(box.cells[i].delay_periods, message.box_cells[i].delay_periods);

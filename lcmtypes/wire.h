@@ -10,7 +10,7 @@
 namespace strainwave {
 
 /// No message of ours is longer.
-inline constexpr std::size_t kLargestMessageBytes = 13312;
+inline constexpr std::size_t kLargestMessageBytes = 14336;
 
 /// The message in `bytes`, or nothing when the length or the type's fingerprint is not exactly T's.
 template <typename T>

@@ -59,7 +59,8 @@ WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const
 // On a joint that is told of its spring.
 TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint) {
   const WorstCorner worst = worst_on_spring(
-      table, *joint.link, {joint.plant.period_s, joint.delay_periods, 1.0, joint.encoder_side});
+      table, *joint.link,
+      {joint.plant.period_s, joint.delay_periods, 1.0, joint.encoder_side, table.box.lead_periods});
   if (worst.radius < 1.0) return {};
   std::ostringstream text;
   text << std::setprecision(5) << "the link swings up under these gains: eigenvalue " << worst.radius

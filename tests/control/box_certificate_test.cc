@@ -19,6 +19,11 @@ GainTable shipped() {
   return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
 }
 
+/// For one and two periods of delay, with a lead.
+GainTable of_both_delays() {
+  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
+}
+
 LinkModel joint_with(double link_kgm2, double motor_kgm2 = 0.089) {
   return {motor_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
 }
@@ -30,9 +35,40 @@ TEST(BoxCertificate, ProvesTheShippedTable) {
   EXPECT_LE(report.inequalities, kMostBoxInequalities);
 }
 
+TEST(BoxCertificate, ProvesLinksOf50To300GramsAtBothDelaysWhateverTheDamping) {
+  const GainTable table = of_both_delays();
+  EXPECT_EQ(table.box.least_delay, 1);
+  EXPECT_EQ(table.box.most_delay, 2);
+  EXPECT_LE(table.box.link_inertia_kgm2.from, 0.05);
+  EXPECT_GE(table.box.link_inertia_kgm2.to, 0.3);
+  EXPECT_EQ(table.box.damping_Nms_rad.from, 0.0);
+  const BoxReport report = certify_box(table);
+  EXPECT_TRUE(report.certified) << report.text;
+  EXPECT_LE(report.inequalities, kMostBoxInequalities);
+}
+
+// The lead is part of what is proved.
+TEST(BoxCertificate, RefusesATableWithAnotherLead) {
+  for (const double lead_periods : {0.5, 1.0, 4.0}) {
+    GainTable table = of_both_delays();
+    table.box.lead_periods = lead_periods;
+    EXPECT_EQ(find_defect(table), std::nullopt);
+    EXPECT_FALSE(certify_box(table).certified) << lead_periods;
+  }
+  GainTable without = of_both_delays();
+  without.box.lead_periods = 0.0;
+  EXPECT_NE(find_defect(without).value_or("").find("must be 0 beyond the matrix"), std::string::npos);
+  GainTable more = of_both_delays();
+  more.box.lead_periods = 1.01 * kMaxLeadPeriods;
+  EXPECT_NE(find_defect(more).value_or("").find("box.lead_periods"), std::string::npos);
+  GainTable rigid = of_both_delays();
+  rigid.box = {};
+  rigid.box.lead_periods = 2.0;
+  EXPECT_NE(find_defect(rigid).value_or("").find("rigid"), std::string::npos);
+}
+
 // Not by the proof's own interpolation or matrices: the loop written down by hand, sampled in 100 steps, at any place of the box.
-TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
-  const GainTable table = shipped();
+void expect_every_loop_inside_the_unit_circle(const GainTable& table) {
   const CertifiedBox& box = table.box;
   std::mt19937_64 random(21);
   const auto any = [&](const BoxRange& range) {
@@ -58,13 +94,16 @@ TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
     for (int k = 0; k < 7; ++k) sampled = (sampled * sampled).eval();
     for (const GainRow& gain : gains_of(table)) {
       for (int delay = box.least_delay; delay <= box.most_delay; ++delay) {
-        // [integral, thm, wm, thl, wl, last thm, torques under way]
-        const int n = 6 + delay;
+        // [integral, thm, wm, thl, wl, last thm, torques under way, last law]
+        const int n = 7 + delay;
         Eigen::RowVectorXd u = Eigen::RowVectorXd::Zero(n);
         u(0) = gain(0);
         u(1) = gain(1) + gain(2) / h;
         u(5) = -gain(2) / h;
         Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+        H.row(n - 1) = u;
+        u *= 1.0 + box.lead_periods;
+        u(n - 1) = -box.lead_periods;
         H(0, 0) = 1.0;
         H(0, 1) = h;
         H(5, 1) = 1.0;
@@ -72,7 +111,7 @@ TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
         if (delay == 0) {
           H.middleRows<4>(1) += sampled.topRightCorner<4, 1>() * u;
         } else {
-          H.block<4, 1>(1, n - 1) = sampled.topRightCorner<4, 1>();
+          H.block<4, 1>(1, n - 2) = sampled.topRightCorner<4, 1>();
           H.row(6) = u;
           for (int k = 1; k < delay; ++k) H(6 + k, 5 + k) = 1.0;
         }
@@ -82,6 +121,13 @@ TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
   }
   EXPECT_LT(largest, 1.0);
   EXPECT_GT(largest, 0.9) << "a loop that forgets within ten periods is not this one";
+}
+
+TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
+  for (const GainTable& table : {shipped(), of_both_delays()}) {
+    SCOPED_TRACE(table.box.lead_periods);
+    expect_every_loop_inside_the_unit_circle(table);
+  }
 }
 
 TEST(BoxCertificate, RefusesATableWithOneMatrixOrOneGainChanged) {

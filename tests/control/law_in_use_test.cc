@@ -102,6 +102,60 @@ TEST(LawInUse, ACountMakesMoreWhereTheVelocityIsMadeOfReadings) {
   EXPECT_EQ(exact.count_torque_Nm(false), 0.0);
 }
 
+GainTable with_lead(double lead_periods) {
+  GainTable led = table("c4.json");
+  led.box.lead_periods = lead_periods;
+  return led;
+}
+
+TEST(LawInUse, HasTheTablesLeadWhereTheJointIsToldOfItsSpring) {
+  const auto second_torque_Nm = [](const GainTable& table, bool told_of_spring) {
+    LawInUse law(kPeriod_s, kCount_rad, 1.0, told_of_spring);
+    law.load(table);
+    law.choose_gains(20.0);
+    law.step(input_at(1e-3, 0.0));
+    return law.step(input_at(1.2e-3, 0.2)).torque_Nm;
+  };
+  const double law_Nm = second_torque_Nm(with_lead(0.0), true);
+  EXPECT_EQ(second_torque_Nm(with_lead(2.0), false), law_Nm);
+  EXPECT_LT(second_torque_Nm(with_lead(2.0), true), 2.0 * law_Nm) << "both push back";
+}
+
+TEST(LawInUse, ALeadBeginsAnewOnceAnotherTorqueWasAppliedOrTheReferenceJumps) {
+  const auto torque_after_Nm = [](double lead_periods, const auto& between) {
+    LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
+    law.load(with_lead(lead_periods));
+    law.choose_gains(20.0);
+    law.step(input_at(1e-3, 0.0));
+    between(law);
+    return law.step(input_at(1.2e-3, 0.2)).torque_Nm;
+  };
+  const auto interrupt = [](LawInUse& law) { law.interrupt(); };
+  const auto jump = [](LawInUse& law) { law.reference_jumps(); };
+  EXPECT_EQ(torque_after_Nm(2.0, interrupt), torque_after_Nm(0.0, interrupt));
+  EXPECT_EQ(torque_after_Nm(2.0, jump), torque_after_Nm(0.0, jump));
+}
+
+TEST(LawInUse, ATemperatureThatIsLostWhileTheLawChangesIsNotTakenForLoad) {
+  LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
+  law.load(with_lead(2.0));
+  law.choose_gains(20.0);
+  for (int k = 0; k < 5; ++k) law.step(input_at(1e-4 * k, 0.02 * k));
+  LawInUse without_temperature = law;
+  without_temperature.choose_gains({});
+  const ControllerInput input = input_at(5e-4, 0.1);
+  EXPECT_NEAR(without_temperature.step(input).torque_Nm, law.step(input).torque_Nm, 1e-9);
+  EXPECT_NEAR(without_temperature.integral_torque_Nm(), law.integral_torque_Nm(), 0.3);
+}
+
+TEST(LawInUse, ACountMakesMoreWithALead) {
+  LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
+  law.load(with_lead(0.0));
+  const double count_Nm = law.count_torque_Nm(false);
+  law.load(with_lead(2.0));
+  EXPECT_NEAR(law.count_torque_Nm(false), 3.0 * count_Nm, 1e-12);
+}
+
 TEST(LawInUse, KnowsFrictionOfTheLastTemperatureThatWasKnown) {
   LawInUse law = running(10.0);
   const double cold_Nm = law.friction().coulomb_Nm;

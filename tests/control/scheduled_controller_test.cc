@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "control/gain_table_json.h"
@@ -161,6 +162,76 @@ TEST(ScheduledController, LeavesAJointAloneThatRestsNearTheSetpoint) {
   EXPECT_EQ(controller.step(input).feedforward_torque_Nm, 0.0);
   input.joint_position_rad = 1.1e-5;
   EXPECT_LT(controller.step(input).feedforward_torque_Nm, -1.0);
+}
+
+// Planned: the law's feedback alone.
+ControllerInput planned_at(double error_rad, double velocity_rad_s, int elapsed_periods = 1) {
+  ControllerInput input = input_at(error_rad, velocity_rad_s, 1e3);
+  input.planned = true;
+  input.elapsed_periods = elapsed_periods;
+  return input;
+}
+
+ScheduledController leading(double lead_periods) {
+  return {table().primary, table().friction, table().plant, lead_periods};
+}
+
+TEST(ScheduledController, ALeadAddsWhatTheLawHasChangedByInSoManyPeriods) {
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> error(-3e-3, 3e-3);
+  std::uniform_real_distribution<double> velocity(-0.5, 0.5);
+  std::uniform_int_distribution<int> elapsed(1, 3);
+  constexpr double kLead = 2.5;
+  ScheduledController law = scheduled();
+  ScheduledController led = leading(kLead);
+  double last_Nm = 0.0;
+  for (int k = 0; k < 300; ++k) {
+    const int periods = elapsed(random);
+    const ControllerInput input = planned_at(error(random), velocity(random), periods);
+    // What begins anew has no change: at first, and after each of these.
+    const bool anew = k % 50 == 0;
+    if (k == 50) led.interrupt();
+    if (k >= 100 && anew) {
+      law.reset();
+      led.reset();
+    }
+    const double now_Nm = law.step(input).torque_Nm;
+    const double change_Nm = anew ? 0.0 : kLead * (now_Nm - last_Nm) / periods;
+    const ControllerOutput output = led.step(input);
+    ASSERT_NEAR(output.torque_Nm, now_Nm + change_Nm, 1e-9) << k;
+    ASSERT_EQ(output.feedback_torque_Nm, output.torque_Nm) << k;
+    last_Nm = now_Nm;
+  }
+}
+
+TEST(ScheduledController, ALeadFollowsNoJumpOfSetpointOrGains) {
+  ScheduledController led = leading(2.0);
+  led.step(planned_at(1e-3, 0.0));
+  ScheduledController law = leading(0.0);
+  law.step(planned_at(1e-3, 0.0));
+  for (ScheduledController* controller : {&led, &law}) controller->soften(0.25);
+  EXPECT_EQ(led.step(planned_at(1.1e-3, 0.1)).torque_Nm, law.step(planned_at(1.1e-3, 0.1)).torque_Nm);
+  ControllerInput jumped = input_at(1e-3, 0.0, 1e3);
+  jumped.setpoint_position_rad = -0.2;
+  EXPECT_EQ(led.step(jumped).torque_Nm, law.step(jumped).torque_Nm);
+  EXPECT_NE(led.step(planned_at(2e-3, 0.0)).torque_Nm, law.step(planned_at(2e-3, 0.0)).torque_Nm);
+}
+
+// While the law changes: the integral takes nothing of what the lead makes of that.
+TEST(ScheduledController, AGainChangeWithALeadMakesNoTorqueStepAndTheLeadGoesOn) {
+  for (const double lead_before : {2.0, 0.0}) {
+    ScheduledController outgoing = leading(lead_before);
+    for (int k = 0; k < 5; ++k) outgoing.step(planned_at(1e-4 * k, 0.02 * k));
+    const ControllerInput input = planned_at(5e-4, 0.1);
+    ScheduledController incoming(table().fallback, table().friction, table().plant, 2.0);
+    const std::optional<double> last_law_Nm = outgoing.last_law_Nm();
+    const double torque_Nm = outgoing.step(input).torque_Nm;
+    incoming.carry_over(input, torque_Nm, last_law_Nm);
+    EXPECT_NEAR(incoming.step(input).torque_Nm, torque_Nm, 1e-9);
+    const ControllerInput next = planned_at(6e-4, 0.12);
+    if (lead_before == 0.0) continue;
+    EXPECT_NEAR(incoming.step(next).torque_Nm, outgoing.step(next).torque_Nm, 0.3);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "control/positive_definite.h"
 #include "tests/support/eigenvalues.h"
 
 namespace strainwave {
@@ -60,6 +61,30 @@ TEST(SpringCertificate, WhatItCertifiesFallsAlongARandomWalkThroughTheBox) {
     ASSERT_LT(next.dot(P * next), x.dot(P * x)) << k;
     x = next;
     if (k % 500 == 499) x = LoopState::NullaryExpr([&] { return any({-1.0, 1.0}); });
+  }
+}
+
+// What lies around a loop costs no more than is said.
+TEST(SpringCertificate, TheLeastFallIsBelowThatOfEveryLoopWithinTheErrors) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const BoundedMatrix P(lyapunov(kBox));
+  const SpringPlant plant{0.089, 0.1, 10000.0, 0.5, 0.0};
+  BoundedMatrix H =
+      spring_loop(spring_exponential(spring_generator(plant, kLoop.period_s)), kGains[0], kLoop);
+  for (const double size : {1e-6, 1e-5, 1e-4}) {
+    for (Eigen::Index i = 1; i <= 4; ++i)
+      for (Eigen::Index j = 1; j <= 4; ++j) H.error(i, j) = size * std::abs(H.value(i, j));
+    const BoundedMatrix least = least_fall(P, H, 1.0);
+    for (int trial = 0; trial < 500; ++trial) {
+      const bool ends = trial % 2 == 0;
+      const ProofMatrix shares = ProofMatrix::NullaryExpr(
+          7, 7, [&] { return ends ? std::copysign(1.0, any(random)) : any(random); });
+      const ProofMatrix other = H.value + shares.cwiseProduct(H.error);
+      const ProofMatrix fall = P.value - other.transpose() * P.value * other;
+      const ProofMatrix above = fall - least.value + ProofMatrix(least.error.rowwise().sum().asDiagonal());
+      ASSERT_TRUE(test_positive_definite(above, 1e-14 * above.cwiseAbs(), 7).certain) << size << " " << trial;
+    }
   }
 }
 

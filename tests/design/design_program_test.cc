@@ -1,3 +1,4 @@
+// Above 300 lines: the commands of one program, as users run them.
 // strainwave-design as its user meets it: exit status, messages, files.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -56,20 +57,43 @@ TEST_F(DesignProgram, VerifiesATableOnAJointWithASpring) {
   EXPECT_NE(output_.find("must be FROM..TO, ascending"), std::string::npos) << output_;
 }
 
-// With two periods of delay the gains that are asked for are unstable; those a quarter of a decade stiffer than what is written are refused.
+// With two periods of delay the gains that are asked for are unstable, and those a quarter of a decade stiffer than what is written are refused, with
+// a lead, too.
 TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
   const std::string joint =
       "--motor-inertia_kgm2 0.089 --load-inertia_kgm2 0.1 --damping_Nms_rad 1 --delay 2";
   const std::string design = "gains --friction " + kData +
                              "tables/rhs17-6006-friction.json --gear csf-17-50 " +
                              "--inertia_kgm2 0.189 --out " + file("t.json");
-  ASSERT_EQ(run(design + " " + joint), 0) << output_;
+  ASSERT_EQ(run(design + " " + joint + " --weights 0.1,1,1e-4,1e-7"), 0) << output_;
   EXPECT_NE(output_.find("with the spring, delay 2: certified"), std::string::npos) << output_;
-  const double weight = read_gain_table(file("t.json")).primary.weights.torque;
-  EXPECT_GT(weight, 1.01e-6);
+  const GainTable table = read_gain_table(file("t.json"));
+  EXPECT_EQ(table.box.lead_periods, 2.0);
+  EXPECT_EQ(run("verify " + file("t.json")), 0) << output_;
+  EXPECT_NE(output_.find("lead 2 periods"), std::string::npos) << output_;
+  const double weight = table.primary.weights.torque;
+  EXPECT_GT(weight, 1.01e-7);
   const std::string stiffer = std::to_string(1e6 * weight * std::pow(10.0, -0.25));
-  ASSERT_EQ(run(design + " --weights 0.1,1,1e-4," + stiffer + "e-6"), 0) << output_;
-  EXPECT_EQ(run("verify " + file("t.json") + " " + joint), 1) << output_;
+  ASSERT_EQ(run(design + " " + joint + " --weights 0.1,1,1e-4," + stiffer + "e-6"), 0) << output_;
+  EXPECT_NEAR(read_gain_table(file("t.json")).primary.weights.torque, weight, 1e-4 * weight);
+}
+
+// Without damping, as nobody asked for any; the shipped table has the same gains, and their proof with damping.
+TEST_F(DesignProgram, GainsForLinksOf50To300GramsAtBothDelaysAreCertifiedWithALead) {
+  ASSERT_EQ(run("gains --gear csf-17-50 --load-inertia_kgm2 0.05..0.3 --delay 1..2 --out " + file("t.json")),
+            0)
+      << output_;
+  const GainTable made = read_gain_table(file("t.json"));
+  EXPECT_EQ(made.box.link_inertia_kgm2.from, 0.05);
+  EXPECT_EQ(made.box.link_inertia_kgm2.to, 0.3);
+  EXPECT_EQ(made.box.stiffness_Nm_rad.from, 8100.0);
+  EXPECT_EQ(made.box.stiffness_Nm_rad.to, 13000.0);
+  EXPECT_EQ(made.box.least_delay, 1);
+  EXPECT_EQ(made.box.most_delay, 2);
+  const GainTable shipped = read_gain_table(kData + "tables/csf-17-50-delays.json");
+  EXPECT_EQ(made.box.lead_periods, shipped.box.lead_periods);
+  for (int rule = 0; rule < made.primary.rule_count; ++rule)
+    EXPECT_TRUE(made.primary.gain(rule).isApprox(shipped.primary.gain(rule), 1e-6)) << rule;
 }
 
 TEST_F(DesignProgram, TakesWhatIsNotGivenFromTheCataloguesActuatorWithTheGear) {

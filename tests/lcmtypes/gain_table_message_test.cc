@@ -67,6 +67,8 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   table.friction.rules[4].friction.viscous_Nms_rad = 0.27;
   table.primary.set(3, GainRow(-304.0, -967.1, -16.63), 2.0 * StateMatrix::Identity());
   table.fallback.weights.torque = 1e-6;
+  table.box.lead_periods = 2.0;
+  table.box.cells[23].P[44] = 7.0;
   const gain_table_v2 message = to_message(table);
   EXPECT_EQ(std::string(std::begin(message.name), std::begin(message.name) + 8), std::string("example\0", 8));
   EXPECT_EQ(std::string(std::begin(message.joint_model), std::begin(message.joint_model) + 10), "rhs17-6006");
@@ -79,6 +81,8 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   EXPECT_EQ(message.primary.P[3][4], 2.0);
   EXPECT_EQ(message.primary.P[3][5], 0.0);
   EXPECT_EQ(message.fallback.weight_torque, 1e-6);
+  EXPECT_EQ(message.box_lead_periods, 2.0);
+  EXPECT_EQ(message.box_cells[23].P[44], 7.0);
 }
 
 }  // namespace

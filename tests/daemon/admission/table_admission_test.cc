@@ -163,6 +163,17 @@ TEST_F(TableAdmissionOnASpring, AcceptsEveryLinkOfTheBoxAndSaysWhatIsProved) {
   }
 }
 
+TEST_F(TableAdmissionOnASpring, AcceptsBothDelaysWithATableThatHasALead) {
+  table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
+  for (const int delay_periods : {1, 2}) {
+    const TableVerdict verdict = judge(0.05, delay_periods);
+    EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
+    EXPECT_NE(verdict.text.find("lead 2 periods"), std::string::npos) << verdict.text;
+  }
+  table_.box.lead_periods = 1.0;
+  EXPECT_EQ(judge(0.05, 2).reason, Reason::kTableNotCertified);
+}
+
 TEST_F(TableAdmissionOnASpring, RefusesAJointOnePerCentOutsideTheBoxWithQuantityValueAndRange) {
   expect_outside(judge(0.303, 1), "load_inertia_kgm2 = 0.303: the table is certified for 0.05..0.3 kg m2");
   expect_outside(judge(0.0495, 1), "load_inertia_kgm2 = 0.0495");
