@@ -26,6 +26,14 @@ void check_tables(const DaemonConfig& config, std::ostream& out) {
   }
 }
 
+void tell_loads(const DaemonConfig& config, std::ostream& out) {
+  for (const JointConfig& joint : config.joints) {
+    const JointLimits& limits = joint.loop.limits;
+    out << joint.name << ": yields to a load above " << limits.load_Nm << " N.m, notice above "
+        << limits.load_notice_Nm << ", torque limit " << joint.loop.controller.torque_limit_Nm << '\n';
+  }
+}
+
 void check_gateway(const DaemonConfig& config, std::ostream& out) {
   if (const std::filesystem::path program = find_gateway_program(); !std::filesystem::exists(program))
     throw InputError(program.string() + ": the daemon's gateway is missing: install it again");
@@ -46,6 +54,7 @@ void check_start(const DaemonConfig& config, std::ostream& out) {
   for (const std::string& warning : config.warnings)
     out << "warning: " << printable_paragraph(warning) << '\n';
   check_tables(config, out);
+  tell_loads(config, out);
   check_gateway(config, out);
   out << "not checked:";
   if (has_driver(config, "can")) out << " drives on CAN (strainwavectl can-check),";

@@ -7,6 +7,7 @@
 #include "daemon/config/config_gpio.h"
 #include "daemon/config/config_homing.h"
 #include "daemon/config/config_link.h"
+#include "daemon/config/config_load.h"
 #include "daemon/config/config_simulated.h"
 #include "daemon/config/config_thermometer.h"
 #include "lcmtypes/calm_speed.h"
@@ -18,10 +19,7 @@ namespace {
 
 constexpr Range kAnyAngle{-1e4, 1e4};
 
-// Of the largest load: what calls for a notice.
-constexpr double kHighLoad = 0.8;
-
-void read_limits(TomlSection section, double gear_ratio, JointLoopConfig& loop) {
+void read_limits(TomlSection& section, double gear_ratio, JointLoopConfig& loop) {
   JointLimits& limits = loop.limits;
   limits.position_min_rad = section.number("position_min_rad", kAnyAngle);
   limits.position_max_rad = section.number("position_max_rad", kAnyAngle);
@@ -40,15 +38,11 @@ void read_limits(TomlSection section, double gear_ratio, JointLoopConfig& loop) 
   limits.following_error_rad = section.number("following_error_rad", {1e-6, 100.0});
   loop.controller.torque_limit_Nm = section.number("torque_limit_Nm", kPositive);
   limits.temperature_limit_C = section.number_or("temperature_limit_C", 80.0, {-50.0, 200.0});
-  limits.load_Nm = section.number_or("load_Nm", loop.controller.torque_limit_Nm, kPositive);
-  limits.load_notice_Nm =
-      section.number_or("load_notice_Nm", kHighLoad * limits.load_Nm, {1e-6, limits.load_Nm});
   loop.overload_stop =
       section.choice_or("on_overload", "torque_off", {"torque_off", "hold_load"}) == "hold_load"
           ? OverloadStop::kHoldLoad
           : OverloadStop::kTorqueOff;
   doubt_limits(section, loop, gear_ratio);
-  section.refuse_unknown_keys();
 }
 
 void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
@@ -147,7 +141,8 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
     joint.table = folder / section.text("table");
     joint.table_place = section.place("table");
   }
-  read_limits(section.section("limits"), joint.plant.gear_ratio, joint.loop);
+  TomlSection limits = section.section("limits");
+  read_limits(limits, joint.plant.gear_ratio, joint.loop);
   read_temperature_check(section.section_or_empty("temperature"), joint.loop);
   if (section.has("group")) joint.group = read_name(section, "group", "");
   joint.loop.fault_stops_group = section.choice_or("on_fault", "joint", {"joint", "group"}) == "group";
@@ -174,6 +169,8 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
     inputs = read_simulated_driver(driver, period_s, folder, joint);
   driver.refuse_unknown_keys();
   read_homing(section.section_or_empty("homing"), inputs, joint);
+  read_load_limits(limits, joint);
+  limits.refuse_unknown_keys();
   section.refuse_unknown_keys();
   return joint;
 }

@@ -119,14 +119,6 @@ TEST_F(ConfigTest, SaysWhenALoadIsHighAndHowTheJointYields) {
   expect_mentions(error_of(limits("load_Nm = 20\nload_notice_Nm = 21")), {"load_notice_Nm = 21", "20"});
 }
 
-TEST_F(ConfigTest, BoundsTheLoadByTheTorqueUnlessTold) {
-  EXPECT_EQ(read(kSound).joints[0].loop.limits.load_Nm, 34.0);
-  EXPECT_EQ(read(replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\nload_Nm = 12"))
-                .joints[0]
-                .loop.limits.load_Nm,
-            12.0);
-}
-
 TEST_F(ConfigTest, AllowsNoStallLimitWithinWhichNoPeriodCanBeMissed) {
   expect_mentions(error_after("period_s = 0.001", "period_s = 0.001\nstall_limit_s = 0.001"),
                   {"daemon.stall_limit_s"});

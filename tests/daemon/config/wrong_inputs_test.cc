@@ -287,6 +287,7 @@ TEST_F(WrongInput, IsNotFoundInASoundConfiguration) {
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_EQ(ended.said.find("warning"), std::string::npos) << ended.said;
   EXPECT_NE(ended.said.find("elbow: no table"), std::string::npos) << ended.said;
+  EXPECT_NE(ended.said.find("elbow: yields to a load above"), std::string::npos) << ended.said;
   EXPECT_NE(ended.said.find("not checked: real-time privileges"), std::string::npos) << ended.said;
 }
 

@@ -1,0 +1,67 @@
+#include "daemon/config/config_load.h"
+
+#include "tests/daemon/config/config_file_test.h"
+
+namespace strainwave {
+namespace {
+
+class LoadConfigTest : public ConfigFileTest {
+ protected:
+  /// The demo's joint with other limits and, in place of rigid = true, other control keys.
+  static std::string joint_with(const std::string& limits, const std::string& control = "rigid = true") {
+    return replaced(replaced(example("demo.toml"), "acceleration_rad_s2 = 30 ", limits + "\n#"),
+                    "rigid = true ", control + "\n#");
+  }
+  JointLimits limits_of(const std::string& text) { return read(text).joints.front().loop.limits; }
+};
+
+TEST_F(LoadConfigTest, IsWhatTheTorqueLimitLeavesAJointThatAccelerates) {
+  const JointLimits limits = limits_of(joint_with("acceleration_rad_s2 = 150"));
+  EXPECT_NEAR(limits.load_Nm, 34.0 - 0.089 * 150.0, 1e-12);
+  EXPECT_NEAR(limits.load_notice_Nm, 0.8 * limits.load_Nm, 1e-12);
+}
+
+TEST_F(LoadConfigTest, CountsTheHarderOfAccelerationAndDeceleration) {
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 100\ndeceleration_rad_s2 = 150")).load_Nm, 20.65,
+              1e-12);
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150\ndeceleration_rad_s2 = 100")).load_Nm, 20.65,
+              1e-12);
+}
+
+TEST_F(LoadConfigTest, IsHalfToFourFifthsOfWhatGravityLeaves) {
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 30")).load_Nm, 0.8 * 34.0, 1e-12);
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 1000")).load_Nm, 0.5 * 34.0, 1e-12);
+  const std::string weight = "rigid = false\ngravity_Nm = 4\ngravity_zero_rad = 0";
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 30", weight)).load_Nm, 0.8 * 30.0, 1e-12);
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150", weight)).load_Nm, 30.0 - 13.35, 1e-12);
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 1000", weight)).load_Nm, 0.5 * 30.0, 1e-12);
+}
+
+TEST_F(LoadConfigTest, IsATenthOfTheTorqueLimitWhereTheWeightTakesAllOfIt) {
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 30",
+                                   "rigid = false\ngravity_Nm = 34\ngravity_zero_rad = 0"))
+                  .load_Nm,
+              3.4, 1e-12);
+}
+
+TEST_F(LoadConfigTest, IsAQuarterAboveWhatTheJointIsToldToCarryOrToPressWith) {
+  for (const char* carried : {"initial_load_Nm = 20", "initial_load_Nm = -20"})
+    EXPECT_NEAR(
+        limits_of(joint_with("acceleration_rad_s2 = 150", std::string("rigid = true\n") + carried)).load_Nm,
+        25.0, 1e-12);
+  const std::string homing = "\n[joint.homing]\nto = \"positive_stop\"\nstop_torque_Nm = 24\n";
+  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150") + homing).load_Nm, 30.0, 1e-12);
+}
+
+TEST_F(LoadConfigTest, IsWhatTheConfigurationSaysWhereItSaysIt) {
+  const JointLimits limits = limits_of(joint_with("acceleration_rad_s2 = 150\nload_Nm = 40"));
+  EXPECT_EQ(limits.load_Nm, 40.0);
+  EXPECT_EQ(limits.load_notice_Nm, 32.0);
+  EXPECT_EQ(limits_of(joint_with("acceleration_rad_s2 = 150\nload_notice_Nm = 5")).load_notice_Nm, 5.0);
+  expect_mentions(error_of(joint_with("acceleration_rad_s2 = 150\nload_notice_Nm = 21")),
+                  {"limits.load_notice_Nm = 21", "20.65"});
+  expect_mentions(error_of(joint_with("acceleration_rad_s2 = 150\nload_Nmm = 21")), {"load_Nmm", "load_Nm"});
+}
+
+}  // namespace
+}  // namespace strainwave

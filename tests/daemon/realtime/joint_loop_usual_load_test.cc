@@ -1,0 +1,160 @@
+// The load limit that a joint has which is given none: what pushes a joint that holds passes it before it takes all of the torque, and what
+// a sound joint shows of itself does not. Virtual time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "daemon/config/config_load.h"
+#include "sim/joint/reference_plant.h"
+#include "sim/studies/flexible_study.h"
+#include "tests/support/joint_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr double kMotor_kgm2 = 0.089;
+
+const GainTable& spring_table(double total_kgm2) {
+  static const FlexibleTables tables =
+      read_flexible_tables(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables");
+  return FlexibleTables::nearest(tables.c4, total_kgm2);
+}
+
+/// `joint` as the configuration would have it that says nothing of loads.
+BenchJoint with_usual_load(BenchJoint joint, double inertia_kgm2) {
+  JointConfig configured;
+  configured.loop = joint.loop;
+  configured.plant.inertia_kgm2 = inertia_kgm2;
+  joint.loop.limits.load_Nm = usual_load_limit_Nm(configured);
+  joint.loop.limits.load_notice_Nm = 0.8 * joint.loop.limits.load_Nm;
+  return joint;
+}
+
+/// Without a word of the spring that `plant` has, or, `told`, with all of it.
+BenchJoint on_a_spring(const JointPlantConfig& plant, bool told) {
+  BenchJoint joint = demo_joint();
+  joint.drive.plant = plant;
+  JointControllerConfig& controller = joint.loop.controller;
+  controller.rigid = controller.use_observer = controller.use_landing = false;
+  const Transmission& gear = *plant.effects.transmission;
+  if (told)
+    controller.link = {
+        plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  return joint;
+}
+
+/// A hand that leans on a joint that holds, with 10 N.m more each second.
+void lean_on(const BenchJoint& joint, const GainTable& table, const char* name) {
+  const double load_Nm = joint.loop.limits.load_Nm;
+  const double torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
+  JointBench bench({joint});
+  bench.bring_to_hold(0, table);
+  double largest_Nm = 0.0;
+  double noticed_Nm = 0.0;
+  double push_Nm = 0.0;
+  for (int k = 0; k < 4000 && bench.fault(0) == Fault::kNone; ++k) {
+    push_Nm = 0.01 * k;
+    bench.drive(0).simulated().set_load_torque_Nm(push_Nm);
+    bench.step();
+    largest_Nm = std::max(largest_Nm, std::abs(bench.state(0).torque_commanded_Nm));
+    if (noticed_Nm == 0.0 && bench.has_notice(0, Notice::kLoadHigh)) noticed_Nm = push_Nm;
+  }
+  std::printf(
+      "%s: notice at a push of %.1f N.m, lets go at %.1f, torque up to %.1f of %.1f N.m, load_Nm %.2f\n",
+      name, noticed_Nm, push_Nm, largest_Nm, torque_limit_Nm, load_Nm);
+  EXPECT_EQ(bench.fault(0), Fault::kOverload) << name;
+  EXPECT_NEAR(push_Nm, load_Nm, 3.0) << name << ": but for friction, which holds as well";
+  EXPECT_NEAR(noticed_Nm, 0.8 * load_Nm, 3.0) << name;
+  EXPECT_LT(largest_Nm, 0.9 * torque_limit_Nm) << name;
+}
+
+TEST(UsualLoad, LetsAJointGoOfAPushThatGrowsSlowly) {
+  lean_on(with_usual_load(demo_joint(), kMotor_kgm2), demo_table(), "rigid");
+  const double total_kgm2 = 2.0 * kMotor_kgm2;
+  for (const bool told : {false, true})
+    lean_on(with_usual_load(on_a_spring(flexible_plant(), told), total_kgm2), spring_table(total_kgm2),
+            told ? "spring as told" : "spring that nobody tells of");
+}
+
+struct Shown {
+  int joints = 0;
+  int overloads = 0;
+  int others = 0;   ///< other faults
+  int notices = 0;  ///< of a high load
+};
+
+void look(const JointBench& bench, bool noticed, Shown& shown) {
+  ++shown.joints;
+  shown.overloads += bench.fault(0) == Fault::kOverload ? 1 : 0;
+  shown.others += bench.fault(0) != Fault::kNone && bench.fault(0) != Fault::kOverload ? 1 : 0;
+  shown.notices += noticed ? 1 : 0;
+}
+
+/// To and fro, each time as far as `step_rad`, at the joint's full speed.
+void move_to_and_fro(BenchJoint joint, const GainTable& table, double temperature_C, double step_rad,
+                     Shown& shown) {
+  joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+  JointBench bench({joint});
+  bench.bring_to_hold(0, table);
+  bench.run(0.5);
+  bool noticed = false;
+  for (int k = 0; k < 3000 && bench.fault(0) == Fault::kNone; ++k) {
+    if (k % 1000 == 0)
+      EXPECT_EQ(bench.move(0, k % 2000 == 0 ? step_rad : 0.0), Reason::kAccepted);
+    else
+      bench.step();
+    noticed = noticed || bench.has_notice(0, Notice::kLoadHigh);
+  }
+  look(bench, noticed, shown);
+}
+
+void expect_none(const Shown& shown, const char* name) {
+  std::printf("%s: %d joints, %d overloads, %d other faults, %d notices of a high load\n", name, shown.joints,
+              shown.overloads, shown.others, shown.notices);
+  EXPECT_EQ(shown.overloads, 0) << name << ", of " << shown.joints;
+  EXPECT_EQ(shown.others, 0) << name << ", of " << shown.joints;
+}
+
+// Every fifth of the study's cells, at 6 rad/s and 150 rad/s^2. What nobody tells of a spring shows as a load for some milliseconds.
+TEST(UsualLoad, IsNotWhatASpringShows) {
+  for (const bool told : {false, true}) {
+    Shown shown;
+    const std::vector<FlexibleCell> grid = flexible_grid();
+    for (std::size_t i = 0; i < grid.size(); i += 5) {
+      const FlexibleCell& cell = grid[i];
+      const double total_kgm2 = cell.plant.joint.inertia_kgm2 + cell.link_inertia_kgm2;
+      move_to_and_fro(with_usual_load(on_a_spring(cell.plant, told), total_kgm2), spring_table(total_kgm2),
+                      cell.temperature_C, cell.step_rad, shown);
+    }
+    expect_none(shown, told ? "springs as told" : "springs that nobody tells of");
+    EXPECT_LE(shown.notices, told ? 0 : shown.joints / 20);
+  }
+}
+
+// With little torque friction takes most of it: 5.8 of 8 N.m at -10 degC.
+TEST(UsualLoad, IsNotWhatFrictionOrAccelerationShows) {
+  for (const double torque_limit_Nm : {34.0, 8.0}) {
+    Shown shown;
+    for (const double temperature_C : {-10.0, 0.0, 20.0, 40.0})
+      for (const double acceleration_rad_s2 : {2.0, 30.0, 150.0})
+        for (const double step_rad : {0.01, 0.1, 1.0})
+          for (const int kind : {0, 1, 2}) {
+            BenchJoint joint = kind == 0 ? demo_joint() : on_a_spring(flexible_plant(), kind == 2);
+            joint.loop.controller.torque_limit_Nm = torque_limit_Nm;
+            joint.loop.controller.motion = {6.0, acceleration_rad_s2, acceleration_rad_s2};
+            const double total_kgm2 = kind == 0 ? kMotor_kgm2 : 2.0 * kMotor_kgm2;
+            move_to_and_fro(with_usual_load(joint, total_kgm2),
+                            kind == 0 ? demo_table() : spring_table(total_kgm2), temperature_C, step_rad,
+                            shown);
+          }
+    expect_none(shown, torque_limit_Nm > 10.0 ? "34 N.m" : "8 N.m");
+    EXPECT_LE(shown.notices, torque_limit_Nm > 10.0 ? 0 : 2);
+  }
+}
+
+}  // namespace
+}  // namespace strainwave::testing
