@@ -66,8 +66,10 @@ ReferencePlan plan_for(const JointControllerConfig& config) noexcept {
   if (config.use_shaping && config.jerk_limit_rad_s3)
     return ReferencePlan::limited(
         config.period_s, JerkLimit(motion_limits(config), *config.jerk_limit_rad_s3, config.period_s));
-  if (config.use_shaping && !config.rigid && !follows_model(config))
-    return ReferencePlan::eased(config.period_s, JerkLimit::spread_over(kEasing_s, config.period_s));
+  const JerkLimit easing = JerkLimit::spread_over(kEasing_s, config.period_s);
+  if (config.use_shaping && follows_model(config))
+    return ReferencePlan::plain_until_eased(config.period_s, easing);
+  if (config.use_shaping && !config.rigid) return ReferencePlan::eased(config.period_s, easing);
   return ReferencePlan::plain(config.period_s);
 }
 

@@ -15,6 +15,8 @@ namespace {
 constexpr double kShortMotionShare = 2.0 / 3.0;
 // From one reading to the next: a count to either side.
 constexpr double kRestCounts = 2.0;
+// What a joint swings about its place: 1 mrad at 40 Hz.
+constexpr double kSwing_rad_s = 0.25;
 
 }  // namespace
 
@@ -66,16 +68,20 @@ bool JointController::correct_link(double reading_rad) noexcept {
 void JointController::go_on_from_here() noexcept {
   const double fastest = config_.motion.velocity_rad_s;
   const double position_rad = state_.now().position_rad;
-  // What two counts make of a joint that rests is no motion to brake.
+  // What two counts make of a joint that rests is no motion to brake, nor what swings one that was to rest.
   const double shown_rad_s = state_.now().velocity_rad_s;
-  const bool rests =
-      !torque_is_planned() && std::abs(shown_rad_s) * config_.period_s <= kRestCounts * count_rad();
+  const double still_rad_s = std::max(kSwing_rad_s, kRestCounts * count_rad() / config_.period_s);
+  const bool rests = (!torque_is_planned() || corrections_.begun()) && std::abs(shown_rad_s) <= still_rad_s;
   const double velocity_rad_s = rests ? 0.0 : std::clamp(shown_rad_s, -fastest, fastest);
   law_.reference_jumps();
   reference_ = {position_rad, velocity_rad_s, 0.0};
   ordered_reference_ = reference_;
-  plan_.go_on_from(linked() ? link_motion_->reset(position_rad, velocity_rad_s) : position_rad,
-                   velocity_rad_s);
+  if (linked())
+    plan_.go_on_from(link_motion_->reset(position_rad, velocity_rad_s), velocity_rad_s);
+  else if (rests && !streamed())
+    plan_.ease_from(position_rad, velocity_rad_s);
+  else
+    plan_.go_on_from(position_rad, velocity_rad_s);
   ordered_ = plan_;
   planned_ = {0.0, velocity_rad_s, 0.0};
   motor_plan_ = {};

@@ -2,7 +2,6 @@
 // motion, its torque, and the watch over both.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control/joint_controller.h"
 #include "control/units.h"
@@ -18,8 +17,6 @@ constexpr double kLandingShare = 0.5;
 constexpr double kLandingLost = 4.0;
 // A saturated joint that is farther behind than this many such pushes needs a new plan.
 constexpr double kReplanPushes = 4.0;
-// Share of Coulomb friction that moves no joint, whatever its friction is taken for.
-constexpr double kIdleShare = 0.5;
 // On a joint that is not declared rigid friction is compensated towards the target for so long after the
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
@@ -218,14 +215,10 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   return output;
 }
 
-// The fallback begins with the torque that was applied last. A correction begins with what breaks the joint away from rest: on a joint with
-// less friction than told that would throw it, so no more of it is left than cannot move the joint.
+// The fallback begins with the torque that was applied last.
 void JointController::hand_over(ControllerOutput& output) noexcept {
   if (!fallen_back()) return;
-  const double most_Nm = corrections_.begun() ? kIdleShare * model_.friction.coulomb_Nm
-                                              : std::numeric_limits<double>::infinity();
-  output.torque_Nm =
-      std::clamp(handover_.torque_Nm(output.torque_Nm, most_Nm), -torque_limit_Nm_, torque_limit_Nm_);
+  output.torque_Nm = std::clamp(handover_.torque_Nm(output.torque_Nm), -torque_limit_Nm_, torque_limit_Nm_);
 }
 
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
@@ -253,13 +246,15 @@ void JointController::watch(const ControllerOutput& output, int elapsed_periods)
   sample.surprised = state_.now().surprised;
   sample.elapsed_periods = elapsed_periods;
   const bool watched = !fallen_back();
+  const bool goes_on = moves && !corrections_.begun();
   const MonitorState state = monitor_.step(sample);
   corrections_.distrust(monitor_.distrust());
   if (watched && state != MonitorState::kWatching) {
-    handover_.begin(output.torque_Nm);
+    handover_.begin(output.torque_Nm, goes_on);
     if (link_motion_) go_on_from_here();
   } else if (!watched && monitor_.goes_on() && !law_.soft()) {
-    handover_.begin(output.torque_Nm);
+    // What swings is a motion: a push that is undone would swing it on.
+    handover_.begin(output.torque_Nm, true);
     law_.soften();
   }
 }

@@ -3,12 +3,17 @@
 namespace strainwave {
 
 void ReferencePlan::begin(double position_rad, double velocity_rad_s) noexcept {
-  if (mean_is_ == Mean::kEasing) mean_is_ = Mean::kPaused;
+  mean_is_ = unasked_;
   shaper_.reset(ahead_of(position_rad, velocity_rad_s), velocity_rad_s);
 }
 
 void ReferencePlan::go_on_from(double position_rad, double velocity_rad_s) noexcept {
   shaper_.restart(ahead_of(position_rad, velocity_rad_s), velocity_rad_s);
+}
+
+void ReferencePlan::ease_from(double position_rad, double velocity_rad_s) noexcept {
+  if (mean_is_ != Mean::kAlways) mean_is_ = Mean::kEasing;
+  go_on_from(position_rad, velocity_rad_s);
 }
 
 void ReferencePlan::ease() noexcept {
@@ -19,7 +24,7 @@ void ReferencePlan::ease() noexcept {
 void ReferencePlan::end_easing() noexcept {
   if (mean_is_ != Mean::kEasing) return;
   shaper_.restart(mean_.position_rad(), mean_.velocity_rad_s());
-  mean_is_ = Mean::kPaused;
+  mean_is_ = unasked_;
 }
 
 }  // namespace strainwave

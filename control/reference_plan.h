@@ -5,6 +5,7 @@
 //   limited    its mean, always
 //   eased      its mean in a move that begins at rest, and in what follows it until a stream takes over or the joint starts: a stream tells how it
 //              moves by itself
+//   plain_until_eased   its mean from ease_from() on, which takes a motion up that is under way, until a stream takes over or the joint starts
 //
 // While it is a mean it lags by lag_s(): the shaper is that much ahead, and goes on from where the mean is wherever one takes the other's place.
 #pragma once
@@ -19,6 +20,9 @@ class ReferencePlan {
   static ReferencePlan plain(double period_s) noexcept {
     return {period_s, JerkLimit::spread_over(period_s, period_s), Mean::kNever};
   }
+  static ReferencePlan plain_until_eased(double period_s, const JerkLimit& mean) noexcept {
+    return {period_s, mean, Mean::kNever};
+  }
   static ReferencePlan limited(double period_s, const JerkLimit& limit) noexcept {
     return {period_s, limit, Mean::kAlways};
   }
@@ -32,6 +36,8 @@ class ReferencePlan {
   void begin(double position_rad, double velocity_rad_s) noexcept;
   /// Goes on from here to the target that it has.
   void go_on_from(double position_rad, double velocity_rad_s) noexcept;
+  /// The same, eased from here on.
+  void ease_from(double position_rad, double velocity_rad_s) noexcept;
   void set_target(double position_rad) noexcept { shaper_.set_target(position_rad); }
   void stop() noexcept { shaper_.stop(); }
   /// Takes the target at once, as a step.
@@ -60,7 +66,7 @@ class ReferencePlan {
   enum class Mean { kNever, kAlways, kPaused, kEasing };
 
   ReferencePlan(double period_s, const JerkLimit& mean, Mean mean_is) noexcept
-      : shaper_(period_s), mean_(mean), mean_is_(mean_is) {}
+      : shaper_(period_s), mean_(mean), unasked_(mean_is), mean_is_(mean_is) {}
   bool averages() const noexcept { return mean_is_ == Mean::kAlways || mean_is_ == Mean::kEasing; }
   Reference averaged(const Reference& planned) noexcept { return averages() ? mean_.step(planned) : planned; }
   double ahead_of(double position_rad, double velocity_rad_s) noexcept {
@@ -69,6 +75,7 @@ class ReferencePlan {
 
   ReferenceShaper shaper_;
   JerkLimit mean_;
+  Mean unasked_;  ///< as it begins
   Mean mean_is_;
 };
 

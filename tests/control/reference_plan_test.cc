@@ -159,6 +159,30 @@ TEST(ReferencePlan, BeginsWithoutEasingAndGoesOnWithIt) {
   EXPECT_NEAR(now.position_rad, 0.3 - 0.5 / kLimits.deceleration_rad_s2, 1e-3) << "where it can stop";
 }
 
+TEST(ReferencePlan, TakesAMotionUpEasedAndIsPlainAgainOnceAStreamOrAStartDoes) {
+  for (const bool stream : {true, false}) {
+    ReferencePlan plan =
+        ReferencePlan::plain_until_eased(kPeriod_s, JerkLimit::spread_over(kMean_s, kPeriod_s));
+    plan.set_limits(kLimits);
+    plan.set_target(0.5);
+    Reference last;
+    EXPECT_FALSE(plan.wants_easing());
+    EXPECT_GT(largest_step_rad_s2(plan, last, 40), 50.0) << "plain";
+    plan.ease_from(last.position_rad, last.velocity_rad_s);
+    Reference now = plan.step();
+    EXPECT_NEAR(now.position_rad, last.position_rad, 1e-12);
+    EXPECT_NEAR(now.velocity_rad_s, last.velocity_rad_s, 1e-12);
+    EXPECT_EQ(plan.target_rad(), 0.5);
+    EXPECT_LE(largest_step_rad_s2(plan, now, 80), kEasedStep_rad_s2 * (1.0 + 1e-6));
+    if (stream)
+      plan.end_easing();
+    else
+      plan.begin(0.0, 0.0);
+    EXPECT_EQ(plan.lag_s(), 0.0);
+    EXPECT_FALSE(plan.wants_easing());
+  }
+}
+
 TEST(ReferencePlan, FollowsAStream) {
   ReferencePlan plan = eased();
   StreamTarget stream(kPeriod_s, 0.05);
