@@ -93,7 +93,8 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
         "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
         "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
   }
-  switch (challenges_.since(challenge, requester.joint, {requester.sender_id, requester.sequence})) {
+  const Sent order{requester.sender_id, requester.sequence, claimed_key(message)};
+  switch (challenges_.since(challenge, requester.joint, order)) {
     case Since::kNothing:
       return std::nullopt;
     case Since::kOwnStop:
@@ -106,6 +107,13 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
   return refuse(requester, Reason::kSuperseded,
                 "somebody stopped or held the joint since this order was made: see whether it may still be "
                 "wanted, then give it anew");
+}
+
+// What is only claimed is enough to say why an order is refused.
+std::int64_t Admission::claimed_key(const WireMessage& message) const {
+  if (is_unsigned(payload(message))) return -1;
+  const auto key = security_.keys.find(key_id_of(payload(message)));
+  return key ? static_cast<std::int64_t>(*key) : -1;
 }
 
 std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role needed, Requester& requester,
@@ -192,7 +200,7 @@ Verdict Admission::stop(const WireMessage& message, OrderKind kind, std::int64_t
   const bool meant_for_us = session_id == session_id_ && challenges_.expiry_cycle(challenge) >= 0;
   if (meant_for_us && !is_unsigned(payload(message)))
     (void)check_sender(message, Role::kOperator, requester, stop_verifications_);
-  challenges_.stop(requester.joint, {requester.sender_id, requester.sequence});
+  challenges_.stop(requester.joint, {requester.sender_id, requester.sequence, requester.key});
   return pass(requester, kind, 0);
 }
 

@@ -141,6 +141,8 @@ class Admission {
   std::optional<Verdict> check_signed(const WireMessage& message, std::size_t key, Role needed,
                                       Requester& requester);
   std::optional<Verdict> check_sequence(SequenceMemory& memory, std::int64_t who, Requester& requester) const;
+  /// The key that it says it is signed with, -1: none of ours.
+  std::int64_t claimed_key(const WireMessage& message) const;
   std::optional<Verdict> check_fresh(const WireMessage& message, std::int64_t challenge,
                                      const Requester& requester) const;
   std::optional<Verdict> check_owner(Requester& requester);

@@ -12,10 +12,15 @@
 
 namespace strainwave {
 
-/// A message by its sender and its place among his: an order, or a stop.
+/// A message by its sender and its place among his: an order, or a stop. Programs of one account have one sender_id, whatever their keys.
 struct Sent {
   std::int64_t sender_id = 0;
   std::int64_t sequence = 0;
+  std::int64_t key = -1;  ///< of the key that signed; -1: none, or not proved
+
+  bool of_the_sender_of(const Sent& other) const noexcept {
+    return sender_id == other.sender_id && key == other.key;
+  }
 };
 
 /// What has become of a joint since an order's challenge was new.
@@ -57,7 +62,7 @@ class Challenges {
   /// `joint` is stopped now, by that message.
   void stop(std::size_t joint, const Sent& stop) noexcept {
     JointStops& stops = joints_[joint];
-    if (stops.last.sender_id != stop.sender_id) stops.others = stops.sent;
+    if (!stops.last.of_the_sender_of(stop)) stops.others = stops.sent;
     stops.last = stop;
     stops.sent = draws_;
     end_all(stops);
@@ -83,9 +88,10 @@ class Challenges {
     const Drawn* drawn = find(challenge);
     const JointStops& stops = joints_[joint];
     if (drawn == nullptr || drawn->number > stops.any) return Since::kNothing;
-    const bool of_own = stops.last.sender_id == order.sender_id && stops.last.sequence < order.sequence;
-    const bool overtaken = (drawn->number <= stops.sent && !of_own) ||
-                           (drawn->number <= stops.others && stops.last.sender_id == order.sender_id);
+    const bool of_sender = stops.last.of_the_sender_of(order);
+    const bool of_own = of_sender && stops.last.sequence < order.sequence;
+    const bool overtaken =
+        (drawn->number <= stops.sent && !of_own) || (drawn->number <= stops.others && of_sender);
     return overtaken ? Since::kOthersStop : Since::kOwnStop;
   }
   /// How often `joint` was stopped: the same number later means that it was not meanwhile.

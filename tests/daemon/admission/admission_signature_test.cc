@@ -184,6 +184,16 @@ TEST_F(SignedAdmission, WhoStoppedTheJointHimselfMayGiveAnewWhatHeOrderedAfterTh
       << "ordered before he stopped it, in another window";
 }
 
+// The clients of one account have one sender_id, whatever their keys, and anybody may write it into a message.
+TEST_F(SignedAdmission, AStopWithTheSameSenderButAnotherKeyOrNoneIsSomebodyElses) {
+  for (const SecretKey* key : {&engineer_, &stranger_, static_cast<const SecretKey*>(nullptr)}) {
+    ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 1, ++sequence_), key)).kind,
+              Verdict::Kind::kOrder);
+    EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, ++sequence_), &operator_)).reason,
+              Reason::kSuperseded);
+  }
+}
+
 TEST_F(SignedAdmission, AStopOfOneJointLeavesTheOthersTheirOrders) {
   ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 2, 1), nullptr)).kind, Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire("SW.wrist.SETPOINT", filled<setpoint_v2>(1, 100), &operator_)).kind,

@@ -57,6 +57,18 @@ TEST(Challenges, TellAStopThatItsSenderGaveBeforeFromOneThatOvertookHim) {
   EXPECT_EQ(challenges.since(before, 0, {1, 15}), Since::kOthersStop);
 }
 
+TEST(Challenges, TellSendersOfOneAccountApartByTheirKeys) {
+  Challenges challenges(kLifetime, 1);
+  const std::int64_t before = challenges.advance(0, 11);
+  challenges.stop(0, {1, 10, 3});
+  EXPECT_EQ(challenges.since(before, 0, {1, 11, 3}), Since::kOwnStop);
+  EXPECT_EQ(challenges.since(before, 0, {1, 11, 2}), Since::kOthersStop);
+  EXPECT_EQ(challenges.since(before, 0, {1, 11}), Since::kOthersStop);
+  challenges.stop(0, {1, 12});
+  EXPECT_EQ(challenges.since(before, 0, {1, 13, 3}), Since::kOthersStop)
+      << "nobody has proved that it was his";
+}
+
 TEST(Challenges, DrawnInTheCycleOfAFaultOrBeforeAreOverAndTheNextIsDrawnInALaterOne) {
   Challenges challenges(kLifetime, 1);
   const std::int64_t before = challenges.advance(100, 11);
