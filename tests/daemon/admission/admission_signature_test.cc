@@ -186,7 +186,8 @@ TEST_F(SignedAdmission, WhoStoppedTheJointHimselfMayGiveAnewWhatHeOrderedAfterTh
 
 // The clients of one account have one sender_id, whatever their keys, and anybody may write it into a message.
 TEST_F(SignedAdmission, AStopWithTheSameSenderButAnotherKeyOrNoneIsSomebodyElses) {
-  for (const SecretKey* key : {&engineer_, &stranger_, static_cast<const SecretKey*>(nullptr)}) {
+  const std::array<const SecretKey*, 3> keys{&engineer_, &stranger_, nullptr};
+  for (const SecretKey* key : keys) {
     ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 1, ++sequence_), key)).kind,
               Verdict::Kind::kOrder);
     EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, ++sequence_), &operator_)).reason,
