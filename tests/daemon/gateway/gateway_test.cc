@@ -7,6 +7,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <strainwave/command_v1.hpp>
+#include <string>
 
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/vocabulary.h"
@@ -14,7 +15,8 @@
 namespace strainwave {
 namespace {
 
-constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+// Tests run side by side: each process has a port of its own.
+const std::string kUrl = "udpm://239.255.76.67:" + std::to_string(20000 + ::getpid() % 20000) + "?ttl=0";
 
 class GatewayTurn : public ::testing::Test {
  protected:
