@@ -33,15 +33,20 @@ void JointController::ease() noexcept {
 void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
                              const PositionRange& range, OnTime on_time) noexcept {
   limit_speed(speed_limit_rad_s);
-  plan_.end_easing();
-  ordered_.end_easing();
   stream_range_ = range;
   if (!streamed() || begins) {
-    const double lead_s = on_time == OnTime::kJoint ? stream_lead_s() : 0.0;
-    if (!begins && stream_.ended())
+    const bool resumes = !begins && stream_.ended();
+    // One that takes over an eased move on the way goes on eased, and ahead by what that takes: else the acceleration would step. A path
+    // begins at rest, as late as its companions.
+    if (on_time == OnTime::kPlan || (!resumes && plan_.rests() && ordered_.rests())) {
+      plan_.end_easing();
+      ordered_.end_easing();
+    }
+    const double lead = on_time == OnTime::kJoint ? stream_lead_s() / config_.period_s : 0.0;
+    if (resumes && stream_.lead_periods() == lead)
       stream_.resume(plan_.position_rad(), plan_.velocity_rad_s(), told_load_);
     else
-      stream_.begin(plan_.position_rad(), plan_.velocity_rad_s(), lead_s / config_.period_s, told_load_);
+      stream_.begin(plan_.position_rad(), plan_.velocity_rad_s(), lead, told_load_);
     new_plans_.new_phase();
     confined_ = ordered_confined_ = 0;
   }

@@ -3,9 +3,9 @@
 //
 //   plain      the shaper's motion itself
 //   limited    its mean, always
-//   eased      its mean in a move that begins at rest, and in what follows it until a stream takes over or the joint starts: a stream tells how it
-//              moves by itself
-//   plain_until_eased   its mean from ease_from() on, which takes a motion up that is under way, until a stream takes over or the joint starts
+//   eased      its mean in a move that begins at rest, and in what follows it until a stream begins at rest or the joint starts: a stream tells how
+//              it moves by itself. One that begins on the way goes on eased
+//   plain_until_eased   its mean from ease_from() on, which takes a motion up that is under way, until a stream begins at rest or the joint starts
 //
 // While it is a mean it lags by lag_s(): the shaper is that much ahead, and goes on from where the mean is wherever one takes the other's place.
 #pragma once

@@ -22,7 +22,7 @@ constexpr double kSlow_s = 0.009;
 // By so much of an interval a sample is late before it is missing.
 constexpr double kLate = 0.5;
 constexpr double kLongestBridge_s = 0.2;
-// Share of the room beyond the samples in which a target is back.
+// Share of the room beyond the samples, but for what the lead takes, in which a target is back.
 constexpr double kBack = 0.5;
 // Far below any encoder's count.
 constexpr double kRounding_rad = 1e-9;
@@ -206,8 +206,9 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
                           0.5 * braking_rad2_s2 / reach_.acceleration_rad_s2;
   const double rest_rad = position_rad + 0.5 * velocity_rad_s * speed_rad_s / reach_.acceleration_rad_s2;
   const double edge_rad = out > 0 ? known.high_rad : known.low_rad;
-  // A target that is still out there would be left and gone after again, in turns.
-  const bool beyond = out * (target.next_position_rad - edge_rad) > kBack * room_rad;
+  // A target that is still out there would be left and gone after again, in turns. By its lead it always is.
+  const double led_rad = fastest_rad_s * std::min(since_s, seconds(lead_));
+  const bool beyond = out * (target.next_position_rad - edge_rad) - led_rad > kBack * (room_rad - led_rad);
   if (moves == out && out * (rest_rad - edge_rad) > room_rad)
     way = out;
   else if (moves != out && !beyond)

@@ -87,6 +87,7 @@ class StreamTarget {
   /// `lead_periods` >= 0.
   void begin(double position_rad, double velocity_rad_s, double lead_periods,
              const ToldLoad& load = {}) noexcept;
+  double lead_periods() const noexcept { return lead_; }
   /// The stream that has ended goes on with the next sample: who followed it is here by now, with this load.
   void resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept;
   /// So many periods went by since it ended.
@@ -205,6 +206,7 @@ class StreamTarget {
   double expected_interval() const noexcept;
   bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
   void clock_in(const StreamSample& sample) noexcept;
+  void clock_in_held_up() noexcept;
   double intervals_in(double gap, const StreamSample& sample) noexcept;
   double nearest_of(double most, double farthest, const StreamSample& sample) const noexcept;
   void remember(const Knot& knot) noexcept;
@@ -249,6 +251,8 @@ class StreamTarget {
   double mean_s_ = 0.0;             ///< the time between them; 0: there is but one
   double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come
   double arrival_ = 0.0;            ///< of the last sample, smoothed
+  double came_ = 0.0;               ///< when it came
+  double first_came_ = 0.0;         ///< when the first of arrivals_ did
   double caught_up_at_ = 0.0;       ///< period: until then what was missed is caught up with
   int counted_lost_ = 0;            ///< intervals before the last sample
   int held_up_ = 0;                 ///< samples in a row

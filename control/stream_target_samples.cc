@@ -18,6 +18,8 @@ constexpr double kLongestHoldUp_s = 0.06;
 constexpr double kLongestInARow_s = 2.0 * kLongestHoldUp_s;
 // What a network does to arrivals all the time; what is later than this says nothing of the sender's clock.
 constexpr double kJitter_s = 0.006;
+// Among so many samples from the first on one that comes with the one before is no doubt of the interval: it was held up.
+constexpr int kFirstSamples = 40;
 // A sample that comes by so much of an interval too early is not the next.
 constexpr double kOutOfTurn = 0.5;
 // A place tells that a sample was held up where none was lost fits by less than these shares, with its velocity and without, of what the
@@ -127,6 +129,10 @@ double StreamTarget::nearest_of(double most, double farthest, const StreamSample
 void StreamTarget::clock_in(const StreamSample& sample) noexcept {
   ++arrivals_;
   const double gap = present() - arrival_;
+  const bool at_once = arrivals_ > 1 && present() == came_;
+  came_ = present();
+  if (arrivals_ == 1) first_came_ = came_;
+  if (at_once && arrivals_ <= kFirstSamples && gap < kOutOfTurn * interval_) return clock_in_held_up();
   if (arrivals_ <= 2) {
     interval_ = arrivals_ == 2 ? std::max(gap, 1.0) : 0.0;
     arrival_ = present();
@@ -144,6 +150,17 @@ void StreamTarget::clock_in(const StreamSample& sample) noexcept {
       intervals * interval_ + std::max(kLeastArrivalGain, 2.0 * (2.0 * n - 1.0) / (n * (n + 1.0))) * late;
   interval_ += std::max(kLeastIntervalGain, 6.0 / (n * (n + 1.0))) * late / intervals;
   interval_ = std::max(interval_, 1.0);
+}
+
+// Nothing told yet that those before it had been held up: the last of them is on time, and takes the place of the one before.
+void StreamTarget::clock_in_held_up() noexcept {
+  interval_ = std::max(1.0, (came_ - first_came_) / (arrivals_ - 1));
+  arrival_ = came_;
+  counted_lost_ = 0;
+  held_up_ = 0;
+  if (past_count_ == 0 || past_[0].at < arrival_) return;
+  std::copy(past_.begin() + 1, past_.end(), past_.begin());
+  --past_count_;
 }
 
 void StreamTarget::remember(const Knot& knot) noexcept {
