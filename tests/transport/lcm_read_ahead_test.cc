@@ -11,20 +11,19 @@
 
 #include "tests/support/lcm_datagrams.h"
 #include "tests/support/multicast_sender.h"
+#include "tests/support/own_port.h"
 
 namespace strainwave {
 namespace {
 
 using testing::Bytes;
 using testing::MulticastSender;
+using testing::own_port;
+using testing::own_url;
 using testing::pattern;
 
 constexpr std::size_t kLargestDatagram = 1000;
 constexpr int kSmallQueueBytes = 20'000;
-
-std::uint16_t port() {
-  return static_cast<std::uint16_t>(20'000 + ::getpid() % 10'000);
-}
 
 bool is_readable(int descriptor, int timeout_ms) {
   pollfd readable{descriptor, POLLIN, 0};
@@ -58,9 +57,8 @@ class ReadAhead : public ::testing::Test {
     return datagrams;
   }
 
-  LcmSocket socket_{*parse_udpm_url("udpm://239.255.76.67:" + std::to_string(port()) + "?ttl=0"),
-                    kLargestDatagram, kSmallQueueBytes};
-  MulticastSender sender_{port()};
+  LcmSocket socket_{*parse_udpm_url(own_url()), kLargestDatagram, kSmallQueueBytes};
+  MulticastSender sender_{own_port()};
   std::int64_t latest_us_ = 1;
 };
 
@@ -102,7 +100,7 @@ TEST_F(ReadAhead, IsReadableAsLongAsSomethingWaits) {
 }
 
 TEST(LcmSocketQueue, IsAsLongAsTheSystemAllows) {
-  const auto address = *parse_udpm_url("udpm://239.255.76.67:" + std::to_string(port()) + "?ttl=0");
+  const auto address = *parse_udpm_url(own_url());
   EXPECT_EQ(LcmSocket(address, kLargestDatagram, kSmallQueueBytes).queue_bytes(), kSmallQueueBytes);
 }
 

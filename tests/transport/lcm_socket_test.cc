@@ -11,26 +11,22 @@
 #include <string>
 
 #include "tests/support/lcm_datagrams.h"
+#include "tests/support/own_port.h"
 
 namespace strainwave {
 namespace {
 
 using testing::Bytes;
+using testing::own_port;
+using testing::own_url;
 using testing::pattern;
 
-/// A port of this process: on another the tests that run beside it would be heard.
-std::uint16_t port() {
-  return static_cast<std::uint16_t>(20'000 + ::getpid() % 10'000);
-}
-std::string url() {
-  return "udpm://239.255.76.67:" + std::to_string(port()) + "?ttl=0";
-}
 constexpr std::size_t kAnyDatagram = 65535;
 
 class LcmReceiver {
  public:
   LcmReceiver(std::size_t largest_message, std::size_t largest_datagram)
-      : socket_(*parse_udpm_url(url()), largest_datagram), reassembly_(largest_message) {}
+      : socket_(*parse_udpm_url(own_url()), largest_datagram), reassembly_(largest_message) {}
 
   /// The next message on `channel`, or nothing when no more datagrams come.
   std::optional<Bytes> next(const std::string& channel) {
@@ -56,7 +52,7 @@ void send_to(const char* host, const Bytes& datagram) {
   const int sender = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  address.sin_port = htons(port());
+  address.sin_port = htons(own_port());
   ::inet_pton(AF_INET, host, &address.sin_addr);
   EXPECT_EQ(::sendto(sender, datagram.data(), datagram.size(), 0,
                      static_cast<const sockaddr*>(static_cast<const void*>(&address)), sizeof address),
@@ -67,7 +63,7 @@ void send_to(const char* host, const Bytes& datagram) {
 // LCM sends what fits in one datagram as a short message, and longer ones in fragments of 65487 bytes.
 TEST(LcmSocket, UnderstandsWhatLcmsLibrarySendsFrom0BytesTo300kB) {
   LcmReceiver receiver(300'000, kAnyDatagram);
-  lcm::LCM sender(url());
+  lcm::LCM sender(own_url());
   ASSERT_TRUE(sender.good());
   for (const std::size_t size : {0U, 1U, 148U, 8120U, 65'000U, 65'490U, 65'491U, 65'492U, 65'500U, 130'000U,
                                  131'000U, 200'000U, 300'000U}) {
@@ -82,7 +78,7 @@ TEST(LcmSocket, UnderstandsWhatLcmsLibrarySendsFrom0BytesTo300kB) {
 
 TEST(LcmSocket, DropsAndCountsWhatIsLongerThanTheLargestMessage) {
   LcmReceiver receiver(8120, kAnyDatagram);
-  lcm::LCM sender(url());
+  lcm::LCM sender(own_url());
   for (const std::size_t size : {8121U, 65'000U, 100'000U, 300'000U}) {
     const Bytes sent = pattern(size);
     sender.publish("SW.elbow.TABLE", sent.data(), static_cast<unsigned int>(sent.size()));

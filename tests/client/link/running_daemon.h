@@ -1,21 +1,17 @@
 // The daemon of three lines in a thread of its own, on a real LCM network.
 #pragma once
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cstdint>
 #include <string>
 #include <thread>
 
 #include "tests/client/link/fake_daemon.h"
+#include "tests/support/own_port.h"
 
 namespace strainwave {
 
-/// A port of this process's own, so that tests may run side by side.
-inline std::string own_url() {
-  return "udpm://239.255.76.67:" + std::to_string(20000 + ::getpid() % 20000) + "?ttl=0";
-}
+using testing::own_url;
 
 /// A joint that obeys everything and publishes its state all the time.
 class RunningDaemon {

@@ -18,18 +18,15 @@
 #include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/fragment_attack.h"
+#include "tests/support/own_port.h"
 
 namespace strainwave {
 namespace {
 
-std::string own_url() {
-  return "udpm://239.255.76.67:" + std::to_string(20000 + ::getpid() % 20000) + "?ttl=0";
-}
-
 class WatchOnATerminal : public ::testing::Test {
  protected:
   void SetUp() override {
-    url_ = own_url();
+    url_ = testing::own_url();
     master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     ASSERT_GE(master_, 0);
     ASSERT_EQ(::grantpt(master_), 0);

@@ -11,12 +11,12 @@
 
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/vocabulary.h"
+#include "tests/support/own_port.h"
 
 namespace strainwave {
 namespace {
 
-// Tests run side by side: each process has a port of its own.
-const std::string kUrl = "udpm://239.255.76.67:" + std::to_string(20000 + ::getpid() % 20000) + "?ttl=0";
+const std::string kUrl = testing::own_url();
 
 class GatewayTurn : public ::testing::Test {
  protected:
