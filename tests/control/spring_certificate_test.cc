@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
+#include "control/gain_table_json.h"
 #include "control/positive_definite.h"
 #include "tests/support/eigenvalues.h"
 
@@ -125,6 +129,32 @@ TEST(SpringCertificate, TheSecondPeriodOfDelayDrivesAStiffSpringWithoutDamping) 
   const SpringPlant light{0.089, 0.05, 13000.0, 0.0, 0.0};
   EXPECT_LT(spring_loop_radius(light, kGains[0], {1e-3, 1, 1.0}), 1.0);
   EXPECT_GT(spring_loop_radius(light, kGains[0], {1e-3, 2, 1.0}), 1.02);
+}
+
+// What docs/flexible-joint.md says of the corner at which the box of this table is thin.
+TEST(SpringCertificate, TheDelaysTableHasLittleBesideItsBoxWhereAStiffSpringIsNotDamped) {
+  const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
+  const std::vector<GainRow> gains = gains_of(table);
+  const SpringPlant corner{0.089, 0.05, 13000.0, 0.0, 0.0};
+  const SpringLoop loop{1e-3, 2, 1.0, EncoderSide::kMotor, 2.0};
+  const auto radius = [&](const SpringPlant& plant) {
+    const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
+    double largest = 0.0;
+    for (const GainRow& gain : gains)
+      largest = std::max(largest, testing::swing_radius(spring_loop(sampled, gain, loop).value, 0.1));
+    return largest;
+  };
+  EXPECT_NEAR(radius(corner), 0.992, 0.0005);
+  SpringPlant other = corner;
+  for (const auto& [share, grows] : {std::pair(1.05, false), std::pair(1.06, true)}) {
+    other.stiffness_Nm_rad = share * corner.stiffness_Nm_rad;
+    EXPECT_EQ(radius(other) > 1.0, grows) << share << radius(other);
+  }
+  other = corner;
+  for (const auto& [share, grows] : {std::pair(0.90, false), std::pair(0.89, true)}) {
+    other.link_inertia_kgm2 = share * corner.link_inertia_kgm2;
+    EXPECT_EQ(radius(other) > 1.0, grows) << share << radius(other);
+  }
 }
 
 TEST(SpringCertificate, TheRadiusIsThatOfTheLargestEigenvalue) {

@@ -9,6 +9,9 @@ namespace strainwave::testing {
 /// The largest absolute value of an eigenvalue of a square matrix.
 double spectral_radius(const Eigen::MatrixXd& matrix);
 
+/// The same of those eigenvalues that turn by more than `angle_rad` in a step: of what swings, not of what creeps.
+double swing_radius(const Eigen::MatrixXd& matrix, double angle_rad);
+
 /// Of a symmetric matrix, of which the lower half is read.
 double smallest_eigenvalue(const Eigen::MatrixXd& matrix);
 
