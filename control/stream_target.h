@@ -87,6 +87,7 @@ class StreamTarget {
   /// `lead_periods` >= 0.
   void begin(double position_rad, double velocity_rad_s, double lead_periods,
              const ToldLoad& load = {}) noexcept;
+  /// As begin() was told.
   double lead_periods() const noexcept { return lead_; }
   /// The stream that has ended goes on with the next sample: who followed it is here by now, with this load.
   void resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept;

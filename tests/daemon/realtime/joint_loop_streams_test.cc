@@ -246,7 +246,7 @@ TEST(JointLoopStreaming, ThatAreHeldUpAndComeAllAtOnceGoOnAsTheyWere) {
       }
 }
 
-/// What a network does to a stream, at 100 Hz.
+/// What a network does to a stream.
 std::vector<Stream> hurt_streams(bool flexible) {
   return {{.flexible = flexible, .lost = 0.1},
           {.derivatives = 1, .flexible = flexible, .lost = 0.1},
