@@ -10,6 +10,7 @@
 #include "client/joint/joint_link.h"
 #include "client/link/motion.h"
 #include "client/link/orders.h"
+#include "lcmtypes/stream_validity.h"
 
 namespace strainwave {
 
@@ -17,13 +18,12 @@ namespace {
 
 // The daemon takes a second; the way there takes some of it.
 constexpr double kFarthestAhead_s = 0.9;
-constexpr double kLongestValid_s = 10.0;
 
 StreamOptions checked(const StreamOptions& options) {
   checked_number("ahead_s", options.ahead_s, "above 0 to 0.9",
                  options.ahead_s > 0.0 && options.ahead_s <= kFarthestAhead_s);
-  checked_number("valid_for_s", options.valid_for_s, "above 0 to 10",
-                 options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValid_s);
+  checked_number("valid_for_s", options.valid_for_s, fmt::format("above 0 to {}", kLongestValidFor_s),
+                 options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValidFor_s);
   checked_number("speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
                  options.speed_limit_rad_s >= 0.0);
   StreamOptions kept = options;

@@ -13,6 +13,7 @@
 
 #include "client/link/client_error.h"
 #include "client/link/orders.h"
+#include "client/link/plain_zero.h"
 
 namespace strainwave {
 
@@ -112,7 +113,7 @@ class ArrivalWatch {
   /// From the order to when it was inside for good.
   double duration_s() const { return std::max(0.0, seconds_between(start_, *inside_)); }
   double error_rad(const JointView& view) const {
-    return target_rad_ - view.state.joint_position_rad + 0.0;  // of a negative zero a plain one
+    return plain_zero(target_rad_ - view.state.joint_position_rad);
   }
 
  private:

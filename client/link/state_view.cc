@@ -1,5 +1,6 @@
 #include "client/link/state_view.h"
 
+#include "client/link/plain_zero.h"
 #include "lcmtypes/cycle_fields.h"
 
 namespace strainwave {
@@ -26,7 +27,7 @@ double JointView::period_s() const noexcept {
 }
 
 double tracking_error_rad(const JointView& view) noexcept {
-  return tracking_error_rad(view.state, view.period_s()) + 0.0;  // of a negative zero a plain one
+  return plain_zero(tracking_error_rad(view.state, view.period_s()));
 }
 
 std::vector<std::string> StateView::joints(const std::string& prefix) const {

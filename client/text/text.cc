@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "client/link/client_error.h"
+#include "client/link/plain_zero.h"
 #include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/state_fields.h"
 #include "lcmtypes/vocabulary.h"
@@ -30,13 +30,6 @@ constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClam
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   return text == "d" || text.starts_with("deg") || text == "\xC2\xB0";
-}
-
-/// `value`, of a negative zero a plain one.
-template <typename Number>
-Number plain_zero(Number value) {
-  if constexpr (std::is_floating_point_v<Number>) return value + Number{0};
-  return value;
 }
 
 /// What a number of the state means, for the fields that are codes; else empty.

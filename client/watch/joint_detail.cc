@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "client/link/orders.h"
+#include "client/link/plain_zero.h"
 #include "client/text/text.h"
 #include "client/watch/plot.h"
 #include "lcmtypes/vocabulary.h"
@@ -123,10 +124,9 @@ struct Curve {
 };
 
 std::string scale_text(const Curve& curve, double value) {
-  constexpr double kPlainZero = 0.0;  // added to a negative one, makes it plain
   return curve.decimals
              ? fmt::format("{:>+11.{}f}", without_negative_zero(value, *curve.decimals), *curve.decimals)
-             : fmt::format("{:>+11.1e}", value + kPlainZero);
+             : fmt::format("{:>+11.1e}", plain_zero(value));
 }
 
 void draw_plot(const Curve& curve, bool unicode, Screen& screen, int row, int column, int width, int height) {

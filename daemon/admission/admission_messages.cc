@@ -11,14 +11,13 @@
 #include "daemon/admission/table_admission.h"
 #include "daemon/admission/verdict.h"
 #include "lcmtypes/gain_table_message.h"
+#include "lcmtypes/stream_validity.h"
 #include "lcmtypes/wire.h"
 
 namespace strainwave {
 
 namespace {
 
-// Of a stream that says nothing: the joint rests by then, and the torque it was told of stays. Twice what an owner may be silent for.
-constexpr double kMaxValidFor_s = 10.0;
 constexpr double kMaxInjection_s = 3600.0;
 // Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
 constexpr double kMaxVelocity_rad_s = 1000.0;
@@ -124,10 +123,10 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
          << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
-  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kMaxValidFor_s ||
+  if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kLongestValidFor_s ||
       (setpoint->valid_for_s > 0.0) != (setpoint->stream_id != 0)) {
     text << "valid_for_s = " << setpoint->valid_for_s << " with stream_id = " << setpoint->stream_id
-         << ": both 0 (a move), or a stream and at most " << kMaxValidFor_s << " s are allowed";
+         << ": both 0 (a move), or a stream and at most " << kLongestValidFor_s << " s are allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {

@@ -8,6 +8,7 @@ from .setpoint_v2 import setpoint_v2
 from .vocabulary import Reason
 
 FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
+LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
 def check_number(name, value, allowed, is_allowed):
@@ -39,7 +40,7 @@ class Stream:
         self.late = 0  # samples that came after their time, or after a later one, and were left out
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
         self._ahead_s = check_number("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
-        self._valid_for_s = check_number("valid_for_s", valid_for_s, "above 0 to 10", lambda s: 0 < s <= 10)
+        self._valid_for_s = check_number("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
         self._speed_limit_rad_s = speed_limit_rad_s
         self._base = beside._base if beside else TimeBase()
         self._stream_id = conversation.sender.next_sequence()

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 import strainwave
-from strainwave import messages, sender, vocabulary
+from strainwave import messages, sender, stream, vocabulary
 from strainwave.errors import InvalidInput
 from strainwave.key import SecretKey, read_secret_key
 
@@ -128,6 +128,10 @@ class Vocabulary(unittest.TestCase):
             body = re.search(rf"enum class {name}\b[^{{]*{{(.*?)}};", header, re.S)[1]
             names = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", word).upper() for word in re.findall(r"\bk(\w+) =", body)]
             self.assertEqual([word.name for word in getattr(vocabulary, name)], names)
+
+    def test_lets_a_stream_be_silent_for_as_long_as_the_header_does(self):
+        header = (SOURCE / "lcmtypes/stream_validity.h").read_text()
+        self.assertEqual(stream.LONGEST_VALID_FOR_S, float(re.search(r"kLongestValidFor_s = ([\d.]+);", header)[1]))
 
     def test_takes_numbers_of_a_newer_daemon(self):
         self.assertEqual((int(vocabulary.Reason(77)), f"{vocabulary.Reason(77)}"), (77, "unknown"))
