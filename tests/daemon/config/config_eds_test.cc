@@ -4,6 +4,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "control/gain_table_json.h"
+#include "daemon/admission/table_admission.h"
+#include "daemon/assembly.h"
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "tests/daemon/config/config_file_test.h"
@@ -36,6 +39,22 @@ TEST_F(DataSheets, TheExampleForElmoStartsAGoldDrive) {
   const std::string text = check(example("elmo.toml"), "elmo_gold.eds");
   EXPECT_EQ(text.find("refused"), std::string::npos) << text;
   expect_mentions(text, {"mode 10 (CST)"});
+}
+
+TEST_F(DataSheets, TheExampleForAnEncoderOnTheLinkTakesItsTableAndNoneOfTheMotorsSide) {
+  const std::string config = example("elmo-link.toml");
+  const std::string text = check(config, "elmo_gold.eds");
+  EXPECT_EQ(text.find("refused"), std::string::npos) << text;
+  const JointConfig joint = read(config).joints[0];
+  EXPECT_EQ(joint.loop.controller.encoder_side, EncoderSide::kLink);
+  // Where the package puts it.
+  const std::filesystem::path tables = STRAINWAVE_SOURCE_DIR "/data/tables";
+  ASSERT_TRUE(std::filesystem::exists(tables / joint.table.filename())) << joint.table;
+  const auto judged = [&](const std::filesystem::path& name) {
+    return judge_table(read_gain_table(tables / name), expected_joint(joint));
+  };
+  EXPECT_EQ(judged(joint.table.filename()).reason, Reason::kAccepted);
+  EXPECT_EQ(judged("csf-17-50.json").reason, Reason::kTableIdentity);
 }
 
 TEST_F(DataSheets, TheExampleForElmoStartsASimpliqWithoutItsTemperature) {
