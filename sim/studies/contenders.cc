@@ -6,6 +6,7 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "control/gain_table_json.h"
+#include "control/scheduled_controller.h"
 
 namespace strainwave {
 
@@ -58,6 +59,15 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.use_monitor = features.monitor;
   config.use_landing = features.rigid && features.observer && features.rest;
   return config;
+}
+
+JointPlantConfig with_declared_friction(JointPlantConfig plant, const GainTable& table,
+                                        double temperature_C) {
+  ScheduledController law(table.primary, table.friction, table.plant);
+  law.set_temperature(temperature_C);
+  plant.joint.friction.asymptote = law.friction();
+  plant.joint.friction.amplitude = {};
+  return plant;
 }
 
 Contender plain_contender(const std::string& name, const GainTable& table) {

@@ -52,6 +52,9 @@ constexpr ExtendedFeatures daemon_defaults() {
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
                                       const ExtendedFeatures& features);
 
+/// The plant with the friction that `table` declares at `temperature_C` in the place of its own: what is left to be wrong is not friction.
+JointPlantConfig with_declared_friction(JointPlantConfig plant, const GainTable& table, double temperature_C);
+
 /// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,
                              const ExtendedFeatures& features);

@@ -160,6 +160,17 @@ std::vector<TextTable> temperature_tables(const std::vector<TemperatureRow>& row
       hundred_table(hundred)};
 }
 
+TextTable friction_known_table(const std::vector<TemperatureRow>& rows) {
+  const std::string product = distinct(rows, &TemperatureRow::way).back();
+  return over_temperature(
+      "RMS error of '" + product + "' below uncompensated (%) where the table has the joint's very friction",
+      "of the motions", {"mean", "worst"}, [&](const std::string& which, double temperature_C) {
+        const auto all = ratios(rows, product, kRightSensor, kUncompensated, temperature_C);
+        return below_percent(which == "mean" ? geometric_mean(all)
+                                             : *std::max_element(all.begin(), all.end()));
+      });
+}
+
 TextTable friction_table(const GainTable& gains, const JointPlantConfig& plant) {
   TextTable table{"What limits: friction that the table does not know, over the position gain", {"degC"}, {}};
   constexpr std::array<double, 3> kSpeeds_rad_s = {0.01, 0.1, 1.0};

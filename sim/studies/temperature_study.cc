@@ -76,6 +76,27 @@ SmoothPath to_and_fro(double velocity_rad_s) {
   return path;
 }
 
+struct Job {
+  const FrictionWay* way;
+  const SensorFault* sensor;
+  const PathMotion* motion;
+  double temperature_C;
+};
+
+std::vector<TemperatureRow> run_jobs(const std::vector<Job>& jobs,
+                                     const std::function<JointPlantConfig(double temperature_C)>& plant_at) {
+  std::vector<TemperatureRow> rows(jobs.size());
+  run_in_parallel(jobs.size(), [&](std::size_t i) {
+    const Job& job = jobs[i];
+    const SmoothPath& path = job.motion->path;
+    const PathRun run =
+        run_path(plant_at(job.temperature_C), *job.way, path, *job.sensor, job.temperature_C, {path.end_s()});
+    rows[i] = {job.way->name,     job.sensor->name,      job.motion->name,
+               job.temperature_C, run.stretches.front(), run.monitor};
+  });
+  return rows;
+}
+
 }  // namespace
 
 const GainTable& study_table(const FlexibleTables& tables) {
@@ -146,12 +167,6 @@ PathRun run_path(const JointPlantConfig& plant, const FrictionWay& way, const Sm
 
 std::vector<TemperatureRow> run_temperatures(const std::vector<FrictionWay>& ways,
                                              const std::vector<SensorFault>& sensors) {
-  struct Job {
-    const FrictionWay* way;
-    const SensorFault* sensor;
-    const PathMotion* motion;
-    double temperature_C;
-  };
   const std::vector<PathMotion> motions = study_motions();
   const SensorFault right = sensor_faults().front();
   std::vector<Job> jobs;
@@ -161,16 +176,20 @@ std::vector<TemperatureRow> run_temperatures(const std::vector<FrictionWay>& way
       for (const SensorFault& sensor : sensors)
         if (sensor.name != right.name) jobs.push_back({&ways.back(), &sensor, &motion, temperature_C});
     }
-  std::vector<TemperatureRow> rows(jobs.size());
-  const JointPlantConfig plant = temperature_plant();
-  run_in_parallel(jobs.size(), [&](std::size_t i) {
-    const Job& job = jobs[i];
-    const SmoothPath& path = job.motion->path;
-    const PathRun run = run_path(plant, *job.way, path, *job.sensor, job.temperature_C, {path.end_s()});
-    rows[i] = {job.way->name,     job.sensor->name,      job.motion->name,
-               job.temperature_C, run.stretches.front(), run.monitor};
+  return run_jobs(jobs, [](double) { return temperature_plant(); });
+}
+
+std::vector<TemperatureRow> run_friction_known(const std::vector<FrictionWay>& ways, const GainTable& table) {
+  const std::vector<PathMotion> motions = study_motions();
+  const SensorFault right = sensor_faults().front();
+  std::vector<Job> jobs;
+  for (const double temperature_C : kStudyTemperatures_C)
+    for (const PathMotion& motion : motions)
+      for (const FrictionWay* way : {&ways.front(), &ways.back()})
+        jobs.push_back({way, &right, &motion, temperature_C});
+  return run_jobs(jobs, [&table](double temperature_C) {
+    return with_declared_friction(temperature_plant(), table, temperature_C);
   });
-  return rows;
 }
 
 std::vector<PathError> run_hundred_moves(const FrictionWay& way, double step_rad, double temperature_C) {

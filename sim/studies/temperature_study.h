@@ -78,6 +78,10 @@ struct TemperatureRow {
 std::vector<TemperatureRow> run_temperatures(const std::vector<FrictionWay>& ways,
                                              const std::vector<SensorFault>& sensors);
 
+/// The last of `ways` (which is given `table`) and "none" on joints whose friction at each temperature is the very one that `table`
+/// declares: what of the error is not friction's.
+std::vector<TemperatureRow> run_friction_known(const std::vector<FrictionWay>& ways, const GainTable& table);
+
 /// A hundred moves there and back by `step_rad`, one a second, from a night at `temperature_C` on; the joint warms by its losses.
 /// The error of each move, its hold included.
 std::vector<PathError> run_hundred_moves(const FrictionWay& way, double step_rad, double temperature_C);

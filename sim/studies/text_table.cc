@@ -24,7 +24,7 @@ std::vector<std::string> escaped(std::vector<std::string> fields) {
 
 std::string number(double value, int digits) {
   std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value + 0.0);  // of a negative zero a plain one
   return buffer.data();
 }
 

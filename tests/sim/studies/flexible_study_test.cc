@@ -203,12 +203,8 @@ TEST(FlexibleStudy, FindsTheFallbacksOvershootsAndSlowSwingsThatThePagesTellOf) 
 /// A cell whose joint has the friction that the table says.
 FlexibleCell with_friction_known(FlexibleCell cell) {
   const GainTable& table = FlexibleTables::nearest(tables().c4, 0.089 + cell.link_inertia_kgm2);
-  ScheduledController law(table.primary, table.friction, table.plant);
-  law.set_temperature(cell.temperature_C);
-  for (JointPlantConfig* plant : {&cell.nominal, &cell.plant}) {
-    plant->joint.friction.asymptote = law.friction();
-    plant->joint.friction.amplitude = {};
-  }
+  for (JointPlantConfig* plant : {&cell.nominal, &cell.plant})
+    *plant = with_declared_friction(*plant, table, cell.temperature_C);
   return cell;
 }
 

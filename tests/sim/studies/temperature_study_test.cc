@@ -108,6 +108,19 @@ TEST(TemperatureStudy, MovesInTheColdThreeTimesBetterThanWhatKnowsNoTemperatureF
   }
 }
 
+// Nothing is left to know then: what remains is counts, delay and the gear's swing.
+TEST(TemperatureStudy, IsInEveryMotionEightyFivePercentBelowUncompensatedWhereTheTableHasTheJointsFriction) {
+  const auto said = page_table("### What is left where friction is known");
+  const TextTable found = friction_known_table(run_friction_known(ways(), study_table(tables())));
+  ASSERT_EQ(found.rows.size(), said.size());
+  for (const std::vector<std::string>& row : found.rows)
+    for (std::size_t i = 0; i < kStudyTemperatures_C.size(); ++i) {
+      const double percent = std::stod(row[i + 1]);
+      EXPECT_GT(percent, 85.0) << row[0] << ", " << kStudyTemperatures_C[i] << " degC";
+      EXPECT_NEAR(percent, said.at(row[0])[i], 1.0) << row[0] << ", " << kStudyTemperatures_C[i] << " degC";
+    }
+}
+
 // Nor with a sensor that is wrong or missing; ways that know less of friction may.
 TEST(TemperatureStudy, NeitherFallsBackNorIsSwitchedOffWhereTheTemperatureIsKnown) {
   for (const TemperatureRow& row : rows()) {
