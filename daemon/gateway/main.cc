@@ -68,7 +68,15 @@ int run() {
 
 }  // namespace
 
-int main() {
+int main(int count, char**) {
+  if (count > 1) {
+    std::fputs(
+        "strainwave-gateway: takes no options: it is started by strainwaved, or for it by the service "
+        "manager, never by hand "
+        "(docs/security.md)\n",
+        stderr);
+    return 2;
+  }
   try {
     return run();
   } catch (const std::exception& error) {

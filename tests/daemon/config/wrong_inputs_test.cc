@@ -583,6 +583,12 @@ TEST(WrongCommandLine, OfTheViewerIsNamedBeforeJavaIsAskedFor) {
   expect_refused(run("strainwave-spy --lcm-url=nonsense://"), {"'nonsense://'", "udpm://GROUP:PORT"}, "url");
 }
 
+TEST(WrongCommandLine, OfTheGatewayIsToldThatNobodyStartsItByHand) {
+  for (const char* option : {"--help", "--nope"})
+    expect_refused(run(std::string("strainwave-gateway ") + option), {"strainwaved", "never by hand"},
+                   option);
+}
+
 TEST(WrongInputs, AreMany) {
   EXPECT_GE(kConfigCases.size() + kTableCases.size() + kCommandCases.size(), 110U);
 }
