@@ -40,6 +40,7 @@ StateEstimatorConfig estimator_config(const JointControllerConfig& config) noexc
   estimator.observer.sampling_deviation_s = config.sampling_deviation_s;
   estimator.delay_periods = config.delay_periods;
   estimator.velocity_share = velocity_share(config);
+  estimator.current_loop_s = config.current_loop_s.value_or(0.0);
   return estimator;
 }
 
@@ -92,6 +93,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
       ordered_(plan_),
       stream_(config.period_s, config.stream_bridge_s),
       state_(estimator_config(config)),
+      current_loop_(config.current_loop_s.value_or(0.0), config.period_s),
       landing_(landing_config(config)),
       corrections_(config.period_s, count_rad()),
       swing_side_(config.period_s),
@@ -105,6 +107,7 @@ JointController::JointController(const JointControllerConfig& config) noexcept
   assert(!config.use_landing || (config.rigid && config.use_observer && config.use_rest));
   assert(!config.link || (config.use_shaping && !config.rigid));
   assert(config.gravity.torque_Nm == 0.0 || !config.use_observer);
+  assert(!config.current_loop_s || config.use_observer);
   if (follows_model(config)) link_motion_.emplace(link_config(config));
   plan_.set_limits(motion_);
   ordered_.set_limits(motion_);

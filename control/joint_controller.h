@@ -57,6 +57,9 @@ struct JointControllerConfig {
   double sampling_deviation_s = 0.0;
   /// Periods between a torque's computation and its effect, 0..kMaxControlDelay.
   int delay_periods = 0;
+  /// Time constant of the drive's current loop, >= 0: the observer and the landing know by it what acts. Nothing else uses it. Where it
+  /// is not given what is commanded acts at once.
+  std::optional<double> current_loop_s;
   double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
   MotorLimits motor;
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
@@ -245,6 +248,7 @@ class JointController {
   StreamTarget stream_;
   std::optional<LinkMotion> link_motion_;
   StateEstimator state_;
+  CurrentLoop current_loop_;
   Landing landing_;
   LandingAttempts attempts_;
   LinkCorrections corrections_;

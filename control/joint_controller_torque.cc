@@ -125,7 +125,8 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
     attempts_.landed();
     enter(MotionPhase::kResting);
   }
-  return apply(torque_Nm + told_load_.torque_Nm);
+  // What a push is planned with is its period's mean.
+  return apply(current_loop_.command_Nm(torque_Nm, state_.acting_then_Nm()) + told_load_.torque_Nm);
 }
 
 double JointController::estimated_load_Nm() const noexcept {

@@ -21,7 +21,9 @@ constexpr double kLeastMotion_rad = 1e-12;
 }  // namespace
 
 StateEstimator::StateEstimator(const StateEstimatorConfig& config) noexcept
-    : config_(config), observer_(config.observer) {
+    : config_(config),
+      observer_(config.observer),
+      current_loop_(config.current_loop_s, config.observer.period_s) {
   assert(config.delay_periods >= 0 && config.delay_periods <= kMaxControlDelay);
 }
 
@@ -29,6 +31,7 @@ void StateEstimator::reset(double position_rad, double velocity_rad_s, double lo
                            double friction_scale_Nm) noexcept {
   observer_.reset(position_rad, friction_scale_Nm, velocity_rad_s, load_Nm);
   torques_Nm_.fill(load_Nm);
+  acting_Nm_ = acting_then_Nm_ = load_Nm;
   previous_position_rad_ = position_rad;
   steady_position_rad_ = previous_steady_rad_ = position_rad;
   read_velocity_rad_s_ = velocity_rad_s;
@@ -107,8 +110,10 @@ void StateEstimator::prolong(int waiting) noexcept {
 void StateEstimator::let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
                                     EstimateSource source) noexcept {
   const auto predict = [&](int late) {
-    if (source != EstimateSource::kObserver) return;
-    observer_.predict(torque_before_Nm(config_.delay_periods + late), model);
+    const double torque_Nm = torque_before_Nm(config_.delay_periods + late);
+    if (source == EstimateSource::kObserver)
+      observer_.predict(current_loop_.mean_Nm(torque_Nm, acting_Nm_), model);
+    acting_Nm_ = current_loop_.end_Nm(torque_Nm, acting_Nm_);
   };
   const int later = late_periods - late_periods_;
   for (int period = 0; period < periods; ++period) {
@@ -154,9 +159,13 @@ void StateEstimator::read(const JointMeasurement& measurement, EstimateSource so
 
 // The torques that are under way already decide the motion until this period's torque acts.
 void StateEstimator::look_ahead() noexcept {
+  acting_then_Nm_ = acting_Nm_;
   for (int i = config_.delay_periods + late_periods_ - 1; i >= 0; --i) {
-    const ModelMotion motion = adapted_.advance(torque_before_Nm(i), then_.disturbance, then_.velocity_rad_s,
-                                                config_.observer.period_s);
+    const double torque_Nm = torque_before_Nm(i);
+    const ModelMotion motion =
+        adapted_.advance(current_loop_.mean_Nm(torque_Nm, acting_then_Nm_), then_.disturbance,
+                         then_.velocity_rad_s, config_.observer.period_s);
+    acting_then_Nm_ = current_loop_.end_Nm(torque_Nm, acting_then_Nm_);
     then_.position_rad += motion.displacement_rad;
     then_.velocity_rad_s = motion.velocity_rad_s;
   }

@@ -10,6 +10,7 @@
 
 #include <array>
 
+#include "control/current_loop.h"
 #include "control/joint_model.h"
 #include "control/velocity_observer.h"
 
@@ -52,6 +53,7 @@ struct StateEstimatorConfig {
   /// Of each difference of two readings in the velocity, without observer (control/link_velocity.h), in (0, 1]. Below 1 a velocity that
   /// the drive measures is not used.
   double velocity_share = 1.0;
+  double current_loop_s = 0.0;  ///< >= 0, time constant of the drive's current loop
 };
 
 class StateEstimator {
@@ -69,6 +71,8 @@ class StateEstimator {
 
   const JointEstimate& now() const noexcept { return now_; }
   const JointEstimate& then() const noexcept { return then_; }
+  /// What acts then, behind the current loop, when this period's torque begins to act; only with EstimateSource::kObserver.
+  double acting_then_Nm() const noexcept { return acting_then_Nm_; }
   /// The model with the inertia that shows.
   const JointModel& model() const noexcept { return adapted_; }
   /// By how many periods the newest position is late, as far as they count.
@@ -99,6 +103,9 @@ class StateEstimator {
   JointModel adapted_;
   JointEstimate now_;
   JointEstimate then_;
+  CurrentLoop current_loop_;
+  double acting_Nm_ = 0.0;  ///< now, behind the current loop
+  double acting_then_Nm_ = 0.0;
   std::array<double, kMaxControlDelay + 1> torques_Nm_{};  ///< newest first
   double previous_position_rad_ = 0.0;
   double steady_position_rad_ = 0.0;  ///< follows the reading with a play of a count to either side

@@ -97,6 +97,11 @@ void read_features(TomlSection section, PlantIdentity& plant, JointLoopConfig& l
       section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
   controller.sampling_deviation_s =
       section.number_or("sampling_deviation_s", kSamplingDeviation_s, {0.0, 1e-3});
+  if (section.has("current_loop_s")) {
+    controller.current_loop_s = section.number("current_loop_s", {0.0, kLongestCurrentLoop_s});
+    if (!controller.use_observer)
+      section.fail("current_loop_s", "it is allowed only with observer = true: nothing else reckons with it");
+  }
   const double torque_limit_Nm = controller.torque_limit_Nm;
   loop.initial_load_Nm =
       section.number_or("initial_load_Nm", loop.initial_load_Nm, {-torque_limit_Nm, torque_limit_Nm});

@@ -1,5 +1,6 @@
 #include "daemon/config/config_simulated.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -46,6 +47,9 @@ void read_what_is_told(TomlSection& section, const JointPlantConfig& plant, Join
                                       ", where joint.simulated.drive.delay_periods is larger");
   controller.delay_periods =
       static_cast<int>(section.integer_or("delay_periods", delay_periods, 0, kMaxControlDelay));
+  const double current_loop_s = plant.effects.drive.current_loop_s;
+  if (controller.use_observer && current_loop_s > 0.0 && !controller.current_loop_s)
+    controller.current_loop_s = std::min(current_loop_s, kLongestCurrentLoop_s);
 }
 
 std::vector<std::string> injectable_faults() {

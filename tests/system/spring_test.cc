@@ -95,45 +95,60 @@ class DaemonOnASpring : public DaemonTest {
   std::optional<TestClient> client_;
 };
 
-TEST_F(DaemonOnASpring, MovesTheLinkAsTheStudySaysWithinOnePerCent) {
-  const GainTable table = read_gain_table(programs_folder() / "c4.json");
-  const double link_kgm2 = table.plant.inertia_kgm2 - 0.089;
-  constexpr double kDamping_Nms_rad = 1.5;
-  const JointPlantConfig plant =
-      plant_from_toml("gear = \"csf-17-50\"\n" + joint_with_a_link("", link_kgm2, kDamping_Nms_rad), "plant");
-  for (const double step_rad : {0.01, 0.1, 1.0}) {
-    ClosedLoopConfig config;
-    config.plant = plant;
-    config.ambient = TemperatureProfile::constant(20.0);
-    config.setpoint_rad = TimeProfile::constant(step_rad, {"setpoint_position_rad"});
-    config.duration_s = kSamples * plant.period_s;
-    Figures study;
-    for (const TracePoint& point :
-         run_closed_loop(config, *extended_contender("daemon", table).make(plant)).trace)
-      study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
+class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
+ protected:
+  /// `told`: both controllers are told of gear and load, and take a table that is certified on them.
+  void expect_the_same(bool told) {
+    const GainTable table = read_gain_table(programs_folder() / (told ? "csf-17-50.json" : "c4.json"));
+    const double link_kgm2 = table.plant.inertia_kgm2 - 0.089;
+    const double damping_Nms_rad = told ? 1.0 : 1.5;
+    const JointPlantConfig plant = plant_from_toml(
+        "gear = \"csf-17-50\"\n" + joint_with_a_link("", link_kgm2, damping_Nms_rad), "plant");
+    ExtendedFeatures features = daemon_defaults();
+    features.link = told;
+    for (const double step_rad : {0.01, 0.1, 1.0}) {
+      ClosedLoopConfig config;
+      config.plant = plant;
+      config.ambient = TemperatureProfile::constant(20.0);
+      config.setpoint_rad = TimeProfile::constant(step_rad, {"setpoint_position_rad"});
+      config.duration_s = kSamples * plant.period_s;
+      Figures study;
+      for (const TracePoint& point :
+           run_closed_loop(config, *extended_contender("daemon", table, features).make(plant)).trace)
+        study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
 
-    enable(configured(table.plant.inertia_kgm2,
-                      "speed_limit_rad_s = 1000\nmove_speed_share = 1\noverspeed_rad_s = "
-                      "1000\nacceleration_rad_s2 = 1e6\n"
-                      "following_error_rad = 10\n",
-                      "",
-                      "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
-                          joint_with_a_link("joint.simulated.", link_kgm2, kDamping_Nms_rad)),
-           table);
-    if (HasFatalFailure()) return;
-    Figures daemon;
-    for (const state_v1& state : states_of_a_move(step_rad, kSamples))
-      daemon.add(state.link_position_rad, state.torque_commanded_Nm, step_rad);
+      enable(configured(
+                 table.plant.inertia_kgm2,
+                 "speed_limit_rad_s = 1000\nmove_speed_share = 1\noverspeed_rad_s = "
+                 "1000\nacceleration_rad_s2 = 1e6\n"
+                 "following_error_rad = 10\n",
+                 told ? "gear = \"csf-17-50\"\nload_inertia_kgm2 = " + std::to_string(link_kgm2) + "\n" : "",
+                 "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
+                     joint_with_a_link("joint.simulated.", link_kgm2, damping_Nms_rad)),
+             table);
+      if (HasFatalFailure()) return;
+      Figures daemon;
+      for (const state_v1& state : states_of_a_move(step_rad, kSamples))
+        daemon.add(state.link_position_rad, state.torque_commanded_Nm, step_rad);
 
-    std::printf(
-        "%g rad: PI2 of the link %.5g, study %.5g; overshoot %.4g, study %.4g mrad; peak %.5g, study %.5g "
-        "N.m\n",
-        step_rad, daemon.link_pi2, study.link_pi2, 1e3 * daemon.overshoot_rad, 1e3 * study.overshoot_rad,
-        daemon.peak_Nm, study.peak_Nm);
-    EXPECT_NEAR(daemon.link_pi2 / study.link_pi2, 1.0, 0.01) << step_rad;
-    EXPECT_NEAR(daemon.overshoot_rad, study.overshoot_rad, 0.01 * study.overshoot_rad + 20e-6) << step_rad;
-    EXPECT_NEAR(daemon.peak_Nm / study.peak_Nm, 1.0, 0.01) << step_rad;
+      std::printf(
+          "%g rad%s: PI2 of the link %.5g, study %.5g; overshoot %.4g, study %.4g mrad; peak %.5g, study "
+          "%.5g N.m\n",
+          step_rad, told ? ", told" : "", daemon.link_pi2, study.link_pi2, 1e3 * daemon.overshoot_rad,
+          1e3 * study.overshoot_rad, daemon.peak_Nm, study.peak_Nm);
+      EXPECT_NEAR(daemon.link_pi2 / study.link_pi2, 1.0, 0.01) << step_rad;
+      EXPECT_NEAR(daemon.overshoot_rad, study.overshoot_rad, 0.01 * study.overshoot_rad + 20e-6) << step_rad;
+      EXPECT_NEAR(daemon.peak_Nm / study.peak_Nm, 1.0, 0.01) << step_rad;
+    }
   }
+};
+
+TEST_F(DaemonOnASpringAsTheStudy, MovesTheLinkWithinOnePerCentByDefault) {
+  expect_the_same(false);
+}
+
+TEST_F(DaemonOnASpringAsTheStudy, MovesTheLinkWithinOnePerCentToldOfGearAndLoad) {
+  expect_the_same(true);
 }
 
 /// What table or configuration say that the joint is not.

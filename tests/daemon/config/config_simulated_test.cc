@@ -32,6 +32,21 @@ TEST_F(SimulatedConfigTest, TellsTheControllerWhatIsTrueOfTheDriveUnlessToldOthe
                   {"joint[0].simulated.delay_periods", "0 to 8"});
 }
 
+TEST_F(SimulatedConfigTest, TellsTheObserverOfTheCurrentLoopUnlessItIsToldOtherwise) {
+  const std::string lag = "[joint.simulated.drive]\ncurrent_loop_s = 4e-4\n";
+  const std::string rigid = example("demo.toml");
+  EXPECT_FALSE(controller(rigid).current_loop_s);
+  EXPECT_EQ(controller(rigid + lag).current_loop_s, 4e-4);
+  EXPECT_EQ(
+      controller(replaced(rigid, "rigid = true", "rigid = true\ncurrent_loop_s = 1e-4") + lag).current_loop_s,
+      1e-4);
+  EXPECT_FALSE(controller(joint_with(link(lag))).current_loop_s) << "there is no observer";
+  expect_mentions(error_of(replaced(rigid, "rigid = true", "rigid = false\ncurrent_loop_s = 1e-4")),
+                  {"joint[0].control.current_loop_s", "observer = true"});
+  expect_mentions(error_of(replaced(rigid, "rigid = true", "rigid = true\ncurrent_loop_s = 0.5")),
+                  {"joint[0].control.current_loop_s = 0.5", "0.005"});
+}
+
 TEST_F(SimulatedConfigTest, RefusesToBeginBeyondThePositionLimits) {
   const auto beginning_at = [](const std::string& position, const std::string& keys = "") {
     return joint_with(link(""), "initial_position_rad = " + position + "\n" + keys);
