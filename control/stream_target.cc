@@ -18,7 +18,7 @@ constexpr double kSmooth = 0.1;
 // For so long a smooth motion's acceleration goes on.
 constexpr double kSmoothIntervals = 2.5;
 // Streams whose jerk is carried on: just those of 100 Hz.
-constexpr double kSlow_s = 0.009;
+constexpr double kJerkGoesOn_s = 0.009;
 // By so much of an interval a sample is late before it is missing.
 constexpr double kLate = 0.5;
 constexpr double kLongestBridge_s = 0.2;
@@ -270,7 +270,7 @@ StreamTarget::State StreamTarget::between(double period) const noexcept {
 
 // In fast streams it would be their noise.
 double StreamTarget::carried_on_jerk_rad_s3(const Knot& knot) const noexcept {
-  return knot.smooth && seconds(expected_interval()) > kSlow_s ? knot.jerk_rad_s3 : 0.0;
+  return knot.smooth && seconds(expected_interval()) > kJerkGoesOn_s ? knot.jerk_rad_s3 : 0.0;
 }
 
 // As it was: with its acceleration for an interval, or where it is smooth for as long as samples may be missing, and then with the velocity

@@ -10,7 +10,9 @@
 //   velocity            the sample's own, and the motion has no lag; else from three positions 10 ms (not stamped: 20 ms) apart, or
 //                       consecutive ones where they lie farther apart:
 //                         d01 + (t0 - t1) (d01 - d12) / (t0 - t2),  dij = (pi - pj) / (ti - tj)
-//                       and the motion lags one interval. Accelerations that are not given by velocities, likewise
+//                       and the motion lags one interval. Accelerations that are not given by velocities, likewise. Below 48 Hz by the
+//                       polynomial through up to five samples, of which each more says no more that is new than half of what one of
+//                       the two before it did
 //   contradiction       a velocity that is not that of the positions is not used; the positions are. Likewise an acceleration that is
 //                       farther than the limit from that of the velocities. And what is carried
 //                       forward is no farther from the line through the last two samples than the limit of acceleration
@@ -111,6 +113,9 @@ class StreamTarget {
   static constexpr std::size_t kPast = 24;     ///< samples that velocities are estimated from
   /// Multiple of a limit that a motion may need: one that needs more is a new place.
   static constexpr double kReach = 2.0;
+  /// From so slow a stream on more than three samples tell velocity, acceleration and jerk: in faster ones it would be their noise.
+  static constexpr double kSlow_s = 0.021;
+  static constexpr std::size_t kNodes = 5;  ///< samples that they tell them from at most
   /// Velocities are estimated from positions that are at least so far apart.
   static constexpr double kApart_s = 0.01;
   struct Knot {
@@ -118,7 +123,7 @@ class StreamTarget {
     double position_rad = 0.0;
     double velocity_rad_s = 0.0;
     double acceleration_rad_s2 = 0.0;
-    double jerk_rad_s3 = 0.0;  ///< as three samples show it, or four positions of a slow stream
+    double jerk_rad_s3 = 0.0;  ///< as three samples show it, or up to five of a slow stream
     ToldLoad load{};
     double sent_ahead = 0.0;  ///< periods from when it came until `at`, and the lead
     double sent_rad_s = 0.0;  ///< the velocity that came with it, believed or not
@@ -202,9 +207,17 @@ class StreamTarget {
     const Knot* last = nullptr;
     const Knot* first = nullptr;  ///< before `last`
   };
+  /// By time.
+  struct Derivatives {
+    double first = 0.0;
+    double second = 0.0;
+    double third = 0.0;
+  };
+  Derivatives derivatives_at(const Knot& newest, const Before& before, double Knot::*value) const noexcept;
   ToldLoad load_at(double period) const noexcept;
   double seconds(double periods) const noexcept { return periods * period_s_; }
   double expected_interval() const noexcept;
+  bool slow() const noexcept { return seconds(expected_interval()) > kSlow_s; }
   bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
   void clock_in(const StreamSample& sample) noexcept;
   void clock_in_held_up() noexcept;

@@ -1,4 +1,4 @@
-// What StreamTarget makes of a sample: its time, its derivatives, whether they may be believed, and where it is carried to.
+// What StreamTarget makes of a sample: its time, and where it is carried to.
 #include <algorithm>
 #include <cmath>
 
@@ -23,54 +23,18 @@ constexpr int kFirstSamples = 40;
 // A sample that comes by so much of an interval too early is not the next.
 constexpr double kOutOfTurn = 0.5;
 // A place tells that a sample was held up where none was lost fits by less than these shares, with its velocity and without, of what the
-// gap does, and the gap fits no better than the motion is known: a share of the way of an interval, and of what accelerations make of it.
+// gap does, and the gap fits no better than the motion is known: a share of the way of an interval, as jitter makes it, and of what
+// accelerations make of it, less where the jerk is known.
 constexpr double kClearWithVelocity = 0.5;
 constexpr double kClear = 0.25;
 constexpr double kDoubtOfWay = 0.3;
 constexpr double kDoubtOfSpeeding = 0.2;
-// Of so many samples that are stamped the least of their intervals is the stream's: others were lost.
-constexpr std::size_t kIntervals = 6;
-// From so slow a stream on positions alone tell a jerk: in faster ones it would be their noise.
-constexpr double kJerkOfPositions_s = 0.021;
-// A velocity may differ from that of the positions by these shares of the limit (the less, the farther apart the samples are) and of
-// itself, for what arrivals do to times, and by what acceleration makes of it meanwhile: so many times the positions' own.
-constexpr double kDoubtOfLimit = 0.02;
-constexpr double kDoubtOfItself = 0.5;
-constexpr double kDoubtOfAcceleration = 2.0;
-
-/// At the newest of three values that lie on a parabola.
-struct Slope {
-  double rate = 0.0;
-  double change = 0.0;
-};
-
-/// By the mean rates of the newer and the older interval.
-Slope slope_at_newest(double newer, double newer_s, double older, double older_s) noexcept {
-  const double change = 2.0 * (newer - older) / (newer_s + older_s);
-  return {newer + 0.5 * newer_s * change, change};
-}
+constexpr double kDoubtOfSpeedingWithJerk = 0.1;
+// Of so many samples that are stamped the least of their intervals is the stream's: others were lost. Where a fifth is lost, all of six
+// came after a loss once in 3000 samples, of twelve once in 50 million.
+constexpr std::size_t kIntervals = 12;
 
 }  // namespace
-
-// Whether the velocity that it gives is not that of its positions: in degrees, of another sign, or left over. Followed, it would take the
-// joint away from every position that was sent.
-bool StreamTarget::contradicts_itself(const Knot& knot, const Before& before) const noexcept {
-  const auto [last, first] = before;
-  if (last == nullptr) return false;
-  const double doubt_rad_s = kDoubtOfLimit * reach_.velocity_rad_s * std::min(1.0, kApart_s / mean_s_) +
-                             kDoubtOfItself * std::min(std::abs(knot.velocity_rad_s), std::abs(mean_rad_s_));
-  double acceleration_rad_s2 = reach_.acceleration_rad_s2;
-  if (first != nullptr) {
-    const double older_s = seconds(last->at - first->at);
-    const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
-    const double own_rad_s2 = 2.0 * std::abs(mean_rad_s_ - older_rad_s) / (mean_s_ + older_s);
-    acceleration_rad_s2 = std::min(acceleration_rad_s2, kDoubtOfAcceleration * own_rad_s2);
-  }
-  const double changed_rad_s = acceleration_rad_s2 * mean_s_;
-  const double between_rad_s = 0.5 * (knot.sent_rad_s + last->sent_rad_s);
-  return std::abs(knot.velocity_rad_s - mean_rad_s_) > doubt_rad_s + changed_rad_s ||
-         std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s;
-}
 
 // Samples that were lost on the way leave whole intervals out; those that were held up do not. Where a sample lies tells which it is: it
 // is the one that its motion brings nearest. Where that does not tell, they are lost until they come after all.
@@ -119,8 +83,9 @@ double StreamTarget::nearest_of(double most, double farthest, const StreamSample
     intervals = n;
   }
   const double most_s = seconds(most * interval_);
-  const double doubt_rad =
-      kDoubtOfWay * way_rad + 0.5 * kDoubtOfSpeeding * std::abs(last.acceleration_rad_s2) * most_s * most_s;
+  const double doubt_rad = std::min(kDoubtOfWay, kJitter_s / seconds(interval_)) * way_rad +
+                           0.5 * (slow() ? kDoubtOfSpeedingWithJerk : kDoubtOfSpeeding) *
+                               std::abs(last.acceleration_rad_s2) * most_s * most_s;
   const bool clear =
       most_off_rad > doubt_rad && least_off_rad < (moving ? kClearWithVelocity : kClear) * most_off_rad;
   return clear ? intervals : most;
@@ -180,60 +145,6 @@ const StreamTarget::Knot* StreamTarget::sample_before(double period, double apar
     if (seconds(period - found->at) >= apart_s - 0.5 * period_s_) break;
   }
   return found;
-}
-
-void StreamTarget::estimate_derivatives(const StreamSample& sample, const Before& before,
-                                        Knot& knot) noexcept {
-  const auto [last, first] = before;
-  if (sample.derivatives < 2) knot.acceleration_rad_s2 = 0.0;
-  if (sample.derivatives < 1) knot.velocity_rad_s = 0.0;
-  if (last == nullptr) return;
-  if (sample.derivatives == 0) return derive_from_positions(before, knot);
-  if (sample.derivatives == 2) {
-    knot.jerk_rad_s3 = (knot.acceleration_rad_s2 - last->acceleration_rad_s2) / mean_s_;
-    return;
-  }
-  // Slope of a parabola through three velocities, or of a line through two.
-  knot.acceleration_rad_s2 = (knot.velocity_rad_s - last->velocity_rad_s) / mean_s_;
-  if (first == nullptr) return;
-  const double older_s = seconds(last->at - first->at);
-  const double older_rad_s2 = (last->velocity_rad_s - first->velocity_rad_s) / older_s;
-  const Slope slope = slope_at_newest(knot.acceleration_rad_s2, mean_s_, older_rad_s2, older_s);
-  knot.acceleration_rad_s2 = slope.rate;
-  knot.jerk_rad_s3 = slope.change;
-}
-
-// Likewise. What needs more acceleration than can be is a place: nothing before it says anything about a motion.
-void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexcept {
-  const auto [last, first] = before;
-  const bool stands = past_count_ >= 2 && knot.position_rad == past_[0].position_rad &&
-                      knot.position_rad == past_[1].position_rad && knot.position_rad == last->position_rad;
-  if (stands) return;
-  if (first == nullptr) {
-    const double possible = kReach * reach_.acceleration_rad_s2 * mean_s_;
-    if (std::abs(mean_rad_s_ - state_.velocity_rad_s) <= possible) knot.velocity_rad_s = mean_rad_s_;
-    return;
-  }
-  const double older_s = seconds(last->at - first->at);
-  const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
-  const Slope slope = slope_at_newest(mean_rad_s_, mean_s_, older_rad_s, older_s);
-  if (std::abs(slope.change) > kReach * reach_.acceleration_rad_s2) {
-    past_count_ = 0;
-    return;
-  }
-  knot.velocity_rad_s = slope.rate;
-  knot.acceleration_rad_s2 = slope.change;
-  const Knot* second =
-      seconds(expected_interval()) > kJerkOfPositions_s ? sample_before(first->at, kApart_s) : nullptr;
-  if (second == nullptr) return;
-  const double oldest_s = seconds(first->at - second->at);
-  const double oldest_rad_s = (first->position_rad - second->position_rad) / oldest_s;
-  const double older_rad_s2 = 2.0 * (older_rad_s - oldest_rad_s) / (older_s + oldest_s);
-  if (std::abs(older_rad_s2) > reach_.acceleration_rad_s2) return;
-  knot.jerk_rad_s3 = 3.0 * (slope.change - older_rad_s2) / (mean_s_ + older_s + oldest_s);
-  // d/dt and d2/dt2 of j (t - t0) (t - t1) (t - t2) / 6 at t0
-  knot.velocity_rad_s += knot.jerk_rad_s3 * mean_s_ * (mean_s_ + older_s) / 6.0;
-  knot.acceleration_rad_s2 += knot.jerk_rad_s3 * (2.0 * mean_s_ + older_s) / 3.0;
 }
 
 // By `least_ahead` periods from its time, or until what was missed is caught up with.

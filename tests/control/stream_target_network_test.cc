@@ -138,14 +138,14 @@ class StreamTargetNetwork : public ::testing::TestWithParam<Network> {};
 
 TEST_P(StreamTargetNetwork, LeavesASineGoingOnWhereItWas) {
   const Network& network = GetParam();
-  // At 20 Hz two in a row leave 150 ms open, and time and again no three samples in a row to tell a jerk.
-  const bool long_open = network.lost > 0.0;
+  // At 20 Hz two in a row leave 150 ms open, and time and again no three samples in a row: not every draw is as bad as that.
+  const unsigned draws = network.lost > 0.0 && network.swapped == 0.0 ? 40 : 4;
   for (const int derivatives : {0, 1, 2})
     for (const int ahead : {0, 60}) {
       std::printf("%-28s derivatives %d, %2d ahead:", network.name, derivatives, ahead);
       for (const double rate_Hz : {20.0, 25.0, 1000.0 / 30.0, 50.0, 100.0, 200.0, 1000.0 / 3.0, 500.0}) {
         Ride worst;
-        for (unsigned seed = 1; seed <= 4; ++seed) {
+        for (unsigned seed = 1; seed <= draws; ++seed) {
           const Ride one = ride(network, rate_Hz, derivatives, ahead, seed);
           worst.largest_error_rad = std::max(worst.largest_error_rad, one.largest_error_rad);
           worst.rms_acceleration = std::max(worst.rms_acceleration, one.rms_acceleration);
@@ -153,9 +153,8 @@ TEST_P(StreamTargetNetwork, LeavesASineGoingOnWhereItWas) {
         }
         std::printf("  %4.0f Hz %4.1f mrad %4.2f", rate_Hz, 1e3 * worst.largest_error_rad,
                     worst.rms_acceleration);
-        EXPECT_LT(worst.largest_error_rad, long_open && rate_Hz < 25.0 ? 8e-3 : 5e-3)
-            << network.name << ", " << rate_Hz << " Hz, " << derivatives << " derivatives, " << ahead
-            << " ahead";
+        EXPECT_LT(worst.largest_error_rad, 5e-3) << network.name << ", " << rate_Hz << " Hz, " << derivatives
+                                                 << " derivatives, " << ahead << " ahead";
         EXPECT_LT(worst.rms_acceleration, 1.75) << network.name << ", " << rate_Hz << " Hz, " << derivatives
                                                 << " derivatives, " << ahead << " ahead";
         EXPECT_EQ(worst.ended, 0) << network.name << ", " << rate_Hz << " Hz, " << derivatives << ", "

@@ -1,0 +1,127 @@
+// What StreamTarget makes of a sample's derivatives: whether they may be believed, and those that it lacks.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "control/stream_target.h"
+
+namespace strainwave {
+
+namespace {
+
+// Of what the two nodes before said that is new. On a sine of angular frequency w nodes s and s' ago say w^2 s s' / 6 of it, 0.22 where two of
+// three samples of 20 Hz are lost; one that is taken for another's time says more than all before.
+constexpr double kLittleNew = 0.5;
+// A velocity may differ from that of the positions by these shares of the limit (the less, the farther apart the samples are) and of
+// itself, for what arrivals do to times, and by what acceleration makes of it meanwhile: so many times the positions' own.
+constexpr double kDoubtOfLimit = 0.02;
+constexpr double kDoubtOfItself = 0.5;
+constexpr double kDoubtOfAcceleration = 2.0;
+
+/// At the newest of three values that lie on a parabola.
+struct Slope {
+  double rate = 0.0;
+  double change = 0.0;
+};
+
+/// By the mean rates of the newer and the older interval.
+Slope slope_at_newest(double newer, double newer_s, double older, double older_s) noexcept {
+  const double change = 2.0 * (newer - older) / (newer_s + older_s);
+  return {newer + 0.5 * newer_s * change, change};
+}
+
+}  // namespace
+
+// Whether the velocity that it gives is not that of its positions: in degrees, of another sign, or left over. Followed, it would take the
+// joint away from every position that was sent.
+bool StreamTarget::contradicts_itself(const Knot& knot, const Before& before) const noexcept {
+  const auto [last, first] = before;
+  if (last == nullptr) return false;
+  const double doubt_rad_s = kDoubtOfLimit * reach_.velocity_rad_s * std::min(1.0, kApart_s / mean_s_) +
+                             kDoubtOfItself * std::min(std::abs(knot.velocity_rad_s), std::abs(mean_rad_s_));
+  double acceleration_rad_s2 = reach_.acceleration_rad_s2;
+  if (first != nullptr) {
+    const double older_s = seconds(last->at - first->at);
+    const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
+    const double own_rad_s2 = 2.0 * std::abs(mean_rad_s_ - older_rad_s) / (mean_s_ + older_s);
+    acceleration_rad_s2 = std::min(acceleration_rad_s2, kDoubtOfAcceleration * own_rad_s2);
+  }
+  const double changed_rad_s = acceleration_rad_s2 * mean_s_;
+  const double between_rad_s = 0.5 * (knot.sent_rad_s + last->sent_rad_s);
+  return std::abs(knot.velocity_rad_s - mean_rad_s_) > doubt_rad_s + changed_rad_s ||
+         std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s;
+}
+
+void StreamTarget::estimate_derivatives(const StreamSample& sample, const Before& before,
+                                        Knot& knot) noexcept {
+  const auto [last, first] = before;
+  if (sample.derivatives < 2) knot.acceleration_rad_s2 = 0.0;
+  if (sample.derivatives < 1) knot.velocity_rad_s = 0.0;
+  if (last == nullptr) return;
+  if (sample.derivatives == 0) return derive_from_positions(before, knot);
+  if (sample.derivatives == 2) {
+    knot.jerk_rad_s3 = derivatives_at(knot, before, &Knot::acceleration_rad_s2).first;
+    return;
+  }
+  const Derivatives shown = derivatives_at(knot, before, &Knot::velocity_rad_s);
+  knot.acceleration_rad_s2 = shown.first;
+  knot.jerk_rad_s3 = shown.second;
+}
+
+// Likewise. What needs more acceleration than can be is a place: nothing before it says anything about a motion.
+void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexcept {
+  const auto [last, first] = before;
+  const bool stands = past_count_ >= 2 && knot.position_rad == past_[0].position_rad &&
+                      knot.position_rad == past_[1].position_rad && knot.position_rad == last->position_rad;
+  if (stands) return;
+  if (first == nullptr) {
+    const double possible = kReach * reach_.acceleration_rad_s2 * mean_s_;
+    if (std::abs(mean_rad_s_ - state_.velocity_rad_s) <= possible) knot.velocity_rad_s = mean_rad_s_;
+    return;
+  }
+  const double older_s = seconds(last->at - first->at);
+  const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
+  const Slope slope = slope_at_newest(mean_rad_s_, mean_s_, older_rad_s, older_s);
+  if (std::abs(slope.change) > kReach * reach_.acceleration_rad_s2) {
+    past_count_ = 0;
+    return;
+  }
+  const Derivatives shown = derivatives_at(knot, before, &Knot::position_rad);
+  knot.velocity_rad_s = shown.first;
+  knot.acceleration_rad_s2 = shown.second;
+  knot.jerk_rad_s3 = shown.third;
+}
+
+// Of the polynomial through the newest and the samples before, in Newton's form: through two of them, and in slow streams through as many
+// more, up to kNodes with the newest, as say little that is new. Where one came at another time than it was taken for, each more would say
+// more.
+StreamTarget::Derivatives StreamTarget::derivatives_at(const Knot& newest, const Before& before,
+                                                       double Knot::*value) const noexcept {
+  std::array<double, kNodes> ages_s{};
+  std::array<double, kNodes> differences{};  // divided, from each node to the latest
+  differences[0] = newest.*value;
+  // Of t, from 0 on: of the product of (t + age) over the nodes between newest and latest.
+  std::array<double, 3> powers{1.0};
+  double last_new = 0.0, last_but_one_new = 0.0;
+  Derivatives shown;
+  const Knot* node = before.last;
+  for (std::size_t n = 1; n < kNodes && node != nullptr; ++n) {
+    ages_s[n] = seconds(newest.at - node->at);
+    differences[n] = node->*value;
+    for (std::size_t i = n; i-- > 0;)
+      differences[i] = (differences[i + 1] - differences[i]) / (ages_s[i] - ages_s[n]);
+    // By what the polynomial of the older nodes misses the newest.
+    const double new_here = std::abs(differences[0]) * powers[0] * ages_s[n];
+    if (n > 2 && !(slow() && new_here <= kLittleNew * std::max(last_new, last_but_one_new))) break;
+    last_but_one_new = std::exchange(last_new, new_here);
+    shown.first += differences[0] * powers[0];
+    shown.second += 2.0 * differences[0] * powers[1];
+    shown.third += 6.0 * differences[0] * powers[2];
+    powers = {ages_s[n] * powers[0], powers[0] + ages_s[n] * powers[1], powers[1] + ages_s[n] * powers[2]};
+    node = n == 1 ? before.first : sample_before(node->at, kApart_s);
+  }
+  return shown;
+}
+
+}  // namespace strainwave
