@@ -18,8 +18,6 @@ constexpr double kLongestHoldUp_s = 0.06;
 constexpr double kLongestInARow_s = 2.0 * kLongestHoldUp_s;
 // What a network does to arrivals all the time; what is later than this says nothing of the sender's clock.
 constexpr double kJitter_s = 0.006;
-// Among so many samples from the first on one that comes with the one before is no doubt of the interval: it was held up.
-constexpr int kFirstSamples = 40;
 // A sample that comes by so much of an interval too early is not the next.
 constexpr double kOutOfTurn = 0.5;
 // A place tells that a sample was held up where none was lost fits by less than these shares, with its velocity and without, of what the
@@ -97,7 +95,10 @@ void StreamTarget::clock_in(const StreamSample& sample) noexcept {
   const bool at_once = arrivals_ > 1 && present() == came_;
   came_ = present();
   if (arrivals_ == 1) first_came_ = came_;
-  if (at_once && arrivals_ <= kFirstSamples && gap < kOutOfTurn * interval_) return clock_in_held_up();
+  // Among as many from the first on as one hold-up may hold, one a period, one that comes with the one before was held up: no interval is
+  // known yet that could tell. Later, it may be one that was taken for lost.
+  const bool among_first = arrivals_ <= kLongestHoldUp_s / period_s_;
+  if (at_once && among_first && gap < kOutOfTurn * interval_) return clock_in_held_up();
   if (arrivals_ <= 2) {
     interval_ = arrivals_ == 2 ? std::max(gap, 1.0) : 0.0;
     arrival_ = present();
