@@ -5,7 +5,7 @@
 // The planned motion, accelerations in steps, passes through two moving means (control/moving_mean.h) that together last tau. The
 // link's jerk is then continuous, and the link's position is a flat output of the joint:
 //   ts  = Jl thl'' + load(thl)                               the torque that the gear transmits
-//   thm = thl + wind-up(ts - D wind-up')
+//   thm = thl + wind-up(ts - D wind-up'),    wind-up' = C (ts' - D C ts''),    C: compliance
 //   Tm  = Jm thm'' + Jl thl'' + load(thl)
 //
 // Held over whole periods, and through slopes that change, that torque does not quite make that motion: some tens of microradians, as
@@ -98,7 +98,8 @@ class LinkMotion {
   double spread_s() const noexcept { return spread_periods_ * config_.period_s; }
 
  private:
-  LinkState flat(const MotionPoint& link) const noexcept;
+  /// `snap_rad_s4`: of the period that ends there.
+  LinkState flat(const MotionPoint& link, double snap_rad_s4) const noexcept;
   void follow(double wanted_Nm, const TorqueRange& possible, double taken_Nm) noexcept;
   void yield(bool ended) noexcept;
   void settle() noexcept;
@@ -111,7 +112,8 @@ class LinkMotion {
   MovingMean first_;
   MovingMean second_;
   double lost_rad_;
-  LinkState wanted_;  ///< at the sample to come
+  LinkState wanted_;          ///< at the sample to come
+  double jerk_rad_s3_ = 0.0;  ///< of the link's motion, there
   LinkState next_;    ///< the model, there
   std::array<LinkState, kMaxLinkDelay + 2>
       states_{};                        ///< the model's, newest first: of now, of the last period ...
