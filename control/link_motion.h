@@ -10,7 +10,7 @@
 //
 // Held over whole periods, and through slopes that change, that torque does not quite make that motion: some tens of microradians, as
 // much as a joint at rest may be off. So a model of the joint (control/link_model.h) makes the motion along with it, regulated
-// towards it without delay or noise, within the torque that there is. What the model does, a joint that is as it was told does
+// towards it without delay or noise, within the torque that there is: by where each period would end without that. What the model does, a joint that is as it was told does
 // as well: its torque is the plan, and where its motor is, is the reference.
 //
 // tau: half-way through a step A of the acceleration the wind-up takes Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl) besides half of
@@ -100,7 +100,8 @@ class LinkMotion {
  private:
   /// `snap_rad_s4`: of the period that ends there.
   LinkState flat(const MotionPoint& link, double snap_rad_s4) const noexcept;
-  void follow(double wanted_Nm, const TorqueRange& possible, double taken_Nm) noexcept;
+  void follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
+              double taken_Nm) noexcept;
   void yield(bool ended) noexcept;
   void settle() noexcept;
   MotorPlan plan() noexcept;

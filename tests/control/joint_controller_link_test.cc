@@ -228,7 +228,8 @@ TEST(JointControllerWithLink, ArrivesWithFrictionAThirdOff) {
           JointPlantConfig plant = plant_with(link);
           const JointPlantConfig told = plant;
           for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude})
-            *part = {friction * part->static_Nm, friction * part->coulomb_Nm, friction * part->viscous_Nms_rad};
+            *part = {friction * part->static_Nm, friction * part->coulomb_Nm,
+                     friction * part->viscous_Nms_rad};
           Loop loop(plant, told, temperature);
           const Outcome outcome = move(loop, target);
           const auto which = ::testing::Message()
