@@ -219,7 +219,7 @@ TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections
   EXPECT_LE(std::abs(standing_rad - 0.01), kBand_rad);
 }
 
-// What corrections leave of their way tells of friction that is not the table's: without learning from it, half a dozen stand beside the target.
+// What corrections leave of their way tells of friction that is not the table's: without learning from it, some stand beside the target.
 TEST(JointControllerWithLink, ArrivesWithFrictionAThirdOff) {
   for (const double friction : {0.7, 1.3})
     for (const double link : {0.03, 0.089, 0.267})
