@@ -51,8 +51,8 @@ void JointController::plan_link_motion(double from_rad) noexcept {
 
 // The reference is at rest. True when a motor that sticks off the target begins a motion of its own to it.
 bool JointController::correct_link(double reading_rad) noexcept {
-  const double distance_rad = std::abs(reading_rad - rest_position_rad());
-  if (!corrections_.begins(reading_rad, distance_rad, state_.still_periods())) return false;
+  if (!corrections_.begins(reading_rad, rest_position_rad() - reading_rad, state_.still_periods()))
+    return false;
   ++replans_;
   law_.reference_jumps();
   const double from_rad = link_motion_->reset(reading_rad);

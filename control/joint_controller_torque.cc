@@ -165,8 +165,9 @@ double JointController::planned_friction_Nm() const noexcept {
   const bool shared = may_dither() && std::abs(friction_side_.share()) < 1.0;
   if (linked()) {
     const auto [begin, middle, end] = motor_plan_.acting_velocities_rad_s;
-    const double friction_Nm = 0.5 * (state_.model().friction_along_Nm(begin, middle) +
-                                      state_.model().friction_along_Nm(middle, end));
+    const double friction_Nm =
+        0.5 * (1.0 + corrections_.friction_doubt()) *
+        (state_.model().friction_along_Nm(begin, middle) + state_.model().friction_along_Nm(middle, end));
     return shared ? friction_side_.share() * std::abs(friction_Nm) : friction_Nm;
   }
   // Of friction that turned out to be more than the joint has, nothing is believed.

@@ -24,10 +24,10 @@ constexpr int kMostSteps = 16;
 // Weights of the regulator. This share of the torque limit is spent ...
 constexpr double kTorqueShare = 0.12;
 // ... on errors that are these shares of the wind-up that it makes, and of the speed with which that swings. Found on the grid of
-// docs/flexible-joint.md: half and twice of each end within a few microradians of the same place.
+// docs/flexible-joint.md: half and twice of each end within some ten microradians of the same place.
 constexpr double kLinkShare = 1.0 / 86.0;
 constexpr double kMotorShare = 1.0 / 14.0;
-constexpr double kSpeedShare = 1.0 / 18.0;
+constexpr double kSpeedShare = 1.0 / 12.0;
 
 struct Sampled {
   Matrix A;
@@ -105,9 +105,9 @@ LinkGains LinkModel::regulate(double torque_limit_Nm, double period_s) const noe
   const double torque_weight = weight(torque_Nm);
   const auto P = solve_riccati<4>(A, B, weights, torque_weight);
   assert(P);  // a spring and a torque on one of its ends can always be stabilised
-  const Eigen::RowVector4d F =
-      P ? optimal_gain<4>(A, B, torque_weight, *P) : Eigen::RowVector4d::Zero().eval();
-  return {-F(0), -F(1), -F(2), -F(3)};
+  if (!P) return {};
+  const Eigen::RowVector4d gains = B.transpose() * *P / (torque_weight + B.dot(*P * B));
+  return {gains(0), gains(1), gains(2), gains(3)};
 }
 
 double regulated_torque_Nm(const LinkGains& gains, const LinkState& should_be, const LinkState& is) noexcept {

@@ -19,7 +19,7 @@ struct LinkState {
 /// `from` and `share` times `by`, which may be a slope in time or the way to another state.
 LinkState moved(const LinkState& from, const LinkState& by, double share) noexcept;
 
-/// N.m for each error of a LinkState.
+/// N.m over a period for each error of the LinkState at its end.
 struct LinkGains {
   double link_position = 0.0, link_velocity = 0.0, motor_position = 0.0, motor_velocity = 0.0;
 };
@@ -38,12 +38,15 @@ struct LinkModel {
   };
   Period advance(const LinkState& from, double torque_Nm, double period_s) const noexcept;
 
-  /// The linear quadratic regulator of the joint with the spring's second slope, sampled and held. What a share of `torque_limit_Nm`
+  /// The linear quadratic regulator of the joint with the spring's second slope, sampled and held:
+  ///   u = (R + B'PB)^-1 B'P e,    e: what the period's end would be off without u
+  /// which for a plan that the joint keeps to is -F of the state (control/riccati.h), and for one that it does not counts what the
+  /// period itself adds. What a share of `torque_limit_Nm`
   /// may be used for is a small part of the wind-up that it makes (link_model.cc). Not real-time safe.
   LinkGains regulate(double torque_limit_Nm, double period_s) const noexcept;
 };
 
-/// What `gains` make of the way from `is` to `should_be`.
+/// What `gains` make of the way from where a period would end, `is`, to `should_be`.
 double regulated_torque_Nm(const LinkGains& gains, const LinkState& should_be, const LinkState& is) noexcept;
 
 }  // namespace strainwave

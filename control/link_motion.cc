@@ -85,21 +85,24 @@ double LinkMotion::reset(double motor_position_rad, double velocity_rad_s) noexc
   for (std::size_t i = 0; i < states_.size(); ++i) {
     // The newest, of the last period, moves on to `next_` with the first step.
     const double ago_s = static_cast<double>(i + 1) * config_.period_s;
-    states_[i] = flat({position_rad - ago_s * velocity_rad_s, velocity_rad_s, 0.0, 0.0});
+    states_[i] = flat({position_rad - ago_s * velocity_rad_s, velocity_rad_s, 0.0, 0.0}, 0.0);
   }
-  wanted_ = flat({position_rad, velocity_rad_s, 0.0, 0.0});
+  wanted_ = flat({position_rad, velocity_rad_s, 0.0, 0.0}, 0.0);
+  jerk_rad_s3_ = 0.0;
   next_ = wanted_;
   rest_periods_ = velocity_rad_s == 0.0 ? config_.delay_periods + 1 : 0;
   return planned_rad;
 }
 
-LinkState LinkMotion::flat(const MotionPoint& link) const noexcept {
+LinkState LinkMotion::flat(const MotionPoint& link, double snap_rad_s4) const noexcept {
   const LinkModel& joint = config_.joint;
   const double held_Nm = joint.gravity.at(link.position_rad);
+  const double slope_Nm_rad = joint.gravity.slope_at(link.position_rad);
   const double transmitted_Nm = joint.link_inertia_kgm2 * link.acceleration_rad_s2 + held_Nm;
-  const double rate_Nm_s = joint.link_inertia_kgm2 * link.jerk_rad_s3 +
-                           joint.gravity.slope_at(link.position_rad) * link.velocity_rad_s;
-  const double speed_rad_s = rate_Nm_s * wind_up_.compliance_rad_Nm(transmitted_Nm);
+  const double rate_Nm_s = joint.link_inertia_kgm2 * link.jerk_rad_s3 + slope_Nm_rad * link.velocity_rad_s;
+  const double change_Nm_s2 = joint.link_inertia_kgm2 * snap_rad_s4 + slope_Nm_rad * link.acceleration_rad_s2;
+  const double compliance = wind_up_.compliance_rad_Nm(transmitted_Nm);
+  const double speed_rad_s = compliance * (rate_Nm_s - joint.damping_Nms_rad * compliance * change_Nm_s2);
   // The smooth wind-up is for what moves; what is held is the spring's own.
   const double angle_rad = wind_up_.angle_rad(transmitted_Nm - joint.damping_Nms_rad * speed_rad_s) +
                            joint.spring.angle_rad(held_Nm) - wind_up_.angle_rad(held_Nm);
@@ -107,11 +110,14 @@ LinkState LinkMotion::flat(const MotionPoint& link) const noexcept {
           link.velocity_rad_s + speed_rad_s};
 }
 
-// The model's period, in which the motion wants `wanted_Nm`.
-void LinkMotion::follow(double wanted_Nm, const TorqueRange& possible, double taken_Nm) noexcept {
+// The model's period, in which the motion wants `wanted_Nm`, and at its end to be at `wanted_end`: what is off there without a regulator,
+// of the last period and of this one.
+void LinkMotion::follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
+                        double taken_Nm) noexcept {
   const double asked_Nm =
       std::clamp(wanted_Nm, -config_.torque_limit_Nm - taken_Nm, config_.torque_limit_Nm - taken_Nm);
-  const double back_Nm = regulated_torque_Nm(gains_, wanted_, states_.front());
+  const LinkState alone_end = config_.joint.advance(states_.front(), wanted_Nm, config_.period_s).end;
+  const double back_Nm = regulated_torque_Nm(gains_, wanted_end, alone_end);
   torque_Nm_ = std::clamp(wanted_Nm + back_Nm, std::min(possible.min_Nm, asked_Nm),
                           std::max(possible.max_Nm, asked_Nm));
   exhausted_ = torque_Nm_ != wanted_Nm + back_Nm;
@@ -166,7 +172,9 @@ MotorPlan LinkMotion::step(const Reference& planned, const TorqueRange& possible
       planned.velocity_rad_s + h * planned.acceleration_rad_s2, planned.acceleration_rad_s2, 0.0};
   std::copy_backward(states_.begin(), states_.end() - 1, states_.end());
   states_.front() = next_;
-  const LinkState wanted_end = flat(second_.step(first_.step(end)));
+  const MotionPoint link = second_.step(first_.step(end));
+  const LinkState wanted_end = flat(link, (link.jerk_rad_s3 - jerk_rad_s3_) / h);
+  jerk_rad_s3_ = link.jerk_rad_s3;
   // What of the motion acts in steps moves the joint as far as what is planned: the change of momentum over the period.
   const double momentum_Nms =
       joint.motor_inertia_kgm2 * (wanted_end.motor_velocity_rad_s - wanted_.motor_velocity_rad_s) +
@@ -175,7 +183,7 @@ MotorPlan LinkMotion::step(const Reference& planned, const TorqueRange& possible
       0.5 * (joint.gravity.at(wanted_.link_position_rad) + joint.gravity.at(wanted_end.link_position_rad));
   const bool ended = wanted_end.motor_velocity_rad_s == 0.0 && wanted_.motor_velocity_rad_s == 0.0 &&
                      wanted_end.motor_position_rad == wanted_.motor_position_rad;
-  follow(momentum_Nms / h + gravity_Nm, possible, taken_Nm);
+  follow(momentum_Nms / h + gravity_Nm, wanted_end, possible, taken_Nm);
   const double wanted_rad_s2 = (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s) / h;
   wanted_ = wanted_end;
   yield(ended);

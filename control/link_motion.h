@@ -5,12 +5,12 @@
 // The planned motion, accelerations in steps, passes through two moving means (control/moving_mean.h) that together last tau. The
 // link's jerk is then continuous, and the link's position is a flat output of the joint:
 //   ts  = Jl thl'' + load(thl)                               the torque that the gear transmits
-//   thm = thl + wind-up(ts - D wind-up')
+//   thm = thl + wind-up(ts - D wind-up'),    wind-up' = C (ts' - D C ts''),    C: compliance
 //   Tm  = Jm thm'' + Jl thl'' + load(thl)
 //
 // Held over whole periods, and through slopes that change, that torque does not quite make that motion: some tens of microradians, as
 // much as a joint at rest may be off. So a model of the joint (control/link_model.h) makes the motion along with it, regulated
-// towards it without delay or noise, within the torque that there is. What the model does, a joint that is as it was told does
+// towards it without delay or noise, within the torque that there is: by where each period would end without that. What the model does, a joint that is as it was told does
 // as well: its torque is the plan, and where its motor is, is the reference.
 //
 // tau: half-way through a step A of the acceleration the wind-up takes Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl) besides half of
@@ -98,8 +98,10 @@ class LinkMotion {
   double spread_s() const noexcept { return spread_periods_ * config_.period_s; }
 
  private:
-  LinkState flat(const MotionPoint& link) const noexcept;
-  void follow(double wanted_Nm, const TorqueRange& possible, double taken_Nm) noexcept;
+  /// `snap_rad_s4`: of the period that ends there.
+  LinkState flat(const MotionPoint& link, double snap_rad_s4) const noexcept;
+  void follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
+              double taken_Nm) noexcept;
   void yield(bool ended) noexcept;
   void settle() noexcept;
   MotorPlan plan() noexcept;
@@ -111,7 +113,8 @@ class LinkMotion {
   MovingMean first_;
   MovingMean second_;
   double lost_rad_;
-  LinkState wanted_;  ///< at the sample to come
+  LinkState wanted_;          ///< at the sample to come
+  double jerk_rad_s3_ = 0.0;  ///< of the link's motion, there
   LinkState next_;    ///< the model, there
   std::array<LinkState, kMaxLinkDelay + 2>
       states_{};                        ///< the model's, newest first: of now, of the last period ...

@@ -31,8 +31,9 @@ inline JointControllerConfig realistic_config() {
 /// One joint under control, a period at a time.
 class ControlledJoint {
  public:
-  explicit ControlledJoint(const JointPlantConfig& plant = realistic_plant())
-      : plant_(plant), controller_(realistic_config()) {
+  explicit ControlledJoint(const JointPlantConfig& plant = realistic_plant(),
+                           const JointControllerConfig& config = realistic_config())
+      : plant_(plant), controller_(config) {
     controller_.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json"));
     plant_.set_ambient_temperature(temperature_C);
     controller_.start(plant_.measured_position_rad());

@@ -219,6 +219,27 @@ TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections
   EXPECT_LE(std::abs(standing_rad - 0.01), kBand_rad);
 }
 
+// What corrections leave of their way tells of friction that is not the table's: without learning from it, some stand beside the target.
+TEST(JointControllerWithLink, ArrivesWithFrictionAThirdOff) {
+  for (const double friction : {0.7, 1.3})
+    for (const double link : {0.03, 0.089, 0.267})
+      for (const double temperature : {-10.0, 20.0})
+        for (const double target : {0.001, 0.01, 0.1}) {
+          JointPlantConfig plant = plant_with(link);
+          const JointPlantConfig told = plant;
+          for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude})
+            *part = {friction * part->static_Nm, friction * part->coulomb_Nm,
+                     friction * part->viscous_Nms_rad};
+          Loop loop(plant, told, temperature);
+          const Outcome outcome = move(loop, target);
+          const auto which = ::testing::Message()
+                             << friction << " " << link << " " << temperature << " " << target;
+          EXPECT_LE(std::abs(outcome.final_error_rad), kBand_rad) << which;
+          EXPECT_EQ(outcome.monitor, MonitorState::kWatching) << which;
+          EXPECT_LE(outcome.corrections, 12) << which;
+        }
+}
+
 TEST(JointControllerWithLink, GivesUpCorrectionsThatDoNotHelpAlsoWhenTheOrderIsRepeated) {
   // A weight that it is not told of: every motion ends where the last one did.
   for (const double weight_Nm : {1.0, 2.0, 3.0, 5.0}) {

@@ -79,8 +79,10 @@ TEST(LinkModel, ItsRegulatorBringsEveryErrorToNothingOnEverySlopeAndLoad) {
       joint.spring = find_gear(gear)->spring;
       const LinkGains gains = joint.regulate(kLimit_Nm, kPeriod_s);
       LinkState state{50e-6, 0.01, -100e-6, -0.02};
-      for (int k = 0; k < 300; ++k)
-        state = joint.advance(state, regulated_torque_Nm(gains, {}, state), kPeriod_s).end;
+      for (int k = 0; k < 300; ++k) {
+        const LinkState alone = joint.advance(state, 0.0, kPeriod_s).end;
+        state = joint.advance(state, regulated_torque_Nm(gains, {}, alone), kPeriod_s).end;
+      }
       EXPECT_LT(std::abs(state.link_position_rad), 1e-7) << gear << " " << link_kgm2;
       EXPECT_LT(std::abs(state.motor_velocity_rad_s), 1e-5) << gear << " " << link_kgm2;
     }

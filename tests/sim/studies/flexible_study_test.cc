@@ -1,3 +1,4 @@
+// Above 300 lines: what the pages say of one grid, with the helpers that its tests share.
 #include "sim/studies/flexible_study.h"
 
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <regex>
 #include <set>
@@ -12,6 +14,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "control/link_model.h"
 #include "control/scheduled_controller.h"
 #include "sim/studies/link_limit.h"
 
@@ -230,13 +233,17 @@ TEST(FlexibleStudy, ReachesTheLimitOfTheLinkWhereFrictionIsKnown) {
     over_least_time.push_back(result.settling_time_s / least_settling_time_s(motion, kCountedError_rad));
   }
   std::sort(over_least_time.begin(), over_least_time.end());
-  EXPECT_LE(over_least_time[over_least_time.size() / 2], 1.4);
-  EXPECT_LE(over_least_time[over_least_time.size() * 9 / 10], 3.5);
+  const double median_time = over_least_time[over_least_time.size() / 2];
+  const double late_time = over_least_time[over_least_time.size() * 9 / 10];
+  std::cout << "a milliradian settles in " << median_time << " times the least time, " << late_time
+            << " in nine cells of ten\n";
+  EXPECT_LE(median_time, 1.2);
+  EXPECT_LE(late_time, 3.3);
   struct Goal {
     double step_rad, median, worst, overshoot_median_rad, overshoot_worst_rad;
   };
-  for (const Goal& goal : {Goal{0.001, 1.15, 2.0, 45e-6, 120e-6}, Goal{0.01, 1.35, 1.8, 60e-6, 300e-6},
-                           Goal{0.1, 1.15, 1.35, 500e-6, 3e-3}, Goal{1.0, 1.08, 1.2, 5e-3, 30e-3}}) {
+  for (const Goal& goal : {Goal{0.001, 1.15, 1.4, 25e-6, 60e-6}, Goal{0.01, 1.35, 1.8, 30e-6, 160e-6},
+                           Goal{0.1, 1.15, 1.35, 35e-6, 60e-6}, Goal{1.0, 1.08, 1.2, 40e-6, 60e-6}}) {
     std::vector<double>& ratios = over_limit.at(goal.step_rad);
     std::vector<double>& overshoots = overshoot_rad.at(goal.step_rad);
     std::sort(ratios.begin(), ratios.end());
@@ -246,6 +253,73 @@ TEST(FlexibleStudy, ReachesTheLimitOfTheLinkWhereFrictionIsKnown) {
     EXPECT_LE(overshoots[overshoots.size() / 2], goal.overshoot_median_rad) << goal.step_rad;
     EXPECT_LE(overshoots.back(), goal.overshoot_worst_rad) << goal.step_rad;
   }
+}
+
+/// How far friction that is not what the table says takes the motor before a torque can answer: until its reading differs by a count for
+/// certain, and a period and the delay longer. Whatever the torque is, as long as the motor slides one way.
+double unseen_rad(const FlexibleCell& cell) {
+  const Transmission& gear = *cell.plant.effects.transmission;
+  const FlexibleCell known = with_friction_known(cell);
+  const double off_Nm = std::abs(known.plant.joint.friction.at(cell.temperature_C).coulomb_Nm -
+                                 cell.plant.joint.friction.at(cell.temperature_C).coulomb_Nm);
+  const LinkModel apart{
+      cell.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  const int late_periods = 1 + static_cast<int>(std::lround(cell.plant.delay.periods));
+  LinkState state;
+  int answered = 0;
+  for (int k = 0; k < 1000 && answered < late_periods; ++k) {
+    if (state.motor_position_rad >= cell.plant.encoder.resolution_rad()) ++answered;
+    state = apart.advance(state, off_Nm, cell.plant.period_s).end;
+  }
+  return state.motor_position_rad;
+}
+
+struct Spread {
+  explicit Spread(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    median_urad = 1e6 * values[values.size() / 2];
+    worst_urad = 1e6 * values.back();
+  }
+  double median_urad, worst_urad;
+};
+
+// What a milliradian's overshoot is made of, 3 % damping: the page says it in this order.
+TEST(FlexibleStudy, TellsWhatACountAndWhatFrictionLeaveOfAMilliradiansOvershoot) {
+  std::vector<FlexibleCell> known, fine, table;
+  std::vector<double> of_limit, unseen;
+  for (const FlexibleCell& cell : flexible_grid()) {
+    if (cell.link_inertia_kgm2 > 0.5 || cell.damping_ratio != 0.03 || cell.step_rad != 0.001) continue;
+    table.push_back(cell);
+    known.push_back(with_friction_known(cell));
+    fine.push_back(known.back());
+    for (JointPlantConfig* plant : {&fine.back().nominal, &fine.back().plant})
+      plant->encoder.counts_per_joint_revolution *= 100.0;
+    unseen.push_back(unseen_rad(cell));
+    const LinkLimit limit =
+        find_link_limit(link_limit_config(known.back().plant, cell.temperature_C, cell.step_rad));
+    of_limit.push_back(*std::max_element(limit.link_position_rad.begin(), limit.link_position_rad.end()) -
+                       cell.step_rad);
+  }
+  const auto overshoot = [&](const std::vector<FlexibleCell>& cells) {
+    std::vector<double> all_rad(cells.size());
+    run_in_parallel(cells.size(), [&](std::size_t i) {
+      for (const TracePoint& point : run_cell(cells[i], contender("daemon told of its spring")).trace)
+        all_rad[i] = std::max(all_rad[i], point.link_position_rad - cells[i].step_rad);
+    });
+    return Spread(all_rad);
+  };
+  const std::vector<int> said = page_numbers("Of a milliradian's overshoot, in urad: ", 10);
+  auto next = said.begin();
+  const auto expect = [&](const char* what, const Spread& found) {
+    std::cout << what << ": median " << found.median_urad << ", worst " << found.worst_urad << " urad\n";
+    EXPECT_NEAR(found.median_urad, *next++, 3.0) << what;
+    EXPECT_NEAR(found.worst_urad, *next++, 6.0) << what;
+  };
+  expect("the limit's own motion", Spread(of_limit));
+  expect("friction known, an encoder a hundred times finer", overshoot(fine));
+  expect("friction known", overshoot(known));
+  expect("the table's friction", overshoot(table));
+  expect("friction beside the table's, before a torque can answer", Spread(unseen));
 }
 
 TEST(FlexibleStudy, JudgesNoControllerBetterThanTheLimitOfTheLink) {
