@@ -15,6 +15,10 @@ constexpr int kLeastSpread = 2;
 // by this share a period.
 constexpr double kLostShare = 0.25;
 constexpr double kYield = 0.1;
+// So often from one of the torque's limits to the other, with less than so many periods within them, it swings itself up.
+constexpr int kSwings = 3;
+constexpr int kCalmPeriods = 20;
+constexpr int kMostSwings = 10;
 
 // sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits.
 double spread_periods(const LinkMotionConfig& c) noexcept {
@@ -89,6 +93,7 @@ double LinkMotion::reset(double motor_position_rad, double velocity_rad_s) noexc
   }
   wanted_ = flat({position_rad, velocity_rad_s, 0.0, 0.0}, 0.0);
   jerk_rad_s3_ = 0.0;
+  exhausted_ = side_ = swings_ = calm_periods_ = 0;
   next_ = wanted_;
   rest_periods_ = velocity_rad_s == 0.0 ? config_.delay_periods + 1 : 0;
   return planned_rad;
@@ -120,19 +125,32 @@ void LinkMotion::follow(double wanted_Nm, const LinkState& wanted_end, const Tor
   const double back_Nm = regulated_torque_Nm(gains_, wanted_end, alone_end);
   torque_Nm_ = std::clamp(wanted_Nm + back_Nm, std::min(possible.min_Nm, asked_Nm),
                           std::max(possible.max_Nm, asked_Nm));
-  exhausted_ = torque_Nm_ != wanted_Nm + back_Nm;
+  const double missing_Nm = wanted_Nm + back_Nm - torque_Nm_;
+  exhausted_ = missing_Nm == 0.0 ? 0 : missing_Nm > 0.0 ? 1 : -1;
+  count_swings();
   const LinkModel::Period period = config_.joint.advance(states_.front(), torque_Nm_, config_.period_s);
   next_ = period.end;
   middle_velocity_rad_s_ = period.middle_velocity_rad_s;
 }
 
 // A regulator that has no torque left can swing a spring up for ever. What the torque cannot do is given up: the model gives way to the
-// motion, where it has lost it and wherever nothing but the regulator asks for torque.
+// motion, where it has lost it, wherever nothing but the regulator asks for torque, and the more, the more often the regulator has had no
+// torque left on the one side and on the other.
 void LinkMotion::yield(bool ended) noexcept {
   const LinkState off = moved(wanted_, next_, -1.0);
   const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
-  if (!exhausted_ || (!ended && farthest_rad < lost_rad_)) return;
-  next_ = moved(next_, off, kYield);
+  const bool swings = swings_ >= kSwings;
+  if (exhausted_ == 0 || (!ended && !swings && farthest_rad < lost_rad_)) return;
+  next_ = moved(next_, off, swings ? kYield * swings_ : kYield);
+}
+
+// From one side to the other within half a swing of the softest spring and a bit; by what takes longer, the motion itself needs both.
+void LinkMotion::count_swings() noexcept {
+  calm_periods_ = exhausted_ == 0 ? std::min(calm_periods_ + 1, kCalmPeriods) : 0;
+  if (calm_periods_ >= kCalmPeriods) swings_ = side_ = 0;
+  if (exhausted_ == 0) return;
+  if (side_ * exhausted_ < 0) swings_ = std::min(swings_ + 1, kMostSwings);
+  side_ = exhausted_;
 }
 
 // The motion has ended: once the model is where that was, it stands still.

@@ -102,6 +102,7 @@ class LinkMotion {
   LinkState flat(const MotionPoint& link, double snap_rad_s4) const noexcept;
   void follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
               double taken_Nm) noexcept;
+  void count_swings() noexcept;
   void yield(bool ended) noexcept;
   void settle() noexcept;
   MotorPlan plan() noexcept;
@@ -115,13 +116,16 @@ class LinkMotion {
   double lost_rad_;
   LinkState wanted_;          ///< at the sample to come
   double jerk_rad_s3_ = 0.0;  ///< of the link's motion, there
-  LinkState next_;    ///< the model, there
+  LinkState next_;            ///< the model, there
   std::array<LinkState, kMaxLinkDelay + 2>
       states_{};                        ///< the model's, newest first: of now, of the last period ...
   double torque_Nm_ = 0.0;              ///< of this period
   double middle_velocity_rad_s_ = 0.0;  ///< the model's motor, half-way through it
-  bool exhausted_ = false;              ///< the regulator asked for more than there was
-  int rest_periods_ = 0;                ///< since when the plan has rested
+  int exhausted_ = 0;     ///< the regulator asked for more than there was: on which side, -1 or 1; else 0
+  int side_ = 0;          ///< where it did last
+  int swings_ = 0;        ///< how often in a row it was on the other side than before
+  int calm_periods_ = 0;  ///< since it asked for more than there was
+  int rest_periods_ = 0;  ///< since when the plan has rested
 };
 
 }  // namespace strainwave

@@ -197,6 +197,35 @@ TEST(LinkMotion, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
   }
 }
 
+// A stream that is joined at speed, or whose samples jump: what the torque cannot do saturates the regulator, which must not swing the
+// model up for ever between the torque's limits.
+TEST(LinkMotion, ComesBackToAMotionThatJumpedAway) {
+  for (const double link : {0.03, 0.089, 0.267})
+    for (const double damping : {0.0, 0.01, 0.1})
+      for (const double jump_rad : {0.0, 3e-3, 2e-2})
+        for (const double speed_rad_s : {0.5, 1.57, 4.0}) {
+          LinkMotionConfig config = config_for(link, 1.0);
+          config.joint.spring = find_gear("csf-17-50")->spring;
+          config.joint.damping_Nms_rad = structural_damping_Nms_rad(0.089, link, 10000.0, damping);
+          LinkMotion motion(config);
+          double planned_rad = jump_rad;
+          double off_rad = 0.0;
+          int reversals = 0;
+          double last_Nm = 0.0;
+          for (int k = 0; k < 600; ++k) {
+            const MotorPlan plan = step(motion, {planned_rad, speed_rad_s, 0.0});
+            planned_rad += speed_rad_s * kPeriod_s;
+            if (k < 400) continue;
+            off_rad = std::max(off_rad, std::abs(plan.velocity_rad_s - speed_rad_s) * kPeriod_s);
+            reversals += plan.torque_Nm * last_Nm < -1.0 ? 1 : 0;
+            last_Nm = plan.torque_Nm;
+          }
+          EXPECT_LT(off_rad, kBand_rad) << link << " kg m2, damping " << damping << ", " << jump_rad
+                                        << " rad, " << speed_rad_s << " rad/s";
+          EXPECT_EQ(reversals, 0) << link << ", " << damping << ", " << jump_rad << ", " << speed_rad_s;
+        }
+}
+
 TEST(LinkMotion, AsksForNoMoreThanThereIs) {
   const LinkMotionConfig config = config_for(0.089, 10000.0);
   LinkMotion motion(config);
