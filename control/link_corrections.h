@@ -1,5 +1,6 @@
-// When a motor that sticks beside its place, with the link on a spring, moves once more: the last counts of a motion, each time at rest
-// before it begins, so that nothing can swing itself up. What so many small motions do not bring, none will: the rest is the integral's.
+// When a motor that sticks beside its place, with the link on a spring, moves once more: the last counts of a motion. Each time the motor is
+// at rest before it begins; its link may still swing, and add to the next. What so few small motions do not bring, none will: the rest is
+// the integral's.
 // So small a motion shows little but friction: where one falls short or goes too far, the next has more or less of it fed forward.
 // Real-time safe. Motor's encoder, rad at the joint.
 //
@@ -14,7 +15,7 @@ namespace strainwave {
 
 class LinkCorrections {
  public:
-  /// Each of them is at rest before the next begins.
+  /// The motor is at rest after each of them, before the next begins.
   static constexpr int kMost = 20;
   /// Of one order, that brought nothing: load or friction are not what they are taken for.
   static constexpr int kMostInVain = 5;
