@@ -106,6 +106,9 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
         "gear = \"csf-17-50\"\n" + joint_with_a_link("", link_kgm2, damping_Nms_rad), "plant");
     ExtendedFeatures features = daemon_defaults();
     features.link = told;
+    // No configuration of a daemon tells the damping.
+    JointPlantConfig configured_plant = plant;
+    configured_plant.effects.transmission->damping_Nms_rad = 0.0;
     for (const double step_rad : {0.01, 0.1, 1.0}) {
       ClosedLoopConfig config;
       config.plant = plant;
@@ -114,7 +117,8 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
       config.duration_s = kSamples * plant.period_s;
       Figures study;
       for (const TracePoint& point :
-           run_closed_loop(config, *extended_contender("daemon", table, features).make(plant)).trace)
+           run_closed_loop(config, *extended_contender("daemon", table, features).make(configured_plant))
+               .trace)
         study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
 
       enable(configured(
