@@ -19,16 +19,9 @@ constexpr double kDoubtOfLimit = 0.02;
 constexpr double kDoubtOfItself = 0.5;
 constexpr double kDoubtOfAcceleration = 2.0;
 
-/// At the newest of three values that lie on a parabola.
-struct Slope {
-  double rate = 0.0;
-  double change = 0.0;
-};
-
-/// By the mean rates of the newer and the older interval.
-Slope slope_at_newest(double newer, double newer_s, double older, double older_s) noexcept {
-  const double change = 2.0 * (newer - older) / (newer_s + older_s);
-  return {newer + 0.5 * newer_s * change, change};
+/// Of three values that lie on a parabola, by the mean rates of the newer and the older interval.
+double change_of_rate(double newer, double newer_s, double older, double older_s) noexcept {
+  return 2.0 * (newer - older) / (newer_s + older_s);
 }
 
 }  // namespace
@@ -44,7 +37,7 @@ bool StreamTarget::contradicts_itself(const Knot& knot, const Before& before) co
   if (first != nullptr) {
     const double older_s = seconds(last->at - first->at);
     const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
-    const double own_rad_s2 = 2.0 * std::abs(mean_rad_s_ - older_rad_s) / (mean_s_ + older_s);
+    const double own_rad_s2 = std::abs(change_of_rate(mean_rad_s_, mean_s_, older_rad_s, older_s));
     acceleration_rad_s2 = std::min(acceleration_rad_s2, kDoubtOfAcceleration * own_rad_s2);
   }
   const double changed_rad_s = acceleration_rad_s2 * mean_s_;
@@ -82,8 +75,8 @@ void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexc
   }
   const double older_s = seconds(last->at - first->at);
   const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
-  const Slope slope = slope_at_newest(mean_rad_s_, mean_s_, older_rad_s, older_s);
-  if (std::abs(slope.change) > kReach * reach_.acceleration_rad_s2) {
+  const double acceleration_rad_s2 = change_of_rate(mean_rad_s_, mean_s_, older_rad_s, older_s);
+  if (std::abs(acceleration_rad_s2) > kReach * reach_.acceleration_rad_s2) {
     past_count_ = 0;
     return;
   }
