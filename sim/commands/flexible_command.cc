@@ -10,6 +10,7 @@
 #include "sim/studies/flexible_report.h"
 #include "sim/studies/html_page.h"
 #include "sim/studies/peers/planned_peer.h"
+#include "sim/studies/wrongly_told.h"
 
 namespace strainwave {
 
@@ -20,6 +21,7 @@ struct FlexibleOptions {
   std::string out = "flexible";
   bool full = false;
   bool peers = false;
+  bool wrong = false;
   int joints = 1000;
   std::uint64_t seed = 1;
 };
@@ -56,10 +58,19 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::cout << "written to " << out.string() << "\n";
 }
 
+/// The daemon's controller told of its spring, and told wrongly, on the grid and on joints drawn at random.
+void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
+  const std::vector<Contender> contenders = flexible_contenders(gains, false);
+  const Contender& told = contenders[number_of("daemon told of its spring", contenders)];
+  for (const auto& cells : {wrongly_told_grid(), wrongly_told_joints(options.joints, options.seed)})
+    std::cout << wrongly_told_summary(run_wrongly_told(cells, told)).markdown() << '\n';
+}
+
 void run(const FlexibleOptions& options) {
   const std::filesystem::path directory =
       options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
   const FlexibleTables gains = read_flexible_tables(directory);
+  if (options.wrong) return run_wrong(gains, options);
   const std::filesystem::path out = options.out;
   make_folder(out);
   if (options.peers) return run_peers(gains, out);
@@ -114,7 +125,10 @@ void add_flexible_command(CLI::App& program, CommandBody& chosen) {
   command->add_flag("--peers", options->peers,
                     "the daemon told of its spring against servo cascades, disturbance observer and LQG, on "
                     "the grid alone");
-  command->add_option("--joints", options->joints, "number of random joints, with --full")
+  command->add_flag("--wrong", options->wrong,
+                    "the daemon told of its spring, and told load, stiffness, friction or delay wrongly; "
+                    "prints, writes nothing");
+  command->add_option("--joints", options->joints, "number of random joints, with --full or --wrong")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the random joints")->capture_default_str();

@@ -71,6 +71,52 @@ const std::vector<Effect>& effects() {
   return list;
 }
 
+/// What a controller is told of the load and the gear, over what they are.
+void tell_wrongly(JointPlantConfig& told, double load, double stiffness) {
+  told.effects.transmission->link_inertia_kgm2 *= load;
+  told.effects.transmission->spring = told.effects.transmission->spring.scaled(stiffness);
+}
+
+/// One thing, or several, that a controller is told wrongly or not at all.
+struct Wrong {
+  std::string name;
+  double load = 1.0;       ///< told over true
+  double stiffness = 1.0;  ///< told over true
+  double friction = 1.0;   ///< true over told
+  double more_delay_periods = 0.0;
+  double jitter_periods = 0.0;
+};
+
+const std::vector<Wrong>& wrongs() {
+  static const std::vector<Wrong> list = {
+      {"load told 30 % too heavy", 1.3},
+      {"load told 30 % too light", 0.7},
+      {"stiffness told 25 % too high", 1.0, 1.25},
+      {"stiffness told 25 % too low", 1.0, 0.75},
+      {"friction +30 %", 1.0, 1.0, 1.3},
+      {"friction -30 %", 1.0, 1.0, 0.7},
+      {"one period of delay more", 1.0, 1.0, 1.0, 1.0},
+      {"one period of delay less", 1.0, 1.0, 1.0, -1.0},
+      {"jitter 0.3 ms", 1.0, 1.0, 1.0, 0.0, 0.3},
+      {"told too slow, friction -30 %, jitter", 1.3, 0.75, 0.7, 0.0, 0.3},
+      {"told too fast, friction +30 %, jitter", 0.7, 1.25, 1.3, 0.0, 0.3}};
+  return list;
+}
+
+FlexibleCell wrongly_told(FlexibleCell cell, const Wrong& wrong) {
+  cell.effect = wrong.name;
+  tell_wrongly(cell.nominal, wrong.load, wrong.stiffness);
+  scale_friction(cell.plant, wrong.friction);
+  cell.plant.delay.periods += wrong.more_delay_periods;
+  cell.plant.delay.jitter_periods += wrong.jitter_periods;
+  return cell;
+}
+
+/// Uniform in a range; the standard leaves distributions to the library, this makes a draw the same everywhere.
+double draw(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11U), -53);
+}
+
 void add_misconfigurations(const FlexibleCell& cell, std::vector<FlexibleCell>& cells) {
   FlexibleCell late = cell;
   late.effect = "one more period of delay than told";
@@ -120,6 +166,35 @@ std::vector<FlexibleCell> effect_grid() {
   return cells;
 }
 
+std::vector<FlexibleCell> wrongly_told_grid() {
+  std::vector<FlexibleCell> cells;
+  for (const FlexibleCell& cell : flexible_grid()) {
+    if (cell.link_inertia_kgm2 > 0.3) continue;
+    cells.push_back(cell);
+    for (const Wrong& wrong : wrongs()) cells.push_back(wrongly_told(cell, wrong));
+    FlexibleCell everything = cell;
+    everything.effect = "every effect of the study at once";
+    for (const Effect& effect : effects())
+      if (effect.name != "friction -30 %") effect.add(everything.plant, 1.0);
+    everything.nominal.effects.gravity = everything.plant.effects.gravity;
+    cells.push_back(everything);
+  }
+  return cells;
+}
+
+std::vector<FlexibleCell> wrongly_told_joints(int count, std::uint64_t seed) {
+  std::vector<FlexibleCell> cells;
+  std::mt19937_64 random(seed);
+  for (FlexibleCell& cell : random_joints(count, seed)) {
+    cell.nominal.effects.gravity = cell.plant.effects.gravity;
+    cell.effect = "none";
+    cells.push_back(cell);
+    cells.push_back(wrongly_told(cell, {"random joints, told wrongly", draw(random, 0.7, 1.3),
+                                        draw(random, 0.75, 1.25), draw(random, 0.7, 1.3)}));
+  }
+  return cells;
+}
+
 std::vector<FlexibleCell> first_grid() {
   std::vector<FlexibleCell> cells;
   for (const double ratio : {0.3, 1.0, 3.0})
@@ -136,10 +211,7 @@ std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     std::seed_seq sequence{seed, static_cast<std::uint64_t>(i)};
     std::mt19937_64 random(sequence);
-    const auto uniform = [&](double low, double high) {
-      // The standard leaves distributions to the library; this makes a draw the same everywhere.
-      return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11U), -53);
-    };
+    const auto uniform = [&](double low, double high) { return draw(random, low, high); };
     const auto logarithmic = [&](double low, double high) {
       return std::exp(uniform(std::log(low), std::log(high)));
     };

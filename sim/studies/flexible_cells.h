@@ -29,6 +29,12 @@ std::vector<FlexibleCell> flexible_grid();
 std::vector<FlexibleCell> effect_grid();
 /// JL / Jm 0.3, 1, 3 on two stiffnesses with 2 % damping: where the first controller of this project was found to oscillate.
 std::vector<FlexibleCell> first_grid();
+/// The joints of the grid with links up to 0.267 kg m2 as a controller is told of them (effect "none"), and each with one thing, or
+/// several, that it is told wrongly or not at all; what it is told then differs from the joint in `nominal`.
+std::vector<FlexibleCell> wrongly_told_grid();
+/// `count` joints of random_joints, effects and all, each twice: told as it is (effect "none") and with load, stiffness and friction
+/// told wrongly by up to 30, 25 and 30 %.
+std::vector<FlexibleCell> wrongly_told_joints(int count, std::uint64_t seed);
 /// Joints drawn at random around the grid, effects included; the cell depends on the seed and its number alone.
 std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed);
 

@@ -72,7 +72,8 @@ struct SideSums {
   }
 };
 
-void add_rest(const std::vector<TracePoint>& trace, double period_s, FlexibleResult& result) {
+void add_rest(const std::vector<TracePoint>& trace, double step_rad, double period_s,
+              FlexibleResult& result) {
   const auto count = static_cast<std::size_t>(kRestShare * static_cast<double>(trace.size()));
   double low = 1e300;
   double high = -1e300;
@@ -82,6 +83,7 @@ void add_rest(const std::vector<TracePoint>& trace, double period_s, FlexibleRes
   for (auto point = trace.end() - static_cast<std::ptrdiff_t>(count); point != trace.end(); ++point) {
     low = std::min(low, point->link_position_rad);
     high = std::max(high, point->link_position_rad);
+    result.rest_error_rad = std::max(result.rest_error_rad, std::abs(step_rad - point->link_position_rad));
     squares += point->applied_torque_Nm * point->applied_torque_Nm;
     result.rest_peak_Nm = std::max(result.rest_peak_Nm, std::abs(point->applied_torque_Nm));
     const double torque_sign = sign(point->applied_torque_Nm);
@@ -120,7 +122,7 @@ FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, cons
     result.link_ratio = result.link_counted_ratio = std::numeric_limits<double>::infinity();
     return result;
   }
-  add_rest(run.trace, cell.plant.period_s, result);
+  add_rest(run.trace, cell.step_rad, cell.plant.period_s, result);
   if (result.oscillates) result.settling_time_s = -1.0;  // it only happened to end within two counts
   return result;
 }
@@ -206,8 +208,12 @@ ClosedLoopResult run_cell(const FlexibleCell& cell, const Contender& contender) 
   return run_closed_loop(loop_of(cell), *controller);
 }
 
+FlexibleResult run_without_limit(const FlexibleCell& cell, const Contender& contender) {
+  return judge(cell, run_cell(cell, contender), {1.0, 1.0});
+}
+
 bool oscillates(const FlexibleCell& cell, const Contender& contender) {
-  return judge(cell, run_cell(cell, contender), {}).oscillates;
+  return run_without_limit(cell, contender).oscillates;
 }
 
 std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,

@@ -21,6 +21,7 @@ struct FlexibleResult {
   double rest_peak_Nm = 0.0;      ///< torque applied over the last quarter
   double rest_rms_Nm = 0.0;
   double rest_sign_changes_per_s = 0.0;
+  double rest_error_rad = 0.0;  ///< of the link, the largest over the last quarter
   double rest_swing_rad = 0.0;  ///< of the link, from peak to peak over the last quarter
   bool oscillates =
       false;  ///< swings at rest by more than kOscillation_rad under a torque that keeps changing sign
@@ -59,6 +60,9 @@ struct FlexibleRow {
 std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,
                                       const std::vector<Contender>& contenders,
                                       const std::function<void(std::size_t)>& progress);
+
+/// One run of a cell, judged without a limit: its ratios are the sums |e / r| themselves.
+FlexibleResult run_without_limit(const FlexibleCell& cell, const Contender& contender);
 
 /// Whether the joint of a cell oscillates at the end, or diverged; needs no limit of the link, and so little time.
 bool oscillates(const FlexibleCell& cell, const Contender& contender);

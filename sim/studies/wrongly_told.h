@@ -1,0 +1,27 @@
+// What it costs the daemon's controller to be told a joint's spring, load, friction or delay wrongly: the same joint twice, once told as
+// it is. Offline; uses all cores; the result does not depend on how many. Source: docs/flexible-joint.md.
+#pragma once
+
+#include <vector>
+
+#include "sim/studies/flexible_study.h"
+#include "sim/studies/text_table.h"
+
+namespace strainwave {
+
+struct WronglyToldRow {
+  FlexibleCell cell;
+  FlexibleResult result;  ///< without a limit
+  double over_known =
+      1.0;  ///< the link's sum |e / r| above 40 urad over that of the same joint, told as it is
+  bool off_target = false;  ///< the link is more than two counts off in the run's last quarter
+};
+
+/// Runs `contender` on every cell. A cell of effect "none" is what those after it are compared with, up to the next.
+std::vector<WronglyToldRow> run_wrongly_told(const std::vector<FlexibleCell>& cells,
+                                             const Contender& contender);
+
+/// A row for each thing that is told wrongly, in the order of the cells.
+TextTable wrongly_told_summary(const std::vector<WronglyToldRow>& rows);
+
+}  // namespace strainwave
