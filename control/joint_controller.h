@@ -116,7 +116,7 @@ struct JointStep {
   MonitorState monitor = MonitorState::kWatching;
 };
 
-/// What is where a stream is at a sample's time: the joint, or the plan, which the joint follows stream_lead_s() later.
+/// What is where a stream is at a sample's time: the joint, or the plan, which the joint follows plan_lead_s() later.
 enum class OnTime { kJoint, kPlan };
 
 class JointController {
@@ -143,6 +143,8 @@ class JointController {
   /// With OnTime::kJoint the joint is where a stream is because the controller is so much ahead of it: a sample that comes later than
   /// this before its time is carried forward.
   double stream_lead_s() const noexcept;
+  /// With OnTime::kPlan, from rest, how much later than the samples say the joint is where they say.
+  double plan_lead_s() const noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept;
   /// Lets go: until what pushes the joint has let go of it or it stands, the torque is what holds `load_Nm`, gravity and what a stream tells
@@ -173,6 +175,7 @@ class JointController {
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
   void advance_reference(int elapsed_periods) noexcept;
+  double ahead_of_joint_s() const noexcept;
   bool goes_on_anew(const JointMeasurement& measurement) noexcept;
   void go_on_from_here() noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;

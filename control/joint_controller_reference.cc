@@ -57,10 +57,17 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
 }
 
 double JointController::stream_lead_s() const noexcept {
-  if (!config_.use_shaping) return 0.0;
+  return config_.use_shaping ? plan_.lag_s() + ahead_of_joint_s() : 0.0;
+}
+
+double JointController::plan_lead_s() const noexcept {
+  return config_.use_shaping ? plan_.uneased_lag_s() + ahead_of_joint_s() : 0.0;
+}
+
+double JointController::ahead_of_joint_s() const noexcept {
   // Without a model of the joint the law follows the reading of now.
   const double delay_s = observing() || linked() ? config_.delay_periods * config_.period_s : 0.0;
-  return delay_s + plan_.lag_s() + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
+  return delay_s + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
 }
 
 void JointController::advance_reference(int elapsed_periods) noexcept {

@@ -38,10 +38,26 @@ void PathClock::advance(double period_s, const RateRoom& room) noexcept {
   time_s_ += 0.5 * period_s * (before + rate_);
 }
 
-PathPoint in_clock_time(const PathPoint& point, const PathClock& clock) noexcept {
-  const double r = clock.rate();
+void PathTimes::note(const PathTime& now) noexcept {
+  last_ = (last_ + 1) % kPeriods;
+  times_[last_] = now;
+}
+
+PathTime PathTimes::ago(double periods) const noexcept {
+  const double whole = std::floor(std::clamp(periods, 0.0, static_cast<double>(kPeriods - 2)));
+  const double share = std::clamp(periods - whole, 0.0, 1.0);
+  const std::size_t newer_at = last_ + kPeriods - static_cast<std::size_t>(whole);
+  const PathTime& newer = times_[newer_at % kPeriods];
+  const PathTime& older = times_[(newer_at - 1) % kPeriods];
+  const auto between = [share](double now, double before) { return now + share * (before - now); };
+  return {between(newer.time_s, older.time_s), between(newer.rate, older.rate),
+          between(newer.rate_change_1_s, older.rate_change_1_s)};
+}
+
+PathPoint in_path_time(const PathPoint& point, const PathTime& time) noexcept {
+  const double r = time.rate;
   return {point.position_rad, point.velocity_rad_s * r,
-          point.acceleration_rad_s2 * r * r + point.velocity_rad_s * clock.rate_change_1_s()};
+          point.acceleration_rad_s2 * r * r + point.velocity_rad_s * time.rate_change_1_s};
 }
 
 }  // namespace strainwave

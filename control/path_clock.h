@@ -10,6 +10,9 @@
 // stay, and a joint that is just using all of its deceleration is on its way to rest by itself.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "control/knot_path.h"
 
 namespace strainwave {
@@ -27,6 +30,13 @@ struct RateRoom {
 RateRoom rate_room(const PathPoint& here, const PathPoint& next, double rate,
                    const MotionLimits& limits) noexcept;
 
+/// Where a path's time is, and how it goes; by default a path that has not begun.
+struct PathTime {
+  double time_s = 0.0;
+  double rate = 0.0;
+  double rate_change_1_s = 0.0;  ///< over the last period
+};
+
 /// Begins at 0, at the full rate: a path begins at rest.
 class PathClock {
  public:
@@ -42,8 +52,7 @@ class PathClock {
 
   double time_s() const noexcept { return time_s_; }
   double rate() const noexcept { return rate_; }
-  /// In the last period.
-  double rate_change_1_s() const noexcept { return change_1_s_; }
+  PathTime now() const noexcept { return {time_s_, rate_, change_1_s_}; }
   /// Whether the rate stays in the next period, whatever the room.
   bool steady() const noexcept { return rate_ == wanted(); }
   bool rests() const noexcept { return rate_ == 0.0 && wish_ == Wish::kRest; }
@@ -60,7 +69,22 @@ class PathClock {
   double change_1_s_ = 0.0;
 };
 
-/// What the joint does at `point` of its path while the time goes as `clock` says.
-PathPoint in_clock_time(const PathPoint& point, const PathClock& clock) noexcept;
+/// A path's time in the last periods.
+class PathTimes {
+ public:
+  static constexpr std::size_t kPeriods = 256;
+
+  /// One period later it is `now`.
+  void note(const PathTime& now) noexcept;
+  /// `periods` before the last one, in [0, kPeriods - 2]; between two periods the mean of both. Before all of them the path has not begun.
+  PathTime ago(double periods) const noexcept;
+
+ private:
+  std::array<PathTime, kPeriods> times_{};
+  std::size_t last_ = 0;
+};
+
+/// What the joint does at `point` of its path while the time goes as `time` says.
+PathPoint in_path_time(const PathPoint& point, const PathTime& time) noexcept;
 
 }  // namespace strainwave

@@ -57,6 +57,8 @@ class ReferencePlan {
   /// Whether the motion has ended, exactly on the target.
   bool rests() const noexcept { return shaper_.at_target() && (!averages() || mean_.rests()); }
   double lag_s() const noexcept { return averages() ? mean_.lag_s() : 0.0; }
+  /// The same of a motion that is not eased.
+  double uneased_lag_s() const noexcept { return unasked_ == Mean::kAlways ? mean_.lag_s() : 0.0; }
   /// Of the shaper's motion, which may be ahead: where the next sample begins, and where it ends.
   double position_rad() const noexcept { return shaper_.position_rad(); }
   double velocity_rad_s() const noexcept { return shaper_.velocity_rad_s(); }

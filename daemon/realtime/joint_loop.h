@@ -114,6 +114,8 @@ class JointLoop {
   /// Whether it could begin `path` in this cycle: it holds where the path begins.
   Ruling may_begin(const LoadedPath& path) const noexcept;
   void begin_path(const CycleTime& time) noexcept;
+  /// How much later than it is told the joint is where it is told to be on a path.
+  double path_lead_s() const noexcept { return controller_.plan_lead_s(); }
   /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
   void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
   /// From begin_path() until end_path(), or until something else took the joint off it.

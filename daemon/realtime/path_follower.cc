@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "daemon/realtime/joint_loop.h"
 
@@ -93,8 +94,22 @@ bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept
   });
   if (!all) return false;
   for_each_member(travel, [&](JointLoop& joint, Member&) { joint.begin_path(time); });
+  wait_for_the_slowest(travel);
   travels_[travel].phase = Phase::kUnderWay;
   return true;
+}
+
+void PathFollower::wait_for_the_slowest(std::size_t travel) noexcept {
+  double slowest_s = 0.0;
+  double fastest_s = std::numeric_limits<double>::infinity();
+  for_each_member(travel, [&](JointLoop& joint, Member&) {
+    slowest_s = std::max(slowest_s, joint.path_lead_s());
+    fastest_s = std::min(fastest_s, joint.path_lead_s());
+  });
+  for_each_member(travel, [&](JointLoop& joint, Member& member) {
+    member.behind_periods = (slowest_s - joint.path_lead_s()) / period_s_;
+  });
+  travels_[travel].most_behind_periods = (slowest_s - fastest_s) / period_s_;
 }
 
 void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
@@ -102,14 +117,18 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   const bool begins = travel.phase == Phase::kBeginning;
   if (begins && !begin_all(index, time)) return free(index);
   release_lost(index);
-  for (std::int64_t period = 0; period < time.elapsed_periods; ++period)
+  for (std::int64_t period = 0; period < time.elapsed_periods; ++period) {
     travel.clock.advance(period_s_, travel.clock.steady() ? PathClock::kMostRoom : room(index));
+    travel.times.note(travel.clock.now());
+  }
   for_each_member(index, [&](JointLoop& joint, Member& member) {
-    const PathPoint point = member.reader.at(joint.path()->path, travel.clock.time_s());
-    joint.follow_path(in_clock_time(point, travel.clock), time.elapsed_periods, begins);
+    const PathTime now = travel.times.ago(member.behind_periods);
+    const PathPoint point = member.reader.at(joint.path()->path, now.time_s);
+    joint.follow_path(in_path_time(point, now), time.elapsed_periods, begins);
   });
   const bool ending = travel.phase == Phase::kEnding;
-  if (travel.clock.time_s() >= travel.duration_s || (ending && travel.clock.rests())) {
+  const PathTime last = travel.times.ago(travel.most_behind_periods);
+  if (last.time_s >= travel.duration_s || (ending && travel.clock.rests() && last.rate == 0.0)) {
     for_each_member(index, [](JointLoop& joint, Member&) { joint.end_path(); });
     return free(index);
   }
@@ -141,7 +160,8 @@ void PathFollower::bring_to_rest(std::size_t index) noexcept {
     longest_s =
         std::max(longest_s, std::abs(here.velocity_rad_s) / joint.motion_limits().deceleration_rad_s2);
   });
-  travel.rest_cycles = std::llround((kPatience * longest_s + kLeastPatience_s) / period_s_);
+  travel.rest_cycles =
+      std::llround((kPatience * longest_s + kLeastPatience_s) / period_s_ + travel.most_behind_periods);
   travel.phase = Phase::kEnding;
 }
 

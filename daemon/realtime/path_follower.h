@@ -1,5 +1,7 @@
 // Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock (control/path_clock.h), so
-// that they leave, pause, go on and arrive in the same cycle, and are on the path in between. Real-time safe.
+// that they leave, pause, go on and arrive in the same cycle, and are on the path in between. A joint may follow its plan later than another,
+// by its delay, its jerk limit or its spring: the slowest gets the clock's own time, each other an earlier one, so that the joints are
+// together, where their setpoints are not. Real-time safe.
 //
 //   resume   -> all joints of the path begin in the next cycle, or none
 //   pause    -> the path's time comes to rest, as quickly as the accelerations allow
@@ -47,6 +49,8 @@ class PathFollower {
   struct Travel {
     Phase phase = Phase::kFree;
     PathClock clock;
+    PathTimes times;                   ///< of the clock
+    double most_behind_periods = 0.0;  ///< of its members
     double duration_s = 0.0;
     std::int64_t rest_cycles = 0;  ///< left for coming to rest along the path, while it ends
   };
@@ -54,11 +58,13 @@ class PathFollower {
   struct Member {
     std::size_t travel = kNoTravel;
     PathReader reader;
+    double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
   };
   template <typename Act>
   void for_each_member(std::size_t travel, const Act& act) noexcept;
   Ruling begin(std::size_t joint) noexcept;
   bool begin_all(std::size_t travel, const CycleTime& time) noexcept;
+  void wait_for_the_slowest(std::size_t travel) noexcept;
   void advance(std::size_t travel, const CycleTime& time) noexcept;
   void release_lost(std::size_t travel) noexcept;
   void bring_to_rest(std::size_t travel) noexcept;

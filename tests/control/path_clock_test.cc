@@ -45,7 +45,7 @@ struct Followers {
     clock.advance(kPeriod_s, room);
     std::vector<PathPoint> points;
     for (std::size_t i = 0; i < paths.size(); ++i)
-      points.push_back(in_clock_time(readers[i].at(paths[i], clock.time_s()), clock));
+      points.push_back(in_path_time(readers[i].at(paths[i], clock.time_s()), clock.now()));
     return points;
   }
 };
@@ -134,13 +134,31 @@ TEST(PathClock, ComesToRestFromEveryInstantOfAPath) {
 TEST(PathClock, LeavesTheVelocityOfAPathThatRunsAsItIs) {
   PathClock clock{};
   const PathPoint point{0.3, 1.5, -4.0};
-  const PathPoint same = in_clock_time(point, clock);
+  const PathPoint same = in_path_time(point, clock.now());
   EXPECT_EQ(same.velocity_rad_s, point.velocity_rad_s);
   EXPECT_EQ(same.acceleration_rad_s2, point.acceleration_rad_s2);
   clock.rest();
   clock.advance(kPeriod_s, PathClock::kMostRoom);
-  EXPECT_NEAR(in_clock_time(point, clock).velocity_rad_s, 0.99 * 1.5, 1e-9);
-  EXPECT_NEAR(in_clock_time(point, clock).acceleration_rad_s2, -0.99 * 0.99 * 4.0 - 10.0 * 1.5, 1e-6);
+  EXPECT_NEAR(in_path_time(point, clock.now()).velocity_rad_s, 0.99 * 1.5, 1e-9);
+  EXPECT_NEAR(in_path_time(point, clock.now()).acceleration_rad_s2, -0.99 * 0.99 * 4.0 - 10.0 * 1.5, 1e-6);
+}
+
+TEST(PathTimes, TellWhereTheTimeWasAndThatThePathHadNotBegun) {
+  PathClock clock;
+  PathTimes times;
+  for (int k = 0; k < 300; ++k) {  // more than it keeps
+    clock.advance(1e-3, PathClock::kMostRoom);
+    times.note(clock.now());
+  }
+  EXPECT_EQ(times.ago(0.0).time_s, clock.time_s());
+  EXPECT_NEAR(times.ago(7.25).time_s, clock.time_s() - 7.25e-3, 1e-12);
+  EXPECT_NEAR(times.ago(7.25).rate, 1.0, 1e-12);
+  EXPECT_NEAR(times.ago(1e9).time_s, clock.time_s() - 1e-3 * static_cast<double>(PathTimes::kPeriods - 1),
+              1e-12);
+  PathTimes young;
+  young.note({1e-3, 1.0, 0.0});
+  EXPECT_EQ(young.ago(1.5).time_s, 0.0);
+  EXPECT_EQ(young.ago(1.5).rate, 0.0);
 }
 
 }  // namespace
