@@ -47,8 +47,8 @@ BenchJoint joint_before_a_wall(double stiffness_Nm_rad, bool flexible, OverloadS
       flexible ? controller.link->link_inertia_kgm2 : joint.drive.plant.joint.inertia_kgm2;
   joint.drive.plant.effects.contact = {kWall_rad, stiffness_Nm_rad,
                                        0.2 * std::sqrt(stiffness_Nm_rad * moving_kgm2)};
-  joint.loop.limits.load_Nm = kLoad_Nm;
-  joint.loop.limits.load_notice_Nm = kNotice_Nm;
+  joint.loop.limits.load.load_Nm = kLoad_Nm;
+  joint.loop.limits.load.notice_Nm = kNotice_Nm;
   joint.loop.overload_s = kOverloadPeriods * 1e-3;
   joint.loop.overload_stop = stop;
   return joint;

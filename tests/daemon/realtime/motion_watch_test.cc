@@ -9,7 +9,10 @@ namespace {
 
 class MotionWatchTest : public ::testing::Test {
  protected:
-  MotionWatchTest() : watch_({0.1, 20.0, 15.0, 0.02, 0.5, 0.01}) { watch_.begin(position_rad_, now_ns_); }
+  MotionWatchTest() : watch_({0.1, 0.02, 0.5, 0.01}) {
+    watch_.limit_loads({20.0, 15.0});
+    watch_.begin(position_rad_, now_ns_);
+  }
   Fault judge() { return watch_.judge(motion_, position_rad_, now_ns_ += 1'000'000); }
   /// Periods until the first fault, 0 when none comes in `limit` of them; `each` changes things before.
   template <typename Each>
@@ -77,7 +80,8 @@ TEST_F(MotionWatchTest, AddsUpWhatIsPushedInVainHoweverItIsInterrupted) {
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000, [&] { push(++period % 400 < 200 ? 34.0 : -34.0); }), 500,
               100)
       << "from either side";
-  watch_ = MotionWatch({0.1, 20.0, 15.0, 0.02, 0.5, 0.01});
+  watch_ = MotionWatch({0.1, 0.02, 0.5, 0.01});
+  watch_.limit_loads({20.0, 15.0});
   watch_.begin(position_rad_, now_ns_);
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000,
                             [&] {
@@ -86,7 +90,8 @@ TEST_F(MotionWatchTest, AddsUpWhatIsPushedInVainHoweverItIsInterrupted) {
                             }),
               560, 20)
       << "where readings flicker";
-  watch_ = MotionWatch({0.1, 20.0, 15.0, 0.02, 0.5, 0.01});
+  watch_ = MotionWatch({0.1, 0.02, 0.5, 0.01});
+  watch_.limit_loads({20.0, 15.0});
   watch_.begin(position_rad_, now_ns_);
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000,
                             [&] {
