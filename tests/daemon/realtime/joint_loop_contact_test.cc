@@ -150,6 +150,20 @@ INSTANTIATE_TEST_SUITE_P(OfEveryStiffness, RunsIntoAWall,
                                   (std::get<bool>(instance.param) ? "OnASpring" : "");
                          });
 
+// A tenth of a radian, its following_error_rad, is 17 ms of its way.
+TEST(Contact, AFastJointIsTooFarFromItsOrdersBeforeItsLoadHasLasted) {
+  for (const OverloadStop stop : {OverloadStop::kTorqueOff, OverloadStop::kHoldLoad}) {
+    JointBench bench({joint_before_a_wall(20000.0, false, stop)});
+    bench.bring_to_hold(0);
+    ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kSetpoint,
+                                   .position_rad = 2.0 * kWall_rad,
+                                   .speed_limit_rad_s = 6.0 * kSpeed_rad_s}),
+              Reason::kAccepted);
+    bench.run(1.0);
+    EXPECT_EQ(bench.fault(0), Fault::kFollowingError);
+  }
+}
+
 TEST(Contact, AJointThatYieldsTakesNoSetpointUntilItHolds) {
   JointBench bench({joint_before_a_wall(2000.0, false, OverloadStop::kHoldLoad)});
   bench.bring_to_hold(0);

@@ -153,6 +153,18 @@ TEST_F(MotionWatchTest, BoundsTheLoadOverTime) {
   EXPECT_NEAR(periods_until(Fault::kOverload, 5000, [] {}), 20, 1);
 }
 
+// One push makes both: which is seen first says how far the joint falls behind while the load lasts.
+TEST_F(MotionWatchTest, CallsAPushWhatItIsFirstAndAFollowingErrorWhereItIsBothAtOnce) {
+  const auto falls_behind_by = [&](double each_period_rad, Fault fault) {
+    watch_.begin(position_rad_ = 0.0, now_ns_);
+    motion_.load_Nm = 25.0;
+    return periods_until(fault, 5000, [&] { position_rad_ -= each_period_rad; });
+  };
+  EXPECT_NEAR(falls_behind_by(0.1001 / 19, Fault::kFollowingError), 19, 0);
+  EXPECT_NEAR(falls_behind_by(0.1001 / 21, Fault::kFollowingError), 21, 0) << "at once";
+  EXPECT_NEAR(falls_behind_by(0.1001 / 22, Fault::kOverload), 21, 0);
+}
+
 TEST_F(MotionWatchTest, CallsALoadHighAboveTheNoticeOnly) {
   motion_.load_Nm = -14.9;
   EXPECT_EQ(judge(), Fault::kNone);
