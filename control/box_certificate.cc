@@ -131,6 +131,9 @@ std::optional<std::string> find_outside_box(const GainTable& table, const LinkMo
   if (!holds(box.stiffness_Nm_rad, {least, most}))
     return outside("the stiffness of joint.control.gear", text_of({least, most}),
                    text_of(box.stiffness_Nm_rad) + " N m/rad");
+  if (link.damping_Nms_rad > 0.0 && !box.damping_Nms_rad.holds(link.damping_Nms_rad))
+    return outside("joint.control.damping_Nms_rad", text_of({link.damping_Nms_rad, link.damping_Nms_rad}),
+                   text_of(box.damping_Nms_rad) + " N m s/rad");
   if (delay_periods < box.least_delay || delay_periods > box.most_delay)
     return outside(
         "delay_periods", std::to_string(delay_periods),

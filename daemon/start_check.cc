@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "base/input_error.h"
@@ -14,24 +15,21 @@ namespace strainwave {
 
 namespace {
 
-void check_tables(const DaemonConfig& config, std::ostream& out) {
-  for (const JointConfig& joint : config.joints) {
-    const auto initial = read_initial_table(joint);
-    if (!initial) {
-      out << joint.name << ": no table: it can be enabled once one is loaded\n";
-      continue;
-    }
-    for (const std::string& doubt : initial->doubts) out << "warning: " << doubt << '\n';
-    out << joint.name << ": table '" << initial->table.name.view() << "': " << initial->verdict << '\n';
+void tell_table(const JointConfig& joint, const std::optional<InitialTable>& initial, std::ostream& out) {
+  if (!initial) {
+    out << joint.name << ": no table: it can be enabled once one is loaded\n";
+    return;
   }
+  for (const std::string& doubt : initial->doubts) out << "warning: " << doubt << '\n';
+  out << joint.name << ": table '" << initial->table.name.view() << "': " << initial->verdict << '\n';
 }
 
-void tell_loads(const DaemonConfig& config, std::ostream& out) {
-  for (const JointConfig& joint : config.joints) {
-    const JointLimits& limits = joint.loop.limits;
-    out << joint.name << ": yields to a load above " << limits.load_Nm << " N.m, notice above "
-        << limits.load_notice_Nm << ", torque limit " << joint.loop.controller.torque_limit_Nm << '\n';
-  }
+void tell_loads(const JointConfig& joint, const std::optional<InitialTable>& initial, std::ostream& out) {
+  double torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
+  if (initial) torque_limit_Nm = std::min(torque_limit_Nm, initial->table.torque_limit_Nm);
+  const LoadLimits loads = joint.loop.limits.load.under(torque_limit_Nm);
+  out << joint.name << ": yields to a load above " << loads.load_Nm << " N.m, notice above "
+      << loads.notice_Nm << ", torque limit " << torque_limit_Nm << '\n';
 }
 
 void check_gateway(const DaemonConfig& config, std::ostream& out) {
@@ -53,8 +51,11 @@ bool has_driver(const DaemonConfig& config, std::string_view driver) {
 void check_start(const DaemonConfig& config, std::ostream& out) {
   for (const std::string& warning : config.warnings)
     out << "warning: " << printable_paragraph(warning) << '\n';
-  check_tables(config, out);
-  tell_loads(config, out);
+  for (const JointConfig& joint : config.joints) {
+    const std::optional<InitialTable> initial = read_initial_table(joint);
+    tell_table(joint, initial, out);
+    tell_loads(joint, initial, out);
+  }
   check_gateway(config, out);
   out << "not checked:";
   if (has_driver(config, "can")) out << " drives on CAN (strainwavectl can-check),";

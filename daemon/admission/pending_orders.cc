@@ -36,9 +36,9 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
          << " is not to come any more, it is cycle " << reply.limit << "; from " << reply.limit + 1.0
          << " is allowed";
   else if (kind == OrderKind::kUseTable)
-    text << ": the table's torque_limit_Nm = " << reply.value << " is less than the " << reply.limit
-         << " N.m that hold the joint; at least that is allowed while it holds: disable it first, or load a "
-            "stronger table";
+    text << ": by the table's torque_limit_Nm the joint may carry " << reply.value << " N.m, less than the "
+         << reply.limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "
+         << "or load a stronger table";
   else
     text << ": at_cycle is " << reply.value << " s ahead; at most " << reply.limit << " s are allowed";
   return text.str();

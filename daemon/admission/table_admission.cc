@@ -22,7 +22,8 @@ namespace strainwave {
 namespace {
 
 constexpr double kTolerance = 1e-9;
-// What the structure of any joint damps at least, of critical damping: without it nothing would be stable to the last digit.
+// What the structure of a joint damps at least whose damping nobody knows, of critical damping: without it nothing would be stable to the
+// last digit.
 constexpr double kStructuralDamping = 0.01;
 
 TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const PlantIdentity& plant,
@@ -42,9 +43,10 @@ WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const
   WorstCorner worst;
   for (const double stiffness :
        {link.spring.stiffness_1_Nm_rad, link.spring.stiffness_2_Nm_rad, link.spring.stiffness_3_Nm_rad}) {
-    const double damping = std::max(
-        link.damping_Nms_rad, structural_damping_Nms_rad(link.motor_inertia_kgm2, link.link_inertia_kgm2,
-                                                         stiffness, kStructuralDamping));
+    const double damping = link.damping_Nms_rad > 0.0
+                               ? link.damping_Nms_rad
+                               : structural_damping_Nms_rad(link.motor_inertia_kgm2, link.link_inertia_kgm2,
+                                                            stiffness, kStructuralDamping);
     const SpringBox box{link.motor_inertia_kgm2,
                         {link.link_inertia_kgm2, link.link_inertia_kgm2},
                         {stiffness, stiffness},
@@ -69,6 +71,7 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
        << "; design softer ones with strainwave-design gains --gear " << joint.plant.gear.view()
        << " --motor-inertia_kgm2 " << worst.plant.motor_inertia_kgm2 << " --load-inertia_kgm2 "
        << worst.plant.link_inertia_kgm2 << " --delay " << joint.delay_periods;
+  if (joint.link->damping_Nms_rad > 0.0) text << " --damping_Nms_rad " << joint.link->damping_Nms_rad;
   return {Reason::kTableNotCertified, text.str()};
 }
 

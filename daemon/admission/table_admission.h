@@ -27,8 +27,8 @@ struct ExpectedJoint {
 };
 
 /// Judges `table` for a joint that is `expected`. The certificates are recomputed here, never taken on trust: that of the one inertia, and
-/// where the table carries a box that of every joint with a spring in it. A joint that is told of its spring must be in the box, and is
-/// refused, too, where its link swings up with the damping that is the least of any joint's.
+/// where the table carries a box that of every joint with a spring in it. A joint that is told of its spring must be in the box, by its
+/// damping only where it is told of that, and is refused, too, where its link swings up: with that damping, or the least of any joint's.
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& expected);
 
 /// The same in two parts: all but the box's proof, which takes milliseconds, and that proof, which may take seconds. A rigid table has

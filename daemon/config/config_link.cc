@@ -13,6 +13,8 @@ namespace {
 
 // A link this light beside the motor follows it: a rigid joint.
 constexpr double kLeastShare = 1e-3;
+// Of critical damping: so far the planned motion allows for it (tests/control/link_motion_test.cc); gears have a tenth of it.
+constexpr double kMostDamping = 0.5;
 
 const Gear& named_gear(TomlSection& section, const PlantIdentity& plant) {
   const Gear* gear = find_gear(section.text("gear"));
@@ -40,7 +42,8 @@ void read_gravity(TomlSection& section, JointControllerConfig& controller) {
 void read_link(TomlSection& section, PlantIdentity& plant, JointControllerConfig& controller) {
   read_gravity(section, controller);
   if (!section.has("gear")) {
-    if (section.has("load_inertia_kgm2")) section.fail("load_inertia_kgm2", "it is allowed only with a gear");
+    for (const char* key : {"load_inertia_kgm2", "damping_Nms_rad"})
+      if (section.has(key)) section.fail(key, "it is allowed only with a gear");
     return;
   }
   if (controller.rigid) section.fail("gear", "it is allowed only without rigid = true: a gear is a spring");
@@ -53,6 +56,10 @@ void read_link(TomlSection& section, PlantIdentity& plant, JointControllerConfig
   link.link_inertia_kgm2 =
       section.number("load_inertia_kgm2", {kLeastShare * total_kgm2, (1.0 - kLeastShare) * total_kgm2});
   link.motor_inertia_kgm2 = total_kgm2 - link.link_inertia_kgm2;
+  link.damping_Nms_rad =
+      section.number_or("damping_Nms_rad", 0.0,
+                        {0.0, structural_damping_Nms_rad(link.motor_inertia_kgm2, link.link_inertia_kgm2,
+                                                         link.spring.stiffness_1_Nm_rad, kMostDamping)});
   controller.link = link;
 }
 

@@ -64,8 +64,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
       inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
                 config.controller.delay_periods}),
       motion_watch_(
-          {config.limits.following_error_rad, config.limits.load_Nm, config.limits.load_notice_Nm,
-           config.overload_s, config.blocked_s, config.standstill_rad_s,
+          {config.limits.following_error_rad, config.overload_s, config.blocked_s, config.standstill_rad_s,
            std::max(config.rest_tolerance_rad, kCountsOffTarget * config.controller.encoder_resolution_rad)}),
       held_{config.initial_load_Nm, {}} {
   record_.joint_index = index;

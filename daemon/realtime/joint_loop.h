@@ -16,6 +16,7 @@
 #include "daemon/realtime/homing.h"
 #include "daemon/realtime/joint_mode.h"
 #include "daemon/realtime/joint_zero.h"
+#include "daemon/realtime/load_limits.h"
 #include "daemon/realtime/motion_watch.h"
 #include "daemon/realtime/ordered_target.h"
 #include "daemon/realtime/orders.h"
@@ -37,8 +38,7 @@ struct JointLimits {
   double overspeed_rad_s = 0.0;      ///< fault
   double following_error_rad = 0.0;  ///< fault: |what the orders make of the reference - position|
   double temperature_limit_C = 0.0;  ///< fault above
-  double load_Nm = 0.0;              ///< the joint yields: a larger load shows for overload_s
-  double load_notice_Nm = std::numeric_limits<double>::infinity();  ///< notice: a larger load shows
+  LoadLimitConfig load;              ///< the joint yields to a larger load
 };
 
 /// What becomes of a joint that yields to a load.

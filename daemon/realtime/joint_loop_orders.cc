@@ -85,10 +85,15 @@ Ruling JointLoop::use_table(const TableSlot& slot) noexcept {
   const bool at_standstill = mode_.is(Mode::kHolding);
   if (!at_rest() && !at_standstill) return Reason::kMoving;
   const GainTable& table = slot.table;
-  // Less torque than the joint needs to stay where it is would let it fall.
+  // Less torque than the joint needs to stay where it is would let it fall, and so would a lower limit of the load that it yields to.
   const double holds_Nm = std::abs(motion_.output.torque_Nm);
   if (mode_.controlled() && holds_Nm > table.torque_limit_Nm)
     return {Reason::kOutOfRange, table.torque_limit_Nm, holds_Nm};
+  const LoadLimits loads =
+      config_.limits.load.under(std::min(table.torque_limit_Nm, config_.controller.torque_limit_Nm));
+  if (mode_.controlled() && std::abs(motion_.load_Nm) > loads.load_Nm)
+    return {Reason::kOutOfRange, loads.load_Nm, std::abs(motion_.load_Nm)};
+  motion_watch_.limit_loads(loads);
   controller_.load(table);
   table_ = &slot;
   // A table with a box is for joints of other inertias than the one that it is designed for.

@@ -80,7 +80,7 @@ void JointLoop::stop_overloaded(const CycleTime& time) noexcept {
   if (!may_hold || controller_.yields()) return raise_fault(Fault::kOverload, time);
   ordered_.end();
   drop_path();
-  controller_.yield(motion_watch_.usual_load_Nm(), config_.limits.load_notice_Nm);
+  controller_.yield(motion_watch_.usual_load_Nm(), motion_watch_.loads().notice_Nm);
 }
 
 }  // namespace strainwave

@@ -100,12 +100,12 @@ bool MotionWatch::planned_too_often(int replans, std::int64_t now_ns) noexcept {
 
 bool MotionWatch::overloaded(const JointStep& motion, std::int64_t now_ns) noexcept {
   const double load_Nm = motion.load_Nm;
-  high_load_ = std::abs(load_Nm) > config_.load_notice_Nm;
+  high_load_ = std::abs(load_Nm) > loads_.notice_Nm;
   const double share = std::min(1.0, seconds(now_ns - judged_ns_) / kUsualLoad_s);
   judged_ns_ = now_ns;
   if (!high_load_) usual_load_Nm_ += share * (load_Nm - usual_load_Nm_);
   const bool yields = motion.phase == MotionPhase::kYielding;
-  if (yields || std::abs(load_Nm) <= config_.load_Nm) light_ns_ = now_ns;
+  if (yields || std::abs(load_Nm) <= loads_.load_Nm) light_ns_ = now_ns;
   if (!yields) yields_since_ns_ = now_ns;
   return seconds(now_ns - light_ns_) > config_.overload_s ||
          seconds(now_ns - yields_since_ns_) > kLongestYield_s;

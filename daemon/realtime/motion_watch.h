@@ -7,7 +7,7 @@
 //                time that it was otherwise is forgotten                                             -> kBlocked
 //   replanned    more than kReplans new plans within a second                                        -> kBlocked
 //   load         |load that shows| > load_Nm for overload_s, or a joint yields for 0.5 s             -> kOverload
-//   high load    |load that shows| > load_notice_Nm                                                  no fault, a notice
+//   high load    |load that shows| > notice_Nm                                                       no fault, a notice
 //   off target   |place to hold - position| > rest_tolerance_rad for kOffTarget_s                    no fault, a notice
 #pragma once
 
@@ -15,14 +15,13 @@
 
 #include "base/durations.h"
 #include "control/joint_controller.h"
+#include "daemon/realtime/load_limits.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {
 
 struct MotionWatchConfig {
   double following_error_rad = 0.0;  ///< > 0
-  double load_Nm = 0.0;              ///< > 0
-  double load_notice_Nm = 0.0;       ///< > 0
   double overload_s = 0.02;          ///< >= 0
   double blocked_s = 0.5;            ///< > 0
   double progress_rad_s = 0.01;      ///< > 0; slower is no progress
@@ -33,6 +32,9 @@ class MotionWatch {
  public:
   explicit MotionWatch(const MotionWatchConfig& config) noexcept : config_(config) {}
 
+  /// Before the control law begins, and with every table.
+  void limit_loads(const LoadLimits& loads) noexcept { loads_ = loads; }
+  const LoadLimits& loads() const noexcept { return loads_; }
   /// The control law begins: nothing is remembered but how long the joint was pushed in vain.
   void begin(double joint_position_rad, std::int64_t now_ns) noexcept;
   /// One period under control. The fault that it makes, or kNone.
@@ -53,6 +55,7 @@ class MotionWatch {
   bool overloaded(const JointStep& motion, std::int64_t now_ns) noexcept;
 
   MotionWatchConfig config_;
+  LoadLimits loads_;
   double pushed_s_ = 0.0;  ///< of this span, at the torque limit; of the torque's sign
   double in_vain_s_ = 0.0;
   double span_from_rad_ = 0.0;     ///< where the joint was when the span began

@@ -61,7 +61,7 @@ TEST_F(BlockedJoint, FaultsWithinASecondHoweverItIsStreamedTo) {
 TEST_F(BlockedJoint, FaultsByItsTorqueWhereNoFollowingErrorIsLargeEnough) {
   BenchJoint joint = jammed_joint();
   joint.loop.limits.following_error_rad = 10.0;
-  joint.loop.limits.load_Nm = 1e3;  // nor its load too large, which would end it sooner
+  joint.loop.limits.load.load_Nm = 1e3;  // nor its load too large, which would end it sooner
   JointBench bench({joint});
   bench.bring_to_hold(0);
   let_counts_flicker(bench);
@@ -82,7 +82,7 @@ TEST_F(BlockedJoint, FaultsHoweverTheOrdersToPushAreInterrupted) {
   for (const Between between : {Between::kMoveBack, Between::kHold, Between::kEnable}) {
     BenchJoint joint = jammed_joint();
     joint.loop.limits.following_error_rad = 10.0;
-    joint.loop.limits.load_Nm = 1e3;
+    joint.loop.limits.load.load_Nm = 1e3;
     JointBench bench({joint});
     bench.bring_to_hold(0);
     let_counts_flicker(bench);

@@ -205,6 +205,16 @@ TEST(BoxCertificate, HoldsJointsUpToItsEdgesAndNamesWhatIsOutside) {
   LinkModel stiff = joint_with(link.to);
   stiff.spring = stiff.spring.scaled(1.01);
   names(stiff, delay, "stiffness");
+  LinkModel damped = joint_with(link.to);
+  for (const double within : {table.box.damping_Nms_rad.from, table.box.damping_Nms_rad.to}) {
+    damped.damping_Nms_rad = within;
+    EXPECT_EQ(find_outside_box(table, damped, delay), std::nullopt) << within;
+  }
+  for (const double without :
+       {0.99 * table.box.damping_Nms_rad.from, 1.01 * table.box.damping_Nms_rad.to, 1e-6}) {
+    damped.damping_Nms_rad = without;
+    names(damped, delay, "joint.control.damping_Nms_rad");
+  }
   GainTable rigid = table;
   rigid.box = {};
   EXPECT_NE(find_outside_box(rigid, joint_with(link.to), delay).value_or("").find("rigid joint"),

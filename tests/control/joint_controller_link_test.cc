@@ -192,6 +192,24 @@ TEST(JointControllerWithLink, TakesNoDampingThatItWasNotToldOfForChatter) {
     }
 }
 
+// One that is told of none plans the swing of a spring that nobody damps.
+TEST(JointControllerWithLink, OvershootsLessWhereItIsToldOfTheDamping) {
+  for (const double ratio : {0.02, 0.03, 0.1})
+    for (const double target : {0.001, 0.01, 0.1, 1.0}) {
+      JointPlantConfig plant = plant_with(0.267);
+      JointPlantConfig told = plant;
+      plant.effects.transmission->damping_Nms_rad = structural_damping_Nms_rad(0.089, 0.267, 8100.0, ratio);
+      told.effects.transmission->damping_Nms_rad = 0.0;
+      Loop without(plant, told, 20.0);
+      const double untold_rad = move(without, target).overshoot_rad;
+      Loop with(plant, plant, 20.0);
+      const double told_rad = move(with, target).overshoot_rad;
+      std::printf("%g %% damping, %g rad: overshoot %.4f mrad untold, %.4f mrad told\n", 100.0 * ratio,
+                  target, 1e3 * untold_rad, 1e3 * told_rad);
+      EXPECT_LT(told_rad, ratio < 0.1 ? 0.9 * untold_rad : 0.6 * untold_rad) << ratio << " " << target;
+    }
+}
+
 TEST(JointControllerWithLink, CorrectsFromRestAndIsNotSupervisedByItsCorrections) {
   JointPlantConfig plant = plant_with(0.089);
   const JointPlantConfig told = plant;

@@ -33,7 +33,9 @@ BenchJoint demo_joint() {
   controller.rigid = true;
   controller.use_observer = true;
   controller.use_landing = true;
-  joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0, kReferencePeakTorque_Nm};
+  joint.loop.limits = {-3.2, 3.2, 0.05, 7.6, 0.1, 80.0, {}};
+  joint.loop.limits.load.load_Nm = kReferencePeakTorque_Nm;
+  joint.loop.limits.load.notice_Nm = kReferencePeakTorque_Nm;
   return joint;
 }
 

@@ -97,7 +97,7 @@ class DaemonOnASpring : public DaemonTest {
 
 class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
  protected:
-  /// `told`: both controllers are told of gear and load, and take a table that is certified on them.
+  /// `told`: both controllers are told of gear, load and damping, and take a table that is certified on them.
   void expect_the_same(bool told) {
     const GainTable table = read_gain_table(programs_folder() / (told ? "csf-17-50.json" : "c4.json"));
     const double link_kgm2 = table.plant.inertia_kgm2 - 0.089;
@@ -106,9 +106,10 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
         "gear = \"csf-17-50\"\n" + joint_with_a_link("", link_kgm2, damping_Nms_rad), "plant");
     ExtendedFeatures features = daemon_defaults();
     features.link = told;
-    // No configuration of a daemon tells the damping.
-    JointPlantConfig configured_plant = plant;
-    configured_plant.effects.transmission->damping_Nms_rad = 0.0;
+    const std::string control =
+        told ? "gear = \"csf-17-50\"\nload_inertia_kgm2 = " + std::to_string(link_kgm2) +
+                   "\ndamping_Nms_rad = " + std::to_string(damping_Nms_rad) + "\n"
+             : "";
     for (const double step_rad : {0.01, 0.1, 1.0}) {
       ClosedLoopConfig config;
       config.plant = plant;
@@ -117,18 +118,16 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
       config.duration_s = kSamples * plant.period_s;
       Figures study;
       for (const TracePoint& point :
-           run_closed_loop(config, *extended_contender("daemon", table, features).make(configured_plant))
-               .trace)
+           run_closed_loop(config, *extended_contender("daemon", table, features).make(plant)).trace)
         study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
 
-      enable(configured(
-                 table.plant.inertia_kgm2,
-                 "speed_limit_rad_s = 1000\nmove_speed_share = 1\noverspeed_rad_s = "
-                 "1000\nacceleration_rad_s2 = 1e6\n"
-                 "following_error_rad = 10\n",
-                 told ? "gear = \"csf-17-50\"\nload_inertia_kgm2 = " + std::to_string(link_kgm2) + "\n" : "",
-                 "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
-                     joint_with_a_link("joint.simulated.", link_kgm2, damping_Nms_rad)),
+      enable(configured(table.plant.inertia_kgm2,
+                        "speed_limit_rad_s = 1000\nmove_speed_share = 1\noverspeed_rad_s = "
+                        "1000\nacceleration_rad_s2 = 1e6\n"
+                        "following_error_rad = 10\n",
+                        control,
+                        "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
+                            joint_with_a_link("joint.simulated.", link_kgm2, damping_Nms_rad)),
              table);
       if (HasFatalFailure()) return;
       Figures daemon;

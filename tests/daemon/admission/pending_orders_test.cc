@@ -109,7 +109,7 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding, 86400123.0, 86400124.0}),
                   {"at_cycle = 86400123", "it is cycle 86400124", "from 86400125"});
   expect_mentions(refusal(OrderKind::kUseTable, {0, Reason::kOutOfRange, Mode::kHolding, 8.0, 12.5}),
-                  {"torque_limit_Nm = 8", "12.5 N.m", "at least"});
+                  {"the table's torque_limit_Nm", "may carry 8 N.m", "12.5 N.m", "at least"});
 }
 
 TEST_F(PendingOrdersTest, ThatWaitedTooLongAreNotSaidToBeForAnotherCycle) {

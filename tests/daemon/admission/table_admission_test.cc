@@ -127,12 +127,21 @@ class TableAdmissionOnASpring : public ::testing::Test {
   GainTable table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
 
   /// On a joint that is told of its gear, csf-17-50, and a link.
-  TableVerdict judge(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089,
-                     EncoderSide side = EncoderSide::kMotor) const {
+  ExpectedJoint joint_of(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089,
+                         EncoderSide side = EncoderSide::kMotor) const {
     PlantIdentity plant = table_.plant;
     plant.inertia_kgm2 = motor_kgm2 + link_kgm2;
     const LinkModel link{motor_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
-    return judge_table(table_, {plant, table_.torque_limit_Nm, link, delay_periods, side});
+    return {plant, table_.torque_limit_Nm, link, delay_periods, side};
+  }
+  TableVerdict judge(double link_kgm2, int delay_periods, double motor_kgm2 = 0.089,
+                     EncoderSide side = EncoderSide::kMotor) const {
+    return judge_table(table_, joint_of(link_kgm2, delay_periods, motor_kgm2, side));
+  }
+  TableVerdict judge_damped(double damping_Nms_rad, double link_kgm2, int delay_periods) const {
+    ExpectedJoint joint = joint_of(link_kgm2, delay_periods);
+    joint.link->damping_Nms_rad = damping_Nms_rad;
+    return judge_table_but_box(table_, joint);
   }
   void expect_outside(const TableVerdict& verdict, const char* quantity) const {
     EXPECT_EQ(verdict.reason, Reason::kTableIdentity) << verdict.text;
@@ -179,6 +188,26 @@ TEST_F(TableAdmissionOnASpring, RefusesAJointOnePerCentOutsideTheBoxWithQuantity
   expect_outside(judge(0.0495, 1), "load_inertia_kgm2 = 0.0495");
   expect_outside(judge(0.1, 1, 0.0899), "= 0.0899");
   expect_outside(judge(0.1, table_.box.most_delay + 1), "delay_periods");
+}
+
+TEST_F(TableAdmissionOnASpring, RefusesAJointThatIsToldOfADampingOutsideTheBox) {
+  for (const double allowed_Nms_rad : {0.0, 0.8, 1.2})
+    EXPECT_EQ(judge_damped(allowed_Nms_rad, 0.1, 1).reason, Reason::kAccepted) << allowed_Nms_rad;
+  expect_outside(judge_damped(0.5, 0.1, 1),
+                 "joint.control.damping_Nms_rad = 0.5: the table is certified for 0.8..1.2 N m s/rad");
+  expect_outside(judge_damped(1.21, 0.1, 1), "joint.control.damping_Nms_rad = 1.21");
+}
+
+// With half of its lead the table drives the swing of a light link that is hardly damped.
+TEST_F(TableAdmissionOnASpring, ReckonsWithTheDampingThatTheJointIsToldOf) {
+  table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
+  table_.box.lead_periods = 1.0;
+  EXPECT_EQ(judge_damped(0.0, 0.05, 2).reason, Reason::kAccepted) << "1 % of critical: 0.3 N m s/rad";
+  EXPECT_EQ(judge_damped(2.0, 0.05, 2).reason, Reason::kAccepted);
+  const TableVerdict swings = judge_damped(0.1, 0.05, 2);
+  EXPECT_EQ(swings.reason, Reason::kTableNotCertified);
+  EXPECT_NE(swings.text.find("damping 0.1"), std::string::npos) << swings.text;
+  EXPECT_NE(swings.text.find("--damping_Nms_rad 0.1"), std::string::npos) << swings.text;
 }
 
 TEST_F(TableAdmissionOnASpring, RefusesATableOfARigidJoint) {

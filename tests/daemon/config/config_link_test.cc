@@ -26,6 +26,35 @@ TEST_F(LinkConfigTest, WithoutAGearThereIsNoLink) {
   EXPECT_FALSE(read(joint_with("rigid = false")).joints.front().loop.controller.link.has_value());
 }
 
+TEST_F(LinkConfigTest, TheSpringsDampingIsToldWithAGearUpToHalfOfCriticalAndElseNotKnown) {
+  const std::string link = "gear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1";
+  const auto damping_Nms_rad = [&](const std::string& text) {
+    return read(text).joints.front().loop.controller.link->damping_Nms_rad;
+  };
+  EXPECT_EQ(damping_Nms_rad(joint_with(link)), 0.0);
+  EXPECT_EQ(damping_Nms_rad(joint_with(link + "\ndamping_Nms_rad = 0.8")), 0.8);
+  EXPECT_EQ(damping_Nms_rad(joint_with(link + "\ndamping_Nms_rad = 19.5")), 19.5);
+  // Half of 2 sqrt(K / (1 / Jm + 1 / Jl)), K the gear's first slope.
+  expect_mentions(error_of(joint_with(link + "\ndamping_Nms_rad = 19.6")),
+                  {"joint[0].control.damping_Nms_rad = 19.6", "from 0 to 19.53"});
+  expect_mentions(error_of(joint_with(link + "\ndamping_Nms_rad = -1.0")),
+                  {"joint[0].control.damping_Nms_rad = -1", "from 0"});
+  expect_mentions(error_of(joint_with("damping_Nms_rad = 0.8")),
+                  {"joint[0].control.damping_Nms_rad", "only with a gear"});
+}
+
+// As gear and load it is the joint's, which [joint.control] alone tells: a simulated one may so be another than is told.
+TEST_F(LinkConfigTest, ASimulatedSpringsDampingIsNotToldByItself) {
+  const std::string text = joint_with("gear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1") +
+                           "\ngear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n"
+                           "[joint.simulated.link]\ninertia_kgm2 = 0.1\n"
+                           "[joint.simulated.spring]\ndamping_Nms_rad = 0.8\n";
+  const DaemonConfig config = read(text);
+  const JointConfig& joint = config.joints.front();
+  EXPECT_EQ(std::get<SimulatedDrive>(joint.drive).actuator.plant.effects.transmission->damping_Nms_rad, 0.8);
+  EXPECT_EQ(joint.loop.controller.link->damping_Nms_rad, 0.0);
+}
+
 TEST_F(LinkConfigTest, AWeightIsToldWithOrWithoutAGearAndOnlyWhereNothingElseFindsIt) {
   const std::string weight = "gravity_Nm = 3.0\ngravity_zero_rad = -0.5";
   for (const std::string& rest :

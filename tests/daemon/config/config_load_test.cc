@@ -12,13 +12,16 @@ class LoadConfigTest : public ConfigFileTest {
     return replaced(replaced(example("demo.toml"), "acceleration_rad_s2 = 30 ", limits + "\n#"),
                     "rigid = true ", control + "\n#");
   }
-  JointLimits limits_of(const std::string& text) { return read(text).joints.front().loop.limits; }
+  LoadLimits limits_of(const std::string& text) {
+    const JointLoopConfig loop = read(text).joints.front().loop;
+    return loop.limits.load.under(loop.controller.torque_limit_Nm);
+  }
 };
 
 TEST_F(LoadConfigTest, IsWhatTheTorqueLimitLeavesAJointThatAccelerates) {
-  const JointLimits limits = limits_of(joint_with("acceleration_rad_s2 = 150"));
+  const LoadLimits limits = limits_of(joint_with("acceleration_rad_s2 = 150"));
   EXPECT_NEAR(limits.load_Nm, 34.0 - 0.089 * 150.0, 1e-12);
-  EXPECT_NEAR(limits.load_notice_Nm, 0.8 * limits.load_Nm, 1e-12);
+  EXPECT_NEAR(limits.notice_Nm, 0.8 * limits.load_Nm, 1e-12);
 }
 
 TEST_F(LoadConfigTest, CountsTheHarderOfAccelerationAndDeceleration) {
@@ -54,10 +57,10 @@ TEST_F(LoadConfigTest, IsAQuarterAboveWhatTheJointIsToldToCarryOrToPressWith) {
 }
 
 TEST_F(LoadConfigTest, IsWhatTheConfigurationSaysWhereItSaysIt) {
-  const JointLimits limits = limits_of(joint_with("acceleration_rad_s2 = 150\nload_Nm = 40"));
+  const LoadLimits limits = limits_of(joint_with("acceleration_rad_s2 = 150\nload_Nm = 40"));
   EXPECT_EQ(limits.load_Nm, 40.0);
-  EXPECT_EQ(limits.load_notice_Nm, 32.0);
-  EXPECT_EQ(limits_of(joint_with("acceleration_rad_s2 = 150\nload_notice_Nm = 5")).load_notice_Nm, 5.0);
+  EXPECT_EQ(limits.notice_Nm, 32.0);
+  EXPECT_EQ(limits_of(joint_with("acceleration_rad_s2 = 150\nload_notice_Nm = 5")).notice_Nm, 5.0);
   expect_mentions(error_of(joint_with("acceleration_rad_s2 = 150\nload_notice_Nm = 21")),
                   {"limits.load_notice_Nm = 21", "20.65"});
   expect_mentions(error_of(joint_with("acceleration_rad_s2 = 150\nload_Nmm = 21")), {"load_Nmm", "load_Nm"});

@@ -112,7 +112,7 @@ TEST_F(ConfigTest, SaysWhenALoadIsHighAndHowTheJointYields) {
     return replaced(kSound, "torque_limit_Nm = 34", "torque_limit_Nm = 34\n" + keys);
   };
   const JointLoopConfig loop = read(limits("load_Nm = 20")).joints[0].loop;
-  EXPECT_EQ(loop.limits.load_notice_Nm, 16.0);
+  EXPECT_EQ(loop.limits.load.under(34.0).notice_Nm, 16.0);
   EXPECT_EQ(loop.overload_stop, OverloadStop::kTorqueOff);
   EXPECT_EQ(read(limits("on_overload = \"hold_load\"")).joints[0].loop.overload_stop,
             OverloadStop::kHoldLoad);

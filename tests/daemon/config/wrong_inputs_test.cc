@@ -454,8 +454,19 @@ TEST_F(WrongInput, ATorqueLimitBelowTheTablesIsToldWithWhatThenHolds) {
   write(file_, text, "gear_ratio = 50\n", "gear_ratio = 50\ntable = \"t.json\"\n");
   const Ended ended = check();
   EXPECT_EQ(ended.status, 0) << ended.said;
-  for (const char* part :
-       {"torque limit 3.4 N.m, joint.limits.torque_limit_Nm, below the table's 34", "will not move there"})
+  for (const char* part : {"torque limit 3.4 N.m, joint.limits.torque_limit_Nm, below the table's 34",
+                           "will not move there", "yields to a load above 1.7 N.m"})
+    EXPECT_NE(ended.said.find(part), std::string::npos) << part << "\n" << ended.said;
+}
+
+TEST_F(WrongInput, ATableWithLessTorqueThanTheJointIsToldWithTheLoadThatThenHolds) {
+  const std::string shipped = text_of(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
+  write(table_, shipped, "\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": 20.0");
+  write_joint_with("table = \"t.json\"");
+  const Ended ended = check();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  for (const char* part : {"torque limit 20 N.m, the table's, below joint.limits.torque_limit_Nm = 34",
+                           "yields to a load above 10 N.m, notice above 8, torque limit 20"})
     EXPECT_NE(ended.said.find(part), std::string::npos) << part << "\n" << ended.said;
 }
 

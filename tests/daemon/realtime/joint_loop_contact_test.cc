@@ -47,8 +47,8 @@ BenchJoint joint_before_a_wall(double stiffness_Nm_rad, bool flexible, OverloadS
       flexible ? controller.link->link_inertia_kgm2 : joint.drive.plant.joint.inertia_kgm2;
   joint.drive.plant.effects.contact = {kWall_rad, stiffness_Nm_rad,
                                        0.2 * std::sqrt(stiffness_Nm_rad * moving_kgm2)};
-  joint.loop.limits.load_Nm = kLoad_Nm;
-  joint.loop.limits.load_notice_Nm = kNotice_Nm;
+  joint.loop.limits.load.load_Nm = kLoad_Nm;
+  joint.loop.limits.load.notice_Nm = kNotice_Nm;
   joint.loop.overload_s = kOverloadPeriods * 1e-3;
   joint.loop.overload_stop = stop;
   return joint;
@@ -149,6 +149,20 @@ INSTANTIATE_TEST_SUITE_P(OfEveryStiffness, RunsIntoAWall,
                            return std::to_string(static_cast<int>(std::get<double>(instance.param))) +
                                   (std::get<bool>(instance.param) ? "OnASpring" : "");
                          });
+
+// A tenth of a radian, its following_error_rad, is 17 ms of its way.
+TEST(Contact, AFastJointIsTooFarFromItsOrdersBeforeItsLoadHasLasted) {
+  for (const OverloadStop stop : {OverloadStop::kTorqueOff, OverloadStop::kHoldLoad}) {
+    JointBench bench({joint_before_a_wall(20000.0, false, stop)});
+    bench.bring_to_hold(0);
+    ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kSetpoint,
+                                   .position_rad = 2.0 * kWall_rad,
+                                   .speed_limit_rad_s = 6.0 * kSpeed_rad_s}),
+              Reason::kAccepted);
+    bench.run(1.0);
+    EXPECT_EQ(bench.fault(0), Fault::kFollowingError);
+  }
+}
 
 TEST(Contact, AJointThatYieldsTakesNoSetpointUntilItHolds) {
   JointBench bench({joint_before_a_wall(2000.0, false, OverloadStop::kHoldLoad)});

@@ -29,8 +29,7 @@ BenchJoint with_usual_load(BenchJoint joint, double inertia_kgm2) {
   JointConfig configured;
   configured.loop = joint.loop;
   configured.plant.inertia_kgm2 = inertia_kgm2;
-  joint.loop.limits.load_Nm = usual_load_limit_Nm(configured);
-  joint.loop.limits.load_notice_Nm = 0.8 * joint.loop.limits.load_Nm;
+  joint.loop.limits.load = {{}, {}, usual_load(configured)};
   return joint;
 }
 
@@ -47,10 +46,10 @@ BenchJoint on_a_spring(const JointPlantConfig& plant, bool told) {
   return joint;
 }
 
-/// A hand that leans on a joint that holds, with 10 N.m more each second.
-void lean_on(const BenchJoint& joint, const GainTable& table, const char* name) {
-  const double load_Nm = joint.loop.limits.load_Nm;
-  const double torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
+/// A hand that leans on a joint that holds, with 10 N.m more each second. The largest torque as a share of the limit that holds.
+double lean_on(const BenchJoint& joint, const GainTable& table, const char* name) {
+  const double torque_limit_Nm = std::min(joint.loop.controller.torque_limit_Nm, table.torque_limit_Nm);
+  const double load_Nm = joint.loop.limits.load.under(torque_limit_Nm).load_Nm;
   JointBench bench({joint});
   bench.bring_to_hold(0, table);
   double largest_Nm = 0.0;
@@ -69,15 +68,49 @@ void lean_on(const BenchJoint& joint, const GainTable& table, const char* name) 
   EXPECT_EQ(bench.fault(0), Fault::kOverload) << name;
   EXPECT_NEAR(push_Nm, load_Nm, 3.0) << name << ": but for friction, which holds as well";
   EXPECT_NEAR(noticed_Nm, 0.8 * load_Nm, 3.0) << name;
-  EXPECT_LT(largest_Nm, 0.9 * torque_limit_Nm) << name;
+  EXPECT_LT(push_Nm, 0.9 * torque_limit_Nm) << name;
+  return largest_Nm / torque_limit_Nm;
 }
 
 TEST(UsualLoad, LetsAJointGoOfAPushThatGrowsSlowly) {
-  lean_on(with_usual_load(demo_joint(), kMotor_kgm2), demo_table(), "rigid");
+  EXPECT_LT(lean_on(with_usual_load(demo_joint(), kMotor_kgm2), demo_table(), "rigid"), 0.9);
   const double total_kgm2 = 2.0 * kMotor_kgm2;
   for (const bool told : {false, true})
-    lean_on(with_usual_load(on_a_spring(flexible_plant(), told), total_kgm2), spring_table(total_kgm2),
-            told ? "spring as told" : "spring that nobody tells of");
+    EXPECT_LT(lean_on(with_usual_load(on_a_spring(flexible_plant(), told), total_kgm2),
+                      spring_table(total_kgm2), told ? "spring as told" : "spring that nobody tells of"),
+              0.9);
+}
+
+GainTable demo_table_with(double torque_limit_Nm) {
+  GainTable table = demo_table();
+  table.torque_limit_Nm = torque_limit_Nm;
+  return table;
+}
+
+// What the joint's own limit leaves, 20.65 N.m, would be more than the table lets it press with. The pushes back to a lost count are up to all
+// of the torque, for a period each.
+TEST(UsualLoad, IsThatOfATableWithLessTorqueThanTheJoint) {
+  (void)lean_on(with_usual_load(demo_joint(), kMotor_kgm2), demo_table_with(20.0), "table of 20 N.m");
+}
+
+TEST(UsualLoad, FollowsTheTableThatComesLater) {
+  JointBench bench({with_usual_load(demo_joint(), kMotor_kgm2)});
+  bench.bring_to_hold(0, demo_table_with(20.0));
+  const auto load = [&](std::size_t slot, double torque_limit_Nm) {
+    bench.joint(0).table_slot(slot) = {demo_table_with(torque_limit_Nm), 2};
+    return bench.order(0, Order{.kind = OrderKind::kUseTable, .table_slot = static_cast<int>(slot)});
+  };
+  const auto fault_of_push = [&](double push_Nm) {
+    bench.drive(0).simulated().set_load_torque_Nm(push_Nm);
+    bench.run(1.0);
+    return bench.fault(0);
+  };
+  ASSERT_EQ(load(1, 34.0), Reason::kAccepted);
+  EXPECT_EQ(fault_of_push(14.0), Fault::kNone) << "10 N.m are for the table before";
+  EXPECT_EQ(load(2, 20.0), Reason::kOutOfRange) << "the joint would fall";
+  EXPECT_EQ(fault_of_push(0.0), Fault::kNone);
+  ASSERT_EQ(load(2, 20.0), Reason::kAccepted);
+  EXPECT_EQ(fault_of_push(14.0), Fault::kOverload);
 }
 
 struct Shown {

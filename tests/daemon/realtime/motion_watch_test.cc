@@ -9,7 +9,10 @@ namespace {
 
 class MotionWatchTest : public ::testing::Test {
  protected:
-  MotionWatchTest() : watch_({0.1, 20.0, 15.0, 0.02, 0.5, 0.01}) { watch_.begin(position_rad_, now_ns_); }
+  MotionWatchTest() : watch_({0.1, 0.02, 0.5, 0.01}) {
+    watch_.limit_loads({20.0, 15.0});
+    watch_.begin(position_rad_, now_ns_);
+  }
   Fault judge() { return watch_.judge(motion_, position_rad_, now_ns_ += 1'000'000); }
   /// Periods until the first fault, 0 when none comes in `limit` of them; `each` changes things before.
   template <typename Each>
@@ -77,7 +80,8 @@ TEST_F(MotionWatchTest, AddsUpWhatIsPushedInVainHoweverItIsInterrupted) {
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000, [&] { push(++period % 400 < 200 ? 34.0 : -34.0); }), 500,
               100)
       << "from either side";
-  watch_ = MotionWatch({0.1, 20.0, 15.0, 0.02, 0.5, 0.01});
+  watch_ = MotionWatch({0.1, 0.02, 0.5, 0.01});
+  watch_.limit_loads({20.0, 15.0});
   watch_.begin(position_rad_, now_ns_);
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000,
                             [&] {
@@ -86,7 +90,8 @@ TEST_F(MotionWatchTest, AddsUpWhatIsPushedInVainHoweverItIsInterrupted) {
                             }),
               560, 20)
       << "where readings flicker";
-  watch_ = MotionWatch({0.1, 20.0, 15.0, 0.02, 0.5, 0.01});
+  watch_ = MotionWatch({0.1, 0.02, 0.5, 0.01});
+  watch_.limit_loads({20.0, 15.0});
   watch_.begin(position_rad_, now_ns_);
   EXPECT_NEAR(periods_until(Fault::kBlocked, 5000,
                             [&] {
@@ -146,6 +151,18 @@ TEST_F(MotionWatchTest, BoundsTheLoadOverTime) {
   EXPECT_EQ(periods_until(Fault::kNone, 5000, [] {}), 0);
   motion_.load_Nm = -20.1;
   EXPECT_NEAR(periods_until(Fault::kOverload, 5000, [] {}), 20, 1);
+}
+
+// One push makes both: which is seen first says how far the joint falls behind while the load lasts.
+TEST_F(MotionWatchTest, CallsAPushWhatItIsFirstAndAFollowingErrorWhereItIsBothAtOnce) {
+  const auto falls_behind_by = [&](double each_period_rad, Fault fault) {
+    watch_.begin(position_rad_ = 0.0, now_ns_);
+    motion_.load_Nm = 25.0;
+    return periods_until(fault, 5000, [&] { position_rad_ -= each_period_rad; });
+  };
+  EXPECT_NEAR(falls_behind_by(0.1001 / 19, Fault::kFollowingError), 19, 0);
+  EXPECT_NEAR(falls_behind_by(0.1001 / 21, Fault::kFollowingError), 21, 0) << "at once";
+  EXPECT_NEAR(falls_behind_by(0.1001 / 22, Fault::kOverload), 21, 0);
 }
 
 TEST_F(MotionWatchTest, CallsALoadHighAboveTheNoticeOnly) {
