@@ -50,14 +50,16 @@ class MotionWatch {
 
   const JointView& view() const noexcept { return *view_; }
 
-  /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise.
+  /// Throws the joint's fault, if it has one.
+  void check_fault() const {
+    if (mode_of(*view_) == Mode::kFaulted) throw faulted(joint_, *view_);
+  }
+  /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise, but for a fault.
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
       throw NoAnswer(joint_ + ": the daemon fell silent during the motion; the joint's state is not known",
                      joint_);
-    const Mode mode = mode_of(*view_);
-    if (mode == Mode::kFaulted) throw faulted(joint_, *view_);
-    seen_ = seen_ || mode == motion_.mode;
+    seen_ = seen_ || mode_of(*view_) == motion_.mode;
     if (!seen_ && !old_states_.passed()) return false;
     if (const std::string end = motion_ended(*view_, motion_, session_id_); !end.empty())
       throw NotDone(fmt::format("{}: did not {}: {}", joint_, motion_.purpose, end), joint_);
@@ -74,13 +76,14 @@ class MotionWatch {
   bool seen_ = false;
 };
 
-/// Returns once all of them are done.
+/// Returns once all of them are done. A fault is told before what it made of those that move with the joint.
 void wait_for_motions(Client& client, std::vector<MotionWatch> motions) {
   constexpr double kLook_s = 0.01;
   while (!motions.empty()) {
     const JointView& view = motions.front().view();
     const std::int64_t seen = view.messages;
     client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
+    for (const MotionWatch& motion : motions) motion.check_fault();
     std::erase_if(motions, [&](MotionWatch& motion) { return motion.look(client.options().timeout_s); });
   }
 }

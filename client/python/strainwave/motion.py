@@ -57,24 +57,52 @@ def _why_ended(state, session_id, replaced):
     return "another order replaced this one" if replaced(state) else ""
 
 
-def wait_for_motion(conversation, mode, purpose, done, replaced=lambda state: False):
-    """Waits for done(State). `mode`: while the motion lasts; `purpose`: in words, after "did not". Raises Faulted, NotDone, NoAnswer."""
-    session_id = conversation.state.session_id
-    old_states_end_s = now_s() + OLD_STATES_S
-    motion_seen = False
-    while True:
-        seen = conversation.messages
-        conversation.network.wait_until(lambda: conversation.messages != seen, _LOOK_S)
-        if now_s() - conversation.received_s > conversation.timeout_s:
-            raise NoAnswer(f"{conversation.joint}: the daemon fell silent during the motion; the joint's state is not known")
-        state = State(conversation.state, conversation.received_s)
+class MotionWatch:
+    """A joint's motion, looked at again and again once its order is in force.
+
+    mode: while the motion lasts; purpose: in words, after "did not"; done(State): whether it came to its end
+    """
+
+    def __init__(self, conversation, mode, purpose, done, replaced=lambda state: False):
+        self.conversation = conversation
+        self._mode, self._purpose, self._done, self._replaced = mode, purpose, done, replaced
+        self._session_id = conversation.state.session_id
+        self._old_states_end_s = now_s() + OLD_STATES_S
+        self._seen = False
+
+    def check_fault(self):
+        """Raises Faulted."""
+        state = State(self.conversation.state, self.conversation.received_s)
         if state.mode == Mode.FAULTED:
-            raise Faulted(conversation.joint, state.fault, state.fault_words())
-        motion_seen = motion_seen or state.mode == mode
-        if not motion_seen and now_s() < old_states_end_s:
-            continue
-        why = _why_ended(state, session_id, replaced)
+            raise Faulted(self.conversation.joint, state.fault, state.fault_words())
+
+    def look(self):
+        """True once it is done. Raises NotDone, NoAnswer when it ended otherwise."""
+        joint, conversation = self.conversation.joint, self.conversation
+        if now_s() - conversation.received_s > conversation.timeout_s:
+            raise NoAnswer(f"{joint}: the daemon fell silent during the motion; the joint's state is not known")
+        state = State(conversation.state, conversation.received_s)
+        self._seen = self._seen or state.mode == self._mode
+        if not self._seen and now_s() < self._old_states_end_s:
+            return False
+        why = _why_ended(state, self._session_id, self._replaced)
         if why:
-            raise NotDone(f"{conversation.joint}: did not {purpose}: {why}")
-        if done(state):
-            return
+            raise NotDone(f"{joint}: did not {self._purpose}: {why}")
+        return self._done(state)
+
+
+def wait_for_motions(motions):
+    """Returns once all of them are done. Raises Faulted of one that faulted before it asks why those that move with it ended."""
+    under_way = list(motions)
+    while under_way:
+        first = under_way[0].conversation
+        seen = first.messages
+        first.network.wait_until(lambda: first.messages != seen, _LOOK_S)
+        for motion in under_way:
+            motion.check_fault()
+        under_way = [motion for motion in under_way if not motion.look()]
+
+
+def wait_for_motion(*motion):
+    """The same of one, of MotionWatch's arguments."""
+    wait_for_motions([MotionWatch(*motion)])

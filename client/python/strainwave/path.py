@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sized
 from .errors import InvalidInput
 from .joint import Joint
 from .messages import blank
-from .motion import ArrivalWatch, wait_for_motion
+from .motion import ArrivalWatch, MotionWatch, wait_for_motions
 from .path_v1 import path_v1
 from .stream import check_number
 from .vocabulary import Action, Mode
@@ -62,14 +62,15 @@ class Path:
         Faulted, NotDone, NoAnswer.
         """
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
-        return {joint: self._wait_for(joint, knots[-1][1], tolerance_rad) for joint, knots in self._knots.items()}
+        arrivals = {joint: ArrivalWatch(joint.name, knots[-1][1], tolerance_rad, joint._timeout_s) for joint, knots in self._knots.items()}
+        wait_for_motions([self._motion(joint, knots[-1][1], arrivals[joint]) for joint, knots in self._knots.items()])
+        return {joint: watch.arrival for joint, watch in arrivals.items()}
 
     @staticmethod
-    def _wait_for(joint, end_rad, tolerance_rad):
-        watch = ArrivalWatch(joint.name, end_rad, tolerance_rad, joint._timeout_s)
-        wait_for_motion(joint._conversation, Mode.TRACKING, f"arrive at {end_rad:g} rad", watch.reached,
-                        lambda state: state.target_position_rad != end_rad)
-        return watch.arrival
+    def _motion(joint, end_rad, watch):
+        joint._conversation.wait_for_state()
+        return MotionWatch(joint._conversation, Mode.TRACKING, f"arrive at {end_rad:g} rad", watch.reached,
+                           lambda state: state.target_position_rad != end_rad)
 
     @staticmethod
     def _checked(name, knots):

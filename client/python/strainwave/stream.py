@@ -12,8 +12,10 @@ LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
 def check_number(name, value, allowed, is_allowed):
-    """`value` as a float, if it is a finite number that is allowed."""
+    """`value` as a float, if it is a finite number that is allowed. A text or a truth value is none."""
     try:
+        if isinstance(value, (str, bytes, bool)):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         number = math.nan

@@ -26,9 +26,9 @@ class PlayedNetwork:
         self.published.append((channel, message))
         self.daemon(channel, message)
 
-    def deliver(self, kind, message):
+    def deliver(self, kind, message, joint="elbow"):
         with self.changed:
-            for handler in self._handlers[f"SW.elbow.{kind}".encode()]:
+            for handler in self._handlers[f"SW.{joint}.{kind}".encode()]:
                 handler()(message.encode())
             self.changed.notify_all()
 
@@ -48,11 +48,11 @@ class PlayedOrders(unittest.TestCase):
         self.state = messages.blank(state_v1)
         self.state.session_id, self.state.challenge = 11, 22
 
-    def publish_state(self, mode=Mode.HOLDING, **fields):
+    def publish_state(self, mode=Mode.HOLDING, *, joint="elbow", **fields):
         self.state.mode = int(mode)
         for name, value in fields.items():
             setattr(self.state, name, value)
-        self.network.deliver("STATE", self.state)
+        self.network.deliver("STATE", self.state, joint)
 
     def answer(self, order, accepted=1, reason=Reason.ACCEPTED, text="", **fields):
         ack = messages.blank(ack_v1)

@@ -166,6 +166,8 @@ class Orders(PlayedOrders):
 
     def test_that_make_no_sense_are_refused_before_anything_is_sent(self):
         for attempt, words in ((lambda: self.elbow.move(float("inf")), "position_rad = inf"),
+                               (lambda: self.elbow.move("0.5"), "position_rad = '0.5'"),
+                               (lambda: self.elbow.move(True), "position_rad = True"),
                                (lambda: self.elbow.move(0, tolerance_rad=0), "tolerance_rad = 0"),
                                (lambda: Joint("el bow"), "name = 'el bow': 1 to 24 characters"),
                                (lambda: Joint("elbow", prefix=""), "prefix = ''"),

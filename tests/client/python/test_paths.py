@@ -1,8 +1,9 @@
 """Paths over a network that the test plays."""
+import threading
 import unittest
 
 from played_orders import PATH, PlayedOrders, published
-from strainwave import Action, InvalidInput, Path, Reason, Refused
+from strainwave import Action, Faulted, InvalidInput, Joint, Mode, Path, Reason, Refused
 
 
 class Paths(PlayedOrders):
@@ -28,6 +29,43 @@ class Paths(PlayedOrders):
         with self.assertRaisesRegex(Refused, "elbow: its part of the path refused .3, out of range.: elbow, knot 1"):
             Path({self.elbow: self.KNOTS}).start()
         self.assertEqual([channel for channel, _ in self.network.published], [PATH])
+
+    def test_tell_of_the_joint_that_faulted_and_not_of_those_that_it_stopped(self):
+        wrist = Joint("wrist", key="", timeout_s=30)
+        path = Path({self.elbow: self.KNOTS, wrist: self.KNOTS})
+        self.publish_state(Mode.TRACKING, target_position_rad=0.75)
+        self.publish_state(Mode.TRACKING, joint="wrist")
+
+        def fault():
+            self.publish_state(Mode.FAULTED, joint="wrist", fault=13)
+            self.publish_state(Mode.HOLDING, fault=0, target_position_rad=0.3)
+
+        later = threading.Timer(0.05, fault)
+        later.start()
+        self.addCleanup(later.join)
+        with self.assertRaisesRegex(Faulted, "wrist.*13"):
+            path.wait()
+
+    def test_return_when_all_joints_are_there(self):
+        wrist = Joint("wrist", key="", timeout_s=30)
+        for joint in ("elbow", "wrist"):
+            self.publish_state(Mode.HOLDING, joint=joint, target_position_rad=0.75, joint_position_rad=0.7499)
+        done = threading.Event()
+
+        def publish():
+            while not done.wait(0.02):
+                for joint in ("elbow", "wrist"):
+                    self.publish_state(Mode.HOLDING, joint=joint)
+
+        publisher = threading.Thread(target=publish)
+        publisher.start()
+        try:
+            arrivals = Path({self.elbow: self.KNOTS, wrist: self.KNOTS}).wait()
+        finally:
+            done.set()
+            publisher.join()
+        self.assertEqual(list(arrivals), [self.elbow, wrist])
+        self.assertAlmostEqual(arrivals[wrist].error_rad, 0.0001)
 
     def test_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
         Path({self.elbow: [(i, 0, 0) for i in range(320)]})
