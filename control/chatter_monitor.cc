@@ -30,6 +30,9 @@ constexpr double kLimit = 3.3;
 // begins to brake, while friction that moves, 1.5 of static friction at most, cannot make one.
 constexpr double kTurnedShare = 1.5;
 constexpr double kTurnedLimit = 3.9;
+// Of the threshold beyond which the whole torque reverses: where the plan has reversed beyond so much, it has ordered what feedback and
+// friction made more of.
+constexpr double kOrderedShare = 0.5;
 // Pushes of a landing reverse by design, and a first push may surprise; ten of them in 0.1 s do not on a sound
 // joint. Half of a reversal would already make one of 2000 landings with friction off by up to 30 % fall back.
 constexpr double kLandingWeight = 0.35;
@@ -99,6 +102,8 @@ void ChatterMonitor::reset() noexcept {
   weak_ = {};
   shaken_ = {};
   hum_ = {};
+  unordered_ = false;
+  ordered_ = false;
   surprised_ = false;
   surprised_at_rest_ = false;
   state_ = MonitorState::kWatching;
@@ -130,8 +135,15 @@ void ChatterMonitor::count(const ChatterSample& sample) noexcept {
   // At rest the law's compensation of friction is part of it: that is told from chatter as any other excess.
   const double turned_Nm = beyond_Nm(sample.reference_rests ? strong_share : kTurnedShare);
   const double explained_Nm = 0.5 * (ordered_high_Nm_ - ordered_low_Nm_);
-  if (torque_.reversed(sample.torque_Nm, explained_Nm + turned_Nm) && !sample.landing) turned_level_ += 1.0;
-  if (plan_.reversed(sample.planned_torque_Nm, turned_Nm)) turned_level_ -= 1.0;
+  if (torque_.reversed(sample.torque_Nm, explained_Nm + turned_Nm) && !sample.landing) {
+    turned_level_ += 1.0;
+    unordered_ = true;
+  }
+  if (plan_.reversed(sample.planned_torque_Nm, kOrderedShare * turned_Nm)) ordered_ = true;
+  if (unordered_ && ordered_ && torque_.sign == plan_.sign) {
+    turned_level_ -= 1.0;
+    unordered_ = ordered_ = false;
+  }
   if (strong_.reversed(excess_Nm, explained_Nm + beyond_Nm(strong_share))) {
     if (!sample.landing)
       level_ += 1.0;

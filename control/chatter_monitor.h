@@ -7,7 +7,7 @@
 // makes, and counts always; a weak one could just move the joint, and counts once the reference has come to
 // rest for a while; where it has rested for long, in a level of its own, since a sound joint then makes none; and half a second after the reference has come to
 // rest what hums about the torque's own mean, weaker than that, too: a joint that gives way before it slides can. Where the plan needs all
-// of the torque nothing beyond it can be commanded: there the reversals of the whole torque count, less those of the plan. Each
+// of the torque nothing beyond it can be commanded: there the reversals of the whole torque count, less those that the plan orders: to the same side, beyond half of the threshold. Each
 // fills a level that leaks:
 //
 //   level' = level exp(-period / leak) + reversals
@@ -118,6 +118,8 @@ class ChatterMonitor {
   Side hum_;
   bool goes_on_ = false;
   bool drives_itself_ = false;
+  bool unordered_ = false;          ///< the whole torque has reversed, and the plan not yet to that side
+  bool ordered_ = false;            ///< the plan has reversed, and the whole torque not yet to that side
   bool surprised_ = false;          ///< since the last strong reversal
   bool surprised_at_rest_ = false;  ///< since the last weak one
   MonitorState state_ = MonitorState::kWatching;

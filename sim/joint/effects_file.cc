@@ -127,6 +127,8 @@ void read_effects(TomlSection& section, bool gear_sets_ratio, JointPlantConfig& 
       sliding.number_or("transmitted_share", effects.friction.transmitted_share, {0.0, 1.0});
   effects.friction.presliding_rad =
       sliding.number_or("presliding_rad", effects.friction.presliding_rad, {0.0, 0.1});
+  effects.friction.direction_share =
+      sliding.number_or("direction_share", effects.friction.direction_share, {-0.99, 0.99});
   sliding.refuse_unknown_keys();
   read_drive(section.section_or_empty("drive"), plant);
   TomlSection gravity = section.section_or_empty("gravity");

@@ -5,7 +5,7 @@
 //   [spring]           stiffness_1_Nm_rad, torque_1_Nm, stiffness_2_Nm_rad, torque_2_Nm, stiffness_3_Nm_rad, scale,
 //                      damping_Nms_rad, lost_motion_rad
 //   [kinematic_error]  once_rad, once_phase_rad, twice_rad, twice_phase_rad (per motor turn)
-//   [sliding]          transmitted_share, presliding_rad
+//   [sliding]          transmitted_share, presliding_rad, direction_share
 //   [drive]            current_loop_s, ripple_share, ripple_per_motor_turn, delay_periods, jitter_periods, seed
 //   [gravity]          torque_Nm, zero_rad
 //   [contact]          position_rad, stiffness_Nm_rad, damping_Nms_rad

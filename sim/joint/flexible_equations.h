@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/units.h"
 #include "sim/joint/flexible_physics.h"
 
 namespace strainwave::flexible {
@@ -85,21 +86,26 @@ class Equations {
     return result;
   }
 
-  /// Friction parameters with what the transmitted torque adds.
-  FrictionParameters friction(double transmitted_Nm) const noexcept {
-    FrictionParameters friction = input_.friction;
-    const double added_Nm = joint_.effects.friction.transmitted_share * std::abs(transmitted_Nm);
-    friction.static_Nm += added_Nm;
-    friction.coulomb_Nm += added_Nm;
-    return friction;
+  /// Friction parameters with what the transmitted torque adds, against motion in `direction`; 0: the mean of both.
+  FrictionParameters friction(double transmitted_Nm, double direction) const noexcept {
+    const FrictionEffects& effects = joint_.effects.friction;
+    const FrictionParameters& curve = input_.friction;
+    const double added_Nm = effects.transmitted_share * std::abs(transmitted_Nm);
+    const double share = 1.0 + effects.direction_share * direction;
+    return {share * (curve.static_Nm + added_Nm), share * (curve.coulomb_Nm + added_Nm),
+            share * curve.viscous_Nms_rad};
+  }
+  /// By how much more than static friction the torques push a motor that is at rest.
+  double breakaway_Nm(const Torques& t) const noexcept {
+    return std::abs(t.on_motor_Nm) - friction(t.transmitted_Nm, sign(t.on_motor_Nm)).static_Nm;
   }
 
   /// How fast bristles and lost motion follow at this state, the faster of them, 1/s.
   double relaxation_per_s(const Vector& x) const noexcept {
     double rate = 0.0;
     if (presliding()) {
-      const FrictionParameters f = friction(0.0);
-      rate = std::abs(x.motor_velocity) * bristle_stiffness_Nm_rad(f) / sliding_Nm(f, x.motor_velocity);
+      const FrictionParameters f = friction(0.0, sign(x.motor_velocity));
+      rate = std::abs(x.motor_velocity) * bristle_stiffness_Nm_rad(0.0) / sliding_Nm(f, x.motor_velocity);
     }
     if (has_link() && gear().lost_motion.width_rad > 0.0)
       rate = std::max(rate, 2.0 * std::abs(wind_up_speed_rad_s(x)) / gear().lost_motion.width_rad);
@@ -111,8 +117,8 @@ class Equations {
     Vector d{};
     d.motor_position = x.motor_velocity;
     if (presliding()) {
-      const FrictionParameters f = friction(t.transmitted_Nm);
-      const double stiffness = bristle_stiffness_Nm_rad(f);
+      const FrictionParameters f = friction(t.transmitted_Nm, sign(x.motor_velocity));
+      const double stiffness = bristle_stiffness_Nm_rad(t.transmitted_Nm);
       d.bristle = relaxation(x.motor_velocity, sliding_Nm(f, x.motor_velocity) / stiffness, x.bristle);
       const double damping = std::sqrt(stiffness * joint_.motor.inertia_kgm2);
       d.motor_velocity = (t.on_motor_Nm - stiffness * x.bristle - damping * d.bristle -
@@ -178,8 +184,8 @@ class Equations {
     return joint_.effects.gravity.at(x.link_position) +
            joint_.effects.contact.torque_Nm(x.link_position, x.link_velocity);
   }
-  double bristle_stiffness_Nm_rad(const FrictionParameters& f) const noexcept {
-    return f.static_Nm / joint_.effects.friction.presliding_rad;
+  double bristle_stiffness_Nm_rad(double transmitted_Nm) const noexcept {
+    return friction(transmitted_Nm, 0.0).static_Nm / joint_.effects.friction.presliding_rad;
   }
   /// Stribeck curve without its viscous part, > 0 also at rest.
   double sliding_Nm(const FrictionParameters& f, double velocity_rad_s) const noexcept {
@@ -189,7 +195,7 @@ class Equations {
   }
   /// Size of the motor's friction in the direction of sliding, continued smoothly to the other side.
   double sliding_friction_Nm(double transmitted_Nm, const Vector& x, double direction) const noexcept {
-    const FrictionParameters f = friction(transmitted_Nm);
+    const FrictionParameters f = friction(transmitted_Nm, direction);
     return sliding_Nm(f, x.motor_velocity) + f.viscous_Nms_rad * direction * x.motor_velocity;
   }
 

@@ -43,10 +43,9 @@ class Stepper {
   Modes modes_at(const Vector& x, bool hold) const noexcept {
     const Torques t = equations_.torques(time_s_, x);
     Modes modes;
-    modes.motor = x.motor_velocity != 0.0 ? sign(x.motor_velocity)
-                  : hold || std::abs(t.on_motor_Nm) <= equations_.friction(t.transmitted_Nm).static_Nm
-                      ? 0.0
-                      : sign(t.on_motor_Nm);
+    modes.motor = x.motor_velocity != 0.0                     ? sign(x.motor_velocity)
+                  : hold || equations_.breakaway_Nm(t) <= 0.0 ? 0.0
+                                                              : sign(t.on_motor_Nm);
     if (!equations_.has_link()) return modes;
     const double link_static_Nm = equations_.link_static_Nm();
     // Without friction nothing sticks, not even where nothing pulls.
@@ -63,7 +62,7 @@ class Stepper {
     double value = -1.0;
     if (!equations_.presliding()) {
       if (modes.motor == 0.0)
-        value = std::max(value, std::abs(t.on_motor_Nm) - equations_.friction(t.transmitted_Nm).static_Nm);
+        value = std::max(value, equations_.breakaway_Nm(t));
       else if (from.motor_velocity != 0.0)
         value = std::max(value, -modes.motor * x.motor_velocity);
     }
@@ -152,8 +151,7 @@ void advance(FlexibleState& state, const FlexibleJoint& joint, const JointInput&
   const Torques t = equations.torques(duration_s, x);
   state.current_Nm = equations.current_Nm(duration_s);
   state.motor = {x.motor_position, x.motor_velocity,
-                 !equations.presliding() && x.motor_velocity == 0.0 &&
-                     std::abs(t.on_motor_Nm) <= equations.friction(t.transmitted_Nm).static_Nm};
+                 !equations.presliding() && x.motor_velocity == 0.0 && equations.breakaway_Nm(t) <= 0.0};
   state.link = equations.has_link() ? JointState{x.link_position, x.link_velocity,
                                                  equations.link_static_Nm() > 0.0 && x.link_velocity == 0.0 &&
                                                      std::abs(t.on_link_Nm) <= equations.link_static_Nm()}

@@ -62,6 +62,8 @@ struct FrictionEffects {
   double transmitted_share = 0.0;  ///< of the transmitted torque, added to static and Coulomb friction; >= 0
   /// Elastic creep before sliding (LuGre): at this angle the bristles carry static friction; 0: true stiction.
   double presliding_rad = 0.0;
+  /// By this share all of it is more in the positive direction than the curve says, and less in the other; in (-1, 1).
+  double direction_share = 0.0;
 };
 
 /// Between the command and the torque.
@@ -95,8 +97,9 @@ struct JointEffects {
 
   /// Whether the joint is anything but one rigid inertia with Stribeck friction.
   bool any() const noexcept {
-    return transmission || friction.presliding_rad > 0.0 || drive.current_loop_s > 0.0 ||
-           drive.ripple_share > 0.0 || gravity.torque_Nm != 0.0 || contact.stiffness_Nm_rad > 0.0;
+    return transmission || friction.presliding_rad > 0.0 || friction.direction_share != 0.0 ||
+           drive.current_loop_s > 0.0 || drive.ripple_share > 0.0 || gravity.torque_Nm != 0.0 ||
+           contact.stiffness_Nm_rad > 0.0;
   }
 };
 

@@ -74,7 +74,8 @@ void check_substeps(const JointPlantConfig& c) {
   const JointEffects& e = c.effects;
   constexpr double kLargestDecay = 2.0;
   double swing_rad_s = 0.0;
-  double decay_1_s = c.joint.friction.at(kColdest_C).viscous_Nms_rad / c.joint.inertia_kgm2;
+  double decay_1_s = (1.0 + std::abs(e.friction.direction_share)) *
+                     c.joint.friction.at(kColdest_C).viscous_Nms_rad / c.joint.inertia_kgm2;
   double link_inertia_kgm2 = c.joint.inertia_kgm2;
   if (e.transmission) {
     link_inertia_kgm2 = e.transmission->link_inertia_kgm2;
@@ -106,6 +107,8 @@ void check(const JointEffects& e) {
                                    std::pair{"contact.stiffness_Nm_rad", e.contact.stiffness_Nm_rad},
                                    std::pair{"contact.damping_Nms_rad", e.contact.damping_Nms_rad}})
     require(finite_and_not_negative(value), key, value, "must be finite and >= 0");
+  require(std::abs(e.friction.direction_share) < 1.0, "sliding.direction_share", e.friction.direction_share,
+          "must be in (-1, 1)");
   require(e.drive.ripple_share >= 0.0 && e.drive.ripple_share < 1.0, "drive.ripple_share",
           e.drive.ripple_share, "must be in [0, 1)");
   if (e.transmission) check(*e.transmission);

@@ -23,6 +23,7 @@ void require_no_effects(const JointPlantConfig& plant) {
   require_none("gravity.torque_Nm", effects.gravity.torque_Nm);
   require_none("contact.stiffness_Nm_rad", effects.contact.stiffness_Nm_rad);
   require_none("sliding.presliding_rad", effects.friction.presliding_rad);
+  require_none("sliding.direction_share", effects.friction.direction_share);
   require_none("drive.current_loop_s", effects.drive.current_loop_s);
   require_none("drive.ripple_share", effects.drive.ripple_share);
 }

@@ -119,6 +119,23 @@ TEST(ChatterMonitor, TakesReversalsThatThePlanOrdersForNoneHoweverFast) {
     }
 }
 
+// As small motions of a heavy link do: the torque just beyond the threshold, and the plan just within, by what the feedback adds.
+TEST(ChatterMonitor, TakesReversalsThatThePlanOrdersForNoneWhereFeedbackAloneBringsThemBeyondTheThreshold) {
+  const auto falls_back = [](double planned_Nm) {
+    ChatterMonitor monitor(0.001);
+    for (int k = 0; k < 1000; ++k) {
+      const double side = k / 5 % 2 == 0 ? 1.0 : -1.0;
+      ChatterSample sample = sample_with(side * 1.05 * (7.0 + 1.5 * kStatic_Nm), side * planned_Nm);
+      sample.doubt_Nm = 7.0;
+      if (monitor.step(sample) != MonitorState::kWatching) return true;
+    }
+    return false;
+  };
+  for (const double planned_Nm : {0.95, 0.6}) EXPECT_FALSE(falls_back(planned_Nm * 10.0)) << planned_Nm;
+  EXPECT_TRUE(falls_back(0.4 * 10.0)) << "most of it is not ordered";
+  EXPECT_TRUE(falls_back(-0.95 * 10.0)) << "ordered to the other side";
+}
+
 TEST(ChatterMonitor, GivesAPlanThatRestsOnWhatItWasToldItsDoubt) {
   for (const double doubt_Nm : {0.0, 7.0}) {
     ChatterMonitor monitor(0.001);

@@ -258,6 +258,29 @@ TEST(JointControllerWithLink, ArrivesWithFrictionAThirdOff) {
         }
 }
 
+// Hardly damped, with friction a third less than told: the plans' own torque reverses hard, and a link that swings adds to it.
+TEST(JointControllerWithLink, SmallMovesOfAHeavyLinkInTheColdAreNoChatter) {
+  for (const double link : {0.2, 0.25, 0.3})
+    for (const double damping : {0.1, 0.3, 1.0})
+      for (const double step : {50e-6, 100e-6, 200e-6, 400e-6, 1e-3}) {
+        JointPlantConfig plant = plant_with(link);
+        plant.effects.transmission->damping_Nms_rad = damping;
+        const JointPlantConfig told = plant;
+        for (FrictionParameters* part : {&plant.joint.friction.asymptote, &plant.joint.friction.amplitude})
+          *part = {0.7 * part->static_Nm, 0.7 * part->coulomb_Nm, 0.7 * part->viscous_Nms_rad};
+        Loop loop(plant, told, -10.0, "csf-17-50.json");
+        double target = 0.0;
+        for (const double way : {1.0, -1.0, 1.7, 1.0, -0.6, 1.0}) {
+          target += way * step;
+          const Outcome outcome = move(loop, target);
+          const auto which = ::testing::Message() << link << " " << damping << " " << step << " " << way;
+          EXPECT_EQ(outcome.monitor, MonitorState::kWatching) << which;
+          EXPECT_LE(std::abs(outcome.final_error_rad), 0.5e-3) << which;
+          EXPECT_LE(outcome.corrections, 20 * 6) << which;
+        }
+      }
+}
+
 TEST(JointControllerWithLink, GivesUpCorrectionsThatDoNotHelpAlsoWhenTheOrderIsRepeated) {
   // A weight that it is not told of: every motion ends where the last one did.
   for (const double weight_Nm : {1.0, 2.0, 3.0, 5.0}) {

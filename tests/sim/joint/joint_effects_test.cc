@@ -46,6 +46,29 @@ TEST(FlexiblePhysics, AddsAShareOfTheTransmittedTorqueToFriction) {
   }
 }
 
+TEST(FlexiblePhysics, HoldsTheMotorByMoreInOneDirectionThanInTheOther) {
+  FlexibleJoint joint = linear_joint();
+  joint.effects.friction.direction_share = 0.3;
+  const double static_Nm = cold(0.0).friction.static_Nm;
+  for (const double direction : {1.0, -1.0})
+    for (const double share : {0.99, 1.01}) {
+      FlexibleState state;
+      advance(state, joint, cold(direction * share * (1.0 + 0.3 * direction) * static_Nm), 1e-3, 10);
+      EXPECT_EQ(state.motor.stuck, share < 1.0) << direction;
+      EXPECT_EQ(state.motor.position_rad == 0.0, share < 1.0) << direction;
+    }
+  // Of the same push the way is another, where it slides and where it creeps before.
+  for (const double presliding_rad : {0.0, 1e-4}) {
+    joint.effects.friction.presliding_rad = presliding_rad;
+    const auto way_rad = [&](double direction) {
+      FlexibleState state;
+      run(state, joint, cold(direction * 1.5 * static_Nm), 0.1);
+      return direction * state.motor.position_rad;
+    };
+    EXPECT_GT(way_rad(-1.0), 2.0 * way_rad(1.0)) << presliding_rad;
+  }
+}
+
 TEST(FlexiblePhysics, HitsAStopThatPushesAndNeverPulls) {
   FlexibleJoint joint = linear_joint();
   joint.effects.contact = {0.05, 2e4, 50.0};

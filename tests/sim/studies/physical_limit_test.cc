@@ -71,6 +71,7 @@ TEST(PhysicalLimit, NamesEveryEffectThatItCannotTake) {
          e.contact = {1.0, 100.0, 0.0};
        }},
       {"sliding.presliding_rad = 0.1", [](JointEffects& e) { e.friction.presliding_rad = 0.1; }},
+      {"sliding.direction_share = -0.3", [](JointEffects& e) { e.friction.direction_share = -0.3; }},
       {"drive.current_loop_s = 5e-04", [](JointEffects& e) { e.drive.current_loop_s = 5e-4; }},
       {"drive.ripple_share = 0.02", [](JointEffects& e) { e.drive.ripple_share = 0.02; }}};
   for (const JointPlantConfig& plant : {realistic_plant(), flexible_plant()})
