@@ -13,7 +13,7 @@ namespace {
 constexpr double kRelativeRounding = 1e-9;
 // What thousands of samples may add up to; far below any encoder's count.
 constexpr double kPositionRounding_rad = 1e-12;
-// What a target that accelerates leaves at least of the limits, to come up with it.
+// What a target that accelerates leaves at least of a limit, to come up with it or to brake.
 constexpr double kLeastLeft = 0.2;
 // Farther than what the acceleration covers in this time from rest, a target that moves is far away.
 constexpr double kFar_s = 0.1;
@@ -50,24 +50,23 @@ double ReferenceShaper::largest_stoppable_velocity(double distance_rad,
 }
 
 // In the direction of the target: `velocity` < 0 moves away from it.
-double ReferenceShaper::next_velocity_rad_s(double to_target_rad, double velocity_rad_s,
-                                            const MotionLimits& limits) const noexcept {
-  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s);
-  const double velocity = direction * velocity_rad_s;
-  const double speed_up = period_s_ * limits.acceleration_rad_s2;
-  const double slow_down = period_s_ * limits.deceleration_rad_s2;
+double ReferenceShaper::next_velocity_rad_s(double to_target_rad) const noexcept {
+  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s_);
+  const double velocity = direction * velocity_rad_s_;
+  const double speed_up = period_s_ * limits_.acceleration_rad_s2;
+  const double slow_down = period_s_ * limits_.deceleration_rad_s2;
 
   if (velocity < 0.0) {
     // A sample that turns round has one acceleration, so both limits hold in it.
     const double turned = velocity + std::min(speed_up, slow_down);
     if (turned <= 0.0) return direction * std::min(0.0, velocity + slow_down);
     const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
-                                                        limits.deceleration_rad_s2);
-    return direction * std::min({turned, limits.velocity_rad_s, stoppable});
+                                                        limits_.deceleration_rad_s2);
+    return direction * std::min({turned, limits_.velocity_rad_s, stoppable});
   }
   const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
-                                                      limits.deceleration_rad_s2);
-  const double wanted = std::min({velocity + speed_up, limits.velocity_rad_s, stoppable});
+                                                      limits_.deceleration_rad_s2);
+  const double wanted = std::min({velocity + speed_up, limits_.velocity_rad_s, stoppable});
   return direction * std::max({wanted, velocity - slow_down, 0.0});
 }
 
@@ -103,34 +102,37 @@ Reference ReferenceShaper::advance_to(double velocity_rad_s) noexcept {
 }
 
 // Of a target that is far away the own acceleration is not gone along with: one that brakes would brake who has yet to come up with it.
-double ReferenceShaper::approach_rad_s(double to_target_rad, double relative_rad_s,
-                                       const MotionLimits& relative) const noexcept {
-  const double direction = sign(to_target_rad);
-  const double way_rad = std::abs(to_target_rad) - 0.5 * period_s_ * direction * relative_rad_s;
+// How fast the way may be, possible_velocity_rad_s() says.
+double ReferenceShaper::nearing_rad_s(const MovingTarget& target) const noexcept {
+  // From where the target, were its motion the mean of its two velocities, would reach its end exactly.
+  const double to_target_rad = target.next_position_rad - position_rad_ -
+                               0.5 * period_s_ * (target.velocity_rad_s + target.next_velocity_rad_s);
+  const double relative_rad_s = velocity_rad_s_ - target.velocity_rad_s;
+  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(relative_rad_s);
+  const double velocity = direction * relative_rad_s;
+  const double flees_rad_s2 = direction * (target.next_velocity_rad_s - target.velocity_rad_s) / period_s_;
+  const auto left = [](double limit, double taken) {
+    return std::max(kLeastLeft * limit, limit - std::max(0.0, taken));
+  };
+  const double braking_rad_s2 = left(limits_.deceleration_rad_s2, -flees_rad_s2);
+  const double stoppable =
+      largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity, braking_rad_s2);
+  if (std::abs(to_target_rad) > 0.5 * limits_.acceleration_rad_s2 * kFar_s * kFar_s)
+    return direction * stoppable;
+  const double speed_up = period_s_ * left(limits_.acceleration_rad_s2, flees_rad_s2);
   return direction *
-         std::min(relative.velocity_rad_s, largest_stoppable_velocity(way_rad, relative.deceleration_rad_s2));
+         std::max(std::min(velocity + speed_up, stoppable), velocity - period_s_ * braking_rad_s2);
 }
 
 Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRange& range) noexcept {
   set_target(target.next_position_rad);
   if (target.rests()) return step();
-  const double own_rad_s2 = std::abs(target.next_velocity_rad_s - target.velocity_rad_s) / period_s_;
-  const auto left = [own_rad_s2](double limit) { return std::max(kLeastLeft * limit, limit - own_rad_s2); };
-  const MotionLimits relative{limits_.velocity_rad_s, left(limits_.acceleration_rad_s2),
-                              left(limits_.deceleration_rad_s2)};
-  // From where the target, were its motion the mean of its two velocities, would reach its end exactly.
-  const double to_target_rad = target.next_position_rad - position_rad_ -
-                               0.5 * period_s_ * (target.velocity_rad_s + target.next_velocity_rad_s);
-  const double relative_rad_s = velocity_rad_s_ - target.velocity_rad_s;
-  const bool far = std::abs(to_target_rad) > 0.5 * limits_.acceleration_rad_s2 * kFar_s * kFar_s;
-  const double nearing_rad_s = far ? approach_rad_s(to_target_rad, relative_rad_s, relative)
-                                   : next_velocity_rad_s(to_target_rad, relative_rad_s, relative);
-  return advance_to(possible_velocity_rad_s(target.next_velocity_rad_s + nearing_rad_s, range));
+  return advance_to(possible_velocity_rad_s(target.next_velocity_rad_s + nearing_rad_s(target), range));
 }
 
 Reference ReferenceShaper::step() noexcept {
-  double velocity = stopping_ ? brake_to_rest(velocity_rad_s_)
-                              : next_velocity_rad_s(target_rad_ - position_rad_, velocity_rad_s_, limits_);
+  double velocity =
+      stopping_ ? brake_to_rest(velocity_rad_s_) : next_velocity_rad_s(target_rad_ - position_rad_);
   double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
 
   if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {

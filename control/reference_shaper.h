@@ -14,8 +14,9 @@
 // which keeps the target reachable exactly, at rest, on a sample: no overshoot, no chatter around the target.
 //
 // A target that moves (p0 to p1 at v0 to v1 in a sample) is followed in its own frame by the same rule: x = p - x',
-// w = v' - v1, with what its own acceleration leaves of the limits; on the target nothing is left but its motion. A target that is farther
-// away than A (0.1 s)^2 / 2 is gone after with all of the acceleration.
+// w = v' - v1. Of the limits it takes, by its own acceleration, what it flees by to come up with it and what it comes by to brake, as far as
+// it leaves some; what helps is not counted on, because it need not last. The speed limit is the follower's own. On the target nothing is
+// left but its motion. A target that is farther away than A (0.1 s)^2 / 2 is gone after with all of the acceleration.
 #pragma once
 
 #include <limits>
@@ -81,10 +82,8 @@ class ReferenceShaper {
   double velocity_rad_s() const noexcept { return velocity_rad_s_; }
 
  private:
-  double next_velocity_rad_s(double to_target_rad, double velocity_rad_s,
-                             const MotionLimits& limits) const noexcept;
-  double approach_rad_s(double to_target_rad, double relative_rad_s,
-                        const MotionLimits& relative) const noexcept;
+  double next_velocity_rad_s(double to_target_rad) const noexcept;
+  double nearing_rad_s(const MovingTarget& target) const noexcept;
   double brake_to_rest(double velocity_rad_s) const noexcept;
   double largest_stoppable_velocity(double distance_rad, double deceleration_rad_s2) const noexcept;
   double possible_velocity_rad_s(double wanted_rad_s, const PositionRange& range) const noexcept;
