@@ -15,8 +15,10 @@ constexpr double kLeastAhead_s = 0.02;
 constexpr double kBridgedIntervals = 2.0;
 // A motion is smooth whose acceleration changes by no more than this share of the limit from one sample to the next.
 constexpr double kSmooth = 0.1;
-// For so long a smooth motion's acceleration goes on.
+// For so long a smooth motion's acceleration goes on, or until it would have changed by that share.
 constexpr double kSmoothIntervals = 2.5;
+constexpr double kSmooth_s = 0.06;
+constexpr double kSmoothUntimed_s = 0.03;
 // Streams whose jerk is carried on: just those of 100 Hz.
 constexpr double kJerkGoesOn_s = 0.009;
 // By so much of an interval a sample is late before it is missing.
@@ -45,6 +47,11 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   waiting_.clear();
   interval_ = 0.0;
   arrivals_ = 0;
+  sender_.forget();
+  untold_ = false;
+  out_of_rhythm_ = 0.0;
+  later_ = false;
+  in_rhythm_ = false;
   caught_up_at_ = now_;
   past_count_ = 0;
   missed_ = false;
@@ -69,15 +76,17 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   if (sample.in_periods > 0) {
     knot.at += static_cast<double>(sample.in_periods);
   } else {
-    clock_in(sample);
-    knot.at = arrival_;
+    time(sample, knot);
+    knot.untimed = !knot.told;
   }
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
   if (waiting_.empty() && now_ > to_.at && !to_.rests()) missed_ = true;
   if (std::exchange(missed_, false) && past_count_ > 0) catch_up_in(knot.at - past_[0].at);
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
-  const double apart_s = sample.derivatives == 0 && sample.in_periods == 0 ? 2.0 * kApart_s : kApart_s;
+  const double apart_s = sample.derivatives == 0 && sample.in_periods == 0 && (!knot.told || in_rhythm_)
+                             ? 2.0 * kApart_s
+                             : kApart_s;
   const Knot* last = sample_before(knot.at, apart_s);
   const Before before{last, last != nullptr ? sample_before(last->at, apart_s) : nullptr};
   mean_s_ = last != nullptr ? seconds(knot.at - last->at) : 0.0;
@@ -217,21 +226,6 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
   return {edge_rad, 0.0, edge_rad, 0.0, target.load};
 }
 
-// One that is told of when it acts is late already: it is there an interval later.
-void StreamTarget::lead_load_to(const Knot& knot) noexcept {
-  load_from_ = load_;
-  load_to_ = knot.load;
-  load_from_at_ = now_;
-  load_to_at_ = knot.carried ? std::min(knot.at, now_ + expected_interval()) : knot.at;
-}
-
-ToldLoad StreamTarget::load_at(double period) const noexcept {
-  if (period >= load_to_at_) return load_to_;
-  const double share = (period - load_from_at_) / (load_to_at_ - load_from_at_);
-  return {load_from_.torque_Nm + share * (load_to_.torque_Nm - load_from_.torque_Nm),
-          load_from_.inertia_kgm2 + share * (load_to_.inertia_kgm2 - load_from_.inertia_kgm2)};
-}
-
 StreamTarget::State StreamTarget::at(double period) noexcept {
   while (period > to_.at && !waiting_.empty()) {
     from_ = to_;
@@ -278,8 +272,13 @@ double StreamTarget::carried_on_jerk_rad_s3(const Knot& knot) const noexcept {
 StreamTarget::State StreamTarget::beyond(double period) const noexcept {
   if (to_.velocity_rad_s == 0.0) return {to_.position_rad, 0.0, 0.0};
   const double since_s = seconds(period - to_.at);
-  const double intervals = to_.smooth ? kSmoothIntervals : 1.0;
-  const double speeding_s = std::min(since_s, intervals * seconds(expected_interval()));
+  const double interval_s = seconds(expected_interval());
+  const double goes_on_s =
+      to_.smooth ? std::max(kSmoothIntervals * interval_s,
+                            std::min(to_.untimed ? kSmoothUntimed_s : kSmooth_s,
+                                     kSmooth * reach_.acceleration_rad_s2 / std::abs(to_.jerk_rad_s3)))
+                 : interval_s;
+  const double speeding_s = std::min(since_s, goes_on_s);
   const double jerk_rad_s3 = carried_on_jerk_rad_s3(to_);
   const double velocity_rad_s =
       to_.velocity_rad_s + speeding_s * (to_.acceleration_rad_s2 + 0.5 * speeding_s * jerk_rad_s3);

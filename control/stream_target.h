@@ -3,7 +3,8 @@
 //
 //   knot (t, p, v, a)   every sample becomes one: the motion leads from where it is now to it by a quintic
 //                       (Hermite), so that position, velocity and acceleration have no step, whatever arrives
-//   time of a knot      its own, if the sample has one; else the smoothed instant of its arrival (a phase-locked
+//   time of a knot      its own, if the sample has one; else when it was sent, if that is told (control/sender_clock.h), or the
+//                       rhythm of that, on whichever samples lie closer to a motion; else the smoothed instant of its arrival (a phase-locked
 //                       loop over the arrivals). Who follows is later than the target by a known time, by which the target
 //                       is ahead of the samples. A knot for which too little time is left is carried forward to one interval
 //                       from now, 20 ms at least, so that what a network does to arrivals makes no jerks
@@ -44,6 +45,8 @@
 #include <limits>
 #include <utility>
 
+#include "control/sender_clock.h"
+
 namespace strainwave {
 
 /// What who streams knows of the load and the joint does not: a torque to add to the planned one, and an inertia that is carried
@@ -62,6 +65,7 @@ struct StreamSample {
   /// Periods from now to the instant that it is for, > 0; 0: none is given.
   std::int64_t in_periods = 0;
   ToldLoad load{};
+  std::int64_t sent_us = 0;  ///< when it was sent, on the sender's clock; 0: not told
 };
 
 /// Target of a period: at its begin and at its end.
@@ -77,7 +81,8 @@ struct MovingTarget {
 class StreamTarget {
  public:
   /// `period_s` > 0; `bridge_s` >= 0.
-  StreamTarget(double period_s, double bridge_s) noexcept : period_s_(period_s), bridge_s_(bridge_s) {}
+  StreamTarget(double period_s, double bridge_s) noexcept
+      : period_s_(period_s), bridge_s_(bridge_s), sender_(period_s) {}
 
   /// What who follows can do; a motion that needs much more is none. All > 0.
   struct Reach {
@@ -129,7 +134,11 @@ class StreamTarget {
     double sent_rad_s = 0.0;  ///< the velocity that came with it, believed or not
     bool moving = false;      ///< one came with it, and is believed
     bool carried = false;     ///< forward: not what was sent
-    bool smooth = false;  ///< three samples show its acceleration, which changes little from one to the next
+    bool smooth = false;   ///< three samples show its acceleration, which changes little from one to the next
+    bool untimed = false;  ///< nobody said which instant it is for, or when it was sent
+    bool told = false;     ///< when it was sent: `at` is `clocked`, or `sent` and the way
+    double sent = 0.0;     ///< SenderClock::sent()
+    double clocked = 0.0;  ///< period: by the loop that is locked to the sender's rhythm
     double due = 0.0;  ///< period: from then on the next sample is missed; before `at` only while catching up
     bool rests() const noexcept { return velocity_rad_s == 0.0 && acceleration_rad_s2 == 0.0; }
   };
@@ -219,7 +228,13 @@ class StreamTarget {
   double expected_interval() const noexcept;
   bool slow() const noexcept { return seconds(expected_interval()) > kSlow_s; }
   bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
-  void clock_in(const StreamSample& sample) noexcept;
+  void time(const StreamSample& sample, Knot& knot) noexcept;
+  void make_room() noexcept;
+  void reconsider(const StreamSample& sample) noexcept;
+  Knot last_in_rhythm() const noexcept;
+  void weigh_rhythm(const Knot& knot) noexcept;
+  double off_rad(const Knot& knot, double Knot::*time) const noexcept;
+  void clock_in(const StreamSample& sample, double came) noexcept;
   void clock_in_held_up() noexcept;
   double intervals_in(double gap, const StreamSample& sample) noexcept;
   double nearest_of(double most, double farthest, const StreamSample& sample) const noexcept;
@@ -260,17 +275,22 @@ class StreamTarget {
   Knot from_;  ///< the quintic's begin ...
   Knot to_;    ///< ... and end
   Reach reach_;
-  Queue waiting_;                   ///< knots after to_, by time
-  double mean_rad_s_ = 0.0;         ///< from the last sample but one to the last
-  double mean_s_ = 0.0;             ///< the time between them; 0: there is but one
-  double interval_ = 0.0;           ///< between samples, in periods, smoothed; 0: only one has come
-  double arrival_ = 0.0;            ///< of the last sample, smoothed
-  double came_ = 0.0;               ///< when it came
-  double first_came_ = 0.0;         ///< when the first of arrivals_ did
-  double caught_up_at_ = 0.0;       ///< period: until then what was missed is caught up with
-  int counted_lost_ = 0;            ///< intervals before the last sample
-  int held_up_ = 0;                 ///< samples in a row
-  int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
+  Queue waiting_;              ///< knots after to_, by time
+  double mean_rad_s_ = 0.0;    ///< from the last sample but one to the last
+  double mean_s_ = 0.0;        ///< the time between them; 0: there is but one
+  double interval_ = 0.0;      ///< between samples, in periods, smoothed; 0: only one has come
+  double arrival_ = 0.0;       ///< of the last sample, smoothed
+  double came_ = 0.0;          ///< when it came
+  double first_came_ = 0.0;    ///< when the first of arrivals_ did
+  double caught_up_at_ = 0.0;  ///< period: until then what was missed is caught up with
+  int counted_lost_ = 0;       ///< intervals before the last sample
+  bool later_ = false;         ///< the last sample was, than jitter makes it
+  int held_up_ = 0;            ///< samples in a row
+  SenderClock sender_;
+  bool untold_ = false;         ///< of a sample of this stream nobody said when it was sent
+  double out_of_rhythm_ = 0.0;  ///< samples that lie off it, more than off where they were sent
+  bool in_rhythm_ = false;      ///< samples are for the instants of the rhythm, not for when they were sent
+  int arrivals_ = 0;            ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
   Hull hull_;            ///< of past_

@@ -1,4 +1,5 @@
 // The part of admission.h that judges what each kind of message says, once its envelope has passed.
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <sstream>
@@ -146,6 +147,7 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   verdict.order.load_inertia_kgm2 = setpoint->load_inertia_kgm2;
   verdict.order.derivatives = setpoint->derivatives;
   verdict.order.at_cycle = setpoint->at_cycle;
+  verdict.order.sent_us = std::max<std::int64_t>(0, setpoint->utime);
   verdict.order.stream_id = setpoint->stream_id;
   verdict.order.begins_stream = setpoint->begins_stream != 0;
   verdict.order.position_rad = setpoint->position_rad;

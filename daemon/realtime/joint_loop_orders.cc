@@ -129,7 +129,8 @@ Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
                         order.acceleration_rad_s2,
                         order.derivatives,
                         in_periods,
-                        {order.torque_Nm, order.load_inertia_kgm2}},
+                        {order.torque_Nm, order.load_inertia_kgm2},
+                        order.sent_us},
                        order.begins_stream, order.speed_limit_rad_s, reachable_range());
   if (on_path()) drop_path();
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);

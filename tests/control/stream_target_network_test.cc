@@ -1,5 +1,6 @@
-// A streamed sine at every rate, with and without stamps and derivatives, and what a network does to it: where a reference is that follows
-// it, and whether it goes on as it was. No more than two samples in a row are lost of those that come no faster than 50 a second.
+// A streamed sine at every rate, stamped, told of when it was sent, and neither, with and without velocity, and what senders and networks do to
+// it: where a reference is that follows it, and whether it goes on as it was. No more than two samples in a row are lost of those that come
+// no faster than 50 a second.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,10 @@ constexpr double kAmplitude_rad = 0.5;
 constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr MotionLimits kLimits{6.0, 150.0, 150.0};
 constexpr StreamTarget::Reach kReach{6.0, 150.0};
-constexpr int kBegin = 2000;  ///< periods, or as much sooner as the network begins
+constexpr std::int64_t kSome_us = 1'700'000'000'000'000;
+constexpr double kBridge_s = 0.05;
+constexpr double kMostDoubtful = 0.05;  ///< of the rides
+constexpr int kBegin = 2000;            ///< periods, or as much sooner as the network begins
 constexpr int kEnd = 7500;
 
 struct Network {
@@ -34,12 +38,24 @@ struct Network {
   double jitter_s = 0.0;
   double held_up_s = 0.0;  ///< once a second none comes for so long, and then all at once
   double from_s = 1.0;     ///< all of it from then on
+  double every_s = 1.003;  ///< a hold-up
+  /// The sender's timer is late: by the amount of a normal distribution of this deviation, and 2 % of the times by up to 20 ms.
+  double late_s = 0.0;
+  double least_Hz = 0.0;         ///< from where on 5 mrad are kept ...
+  double least_untold_Hz = 0.0;  ///< ... where nobody tells when a sample was sent ...
+  double most_Hz = 1000.0;       ///< ... and up to where: a timer must not be late by intervals
+  bool of_its_clock = true;      ///< its samples are for when it sends them; else for when it should have
 };
+
+/// How a receiver is told which instant a sample is for.
+enum class Told { kNot, kSent, kStamped };
+constexpr std::int64_t kAhead = 60;  ///< periods that samples are stamped ahead
 
 /// What arrives: of `of_s` at `at_s`, nothing that is older than what came before.
 struct Arrival {
   double at_s = 0.0;
   double of_s = 0.0;
+  double sent_s = 0.0;
 };
 
 std::vector<Arrival> arrivals(const Network& network, double rate_Hz, bool stamped, unsigned seed) {
@@ -48,10 +64,19 @@ std::vector<Arrival> arrivals(const Network& network, double rate_Hz, bool stamp
   std::vector<Arrival> sent;
   int missing = 0;
   bool swapped_last = false;
+  double last_sent_s = -1.0;
+  std::normal_distribution<double> normal;
   for (int i = 0; i / rate_Hz < 8.0; ++i) {
     // A stamp is a whole period, and so is what it is for.
     const double of_s = stamped ? kPeriod_s * std::round(i / rate_Hz / kPeriod_s) : i / rate_Hz;
-    Arrival one{of_s, of_s};
+    Arrival one{of_s, of_s, of_s};
+    if (network.late_s > 0.0 && of_s > network.from_s) {
+      one.sent_s += chance() < 0.02 ? 0.02 * chance() : std::abs(network.late_s * normal(random));
+      one.sent_s = std::max(one.sent_s, last_sent_s + 2e-5);
+      one.at_s = one.sent_s;
+      if (network.of_its_clock && !stamped) one.of_s = one.sent_s;
+    }
+    last_sent_s = one.sent_s;
     const int copies = chance() < network.doubled ? 2 : 1;
     if (of_s > network.from_s) {
       const bool may_miss = rate_Hz > 50.0 || missing < 2;
@@ -62,10 +87,10 @@ std::vector<Arrival> arrivals(const Network& network, double rate_Hz, bool stamp
         continue;
       }
       one.at_s += network.jitter_s * chance();
-      const double into_s = std::fmod(one.at_s, 1.003);
+      const double into_s = std::fmod(one.at_s, network.every_s);
       if (into_s < network.held_up_s) one.at_s += network.held_up_s - into_s;
       swapped_last = !swapped_last && may_miss && chance() < network.swapped;
-      if (swapped_last) one.at_s = of_s + 1.0 / rate_Hz + 1e-4 + network.jitter_s;
+      if (swapped_last) one.at_s = std::max(one.at_s, one.sent_s + 1.0 / rate_Hz + 1e-4 + network.jitter_s);
       missing = swapped_last ? missing + 1 : 0;
     }
     for (int copy = 0; copy < copies; ++copy) sent.push_back(one);
@@ -92,26 +117,36 @@ struct Ride {
   int ended = 0;                  ///< periods
 };
 
-/// `ahead`: periods that samples are stamped ahead; 0: no stamp.
-Ride ride(const Network& network, double rate_Hz, int derivatives, int ahead, unsigned seed) {
+// What a timer is late by on average is part of the way, where samples are for the times that it should have kept.
+double lag_s(const Network& network, double rate_Hz, int derivatives, Told told) {
+  if (told == Told::kStamped) return 0.0;
+  const double late_s = network.of_its_clock || network.late_s == 0.0
+                            ? 0.0
+                            : 0.98 * network.late_s * std::sqrt(2.0 / std::numbers::pi) + 0.02 * 0.01;
+  // Positions alone lag one sample, and without a stamp all lag what the network takes on average.
+  return (derivatives == 0 ? 1.0 / rate_Hz : 0.0) + 0.5 * network.jitter_s + late_s;
+}
+
+Ride ride(const Network& network, double rate_Hz, int derivatives, Told told, unsigned seed) {
+  const std::int64_t ahead = told == Told::kStamped ? kAhead : 0;
   const std::vector<Arrival> arriving = arrivals(network, rate_Hz, ahead > 0, seed);
-  StreamTarget target(kPeriod_s, 0.05);
+  StreamTarget target(kPeriod_s, kBridge_s);
   target.begin(0.0, 0.0, 0.0);
   ReferenceShaper shaper(kPeriod_s);
   shaper.set_limits(kLimits);
   StreamTarget::Confinement confined = 0;
-  // Positions alone lag one sample, and without a stamp all lag what the network takes on average.
-  const double lag_s = ahead > 0 ? 0.0 : (derivatives == 0 ? 1.0 / rate_Hz : 0.0) + 0.5 * network.jitter_s;
+  const double lag_s = ::strainwave::lag_s(network, rate_Hz, derivatives, told);
   Ride result;
   const int begin = kBegin - static_cast<int>((1.0 - network.from_s) / kPeriod_s);
   std::size_t next = 0;
   for (int k = 0; k < kEnd; ++k) {
     const double t_s = k * kPeriod_s;
     for (; next < arriving.size() && arriving[next].at_s <= t_s + 1e-9; ++next) {
-      StreamSample sample = sine(arriving[next].of_s + ahead * kPeriod_s, derivatives);
-      sample.in_periods = ahead + std::lround((arriving[next].of_s - t_s) / kPeriod_s);
+      StreamSample sample = sine(arriving[next].of_s + static_cast<double>(ahead) * kPeriod_s, derivatives);
+      sample.in_periods = ahead + std::llround((arriving[next].of_s - t_s) / kPeriod_s);
       if (ahead == 0) sample.in_periods = 0;
       if (ahead > 0 && sample.in_periods <= 0) continue;
+      if (told == Told::kSent) sample.sent_us = kSome_us + std::llround(1e6 * arriving[next].sent_s);
       if (target.ended()) target.resume(shaper.position_rad(), shaper.velocity_rad_s(), {});
       target.take(sample, kReach);
     }
@@ -136,31 +171,83 @@ Ride ride(const Network& network, double rate_Hz, int derivatives, int ahead, un
   return result;
 }
 
+/// Whether a position that nobody stamps or tells the sending of comes an interval late, with none after it that would tell, where the sine
+/// turns: so close to where it would be an interval later that half of the acceleration, over the time since the last, makes as much. Then
+/// it is taken for the next.
+bool has_doubtful(const Network& network, double rate_Hz, unsigned seed) {
+  const std::vector<Arrival> arriving = arrivals(network, rate_Hz, false, seed);
+  const double interval_s = 1.0 / rate_Hz;
+  for (std::size_t i = 1; i + 1 < arriving.size(); ++i) {
+    const Arrival& one = arriving[i];
+    const bool alone = arriving[i + 1].at_s - one.at_s > 0.5 * interval_s;
+    const double since_s = one.at_s - arriving[i - 1].of_s;
+    const double doubt_rad = 0.25 * kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * since_s * since_s;
+    const double apart_rad =
+        std::abs(sine(one.of_s + interval_s, 0).position_rad - sine(one.of_s, 0).position_rad);
+    if (one.at_s - one.of_s > 0.5 * interval_s && alone && apart_rad < doubt_rad) return true;
+  }
+  return false;
+}
+
+/// Whether none comes for longer than a motion is carried on: an interval, and from half an interval later the bridge. Then the joint comes to
+/// rest.
+bool outlasts_bridge(const Network& network, double rate_Hz, unsigned seed) {
+  const std::vector<Arrival> arriving = arrivals(network, rate_Hz, false, seed);
+  const double interval_s = 1.0 / rate_Hz;
+  const double longest_s = 1.5 * interval_s + std::max(kBridge_s, 2.0 * interval_s);
+  for (std::size_t i = 1; i < arriving.size(); ++i)
+    if (arriving[i].at_s - arriving[i - 1].of_s > longest_s - kPeriod_s) return true;
+  return false;
+}
+
+const char* name_of(Told told) {
+  return told == Told::kNot ? "not stamped" : told == Told::kSent ? "sent at" : "stamped";
+}
+
 class StreamTargetNetwork : public ::testing::TestWithParam<Network> {};
 
 TEST_P(StreamTargetNetwork, LeavesASineGoingOnWhereItWas) {
   const Network& network = GetParam();
   // At 20 Hz two in a row leave 150 ms open, and time and again no three samples in a row: not every draw is as bad as that.
-  const unsigned draws = network.lost > 0.0 && network.swapped == 0.0 ? 40 : 4;
+  const unsigned draws = network.lost > 0.0 || network.late_s > 0.0 ? 100 : 4;
   for (const int derivatives : {0, 1, 2})
-    for (const int ahead : {0, 60}) {
-      std::printf("%-28s derivatives %d, %2d ahead:", network.name, derivatives, ahead);
+    for (const Told told : {Told::kNot, Told::kSent, Told::kStamped}) {
+      // Nobody knows by how much the timer was late.
+      if (told == Told::kNot && network.late_s > 0.0) continue;
+      // It comes after the instant that it is stamped with.
+      if (told == Told::kStamped && network.late_s > 0.0 && network.held_up_s > 0.0) continue;
+      std::printf("%-28s derivatives %d, %-11s:", network.name, derivatives, name_of(told));
       for (const double rate_Hz : {20.0, 25.0, 1000.0 / 30.0, 50.0, 100.0, 200.0, 1000.0 / 3.0, 500.0}) {
+        if (rate_Hz < network.least_Hz || rate_Hz > network.most_Hz) continue;
+        if (told == Told::kNot && rate_Hz < network.least_untold_Hz) continue;
+        const bool doubtful_ones = told == Told::kNot && derivatives == 0 && network.swapped > 0.0;
         Ride worst;
+        int ended = 0;
+        int doubtful = 0;
         for (unsigned seed = 1; seed <= draws; ++seed) {
-          const Ride one = ride(network, rate_Hz, derivatives, ahead, seed);
+          const Ride one = ride(network, rate_Hz, derivatives, told, seed);
+          if (one.ended > 0 && told != Told::kStamped && outlasts_bridge(network, rate_Hz, seed)) {
+            ++ended;
+            continue;
+          }
+          if (doubtful_ones && one.largest_error_rad >= 5e-3 && has_doubtful(network, rate_Hz, seed)) {
+            ++doubtful;
+            continue;
+          }
           worst.largest_error_rad = std::max(worst.largest_error_rad, one.largest_error_rad);
           worst.rms_acceleration = std::max(worst.rms_acceleration, one.rms_acceleration);
           worst.ended += one.ended;
         }
         std::printf("  %4.0f Hz %4.1f mrad %4.2f", rate_Hz, 1e3 * worst.largest_error_rad,
                     worst.rms_acceleration);
-        EXPECT_LT(worst.largest_error_rad, 5e-3) << network.name << ", " << rate_Hz << " Hz, " << derivatives
-                                                 << " derivatives, " << ahead << " ahead";
-        EXPECT_LT(worst.rms_acceleration, 1.75) << network.name << ", " << rate_Hz << " Hz, " << derivatives
-                                                << " derivatives, " << ahead << " ahead";
-        EXPECT_EQ(worst.ended, 0) << network.name << ", " << rate_Hz << " Hz, " << derivatives << ", "
-                                  << ahead;
+        if (ended > 0) std::printf(", %d ended", ended);
+        if (doubtful > 0) std::printf(", %d in doubt", doubtful);
+        const auto what = ::testing::Message() << network.name << ", " << rate_Hz << " Hz, " << derivatives
+                                               << " derivatives, " << name_of(told);
+        EXPECT_LT(worst.largest_error_rad, 5e-3) << what;
+        EXPECT_LT(worst.rms_acceleration, 1.75) << what;
+        EXPECT_EQ(worst.ended, 0) << what;
+        EXPECT_LE(doubtful, kMostDoubtful * draws) << what;
       }
       std::printf("\n");
     }
@@ -182,7 +269,30 @@ INSTANTIATE_TEST_SUITE_P(
                 .lost = 0.1,
                 .doubled = 0.1,
                 .swapped = 0.1,
-                .gap_s = 0.03}),
+                .gap_s = 0.03},
+        Network{.name = "all of it, held up for 50 ms",
+                .lost = 0.1,
+                .doubled = 0.05,
+                .swapped = 0.05,
+                .gap_s = 0.03,
+                .held_up_s = 0.05,
+                .every_s = 0.9003,
+                .least_untold_Hz = 30.0},
+        Network{.name = "a late timer, by its clock", .late_s = 0.002},
+        Network{.name = "a late timer, by its plan",
+                .late_s = 0.002,
+                .least_Hz = 25.0,
+                .most_Hz = 100.0,
+                .of_its_clock = false},
+        Network{.name = "all of it, and a late timer",
+                .lost = 0.1,
+                .doubled = 0.05,
+                .swapped = 0.05,
+                .gap_s = 0.03,
+                .held_up_s = 0.05,
+                .every_s = 0.9003,
+                .late_s = 0.002,
+                .least_Hz = 50.0}),
     [](const ::testing::TestParamInfo<Network>& instance) {
       std::string name;
       for (const char letter : std::string(instance.param.name))

@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <limits>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v2.hpp>
 #include <strainwave/setpoint_v2.hpp>
+#include <thread>
+
+#include "base/utime.h"
 
 namespace strainwave {
 namespace {
@@ -38,6 +43,21 @@ TEST(Sender, WritesTheEnvelopeIntoTheMessageAndKeepsItsContent) {
   EXPECT_EQ(read->position_rad, 0.25);
   EXPECT_GT(read->utime, 0);
   EXPECT_EQ(sealed.channel, "SW.elbow.SETPOINT");
+}
+
+TEST(Sender, TellsWhenAMessageIsSent) {
+  Sender sender(5);
+  std::int64_t before = utime_now();
+  for (int i = 0; i < 3; ++i) {
+    setpoint_v2 message{};
+    message.utime = 17;  // of another one, from a recording
+    const auto read = decode_exactly<setpoint_v2>(sender.seal("SW.elbow.SETPOINT", message, {77, 815}).bytes);
+    ASSERT_TRUE(read);
+    EXPECT_GE(read->utime, before);
+    before = utime_now();
+    EXPECT_LE(read->utime, before);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
 }
 
 TEST(Sender, LeavesKeyAndSignatureZeroWhileNothingIsSigned) {

@@ -1,4 +1,5 @@
 """Streams over a network that the test plays: which cycles samples are for, what is late, and how a stream ends."""
+import time
 import unittest
 
 from played_orders import COMMAND, SETPOINT, PlayedOrders, published
@@ -24,6 +25,17 @@ class Streams(PlayedOrders):
         self.assertEqual([order.begins_stream for order in self.orders()], [1, 0, 0])
         self.assertEqual({(order.stream_id, order.derivatives, order.velocity_rad_s) for order in self.orders()},
                          {(first.stream_id, 1, 2.0)})
+
+    def test_tell_when_each_sample_is_sent(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.9)
+        spans = []
+        for t in (5.0, 5.01, 5.02):
+            before = time.time_ns() // 1000
+            stream.put(t, 0.5)
+            spans.append((before, time.time_ns() // 1000))
+        for order, (before, after) in zip(self.orders(), spans, strict=True):
+            self.assertTrue(before <= order.utime <= after, (before, order.utime, after))
 
     def test_leave_out_and_count_samples_that_are_late(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))

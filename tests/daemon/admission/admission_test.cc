@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
+#include <utility>
 
 #include "lcmtypes/wire.h"
 #include "tests/support/wire_message.h"
@@ -260,6 +263,26 @@ TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
   ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
   EXPECT_EQ(verdict.order.stream_id, 7);
   EXPECT_TRUE(verdict.order.begins_stream);
+}
+
+TEST_F(AdmissionTest, PassesWhenASampleWasSentWhateverItsSendersClockShows) {
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  constexpr std::pair<std::int64_t, std::int64_t> kUtimesPassed[] = {
+      {1'700'000'000'000'000, 1'700'000'000'000'000},
+      {1, 1},
+      {0, 0},
+      {-1, 0},
+      {-kLast - 1, 0},
+      {kLast, kLast}};
+  for (const auto& [utime, passed] : kUtimesPassed) {
+    setpoint_v2 sample = setpoint(0.5);
+    sample.stream_id = 7;
+    sample.valid_for_s = 0.1;
+    sample.utime = utime;
+    const Verdict verdict = consider(wire("SW.elbow.SETPOINT", sample));
+    ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder) << utime;
+    EXPECT_EQ(verdict.order.sent_us, passed) << utime;
+  }
 }
 
 TEST_F(AdmissionTest, WantsAStreamToSaySomethingEveryTenSecondsAtLeast) {

@@ -1,0 +1,90 @@
+// When, on our clock, a message was sent: by the sender's clock, whose rate is about ours, and the way that the quickest of late took. What
+// is held up on the way or lost changes nothing. Real-time safe.
+//
+//   sent on our clock = sent on the sender's + offset
+//   offset   mean of arrival - sent over some forty messages, without those that came later than this by more than a network's jitter. One that
+//            comes so much earlier shows that all before were late, and none for so long as nobody is held up that the way has become
+//            longer; a difference of more than that, that the sender's clock was set
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace strainwave {
+
+class SenderClock {
+ public:
+  struct Waits {
+    double jitter_s = 0.006;    ///< what a network does to arrivals all the time; > 0
+    double in_a_row_s = 0.12;   ///< for no longer than this all that come were held up
+    double clock_set_s = 0.25;  ///< nobody is held up for so long
+  };
+
+  /// `period_s` > 0: the unit of our clock.
+  explicit SenderClock(double period_s) noexcept : SenderClock(period_s, {}) {}
+  SenderClock(double period_s, const Waits& waits) noexcept : period_us_(period_s * 1e6), waits_(waits) {}
+
+  /// The next message is the first.
+  void forget() noexcept { messages_ = 0; }
+  /// A message of `sent_us` > 0 on the sender's clock comes in this period of ours. False: it is the first, or the first on a clock that was set:
+  /// what was sent before cannot be told from it.
+  bool take(std::int64_t sent_us, double period) noexcept {
+    const double since = messages_ > 0 ? static_cast<double>(sent_us - last_us_) / period_us_ : 0.0;
+    const double late = period - (sent_ + since + offset_);
+    last_us_ = sent_us;
+    if (messages_ == 0 || std::abs(late) * period_us_ > 1e6 * waits_.clock_set_s) {
+      sent_ = 0.0;
+      offset_ = period;
+      begin_mean();
+      return false;
+    }
+    sent_ += since;
+    const double jitter = 1e6 * waits_.jitter_s / period_us_;
+    if (late > jitter) {
+      if (!std::exchange(held_up_, true)) {
+        since_ = period;
+        quickest_ = period - sent_;
+      }
+      quickest_ = std::min(quickest_, period - sent_);
+      if ((period - since_) * period_us_ <= 1e6 * waits_.in_a_row_s) return true;
+      offset_ = quickest_;
+      begin_mean();
+      return true;
+    }
+    if (late < -jitter) {
+      offset_ += late;
+      begin_mean();
+      return true;
+    }
+    messages_ = std::min(messages_ + 1, kAveraged);
+    offset_ += late / messages_;
+    held_up_ = false;
+    return true;
+  }
+  /// Periods from the first message's sending to the last one's; rises with the sender's clock, whatever is learned of the way.
+  double sent() const noexcept { return sent_; }
+  /// sent() + offset(): the period of ours in which one that takes as long as most do would have come.
+  double offset() const noexcept { return offset_; }
+
+ private:
+  static constexpr int kAveraged = 40;
+
+  void begin_mean() noexcept {
+    messages_ = 1;
+    held_up_ = false;
+  }
+
+  double period_us_;
+  Waits waits_;
+  std::int64_t last_us_ = 0;
+  double sent_ = 0.0;
+  double offset_ = 0.0;
+  int messages_ = 0;       ///< that offset_ is the mean of, at most
+  bool held_up_ = false;   ///< the last, and all since ...
+  double since_ = 0.0;     ///< ... this period
+  double quickest_ = 0.0;  ///< least arrival - sent since
+};
+
+}  // namespace strainwave
