@@ -41,8 +41,9 @@ struct Order {
   double load_inertia_kgm2 = 0.0;    ///< kSetpoint of a stream: carried besides the joint's own
   std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
   std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: as it comes
-  std::int64_t sent_us = 0;          ///< kSetpoint of a stream: when it was sent, on its sender's clock, > 0; 0: not told
-  std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
+  std::int64_t sent_us =
+      0;  ///< kSetpoint of a stream: when it was sent, on its sender's clock, > 0; 0: not told
+  std::int64_t expires_cycle = -1;  ///< in a later cycle it is refused as too old; -1: never
   std::int64_t challenge_cycle =
       -1;  ///< its challenge is of this one: after a fault in it or later it is too old; -1: never
   std::int32_t path_slot = 0;  ///< kLoadPath
