@@ -252,8 +252,7 @@ class StreamTarget {
   bool rests_at(const Knot& knot) const noexcept;
   bool crowds(const Knot& knot) const noexcept;
   bool hurries() const noexcept;
-  /// One sample has no speed.
-  bool alone() const noexcept { return past_count_ == 1; }
+  bool alone() const noexcept { return past_count_ == 1; }  // one sample has no speed
   void lead_load_to(const Knot& knot) noexcept;
   State at(double period) noexcept;
   State between(double period) const noexcept;

@@ -1,6 +1,6 @@
 // A streamed sine at every rate, stamped, told of when it was sent, and neither, with and without velocity, and what senders and networks do to
 // it: where a reference is that follows it, and whether it goes on as it was. No more than two samples in a row are lost of those that come
-// no faster than 50 a second.
+// no faster than 50 a second. Above 300 lines: every network beside every other, on one sine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
