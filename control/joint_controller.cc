@@ -119,7 +119,7 @@ void JointController::load(const GainTable& table) noexcept {
                                      : table.plant.inertia_kgm2;
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
   model_.friction = law_.friction();
-  torque_limit_Nm_ = std::min(table.torque_limit_Nm, config_.torque_limit_Nm);
+  torque_limit_Nm_ = config_.torque_limit_with(table);
   model_.friction_scale_Nm =
       std::max(table.friction.least_static_Nm(), kLeastFrictionShare * torque_limit_Nm_);
 }

@@ -61,6 +61,9 @@ struct JointControllerConfig {
   /// is not given what is commanded acts at once.
   std::optional<double> current_loop_s;
   double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
+  double torque_limit_with(const GainTable& table) const noexcept {
+    return std::min(torque_limit_Nm, table.torque_limit_Nm);
+  }
   MotorLimits motor;
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
   /// Of the reference, > 0; with use_shaping. Where it is so low that kMaxMeanPeriods do not suffice, accelerations are lower, too.

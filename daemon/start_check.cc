@@ -25,8 +25,9 @@ void tell_table(const JointConfig& joint, const std::optional<InitialTable>& ini
 }
 
 void tell_loads(const JointConfig& joint, const std::optional<InitialTable>& initial, std::ostream& out) {
-  double torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
-  if (initial) torque_limit_Nm = std::min(torque_limit_Nm, initial->table.torque_limit_Nm);
+  const JointControllerConfig& controller = joint.loop.controller;
+  const double torque_limit_Nm =
+      initial ? controller.torque_limit_with(initial->table) : controller.torque_limit_Nm;
   const LoadLimits loads = joint.loop.limits.load.under(torque_limit_Nm);
   out << joint.name << ": yields to a load above " << loads.load_Nm << " N.m, notice above "
       << loads.notice_Nm << ", torque limit " << torque_limit_Nm << '\n';

@@ -96,7 +96,7 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table) {
   std::vector<std::string> doubts;
-  const double holds_Nm = std::min(controller.torque_limit_Nm, table.torque_limit_Nm);
+  const double holds_Nm = controller.torque_limit_with(table);
   const auto note = [&](const auto& write) {
     std::ostringstream doubt;
     doubt.precision(4);

@@ -89,8 +89,7 @@ Ruling JointLoop::use_table(const TableSlot& slot) noexcept {
   const double holds_Nm = std::abs(motion_.output.torque_Nm);
   if (mode_.controlled() && holds_Nm > table.torque_limit_Nm)
     return {Reason::kOutOfRange, table.torque_limit_Nm, holds_Nm};
-  const LoadLimits loads =
-      config_.limits.load.under(std::min(table.torque_limit_Nm, config_.controller.torque_limit_Nm));
+  const LoadLimits loads = config_.limits.load.under(config_.controller.torque_limit_with(table));
   if (mode_.controlled() && std::abs(motion_.load_Nm) > loads.load_Nm)
     return {Reason::kOutOfRange, loads.load_Nm, std::abs(motion_.load_Nm)};
   motion_watch_.limit_loads(loads);
