@@ -8,9 +8,8 @@
 #include <random>
 #include <string>
 
-#include "control/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -25,11 +24,7 @@ BenchJoint joint_of(Mechanics kind) {
   JointControllerConfig& controller = joint.loop.controller;
   controller.motion.acceleration_rad_s2 = kMostAcceleration_rad_s2;
   controller.motion.deceleration_rad_s2 = kMostAcceleration_rad_s2;
-  if (kind == Mechanics::kRigid) return joint;
-  joint.drive.plant = flexible_plant();
-  controller.rigid = false;
-  controller.use_observer = false;
-  controller.use_landing = false;
+  if (kind == Mechanics::kOnASpring) put_on_spring(joint, flexible_plant(), false);
   return joint;
 }
 
@@ -76,8 +71,7 @@ struct Arrived {
 
 Arrived stream_to(Mechanics kind, const Arrivals& stream, unsigned seed) {
   JointBench bench({joint_of(kind)});
-  static const GainTable flexible = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
-  bench.bring_to_hold(0, kind == Mechanics::kRigid ? demo_table() : flexible);
+  bench.bring_to_hold(0, kind == Mechanics::kRigid ? demo_table() : flexible_table());
   bench.run(0.2);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> late_s(0.0, stream.jitter_s);

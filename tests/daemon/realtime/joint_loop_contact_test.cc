@@ -5,9 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "control/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -34,15 +33,7 @@ struct Blow {
 BenchJoint joint_before_a_wall(double stiffness_Nm_rad, bool flexible, OverloadStop stop) {
   BenchJoint joint = demo_joint();
   JointControllerConfig& controller = joint.loop.controller;
-  if (flexible) {
-    joint.drive.plant = flexible_plant();
-    const Transmission& gear = *joint.drive.plant.effects.transmission;
-    controller.rigid = false;
-    controller.use_observer = false;
-    controller.use_landing = false;
-    controller.link = {
-        joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
-  }
+  if (flexible) put_on_spring(joint, flexible_plant());
   const double moving_kgm2 =
       flexible ? controller.link->link_inertia_kgm2 : joint.drive.plant.joint.inertia_kgm2;
   joint.drive.plant.effects.contact = {kWall_rad, stiffness_Nm_rad,
@@ -58,11 +49,9 @@ class RunsIntoAWall : public ::testing::TestWithParam<std::tuple<double, bool>> 
  protected:
   Blow run_into_it(OverloadStop stop) {
     const auto [stiffness_Nm_rad, flexible] = GetParam();
-    static const GainTable spring_table =
-        read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
     const BenchJoint joint = joint_before_a_wall(stiffness_Nm_rad, flexible, stop);
     bench_.emplace(std::vector<BenchJoint>{joint});
-    bench_->bring_to_hold(0, flexible ? spring_table : demo_table());
+    bench_->bring_to_hold(0, flexible ? flexible_table() : demo_table());
     EXPECT_EQ(bench_->order(0, Order{.kind = OrderKind::kSetpoint,
                                      .position_rad = 2.0 * kWall_rad,
                                      .speed_limit_rad_s = kSpeed_rad_s}),

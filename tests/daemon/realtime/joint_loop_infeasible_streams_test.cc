@@ -10,9 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -115,14 +114,7 @@ BenchJoint bench_joint(const Joint& kind) {
     controller.motion.acceleration_rad_s2 = 40.0;
     controller.motion.deceleration_rad_s2 = 40.0;
   }
-  if (!kind.told) return joint;
-  joint.drive.plant = flexible_plant();
-  const Transmission& gear = *joint.drive.plant.effects.transmission;
-  controller.rigid = false;
-  controller.use_observer = false;
-  controller.use_landing = false;
-  controller.link = {
-      joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  if (kind.told) put_on_spring(joint, flexible_plant());
   return joint;
 }
 
@@ -145,8 +137,7 @@ Outcome ride(const Joint& kind, const Shape& shape, int every, bool with_velocit
   constexpr int kIntervals[] = {10, 2, 50, 5, 20, 1, 33, 3};
   const BenchJoint joint = bench_joint(kind);
   JointBench bench({joint});
-  static const GainTable flexible = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
-  bench.bring_to_hold(0, kind.told ? flexible : demo_table());
+  bench.bring_to_hold(0, kind.told ? flexible_table() : demo_table());
   Outcome outcome;
   double last_rad_s = 0.0, last_rad_s2 = 0.0;
   int limit_side = 0, limit_at = -1000, next = 0;

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/daemon/realtime/flexible_bench.h"
+#include "tests/support/flexible_bench.h"
 #include "tests/support/joint_bench.h"
 
 namespace strainwave::testing {

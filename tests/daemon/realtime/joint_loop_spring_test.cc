@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/studies/flexible_study.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -40,12 +40,9 @@ Figures by_the_study(const FlexibleCell& cell) {
 
 Figures by_the_loop(const FlexibleCell& cell) {
   BenchJoint joint = demo_joint();
-  joint.drive.plant = cell.plant;
+  put_on_spring(joint, cell.plant, false);
   joint.drive.ambient = TemperatureProfile::constant(cell.temperature_C);
   joint.drive.temperature_noise_C = 0.0;
-  joint.loop.controller.rigid = false;
-  joint.loop.controller.use_observer = false;
-  joint.loop.controller.use_landing = false;
   joint.loop.controller.motion = kNoMotionLimits;
   joint.loop.limits.overspeed_rad_s = 100.0;
   joint.loop.limits.following_error_rad = 10.0;

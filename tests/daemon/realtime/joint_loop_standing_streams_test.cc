@@ -7,9 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "control/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -19,25 +18,13 @@ constexpr const char* kNames[]{"rigid", "spring that nobody tells of", "spring a
 
 BenchJoint joint_of(Kind kind, double ambient_C) {
   BenchJoint joint = demo_joint();
-  if (kind != Kind::kRigid) {
-    joint.drive.plant = flexible_plant();
-    JointControllerConfig& controller = joint.loop.controller;
-    controller.rigid = controller.use_observer = controller.use_landing = false;
-    const Transmission& gear = *joint.drive.plant.effects.transmission;
-    if (kind == Kind::kToldSpring)
-      controller.link = {joint.drive.plant.joint.inertia_kgm2,
-                         gear.link_inertia_kgm2,
-                         gear.spring,
-                         gear.damping_Nms_rad,
-                         {}};
-  }
+  if (kind != Kind::kRigid) put_on_spring(joint, flexible_plant(), kind == Kind::kToldSpring);
   joint.drive.ambient = TemperatureProfile::constant(ambient_C);
   return joint;
 }
 
 const GainTable& table_of(Kind kind) {
-  static const GainTable flexible = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
-  return kind == Kind::kRigid ? demo_table() : flexible;
+  return kind == Kind::kRigid ? demo_table() : flexible_table();
 }
 
 /// Streamed to every 10 ms for 2 s; the largest change of the torque from one period to the next in the last 1.5 s.

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/daemon/realtime/flexible_bench.h"
+#include "tests/support/flexible_bench.h"
 #include "tests/support/joint_bench.h"
 
 namespace strainwave::testing {

@@ -8,9 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "control/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -30,20 +29,6 @@ struct TurnStream {
   bool flexible = false;
   double lag() const { return derivatives == 0 && ahead == 0 ? every : 0; }
 };
-
-BenchJoint turning_joint(bool flexible) {
-  BenchJoint joint = demo_joint();
-  if (!flexible) return joint;
-  joint.drive.plant = flexible_plant();
-  const Transmission& gear = *joint.drive.plant.effects.transmission;
-  JointControllerConfig& controller = joint.loop.controller;
-  controller.rigid = false;
-  controller.use_observer = false;
-  controller.use_landing = false;
-  controller.link = {
-      joint.drive.plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
-  return joint;
-}
 
 /// Mean over the period that begins at `begin_s` of what the sine of the link asks of the motor. The spring's wind-up stays on its first slope:
 /// the motor's sine is the link's, smaller by Jl w^2 / K1.
@@ -88,9 +73,8 @@ struct TurnTorques {
 };
 
 TurnTorques torques_of(const TurnStream& stream) {
-  JointBench bench({turning_joint(stream.flexible)});
-  static const GainTable flexible = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
-  bench.bring_to_hold(0, stream.flexible ? flexible : demo_table());
+  JointBench bench({stream.flexible ? flexible_joint() : demo_joint()});
+  bench.bring_to_hold(0, stream.flexible ? flexible_table() : demo_table());
   TurnTorques torques;
   for (int k = 0; k < kTurnEnd; ++k) {
     if (k % stream.every == 0) {

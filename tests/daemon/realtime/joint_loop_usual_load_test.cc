@@ -11,7 +11,7 @@
 #include "daemon/config/config_load.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/flexible_study.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -36,19 +36,13 @@ BenchJoint with_usual_load(BenchJoint joint, double inertia_kgm2) {
 /// Without a word of the spring that `plant` has, or, `told`, with all of it.
 BenchJoint on_a_spring(const JointPlantConfig& plant, bool told) {
   BenchJoint joint = demo_joint();
-  joint.drive.plant = plant;
-  JointControllerConfig& controller = joint.loop.controller;
-  controller.rigid = controller.use_observer = controller.use_landing = false;
-  const Transmission& gear = *plant.effects.transmission;
-  if (told)
-    controller.link = {
-        plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  put_on_spring(joint, plant, told);
   return joint;
 }
 
 /// A hand that leans on a joint that holds, with 10 N.m more each second. The largest torque as a share of the limit that holds.
 double lean_on(const BenchJoint& joint, const GainTable& table, const char* name) {
-  const double torque_limit_Nm = std::min(joint.loop.controller.torque_limit_Nm, table.torque_limit_Nm);
+  const double torque_limit_Nm = joint.loop.controller.torque_limit_with(table);
   const double load_Nm = joint.loop.limits.load.under(torque_limit_Nm).load_Nm;
   JointBench bench({joint});
   bench.bring_to_hold(0, table);

@@ -8,7 +8,7 @@
 #include "control/gain_table_json.h"
 #include "daemon/realtime/path_follower.h"
 #include "sim/joint/reference_plant.h"
-#include "tests/support/joint_bench.h"
+#include "tests/support/flexible_bench.h"
 
 namespace strainwave::testing {
 namespace {
@@ -22,12 +22,9 @@ constexpr double kBrakedTogether_rad = 0.6e-3;
 
 BenchJoint companion_on_a_spring(double link_kgm2) {
   BenchJoint joint = demo_joint();
-  joint.drive.plant = flexible_plant();
-  Transmission& gear = *joint.drive.plant.effects.transmission;
-  gear.link_inertia_kgm2 = link_kgm2;
-  JointControllerConfig& controller = joint.loop.controller;
-  controller.rigid = controller.use_observer = controller.use_landing = false;
-  controller.link = {joint.drive.plant.joint.inertia_kgm2, link_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  JointPlantConfig plant = flexible_plant();
+  plant.effects.transmission->link_inertia_kgm2 = link_kgm2;
+  put_on_spring(joint, plant);
   return joint;
 }
 
