@@ -71,12 +71,6 @@ const std::vector<Effect>& effects() {
   return list;
 }
 
-/// What a controller is told of the load and the gear, over what they are.
-void tell_wrongly(JointPlantConfig& told, double load, double stiffness) {
-  told.effects.transmission->link_inertia_kgm2 *= load;
-  told.effects.transmission->spring = told.effects.transmission->spring.scaled(stiffness);
-}
-
 /// One thing, or several, that a controller is told wrongly or not at all.
 struct Wrong {
   std::string name;
@@ -105,7 +99,9 @@ const std::vector<Wrong>& wrongs() {
 
 FlexibleCell wrongly_told(FlexibleCell cell, const Wrong& wrong) {
   cell.effect = wrong.name;
-  tell_wrongly(cell.nominal, wrong.load, wrong.stiffness);
+  Transmission& told = *cell.nominal.effects.transmission;
+  told.link_inertia_kgm2 *= wrong.load;
+  told.spring = told.spring.scaled(wrong.stiffness);
   scale_friction(cell.plant, wrong.friction);
   cell.plant.delay.periods += wrong.more_delay_periods;
   cell.plant.delay.jitter_periods += wrong.jitter_periods;

@@ -20,7 +20,7 @@ std::vector<double> over_known(const std::vector<WronglyToldRow>& rows, double l
 }
 
 template <typename Of>
-std::string share(const std::vector<WronglyToldRow>& rows, const Of& of) {
+std::string count(const std::vector<WronglyToldRow>& rows, const Of& of) {
   return std::to_string(std::count_if(rows.begin(), rows.end(), of));
 }
 
@@ -37,14 +37,15 @@ std::vector<std::string> summary_row(const std::string& wrong, const std::vector
     overshoots.push_back(1e3 * row.result.overshoot_rad);
   }
   const auto monitored = [&](MonitorState state) {
-    return share(rows, [state](const WronglyToldRow& row) { return row.result.monitor == state; });
+    return count(rows, [state](const WronglyToldRow& row) { return row.result.monitor == state; });
   };
   fields.push_back(number(percentile(overshoots, 0.5), 2) + ", " + number(percentile(overshoots, 1.0), 2));
-  fields.push_back(share(rows, [](const WronglyToldRow& row) { return row.off_target; }));
+  fields.push_back(
+      count(rows, [](const WronglyToldRow& row) { return row.result.rest_error_rad > kCountedError_rad; }));
   fields.push_back(number(percentile(rest_errors, 1.0), 2));
   fields.push_back(monitored(MonitorState::kFallenBack));
   fields.push_back(monitored(MonitorState::kFaultDue));
-  fields.push_back(share(rows, [](const WronglyToldRow& row) { return row.result.oscillates; }));
+  fields.push_back(count(rows, [](const WronglyToldRow& row) { return row.result.oscillates; }));
   return fields;
 }
 
@@ -56,7 +57,6 @@ std::vector<WronglyToldRow> run_wrongly_told(const std::vector<FlexibleCell>& ce
   run_in_parallel(cells.size(), [&](std::size_t i) {
     rows[i].cell = cells[i];
     rows[i].result = run_without_limit(cells[i], contender);
-    rows[i].off_target = rows[i].result.rest_error_rad > kCountedError_rad;
   });
   double known = 0.0;
   for (WronglyToldRow& row : rows) {

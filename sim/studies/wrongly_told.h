@@ -14,7 +14,6 @@ struct WronglyToldRow {
   FlexibleResult result;  ///< without a limit
   double over_known =
       1.0;  ///< the link's sum |e / r| above 40 urad over that of the same joint, told as it is
-  bool off_target = false;  ///< the link is more than two counts off in the run's last quarter
 };
 
 /// Runs `contender` on every cell. A cell of effect "none" is what those after it are compared with, up to the next.

@@ -2,37 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim/studies/flexible_study.h"
+#include "tests/sim/studies/printed_table.h"
 
 namespace strainwave {
 namespace {
-
-/// The row `name` of README's table as it is printed: one number for each step of the grid.
-std::vector<std::string> readme_row(const std::string& name) {
-  std::ifstream readme(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "README.md");
-  std::vector<std::string> printed;
-  for (std::string line; printed.empty() && std::getline(readme, line);) {
-    if (line.rfind("| " + name + " |", 0) != 0) continue;
-    std::istringstream fields(line.substr(name.size() + 4));
-    std::string number;
-    for (std::string times, bar; printed.size() < 4 && fields >> number >> times >> bar;)
-      printed.push_back(number);
-  }
-  return printed;
-}
-
-/// One unit of the last digit of a printed number: "12.6" has 0.1.
-double last_digit(const std::string& printed) {
-  const std::size_t point = printed.find('.');
-  return point == std::string::npos ? 1.0 : std::pow(10.0, -static_cast<double>(printed.size() - point - 1));
-}
 
 const std::vector<std::pair<const char*, const char*>> kSaid = {
     {"PID", "PID of the source"},
@@ -59,11 +37,11 @@ TEST(FlexibleGrid, FindsEveryDigitOfTheReadmesTable) {
       sum += std::log(row.results[c].link_counted_ratio);
       ++count;
     }
-    const std::vector<std::string> printed = readme_row(kSaid[c].second);
+    const std::vector<std::string> printed = printed_row("README.md", kSaid[c].second);
     ASSERT_EQ(printed.size(), logarithms.size()) << kSaid[c].second;
     std::size_t column = 0;
     for (const auto& [step_rad, of_step] : logarithms) {
-      const std::string& number = printed[column++];
+      const std::string number = printed_numbers(printed[column++]).at(0);
       EXPECT_NEAR(std::exp(of_step.first / of_step.second), std::stod(number), last_digit(number))
           << kSaid[c].first << ", " << step_rad << " rad";
     }

@@ -17,6 +17,7 @@
 #include "control/link_model.h"
 #include "control/scheduled_controller.h"
 #include "sim/studies/link_limit.h"
+#include "tests/sim/studies/printed_table.h"
 
 namespace strainwave {
 namespace {
@@ -106,16 +107,8 @@ TEST(FlexibleStudy, FindsTheOscillationsOfEveryPartOnWithoutTheMonitorOnHeavyLin
 }
 
 /// The number in column `column` of the page's row of contender `name`, from 1.
-int page_number(const std::string& name, int column) {
-  std::ifstream page(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "docs" / "flexible-joint.md");
-  for (std::string line; std::getline(page, line);) {
-    if (line.rfind("| " + name + " |", 0) != 0) continue;
-    std::istringstream fields(line.substr(name.size() + 4));
-    std::string field;
-    for (int k = 0; k < column; ++k) std::getline(fields, field, '|');
-    return std::stoi(field);
-  }
-  throw std::invalid_argument(name);
+int page_number(const std::string& name, std::size_t column) {
+  return std::stoi(printed_row("docs/flexible-joint.md", name).at(column - 1));
 }
 
 /// What no ratio to the limit tells, of one contender on the whole grid.
