@@ -4,9 +4,9 @@ import os
 
 from .command_v1 import command_v1
 from .conversation import Conversation
-from .errors import Faulted, NoAnswer, NotDone
+from .errors import NoAnswer, NotDone
 from .messages import blank
-from .motion import OLD_STATES_S, Arrival, ArrivalWatch, wait_for_motion
+from .motion import OLD_STATES_S, Arrival, ArrivalWatch, faulted, wait_for_motion
 from .network import Network, check_name, now_s
 from .sender import Sender
 from .setpoint_v2 import setpoint_v2
@@ -76,7 +76,7 @@ class Joint:
         def decided():
             mode = self._mode()
             if mode == Mode.FAULTED:
-                raise self._faulted()
+                raise faulted(self._conversation)
             if mode == Mode.OFF and now_s() > ordered_s + OLD_STATES_S:
                 raise NotDone(f"{self.name}: went back to off while it was starting; see the daemon's log")
             return mode in _ENABLED
@@ -89,7 +89,7 @@ class Joint:
 
         def decided():
             if self._mode() == Mode.FAULTED:
-                raise self._faulted()
+                raise faulted(self._conversation)
             return self._mode() == Mode.OFF
 
         self._conversation.wait_for_state()
@@ -100,10 +100,6 @@ class Joint:
         self._stop(Action.HOLD)
         self._conversation.wait_for_state()
         wait_for_motion(self._conversation, Mode.TRACKING, "hold", lambda state: state.mode == Mode.HOLDING)
-
-    def _faulted(self):
-        state = State(self._conversation.state, 0.0)
-        return Faulted(self.name, state.fault, state.fault_words())
 
     def clear_fault(self):
         """Leaves a latched fault, to off. A joint without one is left alone."""

@@ -49,6 +49,12 @@ class ArrivalWatch:
         return False
 
 
+def faulted(conversation):
+    """The Faulted of a joint that is."""
+    state = State(conversation.state, conversation.received_s)
+    return Faulted(conversation.joint, state.fault, state.fault_words())
+
+
 def _why_ended(state, session_id, replaced):
     if state.session_id != session_id:
         return "the daemon was restarted"
@@ -72,9 +78,8 @@ class MotionWatch:
 
     def check_fault(self):
         """Raises Faulted."""
-        state = State(self.conversation.state, self.conversation.received_s)
-        if state.mode == Mode.FAULTED:
-            raise Faulted(self.conversation.joint, state.fault, state.fault_words())
+        if self.conversation.state.mode == Mode.FAULTED:
+            raise faulted(self.conversation)
 
     def look(self):
         """True once it is done. Raises NotDone, NoAnswer when it ended otherwise."""
