@@ -18,7 +18,6 @@ constexpr double kSmooth = 0.1;
 // For so long a smooth motion's acceleration goes on, or until it would have changed by that share.
 constexpr double kSmoothIntervals = 2.5;
 constexpr double kSmooth_s = 0.06;
-constexpr double kSmoothUntimed_s = 0.03;
 // Streams whose jerk is carried on: just those of 100 Hz.
 constexpr double kJerkGoesOn_s = 0.009;
 // By so much of an interval a sample is late before it is missing.
@@ -77,7 +76,6 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
     knot.at += static_cast<double>(sample.in_periods);
   } else {
     time(sample, knot);
-    knot.untimed = !knot.told;
   }
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
@@ -274,10 +272,10 @@ StreamTarget::State StreamTarget::beyond(double period) const noexcept {
   const double since_s = seconds(period - to_.at);
   const double interval_s = seconds(expected_interval());
   const double goes_on_s =
-      to_.smooth ? std::max(kSmoothIntervals * interval_s,
-                            std::min(to_.untimed ? kSmoothUntimed_s : kSmooth_s,
-                                     kSmooth * reach_.acceleration_rad_s2 / std::abs(to_.jerk_rad_s3)))
-                 : interval_s;
+      to_.smooth
+          ? std::max(kSmoothIntervals * interval_s,
+                     std::min(kSmooth_s, kSmooth * reach_.acceleration_rad_s2 / std::abs(to_.jerk_rad_s3)))
+          : interval_s;
   const double speeding_s = std::min(since_s, goes_on_s);
   const double jerk_rad_s3 = carried_on_jerk_rad_s3(to_);
   const double velocity_rad_s =

@@ -135,7 +135,6 @@ class StreamTarget {
     bool moving = false;      ///< one came with it, and is believed
     bool carried = false;     ///< forward: not what was sent
     bool smooth = false;   ///< three samples show its acceleration, which changes little from one to the next
-    bool untimed = false;  ///< nobody said which instant it is for, or when it was sent
     bool told = false;     ///< when it was sent: `at` is `clocked`, or `sent` and the way
     double sent = 0.0;     ///< SenderClock::sent()
     double clocked = 0.0;  ///< period: by the loop that is locked to the sender's rhythm

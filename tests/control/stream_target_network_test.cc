@@ -199,8 +199,7 @@ bool has_doubtful(const Network& network, double rate_Hz, unsigned seed) {
   return false;
 }
 
-/// Whether none comes for longer than a motion is carried on: an interval, and from half an interval later the bridge. Then the joint comes to
-/// rest.
+/// Whether none comes for longer than an interval and, from half an interval later, the bridge. Then the joint comes to rest.
 bool outlasts_bridge(const Network& network, double rate_Hz, unsigned seed) {
   const std::vector<Arrival> arriving = arrivals(network, rate_Hz, false, seed);
   const double interval_s = 1.0 / rate_Hz;
@@ -254,7 +253,9 @@ TEST_P(StreamTargetNetwork, LeavesASineGoingOnWhereItWas) {
         if (doubtful > 0) std::printf(", %d in doubt", doubtful);
         const auto what = ::testing::Message() << network.name << ", " << rate_Hz << " Hz, " << derivatives
                                                << " derivatives, " << name_of(told);
-        EXPECT_LT(worst.largest_error_rad, 5e-3) << what;
+        const bool closely =
+            derivatives > 0 && told == Told::kNot && network.jitter_s == 0.0 && rate_Hz == 100.0;
+        EXPECT_LT(worst.largest_error_rad, closely ? 1e-3 : 5e-3) << what;
         EXPECT_LT(worst.rms_acceleration, 1.75) << what;
         EXPECT_EQ(worst.ended, 0) << what;
         EXPECT_LE(doubtful, kMostDoubtful * draws) << what;
