@@ -205,8 +205,9 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   // Of the motion until now: a plan's, or a push that ends on the target.
   const bool planned =
       phase_ == MotionPhase::kLanding || (phase_ == MotionPhase::kTracking && torque_is_planned());
-  state_.step(measurement, loaded_model(), estimate_source(),
-              planned ? SurpriseCause::kFriction : SurpriseCause::kLoad);
+  const SurpriseCause by_friction =
+      follows_ == Follows::kStreamOnTime ? SurpriseCause::kStreamedFriction : SurpriseCause::kFriction;
+  state_.step(measurement, loaded_model(), estimate_source(), planned ? by_friction : SurpriseCause::kLoad);
   if (yields())
     go_on_yielding(elapsed_periods);
   else if (!goes_on_anew(measurement))

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "control/units.h"
+
 namespace strainwave {
 
 namespace {
@@ -177,7 +179,7 @@ void VelocityObserver::admit_surprise(double distance_rad, SurpriseCause cause) 
   const double since_s = std::max(1, periods_) * config_.period_s;
   const double velocity = distance_rad / since_s;
   const double by_friction_rad =
-      cause == SurpriseCause::kFriction ? std::min(distance_rad, config_.encoder_resolution_rad) : 0.0;
+      cause != SurpriseCause::kLoad ? std::min(distance_rad, config_.encoder_resolution_rad) : 0.0;
   const double by_load_rad = distance_rad - (1.0 - kLoadShareOfACount) * by_friction_rad;
   const double load_Nm =
       std::min(2.0 * inertia_kgm2_ * by_load_rad / square(since_s), kSurpriseLoad * static_friction_Nm_);
@@ -237,10 +239,15 @@ void VelocityObserver::correct(double position_rad, SurpriseCause cause) noexcep
   const double tighter_rad = position_rad - reading_rad_ - moved_rad_;
   if (reading_variance() > square(half_rad))
     weigh(position_rad, cause);
-  else if (tighter_rad > 0.0)
-    truncate(position_rad - half_rad, 1.0, cause);
-  else if (tighter_rad < 0.0)
-    truncate(position_rad + half_rad, -1.0, cause);
+  else if (tighter_rad != 0.0) {
+    const double nearer_rad = std::copysign(half_rad, tighter_rad);
+    truncate(position_rad - nearer_rad, sign(tighter_rad), cause);
+    // Where a reading alone tells more, as while a joint breaks away, its other edge is news as well: by one edge the joint would be far beyond
+    // it. What something else pushed may be anywhere.
+    const bool doubtful = covariance_(kPosition, kPosition) > square(config_.encoder_resolution_rad) / 12.0;
+    if (doubtful && cause == SurpriseCause::kStreamedFriction)
+      truncate(position_rad + nearer_rad, -sign(tighter_rad), cause);
+  }
   reading_rad_ = position_rad;
   moved_rad_ = 0.0;
   periods_ = 0;

@@ -4,7 +4,8 @@
 // An encoder reads intervals, not positions. What a reading adds is which of its two edges has been passed,
 // or not yet been reached, since the last one; the estimate is conditioned on exactly that (a Gaussian
 // truncated at the edge). So a count change tells the position to within what the joint moves in a period,
-// and a joint at rest learns nothing from the same reading again. The estimate is quiet: at rest, with less
+// and a joint at rest learns nothing from the same reading again. In a streamed motion, where the
+// position is known no better than one reading tells it, both edges of it are news. The estimate is quiet: at rest, with less
 // torque than friction holds, velocity is exactly zero. Source: assumed-density filtering, Maybeck,
 // "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12. It knows one mass: what the motions of a joint with a spring
 // show of its inertia, inertia_estimate.h tells.
@@ -38,6 +39,8 @@ struct JointEstimate {
 enum class SurpriseCause {
   kLoad,      ///< a joint that rests, or is pushed towards its last counts: something else pushed it
   kFriction,  ///< a planned motion: as far as a count goes, friction that is not the model's, as it never quite is while a joint breaks away
+  /// The same where the motion is a stream's: both edges of a reading tell how far the joint has broken away.
+  kStreamedFriction,
 };
 
 class VelocityObserver {

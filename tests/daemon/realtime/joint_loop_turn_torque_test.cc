@@ -27,6 +27,7 @@ struct TurnStream {
   int derivatives = 0;
   int ahead = 0;  ///< periods that it is stamped ahead; 0: no stamp
   bool flexible = false;
+  double temperature_C = 20.0;
   double lag() const { return derivatives == 0 && ahead == 0 ? every : 0; }
 };
 
@@ -73,7 +74,9 @@ struct TurnTorques {
 };
 
 TurnTorques torques_of(const TurnStream& stream) {
-  JointBench bench({stream.flexible ? flexible_joint() : demo_joint()});
+  BenchJoint joint = stream.flexible ? flexible_joint() : demo_joint();
+  joint.drive.ambient = TemperatureProfile::constant(stream.temperature_C);
+  JointBench bench({joint});
   bench.bring_to_hold(0, stream.flexible ? flexible_table() : demo_table());
   TurnTorques torques;
   for (int k = 0; k < kTurnEnd; ++k) {
@@ -130,29 +133,32 @@ void add(const TurnStream& stream, Beyond& all) {
       given_step_Nm, asked_step_Nm, largest_Nm);
 }
 
-Beyond beyond_what_is_asked(bool flexible) {
+Beyond beyond_what_is_asked(bool flexible, double temperature_C) {
   Beyond all;
   for (TurnStream stream :
        {TurnStream{50, 0}, TurnStream{50, 1}, TurnStream{20, 0}, TurnStream{20, 1}, TurnStream{10, 0},
         TurnStream{10, 1}, TurnStream{5, 0}, TurnStream{5, 1}, TurnStream{3, 0}, TurnStream{3, 1},
         TurnStream{2, 0}, TurnStream{2, 1}, TurnStream{10, 1, 30}, TurnStream{20, 0, 30}}) {
     stream.flexible = flexible;
+    stream.temperature_C = temperature_C;
     add(stream, all);
   }
-  std::printf("%s: %d turns, %d periods beyond 1 N.m, at most %.2f N.m\n", flexible ? "spring" : "rigid",
-              all.turns, all.periods, all.largest_Nm);
+  std::printf("%s, %g degC: %d turns, %d periods beyond 1 N.m, at most %.2f N.m\n",
+              flexible ? "spring" : "rigid", temperature_C, all.turns, all.periods, all.largest_Nm);
   return all;
 }
 
 TEST(TurnTorque, OfAJointThatIsToldOfItsSpringStepsNowhereByANewtonMetreMoreThanTheSineAsksFor) {
-  EXPECT_LT(beyond_what_is_asked(true).largest_Nm, 1.0);
+  EXPECT_LT(beyond_what_is_asked(true, 20.0).largest_Nm, 1.0);
 }
 
 // It breaks away from true stiction, and its encoder tells of that by whole counts, each of which is a step of the feedback.
-TEST(TurnTorque, OfARigidJointStepsByANewtonMetreMoreInAFewPeriodsAfterEachTurn) {
-  const Beyond beyond = beyond_what_is_asked(false);
-  EXPECT_LT(beyond.periods, 3 * beyond.turns);
-  EXPECT_LT(beyond.largest_Nm, 6.0);
+TEST(TurnTorque, OfARigidJointStepsByANewtonMetreMoreInOnePeriodOfSevenTurns) {
+  for (const double temperature_C : {-8.0, 5.0, 20.0, 40.0}) {
+    const Beyond beyond = beyond_what_is_asked(false, temperature_C);
+    EXPECT_LT(7 * beyond.periods, beyond.turns) << temperature_C << " degC";
+    EXPECT_LT(beyond.largest_Nm, 5.0) << temperature_C << " degC";
+  }
 }
 
 }  // namespace
