@@ -1,6 +1,7 @@
 // disable, hold: stops.
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
+#include "client/link/client_error.h"
 #include "client/link/orders.h"
 
 namespace strainwave {
@@ -11,12 +12,24 @@ void say_disabled(const Output& output, const std::string& joint) {
   say(output, joint + ": disabled", {{"joint", joint}, {"mode", "off"}});
 }
 
+// A stop is for a joint by its name, and who hears no joint knows none. One that is named is sent to, heard or not.
+std::vector<std::string> joints_to_stop(Client& client, const std::vector<std::string>& joints) {
+  try {
+    return joints_or_all(client, joints);
+  } catch (const NoAnswer& error) {
+    throw NoAnswer(
+        std::string(error.what()) +
+        " NO STOP WAS SENT: no joint is heard that it could be for. One that is named gets it all the "
+        "same: strainwavectl disable JOINT");
+  }
+}
+
 }  // namespace
 
 void disable(Client& client, const Output& output, const std::vector<std::string>& joints) {
   Failures failures;
   std::vector<std::string> stopping;
-  for (const std::string& joint : joints_or_all(client, joints))
+  for (const std::string& joint : joints_to_stop(client, joints))
     if (failures.attempt(joint, [&] { send_stop(client, joint, Action::kDisable); }))
       stopping.push_back(joint);
   for (const std::string& joint : stopping)

@@ -19,13 +19,17 @@ class Path:
     """
 
     def __init__(self, knots):
-        if not knots:
-            raise InvalidInput("a path has at least one joint")
         if not isinstance(knots, Mapping):
             raise InvalidInput(f"{reprlib.repr(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
+        if not knots:
+            raise InvalidInput("a path has at least one joint")
         for joint in knots:
             if not isinstance(joint, Joint):
                 raise InvalidInput(f"{joint!r}: a Joint is allowed, as Joint({joint!r})")
+        names = [joint.name for joint in knots]
+        for name in names:
+            if names.count(name) > 1:
+                raise InvalidInput(f"{name}: {names.count(name)} Joints of that name have knots: one is allowed, with all of its knots")
         self._knots = {joint: self._checked(joint.name, of_joint) for joint, of_joint in knots.items()}
         self._joints = list(self._knots)
 

@@ -127,6 +127,12 @@ TEST_F(CommandsTest, AStopThatNobodyAnswersWasSentAllTheSame) {
   EXPECT_TRUE(message_has("ghost: the stop was sent 4 times, and nothing answered")) << message;
 }
 
+TEST_F(CommandsTest, DisableAllThatHearsNoJointSaysThatItStoppedNone) {
+  EXPECT_EQ(status_of([&] { disable(client, output, {}); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("NO STOP WAS SENT")) << message;
+  EXPECT_TRUE(message_has("strainwavectl disable JOINT")) << message;
+}
+
 TEST_F(CommandsTest, DisableAllGoesOnAfterAFailure) {
   FakeDaemon wrist(connection, "SW", "wrist");
   daemon.publish_state(Mode::kHolding);

@@ -23,6 +23,12 @@ class Paths(PlayedOrders):
         self.assertEqual(knots[:3], self.KNOTS)
         self.assertEqual([order.action for order in commands], [Action.RESUME, Action.PAUSE, Action.RESUME])
 
+    def test_of_anything_else_are_refused_with_what_is_allowed(self):
+        for knots, words in ((None, "None: {joint: "), ({}, "at least one joint"), ({"elbow": self.KNOTS}, "as Joint.'elbow'."),
+                             ({self.elbow: self.KNOTS, Joint("elbow", key=""): self.KNOTS}, "elbow: 2 Joints of that name have knots")):
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                Path(knots)
+
     def test_that_are_refused_start_nothing(self):
         self.publish_state()
         self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE, "elbow, knot 1")
