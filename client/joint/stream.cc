@@ -140,7 +140,9 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
         checked_number("acceleration_rad_s2", *acceleration_rad_s2, "a finite number");
     message.derivatives = 2;
   }
-  message.torque_Nm = checked_number("torque_Nm", load.torque_Nm, "a finite number");
+  message.torque_Nm = checked_number("torque_Nm", load.torque_Nm,
+                                     fmt::format("{} to {}", -limits.torque_limit_Nm, limits.torque_limit_Nm),
+                                     std::abs(load.torque_Nm) <= limits.torque_limit_Nm);
   message.load_inertia_kgm2 = checked_number("load_inertia_kgm2", load.load_inertia_kgm2, "a number from 0",
                                              load.load_inertia_kgm2 >= 0.0);
   message.stream_id = stream_id_;

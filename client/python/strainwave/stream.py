@@ -61,7 +61,8 @@ class Stream:
             raise NotDone(f"{self._joint.name}: this stream is over; Joint.stream() makes another one")
         t = check_number("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
-        message.torque_Nm = check_number("torque_Nm", torque_Nm, "a finite number", lambda _: True)
+        most_Nm = self._joint.limits.torque_limit_Nm
+        message.torque_Nm = check_number("torque_Nm", torque_Nm, f"{-most_Nm} to {most_Nm}", lambda Nm: abs(Nm) <= most_Nm)
         message.load_inertia_kgm2 = check_number("load_inertia_kgm2", load_inertia_kgm2, "a number from 0", lambda kgm2: kgm2 >= 0)
         self._last_t = t
         if self._last_cycle is None:

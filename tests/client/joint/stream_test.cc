@@ -172,6 +172,7 @@ TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   EXPECT_THROW(stream.put(0.0, 0.1, {}, 1.0), InvalidInput);
   EXPECT_THROW(stream.put(std::nan(""), 0.1), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = std::nan("")}), InvalidInput);
+  EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = -30.5}), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.load_inertia_kgm2 = -0.1}), InvalidInput);
   stream.close();
   EXPECT_TRUE(heard<setpoint_v2>().empty());

@@ -9,7 +9,7 @@ from strainwave import InvalidInput, Mode, NotDone, Reason, Refused, limits_v1, 
 class Streams(PlayedOrders):
     def stream(self, **options):
         limits = messages.blank(limits_v1)
-        limits.period_s, limits.position_min_rad, limits.position_max_rad = 0.001, -1.0, 1.0
+        limits.period_s, limits.position_min_rad, limits.position_max_rad, limits.torque_limit_Nm = 0.001, -1.0, 1.0, 34.0
         self.publish_state(Mode.TRACKING, cycle=1000)
         self.network.deliver("LIMITS", limits)
         return self.elbow.stream(**options)
@@ -139,6 +139,7 @@ class Streams(PlayedOrders):
                                (lambda: stream.put(float("nan"), 0), "t = nan"), (lambda: stream.put(0, "there"), "position_rad = 'there'"),
                                (lambda: stream.put(0, 0, acceleration_rad_s2=1), "only with velocity_rad_s"),
                                (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
+                               (lambda: stream.put(0, 0, torque_Nm=-99), "torque_Nm = -99: -34.0 to 34.0 is allowed"),
                                (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
                                (lambda: self.elbow.stream(ahead_s=1.5), "ahead_s = 1.5: above 0 to 0.9")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
