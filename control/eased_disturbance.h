@@ -3,33 +3,31 @@
 // would be a torque step, and the next count its answer. What is fed forward follows slowly over such a distance and soon over more.
 // Real-time safe. Joint side, SI.
 //
-//   |change| per period <= least * (1 + (distance / count)^2)      count = J resolution / T^2
+//   each of its parts by EasedTorque, least as told, doubled at count = J resolution / T^2
 #pragma once
 
-#include <algorithm>
-
+#include "control/eased_torque.h"
 #include "control/joint_model.h"
 
 namespace strainwave {
 
 class EasedDisturbance {
  public:
-  const JointDisturbance& value() const noexcept { return value_; }
-  void jump_to(const JointDisturbance& estimated) noexcept { value_ = estimated; }
+  JointDisturbance value() const noexcept { return {friction_offset_.value_Nm(), load_.value_Nm()}; }
+  void jump_to(const JointDisturbance& estimated) noexcept {
+    friction_offset_.jump_to(estimated.friction_offset_Nm);
+    load_.jump_to(estimated.load_Nm);
+  }
   /// `least_Nm` >= 0: may change each period however near it is; `count_Nm` > 0: the torque that moves the joint by a count in a period.
   void follow(const JointDisturbance& estimated, double least_Nm, double count_Nm,
               int elapsed_periods) noexcept {
-    const auto ease = [&](double& eased_Nm, double estimated_Nm) {
-      const double counts = (estimated_Nm - eased_Nm) / count_Nm;
-      const double change_Nm = elapsed_periods * least_Nm * (1.0 + counts * counts);
-      eased_Nm = std::clamp(estimated_Nm, eased_Nm - change_Nm, eased_Nm + change_Nm);
-    };
-    ease(value_.friction_offset_Nm, estimated.friction_offset_Nm);
-    ease(value_.load_Nm, estimated.load_Nm);
+    friction_offset_.follow(estimated.friction_offset_Nm, least_Nm, count_Nm, elapsed_periods);
+    load_.follow(estimated.load_Nm, least_Nm, count_Nm, elapsed_periods);
   }
 
  private:
-  JointDisturbance value_;
+  EasedTorque friction_offset_;
+  EasedTorque load_;
 };
 
 }  // namespace strainwave

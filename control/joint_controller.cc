@@ -218,6 +218,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!yields()) choose_phase(measurement);
   follow_disturbance(elapsed_periods);
   ControllerOutput output = compute_torque(measurement);
+  ease_answer(output, elapsed_periods);
   hand_over(output);
   // What is told of the load is not estimated.
   state_.remember(config_.motor.limit_Nm(output.torque_Nm, state_.then().velocity_rad_s) -

@@ -24,6 +24,7 @@
 
 #include "control/chatter_monitor.h"
 #include "control/eased_disturbance.h"
+#include "control/eased_torque.h"
 #include "control/encoder_side.h"
 #include "control/friction_side.h"
 #include "control/gain_table.h"
@@ -185,6 +186,7 @@ class JointController {
   void go_on_yielding(int elapsed_periods) noexcept;
   void weigh(const ControllerOutput& output, int elapsed_periods) noexcept;
   ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
+  void ease_answer(ControllerOutput& output, int elapsed_periods) noexcept;
   void hand_over(ControllerOutput& output) noexcept;
   void watch(const ControllerOutput& output, int elapsed_periods) noexcept;
 
@@ -203,9 +205,9 @@ class JointController {
 
   ControllerOutput track(int elapsed_periods) noexcept;
   ControllerOutput apply(double torque_Nm) const noexcept;
-  double planned_torque_Nm() const noexcept;
+  double planned_torque_Nm(const JointDisturbance& disturbance) const noexcept;
   void follow_disturbance(int elapsed_periods) noexcept;
-  double planned_friction_Nm() const noexcept;
+  double planned_friction_Nm(const JointDisturbance& disturbance) const noexcept;
   void follow_friction(int elapsed_periods) noexcept;
   double planned_velocity_rad_s() const noexcept;
   bool reference_moves() const noexcept;
@@ -264,6 +266,7 @@ class JointController {
   ChatterMonitor monitor_;
   FrictionSide friction_side_;    ///< of a stream
   EasedDisturbance disturbance_;  ///< that the planned torque is made of
+  EasedTorque answer_;  ///< of a rigid joint to its readings: torque besides the plan's by the model
   RestDetector rest_detector_;
   LawInUse law_;
   Handover handover_;  ///< from what there was to the law alone

@@ -28,7 +28,13 @@ constexpr double kLeastSwing_rad = 4e-4;
 // told. A joint that chatters uses more of it.
 constexpr double kSpringDoubt = 0.2;
 // Share of the torque limit by which what a stream feeds forward against friction and load changes each period, however small the change.
-constexpr double kLeastChange = 0.003;
+constexpr double kLeastChange = 0.006;
+// The same on a path, which is known to its end: it waits for no sample that could tell of a load.
+constexpr double kLeastChangeOnPath = 0.003;
+// The same of all that readings have changed of a rigid joint's torque since the last period, feedback included, and by how many times as much
+// it may be off before it changes by twice as much.
+constexpr double kLeastAnswer = 0.0175;
+constexpr double kAnswersTwice = 8.0;
 // Periods that a resting joint must be off its target before it moves again: a count may flicker.
 constexpr int kLeavePeriods = 3;
 // Counts by which the reading of a joint that stands as it was found may flicker. What is farther leaves the rest at once.
@@ -157,10 +163,11 @@ void JointController::follow_disturbance(int elapsed_periods) noexcept {
   if (!streamed() || phase_ != MotionPhase::kTracking || !torque_is_planned())
     return disturbance_.jump_to(estimated);
   const double count_Nm = state_.model().inertia_kgm2 * count_rad() / (config_.period_s * config_.period_s);
-  disturbance_.follow(estimated, kLeastChange * torque_limit_Nm_, count_Nm, elapsed_periods);
+  const double least = follows_ == Follows::kStreamOnTime ? kLeastChange : kLeastChangeOnPath;
+  disturbance_.follow(estimated, least * torque_limit_Nm_, count_Nm, elapsed_periods);
 }
 
-double JointController::planned_friction_Nm() const noexcept {
+double JointController::planned_friction_Nm(const JointDisturbance& disturbance) const noexcept {
   // What is less than all of it is that of a dither.
   const bool shared = may_dither() && std::abs(friction_side_.share()) < 1.0;
   if (linked()) {
@@ -174,17 +181,17 @@ double JointController::planned_friction_Nm() const noexcept {
   if (monitor_.drives_itself()) return 0.0;
   const double velocity = planned_velocity_rad_s();
   const double friction_Nm =
-      std::max(0.0, state_.model().friction_Nm(velocity) + disturbance_.value().friction_offset_Nm);
+      std::max(0.0, state_.model().friction_Nm(velocity) + disturbance.friction_offset_Nm);
   return (shared ? friction_side_.share() : sign(velocity)) * friction_Nm;
 }
 
 // Inertia at the reference's acceleration, friction, load.
-double JointController::planned_torque_Nm() const noexcept {
+double JointController::planned_torque_Nm(const JointDisturbance& disturbance) const noexcept {
   if (linked())
-    return motor_plan_.torque_Nm + planned_friction_Nm() + disturbance_.value().load_Nm +
+    return motor_plan_.torque_Nm + planned_friction_Nm(disturbance) + disturbance.load_Nm +
            told_load_.torque_Nm + told_load_.inertia_kgm2 * motor_plan_.wanted_acceleration_rad_s2;
-  return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + planned_friction_Nm() +
-         disturbance_.value().load_Nm + config_.gravity.at(reference_.position_rad) + told_load_.torque_Nm;
+  return state_.model().inertia_kgm2 * reference_.acceleration_rad_s2 + planned_friction_Nm(disturbance) +
+         disturbance.load_Nm + config_.gravity.at(reference_.position_rad) + told_load_.torque_Nm;
 }
 
 ControllerOutput JointController::track(int elapsed_periods) noexcept {
@@ -205,7 +212,7 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   input.planned = moves || fallen_back() || hunted_ || linked();
   // At rest a landing holds the load of a rigid joint.
   const double at_rest_Nm = config_.rigid && !fallen_back() ? told_load_.torque_Nm : held_load_Nm();
-  input.planned_torque_Nm = moves ? planned_torque_Nm() : at_rest_Nm;
+  input.planned_torque_Nm = moves ? planned_torque_Nm(disturbance_.value()) : at_rest_Nm;
   if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
   input.torque_limit_Nm = torque_limit_Nm_;
   input.torque_max_Nm = config_.motor.available_Nm(state_.then().velocity_rad_s);
@@ -217,6 +224,22 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   return output;
 }
 
+// A count, where the joint turns round and breaks away, shifts feedback and disturbance alike, by newton metres, and the turn of the motion turns
+// what is estimated of friction: more steps than the motion asks for. What the plan itself needs of the model has none of it.
+void JointController::ease_answer(ControllerOutput& output, int elapsed_periods) noexcept {
+  if (!config_.rigid) return;
+  const bool planned = phase_ == MotionPhase::kTracking && torque_is_planned();
+  const double by_model_Nm = planned ? planned_torque_Nm({}) : 0.0;
+  if (!planned || !streamed() || fallen_back()) return answer_.jump_to(output.torque_Nm - by_model_Nm);
+  const double least_Nm = kLeastAnswer * torque_limit_Nm_;
+  answer_.follow(output.feedback_torque_Nm + output.feedforward_torque_Nm - by_model_Nm, least_Nm,
+                 kAnswersTwice * least_Nm, elapsed_periods);
+  const double wanted_Nm = by_model_Nm + answer_.value_Nm();
+  output.feedback_torque_Nm = wanted_Nm - output.feedforward_torque_Nm;
+  output.torque_Nm = std::clamp(config_.motor.limit_Nm(wanted_Nm, state_.then().velocity_rad_s),
+                                -torque_limit_Nm_, torque_limit_Nm_);
+}
+
 // The fallback begins with the torque that was applied last.
 void JointController::hand_over(ControllerOutput& output) noexcept {
   if (!fallen_back()) return;
@@ -226,8 +249,8 @@ void JointController::hand_over(ControllerOutput& output) noexcept {
 void JointController::watch(const ControllerOutput& output, int elapsed_periods) noexcept {
   if (!config_.use_monitor) return;
   const bool moves = torque_is_planned();
-  const double needed_Nm =
-      config_.motor.limit_Nm(moves ? planned_torque_Nm() : held_load_Nm(), state_.then().velocity_rad_s);
+  const double needed_Nm = config_.motor.limit_Nm(
+      moves ? planned_torque_Nm(disturbance_.value()) : held_load_Nm(), state_.then().velocity_rad_s);
   ChatterSample sample;
   sample.torque_Nm = output.torque_Nm;
   sample.planned_torque_Nm = std::clamp(needed_Nm, -torque_limit_Nm_, torque_limit_Nm_);

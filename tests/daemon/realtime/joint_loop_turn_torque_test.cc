@@ -152,13 +152,11 @@ TEST(TurnTorque, OfAJointThatIsToldOfItsSpringStepsNowhereByANewtonMetreMoreThan
   EXPECT_LT(beyond_what_is_asked(true, 20.0).largest_Nm, 1.0);
 }
 
-// It breaks away from true stiction, and its encoder tells of that by whole counts, each of which is a step of the feedback.
-TEST(TurnTorque, OfARigidJointStepsByANewtonMetreMoreInOnePeriodOfSevenTurns) {
-  for (const double temperature_C : {-8.0, 5.0, 20.0, 40.0}) {
-    const Beyond beyond = beyond_what_is_asked(false, temperature_C);
-    EXPECT_LT(7 * beyond.periods, beyond.turns) << temperature_C << " degC";
-    EXPECT_LT(beyond.largest_Nm, 5.0) << temperature_C << " degC";
-  }
+// It breaks away from true stiction, and its encoder tells of that by whole counts, each of which would be a step of the feedback: one of more
+// than a newton metre in a period of ten turns, of 6.9 at most, where the answer to it is not eased.
+TEST(TurnTorque, OfARigidJointStepsNowhereByANewtonMetreMoreThanTheSineAsksFor) {
+  for (const double temperature_C : {-8.0, 0.0, 5.0, 12.0, 20.0, 30.0, 40.0})
+    EXPECT_LT(beyond_what_is_asked(false, temperature_C).largest_Nm, 1.0) << temperature_C << " degC";
 }
 
 }  // namespace

@@ -237,7 +237,7 @@ TEST(GentlePaths, AreFollowedWithoutAJolt) {
     }
     std::printf("%g degC: steps of at most %.1f N m; at most %.2e rad off, %.2e in the mean\n", temperature_C,
                 largest_step_Nm, farthest_rad, sum_rad / joints);
-    EXPECT_LT(largest_step_Nm, 3.0) << temperature_C << " degC";
+    EXPECT_LT(largest_step_Nm, 1.5) << temperature_C << " degC";
     EXPECT_LT(farthest_rad, 5e-4) << temperature_C << " degC";
     EXPECT_LT(sum_rad / joints, 3.3e-4) << temperature_C << " degC";
   }
