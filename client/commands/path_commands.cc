@@ -22,10 +22,10 @@ namespace {
 constexpr double kShareOfAcceleration = 0.8;
 
 /// Returns once all joints are where the path ends: the last one's time, and the largest error.
-Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, double tolerance_rad) {
+Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, const PathWait& wait) {
   try {
     Arrival all;
-    for (const Arrival& one : wait_for_path(client, path, tolerance_rad)) {
+    for (const Arrival& one : wait_for_path(client, path, wait)) {
       all.duration_s = std::max(all.duration_s, one.duration_s);
       if (std::abs(one.error_rad) > std::abs(all.error_rad)) all.error_rad = one.error_rad;
     }
@@ -44,16 +44,24 @@ void travel(Client& client, const Output& output, const std::vector<JointPath>& 
   load_path(client, path);
   start_path(client, path);
   std::vector<std::string> joints;
-  double path_s = 0.0;
-  for (const JointPath& part : path) {
-    joints.push_back(part.joint);
-    path_s = std::max(path_s, part.knots.back().time_s);
-  }
+  for (const JointPath& part : path) joints.push_back(part.joint);
+  const double path_s = path_duration_s(path);
   const std::string names = fmt::format("{}", fmt::join(joints, ", "));
   if (!wait)
     return say(output, fmt::format("{}: on a path of {:.3f} s", names, path_s),
                {{"joints", joints}, {"path_s", path_s}, {"arrived", false}});
-  const Arrival arrival = wait_for_all(client, path, tolerance_rad);
+  const auto tell = [&](const PathPause& pause) {
+    say(output,
+        pause.paused ? fmt::format("{}: paused at {:.3f} s of {:.3f} s; strainwavectl resume {} goes on",
+                                   names, pause.at_s, pause.of_s, joints.front())
+                     : fmt::format("{}: on the path again", names),
+        {{"joints", joints},
+         {"path_s", path_s},
+         {"arrived", false},
+         {"paused", pause.paused},
+         {"path_time_s", pause.at_s}});
+  };
+  const Arrival arrival = wait_for_all(client, path, {.tolerance_rad = tolerance_rad, .tell = tell});
   say(output,
       fmt::format("{}: arrived in {:.3f} s, largest error {:.2e} rad", names, arrival.duration_s,
                   arrival.error_rad),
