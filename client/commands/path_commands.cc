@@ -12,6 +12,7 @@
 #include "client/link/motion.h"
 #include "client/link/orders.h"
 #include "client/link/published_limits.h"
+#include "control/knot_path.h"
 #include "lcmtypes/calm_speed.h"
 
 namespace strainwave {
@@ -83,6 +84,25 @@ void require_in_range(const JointTarget& target, const limits_v1& limits) {
                   hint.empty() ? "" : "; ", hint));
 }
 
+/// The daemon would name a knot, of a path that nobody has made himself.
+void require_quick_enough(const std::vector<StraightMove>& moves, const std::vector<JointPath>& path) {
+  const double duration_s = path_duration_s(path);
+  if (duration_s <= kLongestPath_s) return;
+  const StraightMove& slowest =
+      *std::max_element(moves.begin(), moves.end(), [](const StraightMove& one, const StraightMove& other) {
+        return std::abs(one.to_rad - one.from_rad) / one.speed_rad_s <
+               std::abs(other.to_rad - other.from_rad) / other.speed_rad_s;
+      });
+  // A hundredth more, for the ramps and what printing rounds off.
+  constexpr double kMargin = 1.01;
+  const double least_rad_s = kMargin * std::abs(slowest.to_rad - slowest.from_rad) / kLongestPath_s;
+  throw InvalidInput(fmt::format(
+      "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s with "
+      "that speed and joints move together for at most {} s",
+      slowest.joint, slowest.speed_rad_s, least_rad_s, std::abs(slowest.to_rad - slowest.from_rad),
+      duration_s, kLongestPath_s));
+}
+
 StraightMove straight_move(const JointTarget& target, const state_v1& state, const limits_v1& limits,
                            double speed_limit_rad_s) {
   const double by_torque_rad_s2 = limits.torque_limit_Nm / limits.inertia_kgm2;
@@ -138,7 +158,9 @@ void move_together(Client& client, const Output& output, const MoveTogetherArgum
     require_in_range(target, limits);
     moves.push_back(straight_move(target, state, limits, arguments.speed_limit_rad_s));
   }
-  travel(client, output, straight_path(moves), arguments.wait, arguments.tolerance_rad);
+  const std::vector<JointPath> path = straight_path(moves);
+  require_quick_enough(moves, path);
+  travel(client, output, path, arguments.wait, arguments.tolerance_rad);
 }
 
 void pause_path(Client& client, const Output& output, const std::string& joint) {

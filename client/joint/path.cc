@@ -48,8 +48,8 @@ void Path::hold() {
 }
 
 std::vector<Arrival> Path::wait(double tolerance_rad, double timeout_s) {
-  checked_number("tolerance_rad", tolerance_rad, "a number above 0", tolerance_rad > 0.0);
-  if (!(timeout_s > 0.0)) checked_number("timeout_s", timeout_s, "a number above 0", false);
+  checked_number(first().name(), "tolerance_rad", tolerance_rad, "a number above 0", tolerance_rad > 0.0);
+  if (!(timeout_s > 0.0)) checked_number(first().name(), "timeout_s", timeout_s, "a number above 0", false);
   const auto held = first().lock();
   first().view();
   for (const JointPath& part : parts_) first().client().wait_for_joint(part.joint);

@@ -149,6 +149,16 @@ TEST_F(PathCommandsTest, ATargetOutOfRangeIsRefusedBeforeAnythingIsSent) {
   EXPECT_TRUE(daemon.heard().empty() && wrist.heard().empty());
 }
 
+TEST_F(PathCommandsTest, ASpeedThatTakesTooLongIsRefusedWithTheLeastThatIsAllowed) {
+  EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 1e-9}), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("elbow: speed_limit_rad_s = 1e-09: at least 0.000281 is allowed")) << message;
+  EXPECT_TRUE(daemon.heard().empty() && wrist.heard().empty());
+}
+
+TEST_F(PathCommandsTest, ASpeedThatTakesJustNotTooLongIsAllowed) {
+  EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 0.000281}), ExitStatus::kDone) << message;
+}
+
 TEST_F(PathCommandsTest, JsonNamesTheJointsAsAList) {
   let_two_joints_hold();
   const Output json{stream, false, true};
