@@ -29,6 +29,18 @@ class Paths(PlayedOrders):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path(knots)
 
+    def test_are_sent_again_as_often_as_a_network_may_lose_one_of_their_packets(self):
+        self.publish_state()
+        lost = 8
+
+        def daemon(channel, message):
+            if len(self.network.published) > lost:
+                self.answer(published(channel, message))
+
+        self.network.daemon = daemon
+        Path({self.impatient_elbow: self.KNOTS}).start()
+        self.assertEqual([channel for channel, _ in self.network.published], [PATH] * (lost + 1) + ["SW.elbow.COMMAND"])
+
     def test_that_are_refused_start_nothing(self):
         self.publish_state()
         self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE, "elbow, knot 1")
