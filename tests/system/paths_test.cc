@@ -89,7 +89,11 @@ TEST_F(DaemonPaths, LeavePauseAndArriveInOneCycle) {
   client_.pump(milliseconds(400));
   ASSERT_TRUE(client_.command("hip", Action::kPause).accepted);
   client_.pump(milliseconds(500));
-  for (const std::string& name : kNames) EXPECT_EQ(client_.state(name)->setpoint_velocity_rad_s, 0.0) << name;
+  for (const std::string& name : kNames) {
+    EXPECT_EQ(client_.state(name)->setpoint_velocity_rad_s, 0.0) << name;
+    EXPECT_NE(client_.state(name)->notices & static_cast<std::int32_t>(Notice::kPathPaused), 0) << name;
+    EXPECT_EQ(client_.state(name)->path_time_s, client_.state("elbow")->path_time_s) << name;
+  }
   ASSERT_TRUE(client_.command("wrist", Action::kResume).accepted);
   for (const std::string& name : kNames)
     ASSERT_TRUE(client_.wait_for_mode(name, Mode::kHolding)) << daemon_->log();
