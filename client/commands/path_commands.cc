@@ -77,11 +77,11 @@ void require_in_range(const JointTarget& target, const limits_v1& limits) {
   if (target.position_rad >= limits.position_min_rad && target.position_rad <= limits.position_max_rad)
     return;
   const std::string hint = degrees_hint(target.position_rad);
-  throw InvalidInput(
-      fmt::format("{0}: position_rad = {1}: from {2} to {3} is allowed "
-                  "(joint.limits.position_min_rad and position_max_rad of {0}){4}{5}",
-                  target.joint, target.position_rad, limits.position_min_rad, limits.position_max_rad,
-                  hint.empty() ? "" : "; ", hint));
+  throw InvalidInput(fmt::format("{0}: position_rad = {1}: from {2} to {3} is allowed "
+                                 "(joint.limits.position_min_rad and position_max_rad of {0}){4}{5}",
+                                 target.joint, target.position_rad, limits.position_min_rad,
+                                 limits.position_max_rad, hint.empty() ? "" : "; ", hint),
+                     target.joint);
 }
 
 /// The daemon would name a knot, of a path that nobody has made himself.
@@ -96,11 +96,13 @@ void require_quick_enough(const std::vector<StraightMove>& moves, const std::vec
   // A hundredth more, for the ramps and what printing rounds off.
   constexpr double kMargin = 1.01;
   const double least_rad_s = kMargin * std::abs(slowest.to_rad - slowest.from_rad) / kLongestPath_s;
-  throw InvalidInput(fmt::format(
-      "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s with "
-      "that speed and joints move together for at most {} s",
-      slowest.joint, slowest.speed_rad_s, least_rad_s, std::abs(slowest.to_rad - slowest.from_rad),
-      duration_s, kLongestPath_s));
+  throw InvalidInput(
+      fmt::format(
+          "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s with "
+          "that speed and joints move together for at most {} s",
+          slowest.joint, slowest.speed_rad_s, least_rad_s, std::abs(slowest.to_rad - slowest.from_rad),
+          duration_s, kLongestPath_s),
+      slowest.joint);
 }
 
 StraightMove straight_move(const JointTarget& target, const state_v1& state, const limits_v1& limits,

@@ -60,7 +60,7 @@ ClientOptions client_options(const std::string& name, const JointOptions& option
 double checked_number(const std::string& joint, const std::string& name, double value,
                       const std::string& allowed, bool is_allowed) {
   if (!std::isfinite(value) || !is_allowed)
-    throw InvalidInput(fmt::format("{}: {} = {}: {} is allowed", joint, name, value, allowed));
+    throw InvalidInput(fmt::format("{}: {} = {}: {} is allowed", joint, name, value, allowed), joint);
   return value;
 }
 

@@ -117,14 +117,16 @@ void check_path(const std::vector<JointPath>& path) {
   std::set<std::string> named;
   for (const auto& [joint, knots] : path) {
     if (!named.insert(joint).second)
-      throw InvalidInput(fmt::format("{} is named twice: each joint once is allowed", joint));
+      throw InvalidInput(fmt::format("{} is named twice: each joint once is allowed", joint), joint);
     if (knots.size() < 2 || knots.size() > JointPath::kMostKnots)
       throw InvalidInput(
-          fmt::format("{}: {} knots: 2 to {} are allowed", joint, knots.size(), JointPath::kMostKnots));
+          fmt::format("{}: {} knots: 2 to {} are allowed", joint, knots.size(), JointPath::kMostKnots),
+          joint);
     for (std::size_t i = 0; i < knots.size(); ++i)
       for (const double number : {knots[i].time_s, knots[i].position_rad, knots[i].velocity_rad_s})
         if (!std::isfinite(number))
-          throw InvalidInput(fmt::format("{}: knot {} = {}: a finite number is allowed", joint, i, number));
+          throw InvalidInput(fmt::format("{}: knot {} = {}: a finite number is allowed", joint, i, number),
+                             joint);
   }
 }
 

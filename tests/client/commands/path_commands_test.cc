@@ -149,6 +149,15 @@ TEST_F(PathCommandsTest, ATargetOutOfRangeIsRefusedBeforeAnythingIsSent) {
   EXPECT_TRUE(daemon.heard().empty() && wrist.heard().empty());
 }
 
+TEST_F(PathCommandsTest, WhatIsWrongWithOneOfSeveralJointsIsSaidOfThatJoint) {
+  try {
+    check_path({{"elbow", {{0, 0, 0}, {1, 0.1, 0}}}, {"wrist", {{0, 0, 0}}}});
+    ADD_FAILURE() << "a path of one knot was taken";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.details().joint, "wrist");
+  }
+}
+
 TEST_F(PathCommandsTest, ASpeedThatTakesTooLongIsRefusedWithTheLeastThatIsAllowed) {
   EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 1e-9}), ExitStatus::kUsage);
   EXPECT_TRUE(message_has("elbow: speed_limit_rad_s = 1e-09: at least 0.000281 is allowed")) << message;
