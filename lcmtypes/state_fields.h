@@ -25,6 +25,7 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   });
   visit("inertia_estimated_kgm2", state.inertia_estimated_kgm2);
   visit("link_position_rad", state.link_position_rad);
+  visit("path_time_s", state.path_time_s);
 }
 
 }  // namespace strainwave

@@ -115,6 +115,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "load high";
     case Notice::kOtherInertia:
       return "inertia not as told";
+    case Notice::kPathPaused:
+      return "path paused";
   }
   return "unknown";
 }
@@ -327,6 +329,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.limits.load_notice_Nm";
     case Notice::kOtherInertia:
       return "joint.inertia_kgm2";
+    case Notice::kPathPaused:
+      return "";
   }
   return "";
 }

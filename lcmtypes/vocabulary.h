@@ -69,6 +69,7 @@ enum class Notice : std::int32_t {
   kOffTarget = 1 << 11,
   kLoadHigh = 1 << 12,
   kOtherInertia = 1 << 13,
+  kPathPaused = 1 << 14,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

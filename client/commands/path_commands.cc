@@ -12,6 +12,7 @@
 #include "client/link/motion.h"
 #include "client/link/orders.h"
 #include "client/link/published_limits.h"
+#include "control/knot_path.h"
 #include "lcmtypes/calm_speed.h"
 
 namespace strainwave {
@@ -22,10 +23,10 @@ namespace {
 constexpr double kShareOfAcceleration = 0.8;
 
 /// Returns once all joints are where the path ends: the last one's time, and the largest error.
-Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, double tolerance_rad) {
+Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, const PathWait& wait) {
   try {
     Arrival all;
-    for (const Arrival& one : wait_for_path(client, path, tolerance_rad)) {
+    for (const Arrival& one : wait_for_path(client, path, wait)) {
       all.duration_s = std::max(all.duration_s, one.duration_s);
       if (std::abs(one.error_rad) > std::abs(all.error_rad)) all.error_rad = one.error_rad;
     }
@@ -44,16 +45,24 @@ void travel(Client& client, const Output& output, const std::vector<JointPath>& 
   load_path(client, path);
   start_path(client, path);
   std::vector<std::string> joints;
-  double path_s = 0.0;
-  for (const JointPath& part : path) {
-    joints.push_back(part.joint);
-    path_s = std::max(path_s, part.knots.back().time_s);
-  }
+  for (const JointPath& part : path) joints.push_back(part.joint);
+  const double path_s = path_duration_s(path);
   const std::string names = fmt::format("{}", fmt::join(joints, ", "));
   if (!wait)
     return say(output, fmt::format("{}: on a path of {:.3f} s", names, path_s),
                {{"joints", joints}, {"path_s", path_s}, {"arrived", false}});
-  const Arrival arrival = wait_for_all(client, path, tolerance_rad);
+  const auto tell = [&](const PathPause& pause) {
+    say(output,
+        pause.paused ? fmt::format("{}: paused at {:.3f} s of {:.3f} s; strainwavectl resume {} goes on",
+                                   names, pause.at_s, pause.of_s, joints.front())
+                     : fmt::format("{}: on the path again", names),
+        {{"joints", joints},
+         {"path_s", path_s},
+         {"arrived", false},
+         {"paused", pause.paused},
+         {"path_time_s", pause.at_s}});
+  };
+  const Arrival arrival = wait_for_all(client, path, {.tolerance_rad = tolerance_rad, .tell = tell});
   say(output,
       fmt::format("{}: arrived in {:.3f} s, largest error {:.2e} rad", names, arrival.duration_s,
                   arrival.error_rad),
@@ -68,11 +77,32 @@ void require_in_range(const JointTarget& target, const limits_v1& limits) {
   if (target.position_rad >= limits.position_min_rad && target.position_rad <= limits.position_max_rad)
     return;
   const std::string hint = degrees_hint(target.position_rad);
+  throw InvalidInput(fmt::format("{0}: position_rad = {1}: from {2} to {3} is allowed "
+                                 "(joint.limits.position_min_rad and position_max_rad of {0}){4}{5}",
+                                 target.joint, target.position_rad, limits.position_min_rad,
+                                 limits.position_max_rad, hint.empty() ? "" : "; ", hint),
+                     target.joint);
+}
+
+/// The daemon would name a knot, of a path that nobody has made himself.
+void require_quick_enough(const std::vector<StraightMove>& moves, const std::vector<JointPath>& path) {
+  const double duration_s = path_duration_s(path);
+  if (duration_s <= kLongestPath_s) return;
+  const StraightMove& slowest =
+      *std::max_element(moves.begin(), moves.end(), [](const StraightMove& one, const StraightMove& other) {
+        return std::abs(one.to_rad - one.from_rad) / one.speed_rad_s <
+               std::abs(other.to_rad - other.from_rad) / other.speed_rad_s;
+      });
+  // A hundredth more, for the ramps and what printing rounds off.
+  constexpr double kMargin = 1.01;
+  const double least_rad_s = kMargin * std::abs(slowest.to_rad - slowest.from_rad) / kLongestPath_s;
   throw InvalidInput(
-      fmt::format("{0}: position_rad = {1}: from {2} to {3} is allowed "
-                  "(joint.limits.position_min_rad and position_max_rad of {0}){4}{5}",
-                  target.joint, target.position_rad, limits.position_min_rad, limits.position_max_rad,
-                  hint.empty() ? "" : "; ", hint));
+      fmt::format(
+          "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s with "
+          "that speed and joints move together for at most {} s",
+          slowest.joint, slowest.speed_rad_s, least_rad_s, std::abs(slowest.to_rad - slowest.from_rad),
+          duration_s, kLongestPath_s),
+      slowest.joint);
 }
 
 StraightMove straight_move(const JointTarget& target, const state_v1& state, const limits_v1& limits,
@@ -130,7 +160,9 @@ void move_together(Client& client, const Output& output, const MoveTogetherArgum
     require_in_range(target, limits);
     moves.push_back(straight_move(target, state, limits, arguments.speed_limit_rad_s));
   }
-  travel(client, output, straight_path(moves), arguments.wait, arguments.tolerance_rad);
+  const std::vector<JointPath> path = straight_path(moves);
+  require_quick_enough(moves, path);
+  travel(client, output, path, arguments.wait, arguments.tolerance_rad);
 }
 
 void pause_path(Client& client, const Output& output, const std::string& joint) {

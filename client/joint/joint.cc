@@ -10,11 +10,11 @@ namespace strainwave {
 
 namespace {
 
-MoveOrder checked(const MoveOrder& order) {
-  checked_number("position_rad", order.position_rad, "a finite number of rad");
-  checked_number("speed_limit_rad_s", order.speed_limit_rad_s, "0 (none) or above",
+MoveOrder checked(const std::string& joint, const MoveOrder& order) {
+  checked_number(joint, "position_rad", order.position_rad, "a finite number of rad");
+  checked_number(joint, "speed_limit_rad_s", order.speed_limit_rad_s, "0 (none) or above",
                  order.speed_limit_rad_s >= 0.0);
-  checked_number("tolerance_rad", order.tolerance_rad, "a number above 0", order.tolerance_rad > 0.0);
+  checked_number(joint, "tolerance_rad", order.tolerance_rad, "a number above 0", order.tolerance_rad > 0.0);
   return order;
 }
 
@@ -67,7 +67,7 @@ Limits Joint::limits() {
 }
 
 void Joint::states(double duration_s, const std::function<void(const State&)>& visit) {
-  checked_number("duration_s", duration_s, "0 or above", duration_s >= 0.0);
+  checked_number(name(), "duration_s", duration_s, "0 or above", duration_s >= 0.0);
   const auto held = link_->lock();
   OpenInbox inbox(*link_);
   const State first = inbox.take();
@@ -116,12 +116,12 @@ void Joint::release() {
 
 Arrival Joint::move(const MoveOrder& order) {
   const auto held = link_->lock();
-  return move_joint(link_->client(), name(), checked(order));
+  return move_joint(link_->client(), name(), checked(name(), order));
 }
 
 void Joint::start_move(const MoveOrder& order) {
   const auto held = link_->lock();
-  strainwave::start_move(link_->client(), name(), checked(order));
+  strainwave::start_move(link_->client(), name(), checked(name(), order));
 }
 
 Stream Joint::stream(const StreamOptions& options) {

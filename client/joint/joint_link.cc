@@ -49,24 +49,25 @@ std::string checked_name(const std::string& what, const std::string& name) {
   return name;
 }
 
-ClientOptions client_options(const JointOptions& options) {
-  const double timeout_s = checked_number("timeout_s", options.timeout_s, "0.1 to 3600",
+ClientOptions client_options(const std::string& name, const JointOptions& options) {
+  const double timeout_s = checked_number(name, "timeout_s", options.timeout_s, "0.1 to 3600",
                                           options.timeout_s >= 0.1 && options.timeout_s <= 3600.0);
   return {checked_name("prefix", options.prefix), timeout_s, key_of(options)};
 }
 
 }  // namespace
 
-double checked_number(const std::string& name, double value, const std::string& allowed, bool is_allowed) {
+double checked_number(const std::string& joint, const std::string& name, double value,
+                      const std::string& allowed, bool is_allowed) {
   if (!std::isfinite(value) || !is_allowed)
-    throw InvalidInput(fmt::format("{} = {}: {} is allowed", name, value, allowed));
+    throw InvalidInput(fmt::format("{}: {} = {}: {} is allowed", joint, name, value, allowed), joint);
   return value;
 }
 
 JointLink::JointLink(const std::string& name, const JointOptions& options)
     : name_(checked_name("name", name)),
       connection_(url_of(options)),
-      client_(connection_, client_options(options)),
+      client_(connection_, client_options(name, options)),
       limits_(client_, {name}),
       states_(connection_.subscribe(options.prefix + "\\." + name + "\\." + std::string(channel_kind::kState),
                                     &JointLink::on_state, this)),

@@ -56,8 +56,8 @@ class JointLink {
   std::jthread listener_;  ///< the last, so that it ends first
 };
 
-/// `value`, if it is finite and `is_allowed`. Throws InvalidInput.
-double checked_number(const std::string& name, double value, const std::string& allowed,
-                      bool is_allowed = true);
+/// `value`, if it is finite and `is_allowed`. `joint`: whose it is. Throws InvalidInput.
+double checked_number(const std::string& joint, const std::string& name, double value,
+                      const std::string& allowed, bool is_allowed = true);
 
 }  // namespace strainwave

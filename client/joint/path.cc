@@ -47,12 +47,13 @@ void Path::hold() {
   for (const JointPath& part : parts_) wait_until_holding(first().client(), part.joint);
 }
 
-std::vector<Arrival> Path::wait(double tolerance_rad) {
-  checked_number("tolerance_rad", tolerance_rad, "a number above 0", tolerance_rad > 0.0);
+std::vector<Arrival> Path::wait(double tolerance_rad, double timeout_s) {
+  checked_number(first().name(), "tolerance_rad", tolerance_rad, "a number above 0", tolerance_rad > 0.0);
+  if (!(timeout_s > 0.0)) checked_number(first().name(), "timeout_s", timeout_s, "a number above 0", false);
   const auto held = first().lock();
   first().view();
   for (const JointPath& part : parts_) first().client().wait_for_joint(part.joint);
-  return wait_for_path(first().client(), parts_, tolerance_rad);
+  return wait_for_path(first().client(), parts_, {.tolerance_rad = tolerance_rad, .timeout_s = timeout_s});
 }
 
 }  // namespace strainwave

@@ -5,6 +5,7 @@
 //     path.wait();
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -43,9 +44,11 @@ class Path {
   void resume();
   /// Ends the path, with all joints, and returns once they hold. Needs no key.
   void hold();
-  /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Throws
-  /// Faulted, NotDone, NoAnswer.
-  std::vector<Arrival> wait(double tolerance_rad = 1e-3);
+  /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Waits
+  /// while somebody has paused the path, too: State::has(Notice::kPathPaused) and State::path_time_s tell. Throws Faulted, NoAnswer, and
+  /// NotDone: after `timeout_s`, which says where the path is and whether it is paused, or when something else ended it.
+  std::vector<Arrival> wait(double tolerance_rad = 1e-3,
+                            double timeout_s = std::numeric_limits<double>::infinity());
 
  private:
   JointLink& first() { return *links_.front(); }

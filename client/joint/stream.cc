@@ -19,12 +19,12 @@ namespace {
 // The daemon takes a second; the way there takes some of it.
 constexpr double kFarthestAhead_s = 0.9;
 
-StreamOptions checked(const StreamOptions& options) {
-  checked_number("ahead_s", options.ahead_s, "above 0 to 0.9",
+StreamOptions checked(const std::string& joint, const StreamOptions& options) {
+  checked_number(joint, "ahead_s", options.ahead_s, "above 0 to 0.9",
                  options.ahead_s > 0.0 && options.ahead_s <= kFarthestAhead_s);
-  checked_number("valid_for_s", options.valid_for_s, fmt::format("above 0 to {}", kLongestValidFor_s),
+  checked_number(joint, "valid_for_s", options.valid_for_s, fmt::format("above 0 to {}", kLongestValidFor_s),
                  options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValidFor_s);
-  checked_number("speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
+  checked_number(joint, "speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
                  options.speed_limit_rad_s >= 0.0);
   StreamOptions kept = options;
   kept.beside = nullptr;  // it may end before this one
@@ -56,7 +56,7 @@ struct Stream::TimeBase {
 Stream::Stream(std::shared_ptr<JointLink> link, const StreamOptions& options)
     : link_(std::move(link)),
       base_(options.beside != nullptr ? options.beside->base_ : std::make_shared<TimeBase>()),
-      options_(checked(options)),
+      options_(checked(link_->name(), options)),
       period_s_(period_of(*link_)),
       stream_id_(new_stream(*link_)),
       exceptions_(std::uncaught_exceptions()) {}
@@ -80,7 +80,8 @@ void Stream::end() noexcept {
 
 bool Stream::put(double t_s, double position_rad, std::optional<double> velocity_rad_s,
                  std::optional<double> acceleration_rad_s2, const CarriedLoad& load) {
-  checked_number("t_s", t_s, "a finite time in s, above the last one", !last_t_s_ || t_s > *last_t_s_);
+  checked_number(link_->name(), "t_s", t_s, "a finite time in s, above the last one",
+                 !last_t_s_ || t_s > *last_t_s_);
   const auto held = link_->lock();
   // Not begun anew by the next sample: somebody may have ended it for a reason.
   if (over_) throw NotDone(link_->name() + ": this stream is over; Joint::stream() makes another one");
@@ -92,8 +93,9 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
   }
   message.at_cycle = base_->cycle_of(t_s, period_s_);
   if (message.at_cycle <= *last_cycle_)
-    throw InvalidInput(fmt::format(
-        "t_s = {}: at least a period of the daemon, {} s, after the last one is allowed", t_s, period_s_));
+    throw InvalidInput(
+        fmt::format("{}: t_s = {}: at least a period of the daemon, {} s, after the last one is allowed",
+                    link_->name(), t_s, period_s_));
   wait_until_due(message.at_cycle);
   check_refusals();
   if (static_cast<double>(message.at_cycle) <= link_->cycle_now(period_s_)) {
@@ -125,26 +127,29 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
                            std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const {
   const limits_v1& limits = link_->limits();
   setpoint_v2 message{};
-  message.position_rad = checked_number(
-      "position_rad", position_rad, fmt::format("{} to {}", limits.position_min_rad, limits.position_max_rad),
-      position_rad >= limits.position_min_rad && position_rad <= limits.position_max_rad);
+  message.position_rad =
+      checked_number(link_->name(), "position_rad", position_rad,
+                     fmt::format("from {} to {}", limits.position_min_rad, limits.position_max_rad),
+                     position_rad >= limits.position_min_rad && position_rad <= limits.position_max_rad);
   if (acceleration_rad_s2 && !velocity_rad_s)
-    throw InvalidInput(
-        fmt::format("acceleration_rad_s2 = {}: only with velocity_rad_s", *acceleration_rad_s2));
+    throw InvalidInput(fmt::format("{}: acceleration_rad_s2 = {}: only with velocity_rad_s", link_->name(),
+                                   *acceleration_rad_s2));
   if (velocity_rad_s) {
-    message.velocity_rad_s = checked_number("velocity_rad_s", *velocity_rad_s, "a finite number");
+    message.velocity_rad_s =
+        checked_number(link_->name(), "velocity_rad_s", *velocity_rad_s, "a finite number");
     message.derivatives = 1;
   }
   if (acceleration_rad_s2) {
     message.acceleration_rad_s2 =
-        checked_number("acceleration_rad_s2", *acceleration_rad_s2, "a finite number");
+        checked_number(link_->name(), "acceleration_rad_s2", *acceleration_rad_s2, "a finite number");
     message.derivatives = 2;
   }
-  message.torque_Nm = checked_number("torque_Nm", load.torque_Nm,
-                                     fmt::format("{} to {}", -limits.torque_limit_Nm, limits.torque_limit_Nm),
-                                     std::abs(load.torque_Nm) <= limits.torque_limit_Nm);
-  message.load_inertia_kgm2 = checked_number("load_inertia_kgm2", load.load_inertia_kgm2, "a number from 0",
-                                             load.load_inertia_kgm2 >= 0.0);
+  message.torque_Nm =
+      checked_number(link_->name(), "torque_Nm", load.torque_Nm,
+                     fmt::format("from {} to {}", -limits.torque_limit_Nm, limits.torque_limit_Nm),
+                     std::abs(load.torque_Nm) <= limits.torque_limit_Nm);
+  message.load_inertia_kgm2 = checked_number(link_->name(), "load_inertia_kgm2", load.load_inertia_kgm2,
+                                             "a number from 0", load.load_inertia_kgm2 >= 0.0);
   message.stream_id = stream_id_;
   message.valid_for_s = options_.valid_for_s;
   message.speed_limit_rad_s = options_.speed_limit_rad_s;

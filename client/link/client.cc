@@ -74,6 +74,7 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
   awaited_.emplace(connection_, std::move(order), channel(options_.prefix, joint, channel_kind::kAck),
                    options_.timeout_s);
   while (!ack_ && awaited_->keep_on()) handle(awaited_->remaining_ms());
+  const int transmissions = awaited_->most_transmissions();
   awaited_.reset();
   if (ack_) return to_answer(*ack_);
   if (find(joint) == nullptr) explain_silence(joint);
@@ -81,7 +82,7 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
       fmt::format(
           "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
           "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
-          joint, options_.timeout_s, 1 + PendingOrder::kRepetitions, joint),
+          joint, options_.timeout_s, transmissions, joint),
       joint);
 }
 

@@ -41,7 +41,8 @@ class ClientError : public ProgramError {
 /// Refused here, before anything was sent: a name, a number, a key file.
 class InvalidInput : public ClientError {
  public:
-  explicit InvalidInput(const std::string& message) : ClientError(ExitStatus::kUsage, message) {}
+  explicit InvalidInput(const std::string& message, const std::string& joint = "")
+      : ClientError(ExitStatus::kUsage, message, {joint, {}, {}, {}}) {}
 };
 
 /// No daemon, no such joint, silence, or a network without multicast. Whether an order was carried out is not known.

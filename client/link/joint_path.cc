@@ -74,6 +74,42 @@ JointPath along(const StraightMove& move, const Trapezoid& shape) {
   return path;
 }
 
+/// A path that is waited for, looked at again and again. Its joints have one time: any of them shows it.
+class PathLook {
+ public:
+  PathLook(Client& client, const std::vector<JointPath>& path, const PathWait& wait)
+      : view_(client.wait_for_joint(path.front().joint)),
+        joint_(path.front().joint),
+        wait_(wait),
+        pause_{false, 0.0, path_duration_s(path)} {}
+
+  void operator()() {
+    const double at_s = view_.state.path_time_s;
+    const bool on_path = !std::isnan(at_s);
+    const bool paused =
+        on_path && (view_.state.notices & static_cast<std::int32_t>(Notice::kPathPaused)) != 0;
+    const bool changed = on_path && paused != pause_.paused;
+    if (on_path) pause_ = {paused, at_s, pause_.of_s};
+    if (changed && wait_.tell) wait_.tell(pause_);
+    if (seconds_between(begin_, now()) > wait_.timeout_s)
+      throw NotDone(fmt::format("{}: the path did not arrive in {} s: {}", joint_, wait_.timeout_s,
+                                on_path ? where(pause_) : "its joints are on their way to its end"),
+                    joint_);
+  }
+
+ private:
+  static std::string where(const PathPause& pause) {
+    return fmt::format("it is {}at {:.3f} s of {:.3f} s", pause.paused ? "paused " : "", pause.at_s,
+                       pause.of_s);
+  }
+
+  const JointView& view_;
+  std::string joint_;
+  const PathWait& wait_;
+  PathPause pause_;
+  Instant begin_ = now();
+};
+
 }  // namespace
 
 void check_path(const std::vector<JointPath>& path) {
@@ -81,14 +117,16 @@ void check_path(const std::vector<JointPath>& path) {
   std::set<std::string> named;
   for (const auto& [joint, knots] : path) {
     if (!named.insert(joint).second)
-      throw InvalidInput(fmt::format("{} is named twice: each joint once is allowed", joint));
+      throw InvalidInput(fmt::format("{} is named twice: each joint once is allowed", joint), joint);
     if (knots.size() < 2 || knots.size() > JointPath::kMostKnots)
       throw InvalidInput(
-          fmt::format("{}: {} knots: 2 to {} are allowed", joint, knots.size(), JointPath::kMostKnots));
+          fmt::format("{}: {} knots: 2 to {} are allowed", joint, knots.size(), JointPath::kMostKnots),
+          joint);
     for (std::size_t i = 0; i < knots.size(); ++i)
       for (const double number : {knots[i].time_s, knots[i].position_rad, knots[i].velocity_rad_s})
         if (!std::isfinite(number))
-          throw InvalidInput(fmt::format("{}: knot {} = {}: a finite number is allowed", joint, i, number));
+          throw InvalidInput(fmt::format("{}: knot {} = {}: a finite number is allowed", joint, i, number),
+                             joint);
   }
 }
 
@@ -104,11 +142,18 @@ void start_path(Client& client, const std::vector<JointPath>& path) {
   order_accepted(client, path.front().joint, Action::kResume);
 }
 
-std::vector<Arrival> wait_for_path(Client& client, const std::vector<JointPath>& path, double tolerance_rad) {
+double path_duration_s(const std::vector<JointPath>& path) {
+  double duration_s = 0.0;
+  for (const JointPath& part : path) duration_s = std::max(duration_s, part.knots.back().time_s);
+  return duration_s;
+}
+
+std::vector<Arrival> wait_for_path(Client& client, const std::vector<JointPath>& path, const PathWait& wait) {
   std::vector<JointTarget> targets;
   targets.reserve(path.size());
   for (const JointPath& part : path) targets.push_back({part.joint, part.knots.back().position_rad});
-  return wait_until_arrived(client, targets, tolerance_rad);
+  PathLook look(client, path, wait);
+  return wait_until_arrived(client, targets, wait.tolerance_rad, [&] { look(); });
 }
 
 std::vector<JointPath> straight_path(const std::vector<StraightMove>& moves) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,8 +31,25 @@ void load_path(Client& client, const std::vector<JointPath>& path);
 /// Starts what was loaded: all joints of `path` in one cycle, or none.
 void start_path(Client& client, const std::vector<JointPath>& path);
 
-/// After a start: returns once every joint is within `tolerance_rad` of its last knot and stays there; by joint, timed from the call.
-std::vector<Arrival> wait_for_path(Client& client, const std::vector<JointPath>& path, double tolerance_rad);
+/// From its first knot to the last of all joints.
+double path_duration_s(const std::vector<JointPath>& path);
+
+/// Somebody has paused a path, or it goes on.
+struct PathPause {
+  bool paused = false;
+  double at_s = 0.0;  ///< of the path
+  double of_s = 0.0;  ///< its duration
+};
+
+struct PathWait {
+  double tolerance_rad = 1e-3;
+  double timeout_s = std::numeric_limits<double>::infinity();  ///< of all of it, pauses included
+  std::function<void(const PathPause&)> tell = nullptr;  ///< called when a pause begins, and when it ends
+};
+
+/// After a start: returns once every joint is within the tolerance of its last knot and stays there; by joint, timed from the call. Throws
+/// NotDone when that takes too long, which says where the path is and whether it is paused.
+std::vector<Arrival> wait_for_path(Client& client, const std::vector<JointPath>& path, const PathWait& wait);
 
 /// A joint's share of a straight motion, and what it may need. Speeds and accelerations > 0.
 struct StraightMove {

@@ -77,7 +77,9 @@ class MotionWatch {
 };
 
 /// Returns once all of them are done. A fault is told before what it made of those that move with the joint.
-void wait_for_motions(Client& client, std::vector<MotionWatch> motions) {
+/// `look`: see wait_until_arrived().
+void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
+                      const std::function<void()>& look = nullptr) {
   constexpr double kLook_s = 0.01;
   while (!motions.empty()) {
     const JointView& view = motions.front().view();
@@ -85,6 +87,7 @@ void wait_for_motions(Client& client, std::vector<MotionWatch> motions) {
     client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
     for (const MotionWatch& motion : motions) motion.check_fault();
     std::erase_if(motions, [&](MotionWatch& motion) { return motion.look(client.options().timeout_s); });
+    if (look && !motions.empty()) look();
   }
 }
 
@@ -156,7 +159,7 @@ Arrival move_joint(Client& client, const std::string& joint, const MoveOrder& or
 }
 
 std::vector<Arrival> wait_until_arrived(Client& client, const std::vector<JointTarget>& targets,
-                                        double tolerance_rad) {
+                                        double tolerance_rad, const std::function<void()>& look) {
   std::vector<ArrivalWatch> arrivals;
   arrivals.reserve(targets.size());
   for (const JointTarget& target : targets)
@@ -175,7 +178,7 @@ std::vector<Arrival> wait_until_arrived(Client& client, const std::vector<JointT
         client, target.joint,
         Motion{Mode::kTracking, fmt::format("arrive at {} rad", target.position_rad), replaced}, done);
   }
-  wait_for_motions(client, std::move(motions));
+  wait_for_motions(client, std::move(motions), look);
   std::vector<Arrival> arrived;
   arrived.reserve(targets.size());
   for (std::size_t i = 0; i < targets.size(); ++i)

@@ -2,6 +2,7 @@
 // Not real-time.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ Arrival move_joint(Client& client, const std::string& joint, const MoveOrder& or
 
 /// Of joints that are on their way: returns once each is inside the tolerance of its target and has stayed there. In the order of `targets`,
 /// timed from the call.
+/// `look` is called again and again meanwhile, and may throw.
 std::vector<Arrival> wait_until_arrived(Client& client, const std::vector<JointTarget>& targets,
-                                        double tolerance_rad);
+                                        double tolerance_rad, const std::function<void()>& look = nullptr);
 
 /// Finds the home position; returns once the joint holds there.
 void home_joint(Client& client, const std::string& joint);

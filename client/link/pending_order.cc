@@ -17,14 +17,14 @@ PendingOrder::PendingOrder(Connection& connection, SealedMessage order, std::str
     : connection_(&connection),
       order_(std::move(order)),
       ack_channel_(std::move(ack_channel)),
-      repeat_s_(timeout_s / (1 + kRepetitions)),
+      repeat_s_(timeout_s / most_transmissions()),
       next_(repeat_s_) {
   transmit();
 }
 
 bool PendingOrder::keep_on() {
   if (!next_.passed()) return true;
-  if (transmissions_ > kRepetitions) return false;
+  if (transmissions_ >= most_transmissions()) return false;
   transmit();
   return true;
 }

@@ -78,7 +78,8 @@ void add_path(CLI::App& app, Invocation& invocation) {
                        std::to_string(JointPath::kMostKnots) + " knots for each joint")
       ->required()
       ->type_name("");
-  command->add_flag("--wait", arguments->wait, "return once all joints are where it ends");
+  command->add_flag("--wait", arguments->wait,
+                    "return once all joints are where it ends; says when somebody pauses it");
   add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
       ->capture_default_str();
   command->callback([&invocation, arguments] {

@@ -23,7 +23,7 @@ using ResultField =
     std::pair<const char*, std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
                                         std::map<std::string, std::int64_t>>>;
 
-/// Writes one line: `text`, or the fields as a JSON object.
+/// Writes one line, at once: `text`, or the fields as a JSON object.
 void say(const Output& output, const std::string& text, const std::vector<ResultField>& fields);
 
 }  // namespace strainwave

@@ -25,7 +25,7 @@ constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClam
                               Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
                               Notice::kNotHomed,        Notice::kAtLimitSwitch,      Notice::kPlainLaw,
                               Notice::kOffStream,       Notice::kPositionLate,       Notice::kOffTarget,
-                              Notice::kLoadHigh,        Notice::kOtherInertia};
+                              Notice::kLoadHigh,        Notice::kOtherInertia,       Notice::kPathPaused};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));

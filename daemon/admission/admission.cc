@@ -208,7 +208,10 @@ Verdict Admission::change_owner(Action action, Requester requester) {
   requester.takes_over = action == Action::kTakeOver;
   if (requester.takes_over) return pass(requester, OrderKind::kEndStream, 0);
   if (!ownership_.release(requester.joint, {requester.key, requester.sender_id}, now_ns_))
-    return refuse(requester, Reason::kNotOwner, "only who has the joint can release it");
+    return refuse(requester, Reason::kNotOwner,
+                  ownership_.owner_id(requester.joint, now_ns_) == 0
+                      ? "nobody has the joint, its lease has ended or it was released: there is nothing to do"
+                      : "only who has the joint can release it");
   Verdict verdict;
   verdict.kind = Verdict::Kind::kDone;
   verdict.requester = requester;

@@ -1,100 +1,13 @@
 #include "daemon/admission/pending_orders.h"
 
-#include <iomanip>
 #include <optional>
-#include <sstream>
+#include <string>
 #include <utility>
 
+#include "daemon/admission/refusal_advice.h"
 #include "daemon/admission/table_admission.h"
 
 namespace strainwave {
-
-namespace {
-
-bool is_of_path(OrderKind kind) {
-  return kind == OrderKind::kLoadPath || kind == OrderKind::kPausePath || kind == OrderKind::kResumePath;
-}
-
-// What the loop refused by a number: the number, what is allowed, and where that is set.
-std::string number_refused(const Reply& reply, OrderKind kind) {
-  std::ostringstream text;
-  if (is_of_path(kind)) {
-    if (reply.reason == Reason::kWrongMode)
-      text << ": " << reply.value << " of the path's " << reply.limit
-           << " joints have their part of it: send the others (PATH), then resume";
-    else
-      text << ": the path begins " << reply.value << " rad from where "
-           << (kind == OrderKind::kLoadPath ? "it" : "one of its joints") << " is to be, at most "
-           << reply.limit << " rad are allowed: move to its first knot before";
-    return text.str();
-  }
-  if (reply.reason == Reason::kMoving)
-    text << " and moves at " << reply.value << " rad/s: it is enabled at standstill, at most " << reply.limit
-         << " rad/s (joint.supervision.standstill_rad_s)";
-  else if (reply.reason == Reason::kTooOld)
-    text << std::fixed << std::setprecision(0) << ": at_cycle = " << reply.value
-         << " is not to come any more, it is cycle " << reply.limit << "; from " << reply.limit + 1.0
-         << " is allowed";
-  else if (kind == OrderKind::kUseTable)
-    text << ": by the table's torque_limit_Nm the joint may carry " << reply.value << " N.m, less than the "
-         << reply.limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "
-         << "or load a stronger table";
-  else
-    text << ": at_cycle is " << reply.value << " s ahead; at most " << reply.limit << " s are allowed";
-  return text.str();
-}
-
-// Of an order that is for all joints of a path, where that matters.
-std::string path_advice(const Reply& reply, OrderKind kind) {
-  if (reply.reason == Reason::kMoving)
-    return kind == OrderKind::kLoadPath ? ": a path is taken while the joint holds, hold it first"
-                                        : ": one of the path's joints moves, hold it first";
-  if (reply.reason != Reason::kWrongMode) return "";
-  if (kind == OrderKind::kLoadPath) return ": a path needs it enabled, and holding";
-  return ": it is on no path, and has none to begin or to go on with, or one of the path's joints is not "
-         "enabled";
-}
-
-// What the loop's refusal means for whoever asked: the mode it met, and the way on.
-std::string advice(const Reply& reply, OrderKind kind) {
-  std::string mode = "the joint is " + std::string(to_text(reply.mode));
-  if (reply.limit != 0.0) return mode + number_refused(reply, kind);
-  if (is_of_path(kind))
-    if (const std::string text = path_advice(reply, kind); !text.empty()) return mode + text;
-  switch (reply.reason) {
-    case Reason::kNoTable:
-      return mode + ": load a gain table first (joint.table, or strainwavectl load-table)";
-    case Reason::kFaulted:
-      return mode + ": see its fault, remove the cause, clear the fault";
-    case Reason::kMoving:
-      return mode + ": hold or disable it first, a table is taken over only at standstill";
-    case Reason::kEnding:
-      return mode + ", and the daemon brings every joint to rest: start it again";
-    case Reason::kStreamEnded:
-      return mode +
-             ", and this stream of setpoints is not under way: it expired, or a hold, stop, fault, enable or "
-             "another order ended it; begin a new one";
-    case Reason::kTooOld:
-      return mode +
-             ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
-             "give it anew";
-    case Reason::kNotHomed:
-      return mode + ", and its position is not known: strainwavectl home first";
-    case Reason::kAtLimitSwitch:
-      return mode + " at a limit switch: only a move away from it is possible";
-    case Reason::kNoHoming:
-      return mode + ", and joint.homing says of no switch or index that it is home";
-    case Reason::kDriveNotReady:
-      return mode + ", and its drive gives no position: check supply and connection";
-    case Reason::kWrongMode:
-      return mode + (reply.mode == Mode::kOff ? ": motion needs it enabled"
-                                              : ": this order does nothing in this mode");
-    default:
-      return mode;
-  }
-}
-
-}  // namespace
 
 PendingOrders::PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers)
     : loop_(loop),
@@ -271,7 +184,7 @@ void PendingOrders::take_replies(std::int64_t now_ns) {
     const Pending& pending = found->second;
     if (pending.table_id != 0) books_[pending.requester.joint].end(accepted);
     admission_.settle(pending.requester, accepted, now_ns);
-    answer_all(pending, reply.reason, accepted ? pending.text : advice(reply, pending.kind), now_ns);
+    answer_all(pending, reply.reason, accepted ? pending.text : refusal_advice(reply, pending.kind), now_ns);
     pending_.erase(found);
   }
   std::erase_if(pending_, [&](const auto& entry) {

@@ -118,6 +118,7 @@ class JointLoop {
   double path_lead_s() const noexcept { return controller_.plan_lead_s(); }
   /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
   void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
+  void note_path(const OrderedTarget::PathProgress& progress) noexcept { ordered_.note(progress); }
   /// From begin_path() until end_path(), or until something else took the joint off it.
   bool on_path() const noexcept { return ordered_.on_path(); }
   void end_path() noexcept;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "daemon/realtime/joint_zero.h"
 
@@ -14,6 +15,11 @@ namespace strainwave {
 
 class OrderedTarget {
  public:
+  /// How far a path has got.
+  struct PathProgress {
+    double time_s = 0.0;  ///< of the path's own
+    bool paused = false;  ///< it rests until it is resumed
+  };
   /// A setpoint as it was ordered.
   struct Setpoint {
     double joint_rad = 0.0;
@@ -33,7 +39,10 @@ class OrderedTarget {
     joint_rad_ = joint_rad;
     drive_rad_ = drive_rad;
     stream_ = Stream::kPath;
+    progress_ = {};
   }
+  /// Of the path, as long as it lasts.
+  void note(const PathProgress& progress) noexcept { progress_ = progress; }
   /// Something ends all motion: a live stream is over. That one has expired stays shown.
   void end() noexcept {
     if (goes_on()) stream_ = Stream::kNone;
@@ -45,6 +54,10 @@ class OrderedTarget {
 
   bool streamed() const noexcept { return stream_ == Stream::kLive; }
   bool on_path() const noexcept { return stream_ == Stream::kPath; }
+  /// Nothing: the joint is on no path.
+  std::optional<PathProgress> path() const noexcept {
+    return on_path() ? std::optional(progress_) : std::nullopt;
+  }
   /// A setpoint that rests is not the end.
   bool goes_on() const noexcept { return streamed() || on_path(); }
   /// Until the next setpoint is accepted.
@@ -62,6 +75,7 @@ class OrderedTarget {
   std::int64_t expires_ns_ = 0;  ///< while live
   double drive_rad_ = 0.0;
   double joint_rad_ = 0.0;
+  PathProgress progress_;  ///< while on a path
 };
 
 }  // namespace strainwave

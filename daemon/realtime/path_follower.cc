@@ -121,12 +121,13 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     travel.clock.advance(period_s_, travel.clock.steady() ? PathClock::kMostRoom : room(index));
     travel.times.note(travel.clock.now());
   }
+  const bool ending = travel.phase == Phase::kEnding;
   for_each_member(index, [&](JointLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint point = member.reader.at(joint.path()->path, now.time_s);
     joint.follow_path(in_path_time(point, now), time.elapsed_periods, begins);
+    joint.note_path({now.time_s, !ending && travel.clock.is_to_rest() && now.rate == 0.0});
   });
-  const bool ending = travel.phase == Phase::kEnding;
   const PathTime last = travel.times.ago(travel.most_behind_periods);
   if (last.time_s >= travel.duration_s || (ending && travel.clock.rests() && last.rate == 0.0)) {
     for_each_member(index, [](JointLoop& joint, Member&) { joint.end_path(); });

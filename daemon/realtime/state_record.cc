@@ -20,6 +20,8 @@ void fill_motion(const JointCycle& cycle, state_v1& state) noexcept {
   state.link_position_rad = cycle.reading.has_link_position
                                 ? cycle.zero.to_joint_rad(cycle.reading.link_position_rad)
                                 : std::numeric_limits<double>::quiet_NaN();
+  const auto path = cycle.ordered.path();
+  state.path_time_s = path ? path->time_s : std::numeric_limits<double>::quiet_NaN();
   state.inertia_estimated_kgm2 = cycle.inertia_kgm2.value_or(std::numeric_limits<double>::quiet_NaN());
   state.joint_velocity_rad_s = cycle.joint_velocity_rad_s;
   state.torque_commanded_Nm = controlled ? motion.output.torque_Nm : 0.0;

@@ -65,7 +65,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {1024, Notice::kPositionLate, "position late"},
                                      {2048, Notice::kOffTarget, "off target"},
                                      {4096, Notice::kLoadHigh, "load high"},
-                                     {8192, Notice::kOtherInertia, "inertia not as told"}};
+                                     {8192, Notice::kOtherInertia, "inertia not as told"},
+                                     {16384, Notice::kPathPaused, "path paused"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},

@@ -54,9 +54,11 @@ class DaemonPaths : public DaemonTest {
     }
     return message;
   }
+  /// As many knots as a message has room for, of every joint.
   void load_all() {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
-      const Answer answer = client_.send_and_wait(kNames[i], "PATH", part(i, i == 0 ? 320 : 3));
+      const Answer answer =
+          client_.send_and_wait(kNames[i], "PATH", part(i, static_cast<int>(std::size(path_v1{}.time_s))));
       ASSERT_TRUE(answer.accepted) << kNames[i] << ": " << answer.text;
     }
   }
@@ -87,7 +89,11 @@ TEST_F(DaemonPaths, LeavePauseAndArriveInOneCycle) {
   client_.pump(milliseconds(400));
   ASSERT_TRUE(client_.command("hip", Action::kPause).accepted);
   client_.pump(milliseconds(500));
-  for (const std::string& name : kNames) EXPECT_EQ(client_.state(name)->setpoint_velocity_rad_s, 0.0) << name;
+  for (const std::string& name : kNames) {
+    EXPECT_EQ(client_.state(name)->setpoint_velocity_rad_s, 0.0) << name;
+    EXPECT_NE(client_.state(name)->notices & static_cast<std::int32_t>(Notice::kPathPaused), 0) << name;
+    EXPECT_EQ(client_.state(name)->path_time_s, client_.state("elbow")->path_time_s) << name;
+  }
   ASSERT_TRUE(client_.command("wrist", Action::kResume).accepted);
   for (const std::string& name : kNames)
     ASSERT_TRUE(client_.wait_for_mode(name, Mode::kHolding)) << daemon_->log();

@@ -12,9 +12,15 @@ from .state_v1 import state_v1
 from .vocabulary import Reason
 
 ATTEMPTS = 3  # how often an order is made anew that was refused for its age or its sequence alone
-TRANSMISSIONS = 4  # of the identical message, until it is answered
+TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that fits into a packet
+_PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
+
+
+def most_transmissions(message_bytes):
+    """Of a message of so many bytes: it is lost with any one of the packets that Ethernet cuts it into."""
+    return TRANSMISSIONS + max(0, -(-message_bytes // _PACKET_BYTES) - 1)
 
 
 class CycleClock:
@@ -81,8 +87,8 @@ class Conversation:
                 prepare(message)
             answer = self._exchange(kind, message, state)
             if answer is None:
-                raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after {TRANSMISSIONS} "
-                               "transmissions. Whether the order was carried out is not known: look at the state")
+                raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after "
+                               f"{most_transmissions(len(message.encode()))} transmissions. Whether the order was carried out is not known: look at the state")
             if answer.accepted == 1:
                 return
             if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):
@@ -134,9 +140,10 @@ class Conversation:
         with self.network.changed:
             self._awaited[sequence] = None
         try:
-            for _ in range(TRANSMISSIONS):
+            transmissions = most_transmissions(len(encoded))
+            for _ in range(transmissions):
                 self.network.publish(channel, encoded)
-                if self.network.wait_until(lambda: self._awaited[sequence] is not None, self.timeout_s / TRANSMISSIONS):
+                if self.network.wait_until(lambda: self._awaited[sequence] is not None, self.timeout_s / transmissions):
                     break
             return self._awaited[sequence]
         finally:

@@ -28,7 +28,7 @@ class Joint:
 
     def __init__(self, name, key=None, *, prefix="SW", lcm_url=None, timeout_s=2.0):
         self.name = check_name("name", name)
-        self._timeout_s = check_number("timeout_s", timeout_s, "above 0 to 3600", lambda s: 0 < s <= 3600)
+        self._timeout_s = check_number("timeout_s", timeout_s, "above 0 to 3600", lambda s: 0 < s <= 3600, name)
         sender = Sender(os.environ.get("STRAINWAVE_KEY") if key is None else key)
         self._conversation = Conversation(Network.shared(lcm_url), check_name("prefix", prefix), name, sender, self._timeout_s)
         self._wait_until = self._conversation.network.wait_until
@@ -129,8 +129,8 @@ class Joint:
         is on its way. An exception of the wait, a keyboard interrupt too, does not end the motion: hold() does. Raises Refused, Faulted,
         NotDone, NoAnswer, InvalidInput.
         """
-        position_rad = check_number("position_rad", position_rad, "a finite number of rad", lambda _: True)
-        tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
+        position_rad = check_number("position_rad", position_rad, "a finite number of rad", lambda _: True, self.name)
+        tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0, self.name)
         message = blank(setpoint_v2)
         message.position_rad = position_rad
         message.speed_limit_rad_s = self._speed_limit(speed_limit_rad_s)
@@ -155,9 +155,8 @@ class Joint:
         """
         return Stream(self, self._conversation, self.limits.period_s, ahead_s, valid_for_s, self._speed_limit(speed_limit_rad_s), beside)
 
-    @staticmethod
-    def _speed_limit(speed_limit_rad_s):
-        return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0)
+    def _speed_limit(self, speed_limit_rad_s):
+        return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0, self.name)
 
     def _mode(self):
         return Mode(self._conversation.state.mode)

@@ -96,8 +96,10 @@ class MotionWatch:
         return self._done(state)
 
 
-def wait_for_motions(motions):
-    """Returns once all of them are done. Raises Faulted of one that faulted before it asks why those that move with it ended."""
+def wait_for_motions(motions, look=lambda: None):
+    """Returns once all of them are done. Raises Faulted of one that faulted before it asks why those that move with it ended. look() is
+    called again and again meanwhile, and may raise.
+    """
     under_way = list(motions)
     while under_way:
         first = under_way[0].conversation
@@ -106,6 +108,8 @@ def wait_for_motions(motions):
         for motion in under_way:
             motion.check_fault()
         under_way = [motion for motion in under_way if not motion.look()]
+        if under_way:
+            look()
 
 
 def wait_for_motion(*motion):

@@ -1,14 +1,16 @@
 """A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths"."""
+import math
 import reprlib
 from collections.abc import Iterable, Mapping, Sized
 
-from .errors import InvalidInput
+from .errors import InvalidInput, NotDone
 from .joint import Joint
 from .messages import blank
 from .motion import ArrivalWatch, MotionWatch, wait_for_motions
+from .network import now_s
 from .path_v1 import path_v1
 from .stream import check_number
-from .vocabulary import Action, Mode
+from .vocabulary import Action, Mode, Notice
 
 MOST_KNOTS = 320
 
@@ -61,14 +63,30 @@ class Path:
         for joint in self._joints:
             joint.hold()
 
-    def wait(self, tolerance_rad=1e-3):
-        """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Raises
-        Faulted, NotDone, NoAnswer.
+    def wait(self, tolerance_rad=1e-3, timeout_s=None):
+        """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Waits while
+        somebody has paused the path, too: Notice.PATH_PAUSED and path_time_s of the state tell. Raises Faulted, NoAnswer, and NotDone: after
+        `timeout_s`, which says where the path is and whether it is paused, or when something else ended it.
         """
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
+        if timeout_s is not None:
+            timeout_s = check_number("timeout_s", timeout_s, "None or a number above 0", lambda seconds: seconds > 0)
+        begin_s = now_s()
+
+        def look():
+            if timeout_s is not None and now_s() - begin_s > timeout_s:
+                raise NotDone(f"{self._joints[0].name}: the path did not arrive in {timeout_s:g} s: {self._where()}")
+
         arrivals = {joint: ArrivalWatch(joint.name, knots[-1][1], tolerance_rad, joint._timeout_s) for joint, knots in self._knots.items()}
-        wait_for_motions([self._motion(joint, knots[-1][1], arrivals[joint]) for joint, knots in self._knots.items()])
+        wait_for_motions([self._motion(joint, knots[-1][1], arrivals[joint]) for joint, knots in self._knots.items()], look)
         return {joint: watch.arrival for joint, watch in arrivals.items()}
+
+    def _where(self):
+        state = self._joints[0].state
+        if math.isnan(state.path_time_s):
+            return "its joints are on their way to its end"
+        of_s = max(knots[-1][0] for knots in self._knots.values())
+        return f"it is {'paused ' if state.notices & Notice.PATH_PAUSED else ''}at {state.path_time_s:.3f} s of {of_s:.3f} s"
 
     @staticmethod
     def _motion(joint, end_rad, watch):

@@ -11,8 +11,8 @@ FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
-def check_number(name, value, allowed, is_allowed):
-    """`value` as a float, if it is a finite number that is allowed. A text or a truth value is none."""
+def check_number(name, value, allowed, is_allowed, joint=""):
+    """`value` as a float, if it is a finite number that is allowed. A text or a truth value is none. `joint`: whose it is, if it is one's."""
     try:
         if isinstance(value, (str, bytes, bool)):
             raise TypeError
@@ -20,7 +20,7 @@ def check_number(name, value, allowed, is_allowed):
     except (TypeError, ValueError):
         number = math.nan
     if not math.isfinite(number) or not is_allowed(number):
-        raise InvalidInput(f"{name} = {value!r}: {allowed} is allowed")
+        raise InvalidInput(f"{joint}{': ' if joint else ''}{name} = {value!r}: {allowed} is allowed")
     return number
 
 
@@ -41,8 +41,8 @@ class Stream:
     def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, beside):
         self.late = 0  # samples that came after their time, or after a later one, and were left out
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
-        self._ahead_s = check_number("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
-        self._valid_for_s = check_number("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
+        self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
+        self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
         self._speed_limit_rad_s = speed_limit_rad_s
         self._base = beside._base if beside else TimeBase()
         self._stream_id = conversation.sender.next_sequence()
@@ -59,17 +59,17 @@ class Stream:
         """
         if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
             raise NotDone(f"{self._joint.name}: this stream is over; Joint.stream() makes another one")
-        t = check_number("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
+        t = self._checked("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
         most_Nm = self._joint.limits.torque_limit_Nm
-        message.torque_Nm = check_number("torque_Nm", torque_Nm, f"{-most_Nm} to {most_Nm}", lambda Nm: abs(Nm) <= most_Nm)
-        message.load_inertia_kgm2 = check_number("load_inertia_kgm2", load_inertia_kgm2, "a number from 0", lambda kgm2: kgm2 >= 0)
+        message.torque_Nm = self._checked("torque_Nm", torque_Nm, f"from {-most_Nm} to {most_Nm}", lambda Nm: abs(Nm) <= most_Nm)
+        message.load_inertia_kgm2 = self._checked("load_inertia_kgm2", load_inertia_kgm2, "a number from 0", lambda kgm2: kgm2 >= 0)
         self._last_t = t
         if self._last_cycle is None:
             return self._begin(t, message)
         message.at_cycle = self._base.cycle_of(t, self._period_s)
         if message.at_cycle <= self._last_cycle:
-            raise InvalidInput(f"t = {t!r}: at least a period of the daemon, {self._period_s} s, after the last one is allowed")
+            raise InvalidInput(f"{self._joint.name}: t = {t!r}: at least a period of the daemon, {self._period_s} s, after the last one is allowed")
         self._wait_until_due(message.at_cycle)
         self._check_refusals()
         if message.at_cycle <= self._now_cycle():
@@ -108,19 +108,22 @@ class Stream:
         except StrainwaveError as second:
             error.add_note(f"and the joint could not be told to hold: {second}")
 
+    def _checked(self, name, value, allowed, is_allowed):
+        return check_number(name, value, allowed, is_allowed, self._joint.name)
+
     def _message(self, position_rad, velocity_rad_s, acceleration_rad_s2):
         limits = self._joint.limits
         message = blank(setpoint_v2)
-        message.position_rad = check_number(
-            "position_rad", position_rad, f"{limits.position_min_rad} to {limits.position_max_rad}",
+        message.position_rad = self._checked(
+            "position_rad", position_rad, f"from {limits.position_min_rad} to {limits.position_max_rad}",
             lambda rad: limits.position_min_rad <= rad <= limits.position_max_rad)
         if velocity_rad_s is not None:
-            message.velocity_rad_s = check_number("velocity_rad_s", velocity_rad_s, "a finite number", lambda _: True)
+            message.velocity_rad_s = self._checked("velocity_rad_s", velocity_rad_s, "a finite number", lambda _: True)
             message.derivatives = 1
         if acceleration_rad_s2 is not None:
             if velocity_rad_s is None:
-                raise InvalidInput(f"acceleration_rad_s2 = {acceleration_rad_s2!r}: only with velocity_rad_s")
-            message.acceleration_rad_s2 = check_number("acceleration_rad_s2", acceleration_rad_s2, "a finite number", lambda _: True)
+                raise InvalidInput(f"{self._joint.name}: acceleration_rad_s2 = {acceleration_rad_s2!r}: only with velocity_rad_s")
+            message.acceleration_rad_s2 = self._checked("acceleration_rad_s2", acceleration_rad_s2, "a finite number", lambda _: True)
             message.derivatives = 2
         message.stream_id = self._stream_id
         message.valid_for_s = self._valid_for_s

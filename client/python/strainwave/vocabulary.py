@@ -165,6 +165,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     OFF_TARGET = 1 << 11
     LOAD_HIGH = 1 << 12
     OTHER_INERTIA = 1 << 13
+    PATH_PAUSED = 1 << 14
 
     @property
     def texts(self):
@@ -193,6 +194,7 @@ _NOTICE_TEXTS = {
     Notice.OFF_TARGET: "off target",
     Notice.LOAD_HIGH: "load high",
     Notice.OTHER_INERTIA: "inertia not as told",
+    Notice.PATH_PAUSED: "path paused",
 }
 
 

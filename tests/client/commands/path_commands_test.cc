@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/path_v1.hpp>
@@ -148,6 +149,25 @@ TEST_F(PathCommandsTest, ATargetOutOfRangeIsRefusedBeforeAnythingIsSent) {
   EXPECT_TRUE(daemon.heard().empty() && wrist.heard().empty());
 }
 
+TEST_F(PathCommandsTest, WhatIsWrongWithOneOfSeveralJointsIsSaidOfThatJoint) {
+  try {
+    check_path({{"elbow", {{0, 0, 0}, {1, 0.1, 0}}}, {"wrist", {{0, 0, 0}}}});
+    ADD_FAILURE() << "a path of one knot was taken";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.details().joint, "wrist");
+  }
+}
+
+TEST_F(PathCommandsTest, ASpeedThatTakesTooLongIsRefusedWithTheLeastThatIsAllowed) {
+  EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 1e-9}), ExitStatus::kUsage);
+  EXPECT_TRUE(message_has("elbow: speed_limit_rad_s = 1e-09: at least 0.000281 is allowed")) << message;
+  EXPECT_TRUE(daemon.heard().empty() && wrist.heard().empty());
+}
+
+TEST_F(PathCommandsTest, ASpeedThatTakesJustNotTooLongIsAllowed) {
+  EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 0.000281}), ExitStatus::kDone) << message;
+}
+
 TEST_F(PathCommandsTest, JsonNamesTheJointsAsAList) {
   let_two_joints_hold();
   const Output json{stream, false, true};
@@ -187,6 +207,73 @@ TEST_F(PathCommandsTest, WaitsUntilTheLastJointIsThere) {
   EXPECT_GT(rounds, 120);
   EXPECT_TRUE(output_has("elbow, wrist: arrived in ")) << stream.str();
   EXPECT_TRUE(output_has("largest error -5.00e-04 rad")) << stream.str();
+}
+
+/// States of a path that somebody pauses for a while, one after the other as they are heard.
+struct PausedPath {
+  FakeDaemon &elbow, &wrist;
+  int rounds = 0;
+
+  void on_state(const ReceivedMessage&) {
+    if (++rounds > 200) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    const bool paused = rounds > 20 && rounds <= 60;
+    const bool there = rounds > 90;
+    for (FakeDaemon* const one : {&elbow, &wrist}) {
+      one->state.target_position_rad = one == &elbow ? 0.4 : -0.2;
+      one->state.joint_position_rad = there ? one->state.target_position_rad : 0.1;
+      one->state.path_time_s = there ? std::nan("") : paused ? 0.32 : 0.01 * rounds;
+      one->state.notices = paused ? static_cast<std::int32_t>(Notice::kPathPaused) : 0;
+      if (one == &wrist) one->publish_state(there ? Mode::kHolding : Mode::kTracking);
+    }
+    elbow.publish_state(there ? Mode::kHolding : Mode::kTracking);
+  }
+};
+
+TEST_F(PathCommandsTest, WhoWaitsIsToldOnceThatThePathIsPausedAndThatItGoesOn) {
+  let_two_joints_hold();
+  PausedPath playing{daemon, wrist};
+  const Subscription states = connection.subscribe("SW\\.elbow\\.STATE", &PausedPath::on_state, &playing);
+  daemon.publish_state(Mode::kTracking);
+  EXPECT_EQ(status_of([&] {
+              follow_path(client, output, {file_of(kTwoJoints), true});
+            }),
+            ExitStatus::kDone)
+      << message;
+  const std::string said = stream.str();
+  const std::string paused =
+      "elbow, wrist: paused at 0.320 s of 1.000 s; strainwavectl resume elbow goes on\n";
+  EXPECT_EQ(said.find(paused + "elbow, wrist: on the path again\nelbow, wrist: arrived in "), 0U) << said;
+}
+
+TEST_F(PathCommandsTest, APauseIsAnObjectOfItsOwnInJson) {
+  let_two_joints_hold();
+  PausedPath playing{daemon, wrist};
+  const Subscription states = connection.subscribe("SW\\.elbow\\.STATE", &PausedPath::on_state, &playing);
+  daemon.publish_state(Mode::kTracking);
+  const Output json{stream, false, true};
+  follow_path(client, json, {file_of(kTwoJoints), true});
+  EXPECT_TRUE(
+      output_has("{\"joints\":[\"elbow\",\"wrist\"],\"path_s\":1.0,\"arrived\":false,\"paused\":true,"
+                 "\"path_time_s\":0.32}\n"))
+      << stream.str();
+  EXPECT_TRUE(output_has("\"paused\":false")) << stream.str();
+}
+
+TEST_F(PathCommandsTest, AWaitThatHasALimitEndsInWhereThePathIsAndThatItIsPaused) {
+  let_two_joints_hold();
+  const std::vector<JointPath> path = read_path(file_of(kTwoJoints));
+  for (FakeDaemon* const one : {&daemon, &wrist}) {
+    one->state.target_position_rad = one == &daemon ? 0.4 : -0.2;
+    one->state.path_time_s = 0.32;
+    one->state.notices = static_cast<std::int32_t>(Notice::kPathPaused);
+    one->publish_state(Mode::kTracking);
+    client.wait_for_joint(one == &daemon ? "elbow" : "wrist");
+  }
+  client.catch_up();
+  EXPECT_EQ(status_of([&] { (void)wait_for_path(client, path, {.timeout_s = 0.05}); }), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("elbow: the path did not arrive in 0.05 s: it is paused at 0.320 s of 1.000 s"))
+      << message;
 }
 
 TEST_F(PathCommandsTest, PauseAndResumeAreOrdersToOneJointOfThePath) {

@@ -91,9 +91,10 @@ TEST_F(JointTest, WhatIsWrongIsRefusedBeforeAnythingIsSent) {
   Joint joint = elbow();
   EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("el bow"); }), "name = 'el bow': 1 to 24 "));
   EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("a", {.prefix = ""}); }), "prefix = ''"));
-  EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("a", {.timeout_s = 0.0}); }), "timeout_s = 0: 0.1 to "));
+  EXPECT_TRUE(
+      has(error_of<InvalidInput>([] { Joint("a", {.timeout_s = 0.0}); }), "a: timeout_s = 0: 0.1 to "));
   EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("a", {.key = "/nowhere/key"}); }), "/nowhere/key"));
-  EXPECT_TRUE(has(error_of<InvalidInput>([&] { joint.move(std::nan("")); }), "position_rad = nan"));
+  EXPECT_TRUE(has(error_of<InvalidInput>([&] { joint.move(std::nan("")); }), "elbow: position_rad = nan"));
   EXPECT_TRUE(
       has(error_of<InvalidInput>([&] { joint.move({.position_rad = 0.1, .speed_limit_rad_s = -1.0}); }),
           "speed_limit_rad_s = -1"));

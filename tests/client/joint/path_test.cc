@@ -58,6 +58,24 @@ TEST_F(PathTest, LoadsItsKnotsAndStartsThemAndArrives) {
   EXPECT_EQ(action(3), static_cast<std::int32_t>(Action::kResume));
 }
 
+TEST_F(PathTest, AWaitThatHasALimitEndsInWhereThePathIsAndThatItIsPaused) {
+  Joint elbow = joint("elbow");
+  Path path({{elbow, {{0, 0, 0}, {1, 0.4, 0}}}});
+  daemon.daemon().after_answer = [this] {
+    daemon.daemon().state.target_position_rad = 0.4;
+    daemon.daemon().state.path_time_s = 0.25;
+    daemon.daemon().state.notices = static_cast<std::int32_t>(Notice::kPathPaused);
+  };
+  path.start();
+  try {
+    path.wait(1e-3, 0.5);
+    ADD_FAILURE() << "it arrived";
+  } catch (const NotDone& error) {
+    EXPECT_STREQ(error.what(), "elbow: the path did not arrive in 0.5 s: it is paused at 0.250 s of 1.000 s");
+  }
+  EXPECT_THROW(path.wait(1e-3, 0.0), InvalidInput);
+}
+
 TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
   const Joint elbow = joint("elbow");
   const Joint of_another_daemon = joint("wrist", "LEFT");

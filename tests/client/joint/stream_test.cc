@@ -167,7 +167,12 @@ TEST_F(StreamTest, IsNotBegunAnewByASampleAfterItsEnd) {
 
 TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   auto stream = joint.stream();
-  EXPECT_THROW(stream.put(0.0, 3.5), InvalidInput);
+  try {
+    stream.put(0.0, 3.5);
+    ADD_FAILURE() << "a position beyond the range was sent";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "elbow: position_rad = 3.5: from -3 to 3 is allowed");
+  }
   EXPECT_THROW(stream.put(0.0, 0.1, std::nan("")), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, {}, 1.0), InvalidInput);
   EXPECT_THROW(stream.put(std::nan(""), 0.1), InvalidInput);

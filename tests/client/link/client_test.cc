@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <strainwave/command_v1.hpp>
+#include <strainwave/path_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
 #include "client/link/client_error.h"
@@ -41,6 +42,21 @@ TEST_F(ClientTest, LearnsTheSessionFromTheStateAndQuotesIt) {
   ASSERT_EQ(daemon.heard().size(), 1U);
   EXPECT_EQ(daemon.heard()[0].channel, "SW.elbow.SETPOINT");
   EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->session_id, 4711);
+}
+
+TEST_F(ClientTest, RepeatsWhatANetworkCutsIntoPacketsOftenerAndSaysHowOften) {
+  daemon.publish_state();
+  daemon.drop = 8;
+  EXPECT_TRUE(client.request("elbow", channel_kind::kPath, path_v1{}).accepted);
+  EXPECT_EQ(daemon.heard().size(), 9U);
+  daemon.drop = 100;
+  try {
+    (void)client.request("elbow", channel_kind::kPath, path_v1{});
+    ADD_FAILURE() << "nothing answered";
+  } catch (const NoAnswer& error) {
+    EXPECT_NE(std::string(error.what()).find("after 9 transmissions"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(daemon.heard().size(), 18U);
 }
 
 TEST_F(ClientTest, SaysThatTheDaemonSpeaksAnotherVersion) {

@@ -165,7 +165,7 @@ class Orders(PlayedOrders):
             self.wait_for_move(self.impatient_elbow, moving, dict(mode=Mode.HOLDING, joint_position_rad=0.4))
 
     def test_that_make_no_sense_are_refused_before_anything_is_sent(self):
-        for attempt, words in ((lambda: self.elbow.move(float("inf")), "position_rad = inf"),
+        for attempt, words in ((lambda: self.elbow.move(float("inf")), "^elbow: position_rad = inf"),
                                (lambda: self.elbow.move("0.5"), "position_rad = '0.5'"),
                                (lambda: self.elbow.move(True), "position_rad = True"),
                                (lambda: self.elbow.move(0, tolerance_rad=0), "tolerance_rad = 0"),

@@ -3,7 +3,7 @@ import threading
 import unittest
 
 from played_orders import PATH, PlayedOrders, published
-from strainwave import Action, Faulted, InvalidInput, Joint, Mode, Path, Reason, Refused
+from strainwave import Action, Faulted, InvalidInput, Joint, Mode, NotDone, Notice, Path, Reason, Refused
 
 
 class Paths(PlayedOrders):
@@ -28,6 +28,18 @@ class Paths(PlayedOrders):
                              ({self.elbow: self.KNOTS, Joint("elbow", key=""): self.KNOTS}, "elbow: 2 Joints of that name have knots")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path(knots)
+
+    def test_are_sent_again_as_often_as_a_network_may_lose_one_of_their_packets(self):
+        self.publish_state()
+        lost = 8
+
+        def daemon(channel, message):
+            if len(self.network.published) > lost:
+                self.answer(published(channel, message))
+
+        self.network.daemon = daemon
+        Path({self.impatient_elbow: self.KNOTS}).start()
+        self.assertEqual([channel for channel, _ in self.network.published], [PATH] * (lost + 1) + ["SW.elbow.COMMAND"])
 
     def test_that_are_refused_start_nothing(self):
         self.publish_state()
@@ -72,6 +84,17 @@ class Paths(PlayedOrders):
             publisher.join()
         self.assertEqual(list(arrivals), [self.elbow, wrist])
         self.assertAlmostEqual(arrivals[wrist].error_rad, 0.0001)
+
+    def test_that_somebody_paused_say_so_when_the_wait_has_lasted_long_enough(self):
+        self.publish_state(Mode.TRACKING, target_position_rad=0.75, path_time_s=0.32, notices=int(Notice.PATH_PAUSED))
+        with self.assertRaisesRegex(NotDone, "elbow: the path did not arrive in 0.05 s: it is paused at 0.320 s of 1.000 s"):
+            Path({self.elbow: self.KNOTS}).wait(timeout_s=0.05)
+        self.publish_state(Mode.TRACKING, notices=0)
+        with self.assertRaisesRegex(NotDone, "in 0.05 s: it is at 0.320 s of 1.000 s"):
+            Path({self.elbow: self.KNOTS}).wait(timeout_s=0.05)
+        for wrong in (0, -1, "1", float("inf")):
+            with self.subTest(wrong), self.assertRaisesRegex(InvalidInput, "timeout_s = .*: None or a number above 0 is allowed"):
+                Path({self.elbow: self.KNOTS}).wait(timeout_s=wrong)
 
     def test_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
         Path({self.elbow: [(i, 0, 0) for i in range(320)]})

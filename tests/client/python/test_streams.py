@@ -135,13 +135,13 @@ class Streams(PlayedOrders):
 
     def test_refuse_samples_that_make_no_sense_before_anything_is_sent(self):
         stream = self.stream()
-        for attempt, words in ((lambda: stream.put(0, 1.5), r"position_rad = 1.5: -1.0 to 1.0 is allowed"),
-                               (lambda: stream.put(float("nan"), 0), "t = nan"), (lambda: stream.put(0, "there"), "position_rad = 'there'"),
-                               (lambda: stream.put(0, 0, acceleration_rad_s2=1), "only with velocity_rad_s"),
+        for attempt, words in ((lambda: stream.put(0, 1.5), "^elbow: position_rad = 1.5: from -1.0 to 1.0 is allowed"),
+                               (lambda: stream.put(float("nan"), 0), "^elbow: t = nan"), (lambda: stream.put(0, "there"), "position_rad = 'there'"),
+                               (lambda: stream.put(0, 0, acceleration_rad_s2=1), "^elbow: .*only with velocity_rad_s"),
                                (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
-                               (lambda: stream.put(0, 0, torque_Nm=-99), "torque_Nm = -99: -34.0 to 34.0 is allowed"),
+                               (lambda: stream.put(0, 0, torque_Nm=-99), "elbow: torque_Nm = -99: from -34.0 to 34.0 is allowed"),
                                (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
-                               (lambda: self.elbow.stream(ahead_s=1.5), "ahead_s = 1.5: above 0 to 0.9")):
+                               (lambda: self.elbow.stream(ahead_s=1.5), "^elbow: ahead_s = 1.5: above 0 to 0.9")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 attempt()
         self.assertEqual(self.network.published, [])

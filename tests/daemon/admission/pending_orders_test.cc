@@ -112,6 +112,33 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
                   {"the table's torque_limit_Nm", "may carry 8 N.m", "12.5 N.m", "at least"});
 }
 
+TEST_F(PendingOrdersTest, ThatDoNothingInTheModeThatTheyMetSayWhatDoes) {
+  const struct {
+    OrderKind kind;
+    Mode mode;
+    std::string words;
+  } cases[] = {
+      {OrderKind::kHold, Mode::kOff,
+       "the joint is off: it has no torque, and there is no motion to stop; enable it"},
+      {OrderKind::kHold, Mode::kFaulted, "the joint is faulted: its drive is off already; clear the fault"},
+      {OrderKind::kHold, Mode::kStopping, "it comes to rest already"},
+      {OrderKind::kSetpoint, Mode::kOff, "motion needs it enabled"},
+      {OrderKind::kSetpoint, Mode::kHoming, "wait until it has found home"},
+      {OrderKind::kSetpoint, Mode::kReleasing, "it is being enabled, wait until it holds"},
+      {OrderKind::kEnable, Mode::kStopping, "it is being disabled, wait until it is off"},
+      {OrderKind::kHome, Mode::kTracking, "homing begins at rest, hold it first"},
+      {OrderKind::kClearFault, Mode::kTracking, "it has no fault to clear"},
+  };
+  for (const auto& one : cases) {
+    const std::string text = refusal(one.kind, {0, Reason::kWrongMode, one.mode});
+    EXPECT_NE(text.find(one.words), std::string::npos) << text;
+  }
+  EXPECT_NE(refusal(OrderKind::kSetpoint, {0, Reason::kMoving, Mode::kTracking}).find("it yields to a load"),
+            std::string::npos);
+  EXPECT_NE(refusal(OrderKind::kUseTable, {0, Reason::kMoving, Mode::kTracking}).find("at standstill"),
+            std::string::npos);
+}
+
 TEST_F(PendingOrdersTest, ThatWaitedTooLongAreNotSaidToBeForAnotherCycle) {
   const std::string text = refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding});
   EXPECT_NE(text.find("waited"), std::string::npos) << text;

@@ -303,6 +303,37 @@ TEST_F(PathFollowerTest, PausesOnThePathAndGoesOnAlongIt) {
   }
 }
 
+TEST_F(PathFollowerTest, StatesTellWhereAPathIsAndThatItIsPaused) {
+  const auto paused = [this](std::size_t joint) {
+    return (bench_.state(joint).notices & static_cast<std::int32_t>(Notice::kPathPaused)) != 0;
+  };
+  EXPECT_TRUE(std::isnan(bench_.state(2).path_time_s)) << "on no path yet";
+  begin();
+  run(0.7);
+  EXPECT_NEAR(bench_.state(2).path_time_s, 0.7, 0.01);
+  EXPECT_FALSE(paused(2));
+  ASSERT_EQ(bench_.order(5, OrderKind::kPausePath), Reason::kAccepted);
+  run(0.3);
+  const double paused_s = bench_.state(0).path_time_s;
+  EXPECT_GT(paused_s, 0.7);
+  EXPECT_LT(paused_s, 1.0);
+  run(1.0);
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    EXPECT_TRUE(paused(i)) << i;
+    EXPECT_EQ(bench_.state(i).path_time_s, paused_s) << i;
+  }
+  ASSERT_EQ(bench_.order(1, OrderKind::kResumePath), Reason::kAccepted);
+  run(0.2);
+  EXPECT_FALSE(paused(0));
+  EXPECT_GT(bench_.state(0).path_time_s, paused_s);
+  ASSERT_EQ(bench_.order(1, OrderKind::kHold), Reason::kAccepted);
+  run(0.05);
+  EXPECT_FALSE(paused(0)) << "it ends, and nobody can resume it";
+  run(1.0);
+  EXPECT_TRUE(std::isnan(bench_.state(0).path_time_s));
+  EXPECT_FALSE(paused(0));
+}
+
 TEST_F(PathFollowerTest, AHoldOfOneJointEndsThePathForAllAlongIt) {
   begin();
   run(0.7);

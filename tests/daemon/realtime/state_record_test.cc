@@ -80,6 +80,15 @@ TEST_F(StateRecordTest, ShowsNoInertiaBeforeMotionsHaveShownOne) {
   EXPECT_EQ(filled().inertia_estimated_kgm2, 0.18);
 }
 
+TEST_F(StateRecordTest, ShowsHowFarThePathHasGotWhileThereIsOne) {
+  EXPECT_TRUE(std::isnan(filled().path_time_s));
+  ordered_.begin_path(1.75, 0.75);
+  ordered_.note({3.25, true});
+  EXPECT_EQ(filled().path_time_s, 3.25);
+  ordered_.end();
+  EXPECT_TRUE(std::isnan(filled().path_time_s));
+}
+
 TEST_F(StateRecordTest, ShowsTheTargetToTheBitAsItWasOrdered) {
   enable();
   ordered_.accept({.joint_rad = 1.7500000001, .drive_rad = 0.75}, 0);
