@@ -163,8 +163,9 @@ class JointController {
     return linked() ? link_motion_->motor_rest_rad(plan_.target_rad()) : plan_.target_rad();
   }
 
-  /// What a joint at rest carries, as far as it is known: gravity as it is told, and the load besides.
-  double held_load_Nm() const noexcept;
+  /// What holds a joint at rest, before limits and without a count's flicker: gravity and load as they are told, and the load that shows, in which is
+  /// what feedback holds.
+  double holding_torque_Nm() const noexcept;
 
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
@@ -215,6 +216,7 @@ class JointController {
   bool may_dither() const noexcept { return follows_ == Follows::kStreamOnTime; }
   bool streamed() const noexcept { return follows_ != Follows::kTarget; }
   double estimated_load_Nm() const noexcept;
+  double held_load_Nm() const noexcept;
   double landing_reach_rad() const noexcept;
   bool landing_possible() const noexcept;
   /// Its pushes are planned for the usual delay.

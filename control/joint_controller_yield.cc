@@ -35,6 +35,10 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
   shown_load_Nm_ += share * (known.load_Nm + besides_Nm - shown_load_Nm_);
 }
 
+double JointController::holding_torque_Nm() const noexcept {
+  return shown_load_Nm_ + config_.gravity.at(state_.now().position_rad) + told_load_.torque_Nm;
+}
+
 void JointController::yield(double load_Nm, double let_go_Nm) noexcept {
   follows_ = Follows::kTarget;
   yielding_ = {load_Nm, let_go_Nm, state_.now().position_rad, 0};
@@ -50,7 +54,7 @@ void JointController::go_on_yielding(int elapsed_periods) noexcept {
   const double still_rad = kStillCounts * count_rad();
   const bool moves = std::abs(position_rad - yielding_.stands_at_rad) > still_rad;
   if (moves) yielding_.stands_at_rad = position_rad;
-  const bool let_go = observing() && std::abs(shown_load_Nm_ - yielding_.load_Nm) <= yielding_.let_go_Nm;
+  const bool let_go = observing() && std::abs(shown_load_Nm_) <= yielding_.let_go_Nm;
   yielding_.periods = let_go || !moves ? yielding_.periods + elapsed_periods : 0;
   if (yielding_.periods * config_.period_s < kLetGo_s) {
     reference_ = {position_rad, 0.0, 0.0};

@@ -230,8 +230,7 @@ void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   if (mode_.is(Mode::kStopping)) controller_.stop();
   // At rest: what the joint carries is known now, and something else holds it from here on.
   if (from == Mode::kStopping && mode_.is(Mode::kOff))
-    held_ = {motion_.phase == MotionPhase::kResting ? motion_.output.torque_Nm : controller_.held_load_Nm(),
-             reading().joint_position_rad};
+    held_ = {controller_.holding_torque_Nm(), reading().joint_position_rad};
   if (mode_.is(Mode::kStopping) || !mode_.controlled()) {
     ordered_.end();
     drop_path();

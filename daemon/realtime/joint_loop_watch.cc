@@ -59,8 +59,9 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
   if (!mode_.is(Mode::kHoming) && into_limit_switch(motion_.reference.velocity_rad_s))
     return raise_fault(Fault::kLimitSwitch, time);
   if (motion_.monitor == MonitorState::kFaultDue) return raise_fault(Fault::kChatter, time);
+  // What it is yielding to pushes on as fast as it may be pushed.
   if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
-    return raise_fault(Fault::kSpeedLimit, time);
+    return raise_fault(controller_.yields() ? Fault::kOverload : Fault::kSpeedLimit, time);
   // Until the brake is open the joint stands whatever it is ordered.
   if (mode_.is(Mode::kReleasing)) return motion_watch_.begin(position_rad, time.now_ns);
   const Fault fault = motion_watch_.judge(motion_, position_rad, time.now_ns);
@@ -74,10 +75,11 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
     notice(Notice::kOffTarget);
 }
 
-// It yields once to what pushes it: a load that does not let go is a fault.
+// It yields once to what pushes it: a load that does not let go, or is back as soon as the joint is held again, is a fault.
 void JointLoop::stop_overloaded(const CycleTime& time) noexcept {
   const bool may_hold = config_.overload_stop == OverloadStop::kHoldLoad && !mode_.is(Mode::kHoming);
-  if (!may_hold || controller_.yields()) return raise_fault(Fault::kOverload, time);
+  if (!may_hold || controller_.yields() || motion_watch_.has_just_yielded(time.now_ns))
+    return raise_fault(Fault::kOverload, time);
   ordered_.end();
   drop_path();
   controller_.yield(motion_watch_.usual_load_Nm(), motion_watch_.loads().notice_Nm);

@@ -35,6 +35,7 @@ void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept
   light_ns_ = now_ns;
   judged_ns_ = now_ns - nanoseconds(kUsualLoad_s);  // the first load counts wholly
   yields_since_ns_ = now_ns;
+  yielded_ns_.reset();
   high_load_ = false;
   in_place_ns_ = now_ns;
   replans_since_ns_ = now_ns;
@@ -98,6 +99,10 @@ bool MotionWatch::planned_too_often(int replans, std::int64_t now_ns) noexcept {
   return false;
 }
 
+bool MotionWatch::has_just_yielded(std::int64_t now_ns) const noexcept {
+  return yielded_ns_ && seconds(now_ns - *yielded_ns_) < kLongestYield_s;
+}
+
 bool MotionWatch::overloaded(const JointStep& motion, std::int64_t now_ns) noexcept {
   const double load_Nm = motion.load_Nm;
   high_load_ = std::abs(load_Nm) > loads_.notice_Nm;
@@ -106,7 +111,10 @@ bool MotionWatch::overloaded(const JointStep& motion, std::int64_t now_ns) noexc
   if (!high_load_) usual_load_Nm_ += share * (load_Nm - usual_load_Nm_);
   const bool yields = motion.phase == MotionPhase::kYielding;
   if (yields || std::abs(load_Nm) <= loads_.load_Nm) light_ns_ = now_ns;
-  if (!yields) yields_since_ns_ = now_ns;
+  if (yields)
+    yielded_ns_ = now_ns;
+  else
+    yields_since_ns_ = now_ns;
   return seconds(now_ns - light_ns_) > config_.overload_s ||
          seconds(now_ns - yields_since_ns_) > kLongestYield_s;
 }

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/durations.h"
 #include "control/joint_controller.h"
@@ -41,6 +42,8 @@ class MotionWatch {
   Fault judge(const JointStep& motion, double joint_position_rad, std::int64_t now_ns) noexcept;
   /// After judge(): whether the load is above what calls for a notice.
   bool high_load() const noexcept { return high_load_; }
+  /// Whether the joint yielded within the half second before now.
+  bool has_just_yielded(std::int64_t now_ns) const noexcept;
   /// What the joint carried, in the mean over half a second, while the load was not high.
   double usual_load_Nm() const noexcept { return usual_load_Nm_; }
   /// One period more in which the joint holds (else it is not `holding`), by so much off its place: whether that has lasted.
@@ -65,6 +68,7 @@ class MotionWatch {
   std::int64_t light_ns_ = 0;   ///< when the load was last within its bound
   std::int64_t judged_ns_ = 0;  ///< the last period
   std::int64_t yields_since_ns_ = 0;
+  std::optional<std::int64_t> yielded_ns_;  ///< the last period in which it did
   double usual_load_Nm_ = 0.0;
   bool high_load_ = false;
   std::int64_t in_place_ns_ = 0;  ///< when the joint was last where it is to hold, or not holding

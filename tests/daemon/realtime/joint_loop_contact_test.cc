@@ -174,5 +174,22 @@ TEST(Contact, AJointThatYieldsTakesNoSetpointUntilItHolds) {
   EXPECT_NEAR(bench.state(0).joint_position_rad, 0.1, 1e-4);
 }
 
+// A load that lasts lets the joint go only while that is pushed away. Caught, it is pushed again at once.
+TEST(Contact, ALoadThatIsBackAsSoonAsTheJointIsHeldIsAFaultOfTheLoad) {
+  for (const bool flexible : {false, true})
+    for (const double load_Nm : {14.0, 20.0, 28.0, 34.0}) {
+      BenchJoint joint = joint_before_a_wall(2000.0, flexible, OverloadStop::kHoldLoad);
+      joint.drive.plant.effects.contact = {};
+      JointBench bench({joint});
+      bench.bring_to_hold(0, flexible ? flexible_table() : demo_table());
+      // As somebody leans on it: within 0.2 s.
+      for (int k = 0; k < 1500 && bench.fault(0) == Fault::kNone; ++k) {
+        bench.drive(0).simulated().set_load_torque_Nm(-load_Nm * std::min(1.0, k / 200.0));
+        bench.step();
+      }
+      EXPECT_EQ(bench.fault(0), Fault::kOverload) << load_Nm << " N.m, " << (flexible ? "spring" : "rigid");
+    }
+}
+
 }  // namespace
 }  // namespace strainwave::testing

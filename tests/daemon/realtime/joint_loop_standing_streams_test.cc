@@ -106,5 +106,47 @@ TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoad
   EXPECT_LE(ends.fallbacks, 4) << "of " << streams;
 }
 
+// What it was told of the load is gone with the stream, and what it was held with against that is not forgotten either: the joint stays where it is.
+TEST(StandingStream, ThatToldOfALoadThatIsNoneLeaveNothingOfItForTheNextEnable) {
+  for (const bool flexible : {false, true})
+    for (const double told_Nm : {8.0, 12.0, -12.0}) {
+      JointBench bench({flexible ? flexible_joint() : demo_joint()});
+      bench.bring_to_hold(0, flexible ? flexible_table() : demo_table());
+      for (int k = 0; k < 1000; ++k) {
+        if (k % 10 == 0) {
+          Order order{.kind = OrderKind::kSetpoint};
+          order.valid_for_s = 0.1;
+          order.stream_id = 1;
+          order.begins_stream = k == 0;
+          order.derivatives = 1;
+          order.torque_Nm = told_Nm * std::min(1.0, k / 500.0);
+          ASSERT_TRUE(bench.joint(0).orders().push(order));
+        }
+        bench.step();
+      }
+      bench.run(0.5);
+      ASSERT_EQ(bench.order(0, OrderKind::kDisable), Reason::kAccepted);
+      bench.run(2.0);
+      const double stood_rad = bench.state(0).joint_position_rad;
+      ASSERT_EQ(bench.order(0, OrderKind::kEnable), Reason::kAccepted);
+      double moved_rad = 0.0;
+      for (int k = 0; k < 1500; ++k) {
+        bench.step();
+        moved_rad = std::max(moved_rad, std::abs(bench.state(0).joint_position_rad - stood_rad));
+      }
+      double left_rad = 0.0;
+      for (const double target_rad : {0.5, 0.0}) {
+        ASSERT_EQ(bench.move(0, target_rad), Reason::kAccepted);
+        bench.run(1.5);
+        left_rad = std::max(left_rad, std::abs(bench.state(0).joint_position_rad - target_rad));
+      }
+      std::printf(
+          "told %.0f N.m, %s: stood at %.2f mrad, enable moved it by %.2f mrad, moves end %.2f mrad beside\n",
+          told_Nm, flexible ? "spring" : "rigid", 1e3 * stood_rad, 1e3 * moved_rad, 1e3 * left_rad);
+      EXPECT_LT(moved_rad, 1e-4);
+      EXPECT_LT(left_rad, 1.2e-3);
+    }
+}
+
 }  // namespace
 }  // namespace strainwave::testing
