@@ -51,7 +51,14 @@ class Joint:
         return Limits(self._conversation.limits, self._conversation.received_s)
 
     def states(self, duration_s=math.inf):
-        """Every State that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`. Raises NoAnswer."""
+        """Every State that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`. Raises NoAnswer,
+        InvalidInput.
+        """
+        if duration_s != math.inf:
+            duration_s = check_number("duration_s", duration_s, "0 or above", lambda s: s >= 0, self.name)
+        return self._states(duration_s)
+
+    def _states(self, duration_s):
         inbox = self._conversation.open_inbox()
         end_s = None
         try:

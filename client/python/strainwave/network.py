@@ -12,7 +12,7 @@ import time
 import urllib.parse
 import weakref
 
-from .errors import InvalidInput, NoAnswer
+from .errors import InvalidInput, NoAnswer, shown
 from .lcm_wire import Reassembly, encode_short
 
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
@@ -26,13 +26,13 @@ _STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.([A-Za-z0-9_][
 def check_name(what, name):
     """`name` if it can be a joint's or a prefix."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        raise InvalidInput(f"{what} = {name!r}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first")
+        raise InvalidInput(f"{what} = {shown(name)}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first")
     return name
 
 
 def parse_url(url):
     """Group, port and ttl of udpm://GROUP:PORT?ttl=N; LCM's own defaults for what is left out."""
-    wrong = InvalidInput(f"lcm_url = {url!r}: udpm://GROUP:PORT?ttl=N is allowed, with a group of 224.0.0.0 to 239.255.255.255, a port "
+    wrong = InvalidInput(f"lcm_url = {shown(url)}: udpm://GROUP:PORT?ttl=N is allowed, with a group of 224.0.0.0 to 239.255.255.255, a port "
                          f"of 1 to 65535 and a ttl of 0 to 255; the usual one is {DEFAULT_URL}")
     try:
         parts = urllib.parse.urlsplit(url)
@@ -55,7 +55,9 @@ class Network:
 
     @classmethod
     def shared(cls, url=None):
-        url = url or os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
+        if url is None:
+            url = os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
+        parse_url(url)
         with cls._shared_lock:
             if url not in cls._shared:
                 cls._shared[url] = cls(url)

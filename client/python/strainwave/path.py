@@ -1,9 +1,8 @@
 """A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths"."""
 import math
-import reprlib
 from collections.abc import Iterable, Mapping, Sized
 
-from .errors import InvalidInput, NotDone
+from .errors import InvalidInput, NotDone, shown
 from .joint import Joint
 from .messages import blank
 from .motion import ArrivalWatch, MotionWatch, wait_for_motions
@@ -13,6 +12,7 @@ from .stream import check_number
 from .vocabulary import Action, Mode, Notice
 
 MOST_KNOTS = 320
+_FIELDS = ("time_s", "position_rad", "velocity_rad_s")  # of a knot
 
 
 class Path:
@@ -22,12 +22,12 @@ class Path:
 
     def __init__(self, knots):
         if not isinstance(knots, Mapping):
-            raise InvalidInput(f"{reprlib.repr(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
+            raise InvalidInput(f"{shown(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
         if not knots:
             raise InvalidInput("a path has at least one joint")
         for joint in knots:
             if not isinstance(joint, Joint):
-                raise InvalidInput(f"{joint!r}: a Joint is allowed, as Joint({joint!r})")
+                raise InvalidInput(f"{shown(joint)}: a Joint is allowed, as Joint({shown(joint)})")
         names = [joint.name for joint in knots]
         for name in names:
             if names.count(name) > 1:
@@ -97,12 +97,12 @@ class Path:
     @staticmethod
     def _checked(name, knots):
         if not isinstance(knots, Iterable):
-            raise InvalidInput(f"{name}: {knots!r}: a list of knots (time_s, position_rad, velocity_rad_s) is allowed")
+            raise InvalidInput(f"{name}: {shown(knots)}: a list of knots (time_s, position_rad, velocity_rad_s) is allowed")
         knots = list(knots)
         if not 2 <= len(knots) <= MOST_KNOTS:
             raise InvalidInput(f"{name}: {len(knots)} knots: 2 to {MOST_KNOTS} are allowed")
         for index, knot in enumerate(knots):
             if not isinstance(knot, Sized) or len(knot) != 3:
-                raise InvalidInput(f"{name}: knot {index} = {knot!r}: (time_s, position_rad, velocity_rad_s) is allowed")
-        return [tuple(check_number(f"{name}: knot {index}", number, "a finite number", lambda _: True) for number in knot)
-                for index, knot in enumerate(knots)]
+                raise InvalidInput(f"{name}: knot {index} = {shown(knot)}: (time_s, position_rad, velocity_rad_s) is allowed")
+        return [tuple(check_number(field, number, "a finite number", lambda _: True, f"{name}: knot {index}")
+                      for field, number in zip(_FIELDS, knot)) for index, knot in enumerate(knots)]

@@ -1,7 +1,7 @@
 """A stream of setpoints: where the joint shall be at which time. docs/messages.md, "Streams"."""
 import math
 
-from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError
+from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, shown
 from .messages import blank
 from .network import now_s
 from .setpoint_v2 import setpoint_v2
@@ -17,10 +17,10 @@ def check_number(name, value, allowed, is_allowed, joint=""):
         if isinstance(value, (str, bytes, bool)):
             raise TypeError
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number) or not is_allowed(number):
-        raise InvalidInput(f"{joint}{': ' if joint else ''}{name} = {value!r}: {allowed} is allowed")
+        raise InvalidInput(f"{joint}{': ' if joint else ''}{name} = {shown(value)}: {allowed} is allowed")
     return number
 
 
@@ -44,7 +44,9 @@ class Stream:
         self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
         self._speed_limit_rad_s = speed_limit_rad_s
-        self._base = beside._base if beside else TimeBase()
+        if beside is not None and not isinstance(beside, Stream):
+            raise InvalidInput(f"{joint.name}: beside = {shown(beside)}: a Stream is allowed, of another joint's stream()")
+        self._base = TimeBase() if beside is None else beside._base
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None
         self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun, or is over

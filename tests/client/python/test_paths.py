@@ -99,7 +99,9 @@ class Paths(PlayedOrders):
     def test_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
         Path({self.elbow: [(i, 0, 0) for i in range(320)]})
         for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knots"),
-                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1 = 'x'"),
+                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1: position_rad = 'x'"),
+                             ([(0, 0, 0), (float("nan"), 0, 0)], "elbow: knot 1: time_s = nan: a finite"),
+                             ([(0, 0, 0), (1, 0, 10**400)], "elbow: knot 1: velocity_rad_s = 1"),
                              ([0, 0.25, 0], "knot 0 = 0: .time_s"), (None, "None: a list of knots")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path({self.elbow: knots})

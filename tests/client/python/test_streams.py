@@ -141,6 +141,8 @@ class Streams(PlayedOrders):
                                (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
                                (lambda: stream.put(0, 0, torque_Nm=-99), "elbow: torque_Nm = -99: from -34.0 to 34.0 is allowed"),
                                (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
+                               (lambda: self.elbow.stream(beside=self.elbow), "^elbow: beside = <.*>: a Stream is allowed"),
+                               (lambda: self.elbow.stream(beside=0), "^elbow: beside = 0: a Stream is allowed"),
                                (lambda: self.elbow.stream(ahead_s=1.5), "^elbow: ahead_s = 1.5: above 0 to 0.9")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 attempt()
