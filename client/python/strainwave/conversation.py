@@ -79,7 +79,7 @@ class Conversation:
 
     def request(self, kind, message, order, prepare=None, hint=""):
         """Sends an order that has to be accepted. `order`: in words; `prepare`: called with the message before every attempt.
-        Raises Refused, NoAnswer.
+        `hint`: what to say besides of what is out of range. Raises Refused, NoAnswer.
         """
         for attempt in range(ATTEMPTS):
             state = self.wait_for_state()
@@ -93,7 +93,8 @@ class Conversation:
                 return
             if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):
                 break
-        raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text), hint)
+        reason = Reason(answer.reason)
+        raise Refused(self.joint, order, reason, text_of(answer.text), hint if reason == Reason.OUT_OF_RANGE else "")
 
     def request_stop(self, kind, message, order):
         """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""

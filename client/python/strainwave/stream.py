@@ -144,7 +144,7 @@ class Stream:
                 self._base.origin_cycle = math.ceil(self._now_cycle() + self._ahead_s / self._period_s)
             again.at_cycle = self._base.cycle_of(t, self._period_s)
 
-        self._conversation.request("SETPOINT", message, f"to begin a stream at {message.position_rad} rad", prepare)
+        self._conversation.request("SETPOINT", message, f"the first setpoint of the stream, {message.position_rad} rad,", prepare)
         self._last_cycle = message.at_cycle
         return True
 

@@ -186,6 +186,15 @@ class Orders(PlayedOrders):
                 attempt()
         self.assertEqual(self.network.published, [])
 
+    def test_to_move_for_more_than_an_hour_are_refused_with_the_least_speed_that_is_allowed(self):
+        self.publish_state(setpoint_position_rad=-0.5)
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        with self.assertRaisesRegex(InvalidInput, "^elbow: speed_limit_rad_s = 1e-300: at least 0.000281 is allowed, the way of 1 rad takes 1e.300 s"):
+            self.elbow.move(0.5, speed_limit_rad_s=1e-300, wait=False)
+        self.assertEqual(self.network.published, [])
+        self.elbow.move(0.5, speed_limit_rad_s=0.000281, wait=False)
+        self.assertEqual(len(self.network.published), 1)
+
     def test_are_not_signed_with_a_key_that_is_none_or_that_others_can_read(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)

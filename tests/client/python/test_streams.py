@@ -3,7 +3,7 @@ import time
 import unittest
 
 from played_orders import COMMAND, SETPOINT, PlayedOrders, published
-from strainwave import InvalidInput, Mode, NotDone, Reason, Refused, limits_v1, messages
+from strainwave import InvalidInput, Mode, NoAnswer, NotDone, Reason, Refused, limits_v1, messages
 
 
 class Streams(PlayedOrders):
@@ -25,6 +25,12 @@ class Streams(PlayedOrders):
         self.assertEqual([order.begins_stream for order in self.orders()], [1, 0, 0])
         self.assertEqual({(order.stream_id, order.derivatives, order.velocity_rad_s) for order in self.orders()},
                          {(first.stream_id, 1, 2.0)})
+
+    def test_whose_first_sample_nobody_answers_say_so_in_words(self):
+        stream = self.stream()
+        self.elbow._conversation.timeout_s = 0.2
+        with self.assertRaisesRegex(NoAnswer, "no acknowledgement of the first setpoint of the stream, 0.5 rad, in 0.2 s"):
+            stream.put(0, 0.5)
 
     def test_tell_when_each_sample_is_sent(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
