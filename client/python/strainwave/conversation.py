@@ -16,6 +16,7 @@ TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that
 _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
+_OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
 
 
 def most_transmissions(message_bytes):
@@ -47,6 +48,7 @@ class Conversation:
         self.network, self.prefix, self.joint, self.sender, self.timeout_s = network, prefix, joint, sender, timeout_s
         self.state = None  # the latest state_v1
         self.received_s = 0.0
+        self.is_behind = False  # the latest state came a while before this program took it: it stood still, and newer ones follow
         self.messages = 0
         self.limits = None  # the latest limits_v1
         self.clock = CycleClock()
@@ -168,8 +170,9 @@ class Conversation:
             self.clock.restart()
             self.limits = None
         self.state, self.received_s = message, now_s()
+        self.is_behind = self.received_s - self.network.came_s > _OLD_STATE_S
         self.messages += 1
-        self.clock.take(message.cycle, self.received_s)
+        self.clock.take(message.cycle, self.network.came_s)
         for inbox in self._inboxes:
             inbox.append((message, self.received_s))
 

@@ -56,7 +56,8 @@ class Stream:
         """The joint shall be at `position_rad` at time `t` (s; rising; the first is in `ahead_s` from now), with the velocity and
         acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
         carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
-        runs at the joint's pace. False: it came after its time and was left out. Raises Refused, NotDone (also when the stream is over),
+        runs at the joint's pace. True: it was sent in time; whether the daemon takes it a later put() tells. False: it was left out, for its time
+        is over. Raises Refused, NotDone (also when the stream is over),
         NoAnswer, InvalidInput.
         """
         if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
@@ -73,8 +74,9 @@ class Stream:
         if message.at_cycle <= self._last_cycle:
             raise InvalidInput(f"{self._joint.name}: t = {t!r}: at least a period of the daemon, {self._period_s} s, after the last one is allowed")
         self._wait_until_due(message.at_cycle)
+        self._wait_for_new_states(message.at_cycle)
         self._check_refusals()
-        if message.at_cycle <= self._now_cycle():
+        if message.at_cycle <= self._now_cycle() or self._conversation.is_behind:
             return self._leave_out(message.at_cycle)
         self._conversation.send("SETPOINT", message)
         self._last_cycle = message.at_cycle
@@ -156,6 +158,12 @@ class Stream:
         wait_s = (cycle - self._now_cycle()) * self._period_s - self._ahead_s
         # A refusal needs no waiting for the time that it is too late for.
         self._conversation.network.wait_until(lambda: self._conversation.has_refusals, max(0.0, wait_s))
+
+    # A sample that quotes an old state is refused. After a while in which this program stood still, those that came meanwhile go first.
+    def _wait_for_new_states(self, cycle):
+        conversation = self._conversation
+        if conversation.is_behind:
+            conversation.network.wait_until(lambda: not conversation.is_behind, max(0.0, (cycle - self._now_cycle()) * self._period_s))
 
     def _check_refusals(self):
         while (refusal := self._conversation.take_refusal()) is not None:
