@@ -92,6 +92,22 @@ TEST_F(CommandsTest, MoveSaysSoWhenTheDaemonFallsSilent) {
   EXPECT_TRUE(message_has("fell silent")) << message;
 }
 
+TEST_F(CommandsTest, AMoveOfMoreThanAnHourIsRefusedWithTheLeastSpeedThatIsAllowed) {
+  daemon.publish_state(Mode::kHolding);
+  for (const bool wait : {false, true}) {
+    MoveArguments slow{"elbow", 0.5, wait};
+    slow.speed_limit_rad_s = 1e-300;
+    EXPECT_EQ(status_of([&] { move(client, output, slow); }), ExitStatus::kUsage);
+    EXPECT_TRUE(
+        message_has("elbow: speed_limit_rad_s = 1e-300: at least 0.00014 is allowed, the way of 0.5 rad"))
+        << message;
+  }
+  EXPECT_TRUE(daemon.heard().empty());
+  MoveArguments just{"elbow", 0.5, false};
+  just.speed_limit_rad_s = 0.00014;
+  EXPECT_EQ(status_of([&] { move(client, output, just); }), ExitStatus::kDone) << message;
+}
+
 TEST_F(CommandsTest, RefusedMoveThatLooksLikeDegreesGetsAHint) {
   daemon.publish_state(Mode::kHolding);
   daemon.reason = Reason::kOutOfRange;
