@@ -14,7 +14,6 @@
 #include "client/link/client_error.h"
 #include "client/link/orders.h"
 #include "client/link/plain_zero.h"
-#include "control/knot_path.h"
 
 namespace strainwave {
 
@@ -135,15 +134,15 @@ class ArrivalWatch {
 /// Who waits for a motion of more than an hour waits for what nobody wanted, and no path is as long.
 void require_quick_enough(const std::string& joint, const MoveOrder& order, double from_rad) {
   const double way_rad = std::abs(order.position_rad - from_rad);
-  if (order.speed_limit_rad_s <= 0.0 || way_rad <= order.speed_limit_rad_s * kLongestPath_s) return;
+  if (order.speed_limit_rad_s <= 0.0 || way_rad <= order.speed_limit_rad_s * kLongestMove_s) return;
   constexpr double kMargin = 1.01;  // for what printing rounds off
   const std::string hint = degrees_hint(order.position_rad);
   throw InvalidInput(
       fmt::format(
           "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s "
           "with that speed and a move takes at most {} s{}{}",
-          joint, order.speed_limit_rad_s, kMargin * way_rad / kLongestPath_s, way_rad,
-          way_rad / order.speed_limit_rad_s, kLongestPath_s, hint.empty() ? "" : "; ", hint),
+          joint, order.speed_limit_rad_s, kMargin * way_rad / kLongestMove_s, way_rad,
+          way_rad / order.speed_limit_rad_s, kLongestMove_s, hint.empty() ? "" : "; ", hint),
       joint);
 }
 

@@ -3,6 +3,7 @@
 
 #include <strainwave/setpoint_v2.hpp>
 
+#include "client/link/joint_path.h"
 #include "tests/client/commands/commands_fixture.h"
 
 namespace strainwave {
@@ -114,6 +115,20 @@ TEST_F(CommandsTest, RefusedMoveThatLooksLikeDegreesGetsAHint) {
   EXPECT_EQ(status_of([&] { move(client, output, {"elbow", 90.0, false}); }), ExitStatus::kRefused);
   EXPECT_TRUE(message_has("90 degrees would be 1.5708")) << message;
   EXPECT_EQ(status_of([&] { move(client, output, {"elbow", 3.0, false}); }), ExitStatus::kRefused);
+  EXPECT_FALSE(message_has("degrees")) << message;
+}
+
+TEST_F(CommandsTest, ARefusedPathThatLooksLikeDegreesGetsAHint) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.reason = Reason::kOutOfRange;
+  const auto load = [&](double middle_rad) {
+    return status_of([&] {
+      load_path(client, {{"elbow", {{0, 0, 0}, {0.5, middle_rad, 0}, {1, 0.5 * middle_rad, 0}}}});
+    });
+  };
+  EXPECT_EQ(load(-90.0), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("positions are in rad: -90 degrees would be -1.5708")) << message;
+  EXPECT_EQ(load(3.0), ExitStatus::kRefused);
   EXPECT_FALSE(message_has("degrees")) << message;
 }
 

@@ -124,24 +124,6 @@ TEST_F(PathCommandsTest, APartThatIsRefusedStartsNothingAndIsToldInTheDaemonsWor
   EXPECT_EQ(daemon.heard().size(), 1U);
 }
 
-TEST_F(PathCommandsTest, ARefusedPartThatLooksLikeDegreesGetsAHint) {
-  let_two_joints_hold();
-  wrist.reason = Reason::kOutOfRange;
-  const std::string in_degrees =
-      "joint,time_s,position_rad,velocity_rad_s\nelbow,0,0,0\nelbow,1,45,0\nwrist,0,0,0\nwrist,0.5,-90,"
-      "0\nwrist,1,45,0\n";
-  EXPECT_EQ(status_of([&] {
-              follow_path(client, output, {file_of(in_degrees), false});
-            }),
-            ExitStatus::kRefused);
-  EXPECT_TRUE(message_has("positions are in rad: -90 degrees would be -1.5708")) << message;
-  EXPECT_EQ(status_of([&] {
-              follow_path(client, output, {file_of(kTwoJoints), false});
-            }),
-            ExitStatus::kRefused);
-  EXPECT_FALSE(message_has("degrees")) << message;
-}
-
 TEST_F(PathCommandsTest, JointsThatMoveTogetherEndAtTheSameTimeWithinTheirLimits) {
   EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 1.2}), ExitStatus::kDone) << message;
   const path_v1 one = part(daemon, 0);
