@@ -4,12 +4,24 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 namespace strainwave {
 
 namespace {
+
+// What a refusal has of a number that was computed: so many that nobody misses one, and none of its rounding.
+constexpr int kFewestDigits = 6;
+constexpr int kAllDigits = 17;
+
+std::string in_digits(double value, int digits) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
+  return {text.data(), end};
+}
 
 struct Character {
   std::size_t bytes = 0;  ///< 0: no UTF-8
@@ -90,6 +102,23 @@ std::string printable_paragraph(std::string_view text) {
 std::string number_text(double value) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string bound_text(double bound) {
+  for (int digits = kFewestDigits; digits < kAllDigits; ++digits) {
+    const std::string text = in_digits(bound, digits);
+    double read = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), read);
+    if (std::abs(read - bound) <= 0.1 * kAtBound * std::abs(bound)) return text;
+  }
+  return number_text(bound);
+}
+
+std::string beyond_text(double value, double bound) {
+  const std::string of_bound = bound_text(bound);
+  for (int digits = kFewestDigits; digits < kAllDigits; ++digits)
+    if (std::string text = in_digits(value, digits); text != of_bound) return text;
+  return number_text(value);
 }
 
 }  // namespace strainwave

@@ -21,4 +21,14 @@ std::string printable_paragraph(std::string_view text);
 /// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.
 std::string number_text(double value);
 
+/// How near a bound a number is that was computed: one that is beyond it by no more than this share is at it.
+inline constexpr double kAtBound = 1e-9;
+
+/// A bound that a refusal names and that was computed, in six digits or as many more as read back to it within a tenth of kAtBound: who
+/// gives what is printed is not beyond it. Of a bound that somebody wrote down, and that is compared as it is, number_text().
+std::string bound_text(double bound);
+
+/// A number that such a bound refuses, in six digits or as many more as tell it from the bound's text.
+std::string beyond_text(double value, double bound);
+
 }  // namespace strainwave

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
+
+#include "base/printable.h"
 
 namespace strainwave {
 
 namespace {
 
 // Knots are computed: one that is at a limit is not beyond it for its last bits.
-constexpr double kRounding = 1.0 + 1e-9;
+constexpr double kRounding = 1.0 + kAtBound;
 constexpr double kOnBound_rad = 1e-9;
 constexpr double kRest_rad_s = 1e-9;
 // An instant this close to a knot, as a share of the segment, is the knot's.
@@ -135,9 +138,11 @@ Found judge_inside(const Segment& segment, const Judge& judge) {
 
 Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s) {
   const PathKnot& here = path.knots[knot];
-  for (const double number : {here.time_s, here.position_rad, here.velocity_rad_s})
+  for (const auto& [name, number] :
+       {std::pair{"time_s = ", here.time_s}, std::pair{"position_rad = ", here.position_rad},
+        std::pair{"velocity_rad_s = ", here.velocity_rad_s}})
     if (!std::isfinite(number))
-      return PathDefect{PathDefect::Kind::kNotFinite, knot, here.time_s, number, 0.0};
+      return PathDefect{PathDefect::Kind::kNotFinite, knot, here.time_s, number, 0.0, name};
   const double earliest_s = knot == 0 ? 0.0 : path.knots[knot - 1].time_s + period_s;
   const bool first_is_late = knot == 0 && here.time_s > 0.0;
   // A path is made in decimals: a knot that is a period later may be so but for its last bits.
@@ -152,12 +157,12 @@ Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s
 }
 
 // Of the number that is wrong.
-const char* name_of(PathDefect::Kind kind) {
-  switch (kind) {
+const char* name_of(const PathDefect& defect) {
+  switch (defect.kind) {
     case PathDefect::Kind::kCount:
       return "knot_count = ";
     case PathDefect::Kind::kNotFinite:
-      return "";
+      return defect.number;
     case PathDefect::Kind::kTime:
     case PathDefect::Kind::kDuration:
       return "time_s = ";
@@ -180,9 +185,10 @@ const char* name_of(PathDefect::Kind kind) {
 // What would be right, and where the limit is set.
 std::string what_is_allowed(const PathDefect& defect) {
   const bool above = defect.value > defect.bound;
+  const std::string bound = bound_text(defect.bound);
   std::ostringstream text;
   const auto at_most = [&](const char* key) {
-    text << "at most " << defect.bound << " is allowed (joint.limits." << key << ")";
+    text << "at most " << bound << " is allowed (joint.limits." << key << ")";
   };
   switch (defect.kind) {
     case PathDefect::Kind::kCount:
@@ -193,17 +199,17 @@ std::string what_is_allowed(const PathDefect& defect) {
       if (defect.knot == 0)
         text << "the first knot is at 0";
       else
-        text << "at least " << defect.bound << " is allowed, a period after the knot before";
+        text << "at least " << bound << " is allowed, a period after the knot before";
       break;
     case PathDefect::Kind::kDuration:
-      text << "at most " << defect.bound << " is allowed";
+      text << "at most " << bound << " is allowed";
       break;
     case PathDefect::Kind::kNotAtRest:
       text << "a path begins and ends at rest, with 0";
       break;
     case PathDefect::Kind::kPosition:
       if (above) at_most("position_max_rad");
-      if (!above) text << "at least " << defect.bound << " is allowed (joint.limits.position_min_rad)";
+      if (!above) text << "at least " << bound << " is allowed (joint.limits.position_min_rad)";
       break;
     case PathDefect::Kind::kSpeed:
       at_most("speed_limit_rad_s");
@@ -236,10 +242,14 @@ std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& li
                       static_cast<double>(KnotPath::kMostKnots)};
   for (std::size_t knot = 0; knot < path.count; ++knot)
     if (auto found = find_number_defect(path, knot, limits.period_s)) return found;
+  // Places before the ways there: who gives degrees is not told of their accelerations.
+  for (std::size_t knot = 0; knot < path.count; ++knot) {
+    const PathKnot& here = path.knots[knot];
+    if (auto found = Judge(limits, knot).position(here.position_rad, here.time_s)) return found;
+  }
   for (std::size_t knot = 0; knot < path.count; ++knot) {
     const PathKnot& here = path.knots[knot];
     const Judge judge(limits, knot);
-    if (auto found = judge.position(here.position_rad, here.time_s)) return found;
     if (auto found = judge.speed(here.velocity_rad_s, here.time_s)) return found;
     if (knot + 1 == path.count) break;
     const Segment segment = segment_between(here, path.knots[knot + 1]);
@@ -257,7 +267,8 @@ std::string describe(const PathDefect& defect) {
   }
   text << "knot " << defect.knot;
   if (std::isfinite(defect.time_s)) text << " (at " << defect.time_s << " s)";
-  text << ": " << name_of(defect.kind) << defect.value << ": " << what_is_allowed(defect);
+  text << ": " << name_of(defect) << beyond_text(defect.value, defect.bound) << ": "
+       << what_is_allowed(defect);
   return text.str();
 }
 

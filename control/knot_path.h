@@ -84,11 +84,13 @@ struct PathDefect {
   double time_s = 0.0;   ///< where; of a knot its own
   double value = 0.0;
   double bound = 0.0;
+  const char* number = "";  ///< of kNotFinite, which of the knot's
 };
 
 inline constexpr double kLongestPath_s = 3600.0;
 
-/// The first defect of `path` for a joint with these limits, knot by knot; nothing: it can be followed. Not real-time.
+/// The first defect of `path` for a joint with these limits, knot by knot: of its numbers, then of its places, then of the ways between
+/// them; nothing: it can be followed. Not real-time.
 std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits);
 
 /// "knot 3 (1.2 s): ..." with the number, and what is allowed by which limit. Not real-time.

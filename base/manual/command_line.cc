@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -82,6 +83,10 @@ std::string explain(const CLI::App& app, const std::vector<std::string>& left) {
   // Of a command that is none, no option is one either.
   if (option != left.end() && !(no_command && option != left.begin())) {
     const std::string name = option->substr(0, option->find('='));
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), value);
+    if (error == std::errc() && end == name.data() + name.size() && !std::isfinite(value))
+      return "'" + name + "' is not a finite number";
     return name + " is not an option" + suggestion(name, option_names(app));
   }
   if (no_command) {

@@ -22,6 +22,9 @@ namespace {
 // Of what a joint may do, for a motion that nobody wants to be the fastest: friction and load take their torque besides.
 constexpr double kShareOfAcceleration = 0.8;
 
+// One joint's move and that of several end at the same speed.
+static_assert(kLongestMove_s == kLongestPath_s);
+
 /// Returns once all joints are where the path ends: the last one's time, and the largest error.
 Arrival wait_for_all(Client& client, const std::vector<JointPath>& path, const PathWait& wait) {
   try {

@@ -29,6 +29,7 @@ void Path::start() {
   first().view();
   load_path(first().client(), parts_);
   start_path(first().client(), parts_);
+  started_ = true;
 }
 
 void Path::pause() {
@@ -52,7 +53,15 @@ std::vector<Arrival> Path::wait(double tolerance_rad, double timeout_s) {
   if (!(timeout_s > 0.0)) checked_number(first().name(), "timeout_s", timeout_s, "a number above 0", false);
   const auto held = first().lock();
   first().view();
-  for (const JointPath& part : parts_) first().client().wait_for_joint(part.joint);
+  for (const JointPath& part : parts_) {
+    const double end_rad = part.knots.back().position_rad;
+    if (!started_ && first().client().wait_for_joint(part.joint).state.target_position_rad != end_rad)
+      throw NotDone(
+          fmt::format("{}: is not on its way to {} rad: this path was not started: start() does that",
+                      part.joint, end_rad),
+          part.joint);
+    first().client().wait_for_joint(part.joint);
+  }
   return wait_for_path(first().client(), parts_, {.tolerance_rad = tolerance_rad, .timeout_s = timeout_s});
 }
 

@@ -171,7 +171,8 @@ void Stream::begin(double t_s, setpoint_v2 message) {
   Client& client = link_->client();
   client.forget_sent();
   const Answer answer = client.request(link_->name(), channel_kind::kSetpoint, message, prepare);
-  require_accepted(answer, link_->name(), fmt::format("to begin a stream at {} rad", message.position_rad));
+  require_accepted(answer, link_->name(),
+                   fmt::format("the first setpoint of the stream, {} rad,", message.position_rad));
   last_cycle_ = message.at_cycle;
 }
 

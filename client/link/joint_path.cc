@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 #include <strainwave/path_v1.hpp>
+#include <utility>
 
 #include "client/link/client_error.h"
 #include "client/link/motion.h"
@@ -32,6 +33,13 @@ path_v1 part_of(const JointPath& part, std::int64_t path_id, std::size_t joint_c
     message.velocity_rad_s[i] = part.knots[i].velocity_rad_s;
   }
   return message;
+}
+
+double farthest_rad(const JointPath& part) {
+  double farthest = 0.0;
+  for (const JointKnot& knot : part.knots)
+    if (std::abs(knot.position_rad) > std::abs(farthest)) farthest = knot.position_rad;
+  return farthest;
 }
 
 /// Of the share of the way: it rises with `rate` for `up_s`, goes on at it for `even_s` and falls for `down_s`.
@@ -123,19 +131,24 @@ void check_path(const std::vector<JointPath>& path) {
           fmt::format("{}: {} knots: 2 to {} are allowed", joint, knots.size(), JointPath::kMostKnots),
           joint);
     for (std::size_t i = 0; i < knots.size(); ++i)
-      for (const double number : {knots[i].time_s, knots[i].position_rad, knots[i].velocity_rad_s})
+      for (const auto& [name, number] :
+           {std::pair{"time_s", knots[i].time_s}, std::pair{"position_rad", knots[i].position_rad},
+            std::pair{"velocity_rad_s", knots[i].velocity_rad_s}})
         if (!std::isfinite(number))
-          throw InvalidInput(fmt::format("{}: knot {} = {}: a finite number is allowed", joint, i, number),
-                             joint);
+          throw InvalidInput(
+              fmt::format("{}: knot {}: {} = {}: a finite number is allowed", joint, i, name, number), joint);
   }
 }
 
 void load_path(Client& client, const std::vector<JointPath>& path) {
   check_path(path);
   const std::int64_t path_id = client.new_stream();
-  for (const JointPath& part : path)
-    require_accepted(client.request(part.joint, channel_kind::kPath, part_of(part, path_id, path.size())),
-                     part.joint, "its part of the path");
+  for (const JointPath& part : path) {
+    const Answer answer =
+        client.request(part.joint, channel_kind::kPath, part_of(part, path_id, path.size()));
+    require_accepted(answer, part.joint, "its part of the path",
+                     answer.reason == Reason::kOutOfRange ? degrees_hint(farthest_rad(part)) : "");
+  }
 }
 
 void start_path(Client& client, const std::vector<JointPath>& path) {

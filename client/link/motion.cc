@@ -131,6 +131,21 @@ class ArrivalWatch {
   std::optional<Instant> holding_;
 };
 
+/// Who waits for a motion of more than an hour waits for what nobody wanted, and no path is as long.
+void require_quick_enough(const std::string& joint, const MoveOrder& order, double from_rad) {
+  const double way_rad = std::abs(order.position_rad - from_rad);
+  if (order.speed_limit_rad_s <= 0.0 || way_rad <= order.speed_limit_rad_s * kLongestMove_s) return;
+  constexpr double kMargin = 1.01;  // for what printing rounds off
+  const std::string hint = degrees_hint(order.position_rad);
+  throw InvalidInput(
+      fmt::format(
+          "{}: speed_limit_rad_s = {}: at least {:.3g} is allowed, the way of {:.3g} rad takes {:.3g} s "
+          "with that speed and a move takes at most {} s{}{}",
+          joint, order.speed_limit_rad_s, kMargin * way_rad / kLongestMove_s, way_rad,
+          way_rad / order.speed_limit_rad_s, kLongestMove_s, hint.empty() ? "" : "; ", hint),
+      joint);
+}
+
 bool holds(const JointView& view) {
   return mode_of(view) == Mode::kHolding;
 }
@@ -144,6 +159,7 @@ std::string degrees_hint(double position_rad) {
 }
 
 void start_move(Client& client, const std::string& joint, const MoveOrder& order) {
+  require_quick_enough(joint, order, client.wait_for_joint(joint).state.setpoint_position_rad);
   setpoint_v2 message{};
   message.position_rad = order.position_rad;
   message.speed_limit_rad_s = order.speed_limit_rad_s;

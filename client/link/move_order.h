@@ -3,6 +3,9 @@
 
 namespace strainwave {
 
+/// A move that takes longer is refused: nobody waits for it, and no path is as long.
+inline constexpr double kLongestMove_s = 3600.0;
+
 /// Where to, joint side.
 struct MoveOrder {
   double position_rad = 0.0;

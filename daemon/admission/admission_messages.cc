@@ -8,6 +8,7 @@
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
+#include "base/printable.h"
 #include "daemon/admission/admission.h"
 #include "daemon/admission/table_admission.h"
 #include "daemon/admission/verdict.h"
@@ -48,9 +49,9 @@ std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
   else if (setpoint.at_cycle < 0)
     text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none";
   else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
-    text << "velocity_rad_s = " << setpoint.velocity_rad_s << ": at most " << kMaxVelocity_rad_s;
+    text << "velocity_rad_s = " << number_text(setpoint.velocity_rad_s) << ": at most " << kMaxVelocity_rad_s;
   else if (std::abs(setpoint.acceleration_rad_s2) > kMaxAcceleration_rad_s2)
-    text << "acceleration_rad_s2 = " << setpoint.acceleration_rad_s2 << ": at most "
+    text << "acceleration_rad_s2 = " << number_text(setpoint.acceleration_rad_s2) << ": at most "
          << kMaxAcceleration_rad_s2;
   else
     return std::nullopt;
@@ -64,11 +65,11 @@ std::optional<std::string> complaint_about_load(const setpoint_v2& setpoint, con
   if (setpoint.stream_id == 0 && (setpoint.torque_Nm != 0.0 || setpoint.load_inertia_kgm2 != 0.0))
     text << "a move (stream_id 0) plans its own torque: torque_Nm and load_inertia_kgm2 must be 0";
   else if (std::abs(setpoint.torque_Nm) > joint.torque_limit_Nm)
-    text << "torque_Nm = " << setpoint.torque_Nm << ": at most " << joint.torque_limit_Nm
-         << " is allowed (joint.limits.torque_limit_Nm)";
-  else if (setpoint.load_inertia_kgm2 < 0.0 || setpoint.load_inertia_kgm2 > heaviest_kgm2)
-    text << "load_inertia_kgm2 = " << setpoint.load_inertia_kgm2 << ": from 0 to " << heaviest_kgm2
-         << " is allowed (" << kHeaviestLoad << " times joint.inertia_kgm2)";
+    text << "torque_Nm = " << number_text(setpoint.torque_Nm) << ": at most "
+         << number_text(joint.torque_limit_Nm) << " is allowed (joint.limits.torque_limit_Nm)";
+  else if (setpoint.load_inertia_kgm2 < 0.0 || setpoint.load_inertia_kgm2 > (1.0 + kAtBound) * heaviest_kgm2)
+    text << "load_inertia_kgm2 = " << beyond_text(setpoint.load_inertia_kgm2, heaviest_kgm2) << ": from 0 to "
+         << bound_text(heaviest_kgm2) << " is allowed (" << kHeaviestLoad << " times joint.inertia_kgm2)";
   else
     return std::nullopt;
   return text.str();
@@ -119,21 +120,22 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   const JointAdmission& limits = joints_[joint];
   std::ostringstream text;
   if (setpoint->position_rad < limits.position_min_rad || setpoint->position_rad > limits.position_max_rad) {
-    text << "position_rad = " << setpoint->position_rad << ": from " << limits.position_min_rad << " to "
-         << limits.position_max_rad << " is allowed (joint.limits.position_min_rad and position_max_rad of "
-         << limits.name << ")";
+    text << "position_rad = " << number_text(setpoint->position_rad) << ": from "
+         << number_text(limits.position_min_rad) << " to " << number_text(limits.position_max_rad)
+         << " is allowed (joint.limits.position_min_rad and position_max_rad of " << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->valid_for_s < 0.0 || setpoint->valid_for_s > kLongestValidFor_s ||
       (setpoint->valid_for_s > 0.0) != (setpoint->stream_id != 0)) {
-    text << "valid_for_s = " << setpoint->valid_for_s << " with stream_id = " << setpoint->stream_id
-         << ": both 0 (a move), or a stream and at most " << kLongestValidFor_s << " s are allowed";
+    text << "valid_for_s = " << number_text(setpoint->valid_for_s)
+         << " with stream_id = " << setpoint->stream_id << ": both 0 (a move), or a stream and at most "
+         << kLongestValidFor_s << " s are allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
-    text << "speed_limit_rad_s = " << setpoint->speed_limit_rad_s << ": from 0 (no limit of its own) to "
-         << limits.speed_limit_rad_s << " is allowed (joint.limits.speed_limit_rad_s of " << limits.name
-         << ")";
+    text << "speed_limit_rad_s = " << number_text(setpoint->speed_limit_rad_s)
+         << ": from 0 (no limit of its own) to " << number_text(limits.speed_limit_rad_s)
+         << " is allowed (joint.limits.speed_limit_rad_s of " << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (auto complaint = complaint_about_motion(*setpoint))
@@ -222,13 +224,13 @@ Verdict Admission::judge_injection(std::size_t joint, const WireMessage& message
   const AmountRange range = amount_range(*kind);
   std::ostringstream text;
   if (inject->for_s < 0.0 || inject->for_s > kMaxInjection_s) {
-    text << "for_s = " << inject->for_s << ": from 0 (until it is ended) to " << kMaxInjection_s
+    text << "for_s = " << number_text(inject->for_s) << ": from 0 (until it is ended) to " << kMaxInjection_s
          << " is allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   if (inject->amount < range.min || inject->amount > range.max) {
-    text << "amount = " << inject->amount << ": from " << range.min << " to " << range.max
-         << " is allowed for " << to_text(*kind);
+    text << "amount = " << number_text(inject->amount) << ": from " << number_text(range.min) << " to "
+         << number_text(range.max) << " is allowed for " << to_text(*kind);
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
   Verdict verdict = pass(requester, OrderKind::kInject, inject->challenge);

@@ -3,6 +3,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "base/printable.h"
+
 namespace strainwave {
 
 namespace {
@@ -14,29 +16,31 @@ bool is_of_path(OrderKind kind) {
 // What the loop refused by a number: the number, what is allowed, and where that is set.
 std::string number_refused(const Reply& reply, OrderKind kind) {
   std::ostringstream text;
+  const std::string value = beyond_text(reply.value, reply.limit);
+  const std::string limit = bound_text(reply.limit);
   if (is_of_path(kind)) {
     if (reply.reason == Reason::kWrongMode)
       text << ": " << reply.value << " of the path's " << reply.limit
            << " joints have their part of it: send the others (PATH), then resume";
     else
-      text << ": the path begins " << reply.value << " rad from where "
-           << (kind == OrderKind::kLoadPath ? "it" : "one of its joints") << " is to be, at most "
-           << reply.limit << " rad are allowed: move to its first knot before";
+      text << ": the path begins " << value << " rad from where "
+           << (kind == OrderKind::kLoadPath ? "it" : "one of its joints") << " is to be, at most " << limit
+           << " rad are allowed: move to its first knot before";
     return text.str();
   }
   if (reply.reason == Reason::kMoving)
-    text << " and moves at " << reply.value << " rad/s: it is enabled at standstill, at most " << reply.limit
+    text << " and moves at " << value << " rad/s: it is enabled at standstill, at most " << limit
          << " rad/s (joint.supervision.standstill_rad_s)";
   else if (reply.reason == Reason::kTooOld)
     text << std::fixed << std::setprecision(0) << ": at_cycle = " << reply.value
          << " is not to come any more, it is cycle " << reply.limit << "; from " << reply.limit + 1.0
          << " is allowed";
   else if (kind == OrderKind::kUseTable)
-    text << ": by the table's torque_limit_Nm the joint may carry " << reply.value << " N.m, less than the "
-         << reply.limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "
+    text << ": by the table's torque_limit_Nm the joint may carry " << value << " N.m, less than the "
+         << limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "
          << "or load a stronger table";
   else
-    text << ": at_cycle is " << reply.value << " s ahead; at most " << reply.limit << " s are allowed";
+    text << ": at_cycle is " << value << " s ahead; at most " << limit << " s are allowed";
   return text.str();
 }
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 namespace strainwave {
 namespace {
 
@@ -40,6 +43,20 @@ TEST(Printable, TakesNothingForTextThatIsNoUtf8) {
   EXPECT_EQ(printable("\xED\xA0\x80."), "???.");
   EXPECT_EQ(printable("\xE2\x80"), "??");
   EXPECT_EQ(printable("\xFF\xFE\xF8\x88\x80\x80\x80"), "???????");
+}
+
+// Ten times 0.089 is 0.8899999999999999.
+TEST(Printable, PrintsABoundSoThatWhoGivesItIsNotBeyondIt) {
+  EXPECT_EQ(bound_text(10.0 * 0.089), "0.89");
+  EXPECT_EQ(beyond_text(0.8901, 10.0 * 0.089), "0.8901");
+  EXPECT_EQ(beyond_text(0.8900001, 10.0 * 0.089), "0.8900001");
+  EXPECT_EQ(beyond_text(38.199999999999996, 30.0), "38.2");
+  EXPECT_EQ(bound_text(6.2831853), "6.2831853");
+  for (const double bound : {2.0 / 3.0, -3.2, 1e-7 / 3.0, 1e9 / 7.0, 0.0}) {
+    EXPECT_LE(std::abs(std::stod(bound_text(bound)) - bound), 0.1 * kAtBound * std::abs(bound)) << bound;
+    const double beyond = bound * (1.0 + 2.0 * kAtBound) + (bound == 0.0 ? 1e-12 : 0.0);
+    EXPECT_NE(beyond_text(beyond, bound), bound_text(bound)) << bound;
+  }
 }
 
 TEST(Printable, StopsAtTheFirstZeroByte) {

@@ -184,6 +184,36 @@ TEST(KnotPath, NamesKnotTimeValueAndLimit) {
             "(joint.limits.torque_limit_Nm)");
 }
 
+TEST(KnotPath, NamesABoundThatItTakes) {
+  PathLimits limits = wide();
+  limits.motion.velocity_rad_s = 1.4142135;
+  const KnotPath fast = make_path({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}});
+  EXPECT_NE(describe(*find_defect(fast, limits)).find("at most 1.4142135 is allowed"), std::string::npos)
+      << describe(*find_defect(fast, limits));
+  limits = wide();
+  limits.range.max_rad = 0.9;
+  const KnotPath beyond = make_path({{0, 0, 0}, {1, 0.90000001, 0}});
+  EXPECT_NE(describe(*find_defect(beyond, limits)).find("position_rad = 0.90000001: at most 0.9 is"),
+            std::string::npos)
+      << describe(*find_defect(beyond, limits));
+}
+
+TEST(KnotPath, NamesANumberThatIsNone) {
+  const KnotPath path = make_path({{0, 0, 0}, {1, 1, std::nan("")}});
+  EXPECT_EQ(describe(*find_defect(path, wide())),
+            "knot 1 (at 1 s): velocity_rad_s = nan: a finite number is allowed");
+}
+
+// 45 degrees within a second: the range says more of what is wrong than the torque that this would take.
+TEST(KnotPath, NamesAPlaceOutOfRangeBeforeWhatTheWayThereWouldTake) {
+  PathLimits limits = wide();
+  limits.torque_Nm = 2.9;
+  limits.range.max_rad = 3.2;
+  const KnotPath path = make_path({{0, 0, 0}, {1, 45, 0}});
+  EXPECT_EQ(describe(*find_defect(path, limits)),
+            "knot 1 (at 1 s): position_rad = 45: at most 3.2 is allowed (joint.limits.position_max_rad)");
+}
+
 // A trapezoid of speed is made of cubics: with all limits used to the last bit it is possible.
 TEST(KnotPath, MayUseItsLimitsWhole) {
   const PathLimits limits{{0.0, 3.0}, {2.0, 4.0, 8.0}, 4.0, 0.5, 1e-3};

@@ -16,6 +16,7 @@ TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that
 _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
+_OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
 
 
 def most_transmissions(message_bytes):
@@ -47,6 +48,7 @@ class Conversation:
         self.network, self.prefix, self.joint, self.sender, self.timeout_s = network, prefix, joint, sender, timeout_s
         self.state = None  # the latest state_v1
         self.received_s = 0.0
+        self.is_behind = False  # the latest state came a while before this program took it: it stood still, and newer ones follow
         self.messages = 0
         self.limits = None  # the latest limits_v1
         self.clock = CycleClock()
@@ -79,7 +81,7 @@ class Conversation:
 
     def request(self, kind, message, order, prepare=None, hint=""):
         """Sends an order that has to be accepted. `order`: in words; `prepare`: called with the message before every attempt.
-        Raises Refused, NoAnswer.
+        `hint`: what to say besides of what is out of range. Raises Refused, NoAnswer.
         """
         for attempt in range(ATTEMPTS):
             state = self.wait_for_state()
@@ -93,7 +95,8 @@ class Conversation:
                 return
             if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):
                 break
-        raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text), hint)
+        reason = Reason(answer.reason)
+        raise Refused(self.joint, order, reason, text_of(answer.text), hint if reason == Reason.OUT_OF_RANGE else "")
 
     def request_stop(self, kind, message, order):
         """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""
@@ -167,8 +170,9 @@ class Conversation:
             self.clock.restart()
             self.limits = None
         self.state, self.received_s = message, now_s()
+        self.is_behind = self.received_s - self.network.came_s > _OLD_STATE_S
         self.messages += 1
-        self.clock.take(message.cycle, self.received_s)
+        self.clock.take(message.cycle, self.network.came_s)
         for inbox in self._inboxes:
             inbox.append((message, self.received_s))
 

@@ -1,4 +1,13 @@
 """What can go wrong, as exceptions. Each says what was given, what is allowed or what the daemon answered, and what to do."""
+import reprlib
+
+
+def shown(value):
+    """What was given, for an error: short, and of anything. repr() refuses a number of more than 4300 digits."""
+    try:
+        return reprlib.repr(value)
+    except Exception:
+        return f"<{type(value).__name__}>"
 
 
 class StrainwaveError(Exception):

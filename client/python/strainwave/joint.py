@@ -4,9 +4,9 @@ import os
 
 from .command_v1 import command_v1
 from .conversation import Conversation
-from .errors import NoAnswer, NotDone
+from .errors import InvalidInput, NoAnswer, NotDone
 from .messages import blank
-from .motion import OLD_STATES_S, Arrival, ArrivalWatch, faulted, wait_for_motion
+from .motion import LONGEST_PATH_S, OLD_STATES_S, Arrival, ArrivalWatch, degrees_hint, faulted, wait_for_motion
 from .network import Network, check_name, now_s
 from .sender import Sender
 from .setpoint_v2 import setpoint_v2
@@ -51,7 +51,14 @@ class Joint:
         return Limits(self._conversation.limits, self._conversation.received_s)
 
     def states(self, duration_s=math.inf):
-        """Every State that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`. Raises NoAnswer."""
+        """Every State that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`. Raises NoAnswer,
+        InvalidInput.
+        """
+        if duration_s != math.inf:
+            duration_s = check_number("duration_s", duration_s, "0 or above", lambda s: s >= 0, self.name)
+        return self._states(duration_s)
+
+    def _states(self, duration_s):
         inbox = self._conversation.open_inbox()
         end_s = None
         try:
@@ -135,10 +142,8 @@ class Joint:
         message.position_rad = position_rad
         message.speed_limit_rad_s = self._speed_limit(speed_limit_rad_s)
         message.acknowledge = 1
-        hint = ""
-        if abs(position_rad) > 2 * math.pi:
-            hint = f"positions are in rad: {position_rad:g} degrees would be {math.radians(position_rad):.6g}"
-        self._conversation.request("SETPOINT", message, f"move to {position_rad:g} rad", hint=hint)
+        self._check_quick_enough(position_rad, message.speed_limit_rad_s)
+        self._conversation.request("SETPOINT", message, f"move to {position_rad:g} rad", hint=degrees_hint(position_rad))
         if not wait:
             return None
         watch = ArrivalWatch(self.name, position_rad, tolerance_rad, self._timeout_s)
@@ -157,6 +162,17 @@ class Joint:
 
     def _speed_limit(self, speed_limit_rad_s):
         return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0, self.name)
+
+    def _check_quick_enough(self, position_rad, speed_rad_s):
+        # Who waits for a motion of more than an hour waits for what nobody wanted, and no path is as long.
+        way_rad = abs(position_rad - self._conversation.wait_for_state().setpoint_position_rad)
+        if speed_rad_s == 0 or way_rad <= speed_rad_s * LONGEST_PATH_S:
+            return
+        least = f"{1.01 * way_rad / LONGEST_PATH_S:.3g}"  # a hundredth more for what printing rounds off
+        hint = degrees_hint(position_rad)
+        raise InvalidInput(f"{self.name}: speed_limit_rad_s = {speed_rad_s!r}: at least {least} is allowed, the way of {way_rad:.3g} rad takes "
+                           f"{way_rad / speed_rad_s:.3g} s with that speed and a move takes at most {LONGEST_PATH_S:g} s"
+                           + (f"; {hint}" if hint else ""))
 
     def _mode(self):
         return Mode(self._conversation.state.mode)

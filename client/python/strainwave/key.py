@@ -9,7 +9,7 @@ import functools
 import os
 import stat
 
-from .errors import InvalidInput
+from .errors import InvalidInput, shown
 
 SEAL_BYTES = 8 + 64  # key_id and signature, the last bytes of every order
 
@@ -49,19 +49,22 @@ class SecretKey:
 
 def read_secret_key(path):
     """The key that strainwavectl keygen wrote to `path`."""
-    path = os.path.expanduser(os.fspath(path))
+    if not isinstance(path, (str, os.PathLike)):
+        raise InvalidInput(f"key = {shown(path)}: the name of a file is allowed, or None or '' for none")
+    path = os.path.expanduser(os.fsdecode(path))
     try:
         with open(os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK), "rb") as file:
             mode = os.fstat(file.fileno()).st_mode
             line = file.read(512).split(b"\n", 1)[0] if stat.S_ISREG(mode) else None
-    except OSError as error:
-        raise InvalidInput(f"key = {path!r}: the key cannot be read: {error.strerror}") from None
+    except (OSError, ValueError) as error:  # a name with a zero byte in it is a ValueError
+        raise InvalidInput(f"key = {path!r}: the key cannot be read: {getattr(error, 'strerror', error)}") from None
     if line is None:
         raise InvalidInput(f"key = {path!r}: is not a file: give a key of strainwavectl keygen")
+    seed = _seed_of(path, line)  # first whether it is one: a public key is for everybody to read
     if mode & (stat.S_IRWXG | stat.S_IRWXO):
         raise InvalidInput(f"key = {path!r}: other users can reach this secret key: chmod 600 {path}, and make a new key if they may "
                            "have read it")
-    return SecretKey(_seed_of(path, line))
+    return SecretKey(seed)
 
 
 def _seed_of(path, line):

@@ -1,5 +1,6 @@
 """Waiting for a motion's end. Source: client/commands/motion_commands.cc, of which this is the same in Python."""
 import dataclasses
+import math
 
 from .errors import Faulted, NoAnswer, NotDone
 from .network import now_s
@@ -7,8 +8,16 @@ from .state import State
 from .vocabulary import Mode
 
 OLD_STATES_S = 0.2  # a state that left the daemon before it took the order may arrive after the acknowledgement
+LONGEST_PATH_S = 3600.0  # kLongestPath_s of the daemon
 _LOOK_S = 0.01
 _STAY_S = 0.1
+
+
+def degrees_hint(position_rad):
+    """What to say of a position that was refused and may be meant in degrees; empty when it cannot be."""
+    if abs(position_rad) <= 2 * math.pi:
+        return ""
+    return f"positions are in rad: {position_rad:g} degrees would be {math.radians(position_rad):.6g}"
 
 
 @dataclasses.dataclass(frozen=True)

@@ -12,13 +12,15 @@ import time
 import urllib.parse
 import weakref
 
-from .errors import InvalidInput, NoAnswer
+from .errors import InvalidInput, NoAnswer, shown
 from .lcm_wire import Reassembly, encode_short
 
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 MAX_NAMES = 1024  # more joints than any network of ours has
 _QUEUE_BYTES = 1 << 20
 _LARGEST_DATAGRAM = 65536
+_SO_TIMESTAMPNS = 35  # of Linux
+_NOTE_BYTES = socket.CMSG_SPACE(16)
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,23}")
 _STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.STATE")
 
@@ -26,13 +28,13 @@ _STATE_CHANNEL = re.compile(rb"([A-Za-z0-9_][A-Za-z0-9_-]{0,23})\.([A-Za-z0-9_][
 def check_name(what, name):
     """`name` if it can be a joint's or a prefix."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        raise InvalidInput(f"{what} = {name!r}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first")
+        raise InvalidInput(f"{what} = {shown(name)}: 1 to 24 characters of A-Z a-z 0-9 _ - are allowed, not - first")
     return name
 
 
 def parse_url(url):
     """Group, port and ttl of udpm://GROUP:PORT?ttl=N; LCM's own defaults for what is left out."""
-    wrong = InvalidInput(f"lcm_url = {url!r}: udpm://GROUP:PORT?ttl=N is allowed, with a group of 224.0.0.0 to 239.255.255.255, a port "
+    wrong = InvalidInput(f"lcm_url = {shown(url)}: udpm://GROUP:PORT?ttl=N is allowed, with a group of 224.0.0.0 to 239.255.255.255, a port "
                          f"of 1 to 65535 and a ttl of 0 to 255; the usual one is {DEFAULT_URL}")
     try:
         parts = urllib.parse.urlsplit(url)
@@ -55,7 +57,9 @@ class Network:
 
     @classmethod
     def shared(cls, url=None):
-        url = url or os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
+        if url is None:
+            url = os.environ.get("LCM_DEFAULT_URL") or DEFAULT_URL
+        parse_url(url)
         with cls._shared_lock:
             if url not in cls._shared:
                 cls._shared[url] = cls(url)
@@ -65,6 +69,8 @@ class Network:
         self.url = url
         self.changed = threading.Condition(threading.RLock())
         self.joints = set()  # (prefix, joint) of whoever publishes a state
+        self.came_s = now_s()  # when the message that is handled now reached this machine
+        self._caught_up_s = now_s()
         self._handlers = {}
         self._reassembly = Reassembly()
         self._group, self._port, self._ttl = parse_url(url)
@@ -92,6 +98,7 @@ class Network:
         receiver.bind((self._group, self._port))
         membership = struct.pack("=4s4s", socket.inet_aton(self._group), socket.inet_aton("0.0.0.0"))
         receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        receiver.setsockopt(socket.SOL_SOCKET, _SO_TIMESTAMPNS, 1)
         receiver.setblocking(False)
         return receiver
 
@@ -119,14 +126,27 @@ class Network:
     def _run(self):
         while True:
             select.select([self._receiver], [], [])
-            try:
-                datagram, source = self._receiver.recvfrom(_LARGEST_DATAGRAM)
-            except OSError:
-                continue
-            self.accept(source, datagram)
+            while self._receive():
+                pass
+            self._caught_up_s = now_s()
 
-    def accept(self, source, datagram):
-        """Takes one datagram, of any content. With ttl=0 only what this machine sends is heard."""
+    def _receive(self):
+        try:
+            datagram, notes, _, source = self._receiver.recvmsg(_LARGEST_DATAGRAM, _NOTE_BYTES)
+        except OSError:
+            return False
+        self.accept(source, datagram, self._age_s(notes))
+        return True
+
+    def _age_s(self, notes):
+        # The kernel tells by a clock that may be set meanwhile: what was not here when there was nothing left came after that.
+        stamps = [struct.unpack("@ll", note[:16]) for level, kind, note in notes if (level, kind) == (socket.SOL_SOCKET, _SO_TIMESTAMPNS)]
+        age_s = time.time() - stamps[0][0] - 1e-9 * stamps[0][1] if stamps else 0.0
+        return min(max(age_s, 0.0), now_s() - self._caught_up_s)
+
+    def accept(self, source, datagram, age_s=0.0):
+        """Takes one datagram, of any content, that came `age_s` ago. With ttl=0 only what this machine sends is heard."""
+        came_s = now_s() - age_s
         if self._ttl == 0 and source[0] != self._own_address and not source[0].startswith("127."):
             return
         message = self._reassembly.take(source, datagram)
@@ -134,6 +154,7 @@ class Network:
             return
         channel, content = message
         with self.changed:
+            self.came_s = came_s
             self._note_joint(channel)
             for handler in self._handlers.get(channel, ()):
                 method = handler()

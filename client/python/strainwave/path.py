@@ -1,18 +1,18 @@
 """A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths"."""
 import math
-import reprlib
 from collections.abc import Iterable, Mapping, Sized
 
-from .errors import InvalidInput, NotDone
+from .errors import InvalidInput, NotDone, shown
 from .joint import Joint
 from .messages import blank
-from .motion import ArrivalWatch, MotionWatch, wait_for_motions
+from .motion import ArrivalWatch, MotionWatch, degrees_hint, wait_for_motions
 from .network import now_s
 from .path_v1 import path_v1
 from .stream import check_number
 from .vocabulary import Action, Mode, Notice
 
 MOST_KNOTS = 320
+_FIELDS = ("time_s", "position_rad", "velocity_rad_s")  # of a knot
 
 
 class Path:
@@ -22,18 +22,19 @@ class Path:
 
     def __init__(self, knots):
         if not isinstance(knots, Mapping):
-            raise InvalidInput(f"{reprlib.repr(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
+            raise InvalidInput(f"{shown(knots)}: {{joint: [(time_s, position_rad, velocity_rad_s), ...]}} is allowed")
         if not knots:
             raise InvalidInput("a path has at least one joint")
         for joint in knots:
             if not isinstance(joint, Joint):
-                raise InvalidInput(f"{joint!r}: a Joint is allowed, as Joint({joint!r})")
+                raise InvalidInput(f"{shown(joint)}: a Joint is allowed, as Joint({shown(joint)})")
         names = [joint.name for joint in knots]
         for name in names:
             if names.count(name) > 1:
                 raise InvalidInput(f"{name}: {names.count(name)} Joints of that name have knots: one is allowed, with all of its knots")
         self._knots = {joint: self._checked(joint.name, of_joint) for joint, of_joint in knots.items()}
         self._joints = list(self._knots)
+        self._started = False
 
     def start(self):
         """All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Raises Refused, which names knot and limit
@@ -47,8 +48,10 @@ class Path:
             message.time_s = [knot[0] for knot in knots] + padding
             message.position_rad = [knot[1] for knot in knots] + padding
             message.velocity_rad_s = [knot[2] for knot in knots] + padding
-            joint._conversation.request("PATH", message, "its part of the path")
+            farthest_rad = max((knot[1] for knot in knots), key=abs)
+            joint._conversation.request("PATH", message, "its part of the path", hint=degrees_hint(farthest_rad))
         self.resume()
+        self._started = True
 
     def pause(self):
         """Stops on the path, with all joints, as quickly as their accelerations allow."""
@@ -66,11 +69,13 @@ class Path:
     def wait(self, tolerance_rad=1e-3, timeout_s=None):
         """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Waits while
         somebody has paused the path, too: Notice.PATH_PAUSED and path_time_s of the state tell. Raises Faulted, NoAnswer, and NotDone: after
-        `timeout_s`, which says where the path is and whether it is paused, or when something else ended it.
+        `timeout_s`, which says where the path is and whether it is paused, or when something else ended it. Of a path that another program
+        started, too; of one that nobody did, NotDone at once.
         """
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
         if timeout_s is not None:
             timeout_s = check_number("timeout_s", timeout_s, "None or a number above 0", lambda seconds: seconds > 0)
+        self._check_started()
         begin_s = now_s()
 
         def look():
@@ -80,6 +85,11 @@ class Path:
         arrivals = {joint: ArrivalWatch(joint.name, knots[-1][1], tolerance_rad, joint._timeout_s) for joint, knots in self._knots.items()}
         wait_for_motions([self._motion(joint, knots[-1][1], arrivals[joint]) for joint, knots in self._knots.items()], look)
         return {joint: watch.arrival for joint, watch in arrivals.items()}
+
+    def _check_started(self):
+        for joint, knots in self._knots.items():
+            if not self._started and joint._conversation.wait_for_state().target_position_rad != knots[-1][1]:
+                raise NotDone(f"{joint.name}: is not on its way to {knots[-1][1]:g} rad: this path was not started: start() does that")
 
     def _where(self):
         state = self._joints[0].state
@@ -97,12 +107,12 @@ class Path:
     @staticmethod
     def _checked(name, knots):
         if not isinstance(knots, Iterable):
-            raise InvalidInput(f"{name}: {knots!r}: a list of knots (time_s, position_rad, velocity_rad_s) is allowed")
+            raise InvalidInput(f"{name}: {shown(knots)}: a list of knots (time_s, position_rad, velocity_rad_s) is allowed")
         knots = list(knots)
         if not 2 <= len(knots) <= MOST_KNOTS:
             raise InvalidInput(f"{name}: {len(knots)} knots: 2 to {MOST_KNOTS} are allowed")
         for index, knot in enumerate(knots):
             if not isinstance(knot, Sized) or len(knot) != 3:
-                raise InvalidInput(f"{name}: knot {index} = {knot!r}: (time_s, position_rad, velocity_rad_s) is allowed")
-        return [tuple(check_number(f"{name}: knot {index}", number, "a finite number", lambda _: True) for number in knot)
-                for index, knot in enumerate(knots)]
+                raise InvalidInput(f"{name}: knot {index} = {shown(knot)}: (time_s, position_rad, velocity_rad_s) is allowed")
+        return [tuple(check_number(field, number, "a finite number", lambda _: True, f"{name}: knot {index}")
+                      for field, number in zip(_FIELDS, knot)) for index, knot in enumerate(knots)]

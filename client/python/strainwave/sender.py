@@ -34,7 +34,7 @@ class Sender:
 
     def __init__(self, key=None):
         self.sender_id = own_identity()
-        self._key = read_secret_key(key) if key else None
+        self._key = None if key is None or key == "" else read_secret_key(key)
         self._sequence = 0
         self._lock = threading.Lock()
 

@@ -1,7 +1,7 @@
 """A stream of setpoints: where the joint shall be at which time. docs/messages.md, "Streams"."""
 import math
 
-from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError
+from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, shown
 from .messages import blank
 from .network import now_s
 from .setpoint_v2 import setpoint_v2
@@ -17,10 +17,10 @@ def check_number(name, value, allowed, is_allowed, joint=""):
         if isinstance(value, (str, bytes, bool)):
             raise TypeError
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number) or not is_allowed(number):
-        raise InvalidInput(f"{joint}{': ' if joint else ''}{name} = {value!r}: {allowed} is allowed")
+        raise InvalidInput(f"{joint}{': ' if joint else ''}{name} = {shown(value)}: {allowed} is allowed")
     return number
 
 
@@ -44,7 +44,9 @@ class Stream:
         self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
         self._speed_limit_rad_s = speed_limit_rad_s
-        self._base = beside._base if beside else TimeBase()
+        if beside is not None and not isinstance(beside, Stream):
+            raise InvalidInput(f"{joint.name}: beside = {shown(beside)}: a Stream is allowed, of another joint's stream()")
+        self._base = TimeBase() if beside is None else beside._base
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None
         self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun, or is over
@@ -54,7 +56,8 @@ class Stream:
         """The joint shall be at `position_rad` at time `t` (s; rising; the first is in `ahead_s` from now), with the velocity and
         acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
         carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
-        runs at the joint's pace. False: it came after its time and was left out. Raises Refused, NotDone (also when the stream is over),
+        runs at the joint's pace. True: it was sent in time; whether the daemon takes it a later put() tells. False: it was left out, for its time
+        is over. Raises Refused, NotDone (also when the stream is over),
         NoAnswer, InvalidInput.
         """
         if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
@@ -71,8 +74,9 @@ class Stream:
         if message.at_cycle <= self._last_cycle:
             raise InvalidInput(f"{self._joint.name}: t = {t!r}: at least a period of the daemon, {self._period_s} s, after the last one is allowed")
         self._wait_until_due(message.at_cycle)
+        self._wait_for_new_states(message.at_cycle)
         self._check_refusals()
-        if message.at_cycle <= self._now_cycle():
+        if message.at_cycle <= self._now_cycle() or self._conversation.is_behind:
             return self._leave_out(message.at_cycle)
         self._conversation.send("SETPOINT", message)
         self._last_cycle = message.at_cycle
@@ -142,7 +146,7 @@ class Stream:
                 self._base.origin_cycle = math.ceil(self._now_cycle() + self._ahead_s / self._period_s)
             again.at_cycle = self._base.cycle_of(t, self._period_s)
 
-        self._conversation.request("SETPOINT", message, f"to begin a stream at {message.position_rad} rad", prepare)
+        self._conversation.request("SETPOINT", message, f"the first setpoint of the stream, {message.position_rad} rad,", prepare)
         self._last_cycle = message.at_cycle
         return True
 
@@ -154,6 +158,12 @@ class Stream:
         wait_s = (cycle - self._now_cycle()) * self._period_s - self._ahead_s
         # A refusal needs no waiting for the time that it is too late for.
         self._conversation.network.wait_until(lambda: self._conversation.has_refusals, max(0.0, wait_s))
+
+    # A sample that quotes an old state is refused. After a while in which this program stood still, those that came meanwhile go first.
+    def _wait_for_new_states(self, cycle):
+        conversation = self._conversation
+        if conversation.is_behind:
+            conversation.network.wait_until(lambda: not conversation.is_behind, max(0.0, (cycle - self._now_cycle()) * self._period_s))
 
     def _check_refusals(self):
         while (refusal := self._conversation.take_refusal()) is not None:

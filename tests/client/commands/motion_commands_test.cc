@@ -3,6 +3,7 @@
 
 #include <strainwave/setpoint_v2.hpp>
 
+#include "client/link/joint_path.h"
 #include "tests/client/commands/commands_fixture.h"
 
 namespace strainwave {
@@ -92,12 +93,42 @@ TEST_F(CommandsTest, MoveSaysSoWhenTheDaemonFallsSilent) {
   EXPECT_TRUE(message_has("fell silent")) << message;
 }
 
+TEST_F(CommandsTest, AMoveOfMoreThanAnHourIsRefusedWithTheLeastSpeedThatIsAllowed) {
+  daemon.publish_state(Mode::kHolding);
+  for (const bool wait : {false, true}) {
+    MoveArguments slow{"elbow", 0.5, wait};
+    slow.speed_limit_rad_s = 1e-300;
+    EXPECT_EQ(status_of([&] { move(client, output, slow); }), ExitStatus::kUsage);
+    EXPECT_TRUE(
+        message_has("elbow: speed_limit_rad_s = 1e-300: at least 0.00014 is allowed, the way of 0.5 rad"))
+        << message;
+  }
+  EXPECT_TRUE(daemon.heard().empty());
+  MoveArguments just{"elbow", 0.5, false};
+  just.speed_limit_rad_s = 0.00014;
+  EXPECT_EQ(status_of([&] { move(client, output, just); }), ExitStatus::kDone) << message;
+}
+
 TEST_F(CommandsTest, RefusedMoveThatLooksLikeDegreesGetsAHint) {
   daemon.publish_state(Mode::kHolding);
   daemon.reason = Reason::kOutOfRange;
   EXPECT_EQ(status_of([&] { move(client, output, {"elbow", 90.0, false}); }), ExitStatus::kRefused);
   EXPECT_TRUE(message_has("90 degrees would be 1.5708")) << message;
   EXPECT_EQ(status_of([&] { move(client, output, {"elbow", 3.0, false}); }), ExitStatus::kRefused);
+  EXPECT_FALSE(message_has("degrees")) << message;
+}
+
+TEST_F(CommandsTest, ARefusedPathThatLooksLikeDegreesGetsAHint) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.reason = Reason::kOutOfRange;
+  const auto load = [&](double middle_rad) {
+    return status_of([&] {
+      load_path(client, {{"elbow", {{0, 0, 0}, {0.5, middle_rad, 0}, {1, 0.5 * middle_rad, 0}}}});
+    });
+  };
+  EXPECT_EQ(load(-90.0), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("positions are in rad: -90 degrees would be -1.5708")) << message;
+  EXPECT_EQ(load(3.0), ExitStatus::kRefused);
   EXPECT_FALSE(message_has("degrees")) << message;
 }
 

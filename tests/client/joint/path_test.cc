@@ -76,6 +76,18 @@ TEST_F(PathTest, AWaitThatHasALimitEndsInWhereThePathIsAndThatItIsPaused) {
   EXPECT_THROW(path.wait(1e-3, 0.0), InvalidInput);
 }
 
+TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSo) {
+  Joint elbow = joint("elbow");
+  Path path({{elbow, {{0, 0, 0}, {1, 0.4, 0}}}});
+  try {
+    path.wait();
+    ADD_FAILURE() << "it arrived";
+  } catch (const NotDone& error) {
+    EXPECT_STREQ(error.what(),
+                 "elbow: is not on its way to 0.4 rad: this path was not started: start() does that");
+  }
+}
+
 TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
   const Joint elbow = joint("elbow");
   const Joint of_another_daemon = joint("wrist", "LEFT");
@@ -86,7 +98,7 @@ TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
       {{{elbow, knots}, {of_another_daemon, knots}}, "wrist has prefix LEFT, elbow has SW"},
       {{{elbow, {{0, 0, 0}}}}, "elbow: 1 knots: 2 to 320"},
       {{{elbow, std::vector<JointKnot>(321)}}, "elbow: 321 knots: 2 to 320"},
-      {{{elbow, {{0, 0, 0}, {1, std::nan(""), 0}}}}, "elbow: knot 1 = nan"}};
+      {{{elbow, {{0, 0, 0}, {1, std::nan(""), 0}}}}, "elbow: knot 1: position_rad = nan: a finite"}};
   for (const auto& [parts, words] : cases) {
     const std::string refusal = refusal_of(parts);
     EXPECT_NE(refusal.find(words), std::string::npos) << refusal;

@@ -121,6 +121,15 @@ TEST(CommandLine, TakesANegativePositionForANumber) {
   }
 }
 
+TEST(CommandLine, CallsANumberThatIsNotFiniteNoOption) {
+  for (const char* position : {"-inf", "-nan", "-infinity"}) {
+    const Result result = run_alone({"move", "elbow", position});
+    EXPECT_EQ(result.status, ExitStatus::kUsage);
+    EXPECT_NE(result.err.find("'" + std::string(position) + "' is not a finite number"), std::string::npos)
+        << result.err;
+  }
+}
+
 TEST(CommandLine, WithoutADaemonIsNoAnswer) {
   for (const std::vector<const char*>& arguments :
        std::vector<std::vector<const char*>>{{"status"},

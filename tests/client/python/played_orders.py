@@ -3,7 +3,7 @@ import threading
 import unittest
 
 from strainwave import Joint, Mode, Reason, ack_v1, command_v1, messages, path_v1, setpoint_v2, state_v1
-from strainwave.network import Network
+from strainwave.network import Network, now_s
 
 COMMAND, SETPOINT, PATH = "SW.elbow.COMMAND", "SW.elbow.SETPOINT", "SW.elbow.PATH"
 TYPES = {COMMAND: command_v1, SETPOINT: setpoint_v2, PATH: path_v1}
@@ -20,14 +20,16 @@ class PlayedNetwork:
         self.joints = set()
         self._handlers = {}
         self.published = []
+        self.came_s = now_s()
         self.daemon = lambda channel, message: None
 
     def publish(self, channel, message):
         self.published.append((channel, message))
         self.daemon(channel, message)
 
-    def deliver(self, kind, message, joint="elbow"):
+    def deliver(self, kind, message, joint="elbow", age_s=0.0):
         with self.changed:
+            self.came_s = now_s() - age_s
             for handler in self._handlers[f"SW.{joint}.{kind}".encode()]:
                 handler()(message.encode())
             self.changed.notify_all()

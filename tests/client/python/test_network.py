@@ -49,6 +49,26 @@ class HostileDatagrams(unittest.TestCase):
         self.elbow._wait_until(lambda: self.elbow._conversation.state and self.elbow._conversation.state.session_id == 9, 20)
         self.assertEqual((self.elbow.state.joint_position_rad, self.elbow.state.session_id), (0.25, 9))
 
+    def test_that_a_program_took_up_late_are_as_old_as_they_are(self):
+        network = Network.shared(self.elbow._conversation.network.url)
+        heard = []
+
+        class Listener:
+            def hear(self, content):
+                heard.append(network.came_s)
+
+        listener = Listener()
+        network.listen("SW.elbow.STATE", listener.hear)
+        sent_s = []
+        with network.changed:  # nothing is handled meanwhile
+            for i in range(4):
+                sent_s.append(time.monotonic())
+                self.send(encode_short(i, "SW.elbow.STATE", b"x"))
+                time.sleep(0.2)
+        network.wait_until(lambda: len(heard) == 4, 20)
+        for came_s, sent in zip(heard, sent_s, strict=True):
+            self.assertTrue(-0.01 <= came_s - sent <= 0.1, (heard, sent_s))
+
     def test_from_another_machine_are_not_heard_where_the_network_ends_at_this_one(self):
         network = Network.shared(self.elbow._conversation.network.url)
         datagram = encode_short(1, "SW.stranger.STATE", messages.blank(state_v1).encode())

@@ -1,4 +1,7 @@
 """Orders over a network that the test plays: what is sent, how often, and what becomes of the answers."""
+import base64
+import pathlib
+import tempfile
 import threading
 import unittest
 
@@ -171,10 +174,44 @@ class Orders(PlayedOrders):
                                (lambda: self.elbow.move(0, tolerance_rad=0), "tolerance_rad = 0"),
                                (lambda: Joint("el bow"), "name = 'el bow': 1 to 24 characters"),
                                (lambda: Joint("elbow", prefix=""), "prefix = ''"),
-                               (lambda: Joint("elbow", timeout_s=0), "timeout_s = 0")):
+                               (lambda: Joint("elbow", timeout_s=0), "timeout_s = 0"),
+                               (lambda: self.elbow.move(10**400), "^elbow: position_rad = 1000"),
+                               (lambda: self.elbow.move(10**5000), "^elbow: position_rad = <int>: a finite number"),
+                               (lambda: self.elbow.states(duration_s=float("nan")), "^elbow: duration_s = nan: 0 or above is allowed"),
+                               (lambda: Joint("elbow", key=5), "key = 5: the name of a file is allowed"),
+                               (lambda: Joint("elbow", key=0), "key = 0: the name of a file is allowed"),
+                               (lambda: Joint("elbow", key="a\0b"), "the key cannot be read: embedded null"),
+                               (lambda: Joint(10**5000), "name = <int>: 1 to 24 characters")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 attempt()
         self.assertEqual(self.network.published, [])
+
+    def test_to_move_for_more_than_an_hour_are_refused_with_the_least_speed_that_is_allowed(self):
+        self.publish_state(setpoint_position_rad=-0.5)
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        with self.assertRaisesRegex(InvalidInput, "^elbow: speed_limit_rad_s = 1e-300: at least 0.000281 is allowed, the way of 1 rad takes 1e.300 s"):
+            self.elbow.move(0.5, speed_limit_rad_s=1e-300, wait=False)
+        self.assertEqual(self.network.published, [])
+        self.elbow.move(0.5, speed_limit_rad_s=0.000281, wait=False)
+        self.assertEqual(len(self.network.published), 1)
+
+    def test_are_not_signed_with_a_key_that_is_none_or_that_others_can_read(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name) / "key"
+        for line, words in (("ed25519 AAAA operator", "this is a public key: give the file without .pub"),
+                            (f"ed25519-secret {base64.b64encode(bytes(32)).decode()} operator", "other users can reach this secret key")):
+            path.write_text(line + "\n")
+            path.chmod(0o644)
+            with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
+                Joint("elbow", key=path)
+
+
+class ANetwork(unittest.TestCase):
+    def test_of_no_name_is_refused(self):
+        for wrong in ("", 5, ["udpm://"], {}, False, b"udpm://239.255.76.67:7667"):
+            with self.subTest(wrong), self.assertRaisesRegex(InvalidInput, "lcm_url = .*: udpm://GROUP:PORT"):
+                Joint("elbow", key="", lcm_url=wrong)
 
 
 if __name__ == "__main__":

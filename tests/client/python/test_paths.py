@@ -48,6 +48,20 @@ class Paths(PlayedOrders):
             Path({self.elbow: self.KNOTS}).start()
         self.assertEqual([channel for channel, _ in self.network.published], [PATH])
 
+    def test_that_are_refused_and_look_like_degrees_say_so(self):
+        self.publish_state()
+        self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.OUT_OF_RANGE)
+        with self.assertRaisesRegex(Refused, "positions are in rad: -90 degrees would be -1.5708"):
+            Path({self.elbow: [(0, 0, 0), (0.5, -90, 0), (1, 45, 0)]}).start()
+        self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.WRONG_MODE)
+        with self.assertRaisesRegex(Refused, "not possible in this mode.$"):
+            Path({self.elbow: [(0, 0, 0), (0.5, -90, 0), (1, 45, 0)]}).start()
+
+    def test_that_nobody_started_say_so_when_they_are_waited_for(self):
+        self.publish_state(target_position_rad=0.1)
+        with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path was not started: start.. does that"):
+            Path({self.elbow: self.KNOTS}).wait()
+
     def test_tell_of_the_joint_that_faulted_and_not_of_those_that_it_stopped(self):
         wrist = Joint("wrist", key="", timeout_s=30)
         path = Path({self.elbow: self.KNOTS, wrist: self.KNOTS})
@@ -99,7 +113,9 @@ class Paths(PlayedOrders):
     def test_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
         Path({self.elbow: [(i, 0, 0) for i in range(320)]})
         for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knots"),
-                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1 = 'x'"),
+                             ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1: position_rad = 'x'"),
+                             ([(0, 0, 0), (float("nan"), 0, 0)], "elbow: knot 1: time_s = nan: a finite"),
+                             ([(0, 0, 0), (1, 0, 10**400)], "elbow: knot 1: velocity_rad_s = 1"),
                              ([0, 0.25, 0], "knot 0 = 0: .time_s"), (None, "None: a list of knots")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path({self.elbow: knots})

@@ -1,9 +1,10 @@
 """Streams over a network that the test plays: which cycles samples are for, what is late, and how a stream ends."""
+import threading
 import time
 import unittest
 
 from played_orders import COMMAND, SETPOINT, PlayedOrders, published
-from strainwave import InvalidInput, Mode, NotDone, Reason, Refused, limits_v1, messages
+from strainwave import InvalidInput, Mode, NoAnswer, NotDone, Reason, Refused, limits_v1, messages
 
 
 class Streams(PlayedOrders):
@@ -26,6 +27,12 @@ class Streams(PlayedOrders):
         self.assertEqual({(order.stream_id, order.derivatives, order.velocity_rad_s) for order in self.orders()},
                          {(first.stream_id, 1, 2.0)})
 
+    def test_whose_first_sample_nobody_answers_say_so_in_words(self):
+        stream = self.stream()
+        self.elbow._conversation.timeout_s = 0.2
+        with self.assertRaisesRegex(NoAnswer, "no acknowledgement of the first setpoint of the stream, 0.5 rad, in 0.2 s"):
+            stream.put(0, 0.5)
+
     def test_tell_when_each_sample_is_sent(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
         stream = self.stream(ahead_s=0.9)
@@ -47,6 +54,31 @@ class Streams(PlayedOrders):
         self.publish_state(Mode.TRACKING, cycle=9000)
         with self.assertRaisesRegex(NotDone, "the stream is over"):
             stream.put(4, 0.5)
+
+    def test_know_the_cycle_though_their_program_stood_still_and_hears_old_states_first(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(valid_for_s=10.0)
+        stream.put(0, 0.5)
+        # Five seconds later: what came in the first of them is heard, and fills the clock's memory.
+        self.publish_state(Mode.TRACKING, cycle=6000)
+        for i in range(100):
+            self.state.cycle = 1000 + 5 * i
+            self.network.deliver("STATE", self.state, age_s=5 - 0.005 * i)
+        self.assertFalse(stream.put(1, 0.5))
+        self.assertEqual((stream.late, len(self.network.published)), (1, 1))
+
+    def test_quote_no_old_state_once_their_program_goes_on(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.9, valid_for_s=10.0)
+        stream.put(0, 0.5)
+        self.network.deliver("STATE", self.state, age_s=0.8)
+        self.assertFalse(stream.put(0.3, 0.5))
+        self.assertEqual(stream.late, 1)
+        later = threading.Timer(0.05, self.publish_state, [Mode.TRACKING], {"challenge": 23})
+        later.start()
+        self.addCleanup(later.join)
+        self.assertTrue(stream.put(1.2, 0.5))
+        self.assertEqual(self.orders()[-1].challenge, 23)
 
     def test_that_have_ended_raise_with_the_next_sample(self):
         for reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
@@ -141,6 +173,8 @@ class Streams(PlayedOrders):
                                (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
                                (lambda: stream.put(0, 0, torque_Nm=-99), "elbow: torque_Nm = -99: from -34.0 to 34.0 is allowed"),
                                (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
+                               (lambda: self.elbow.stream(beside=self.elbow), "^elbow: beside = <.*>: a Stream is allowed"),
+                               (lambda: self.elbow.stream(beside=0), "^elbow: beside = 0: a Stream is allowed"),
                                (lambda: self.elbow.stream(ahead_s=1.5), "^elbow: ahead_s = 1.5: above 0 to 0.9")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 attempt()

@@ -115,6 +115,27 @@ TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefuse
   EXPECT_EQ(refused(0.0, std::nan(""), true).reason, Reason::kNotFinite);
 }
 
+// What is printed of a bound was less than it in its last digits, or as much as what it refused.
+TEST_F(AdmissionTest, TakesTheBoundThatItNamesAndPrintsWhatItRefusesApartFromIt) {
+  setpoint_v2 sample = setpoint(0.5);
+  sample.stream_id = 7;
+  sample.valid_for_s = 0.1;
+  sample.load_inertia_kgm2 = 0.89;  // 10 x 0.089 is less, in its last bit
+  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", sample)).kind, Verdict::Kind::kOrder);
+  const auto refusal = [&](double position_rad, double speed_limit_rad_s, double load_kgm2) {
+    setpoint_v2 message = setpoint(position_rad);
+    message.speed_limit_rad_s = speed_limit_rad_s;
+    if (load_kgm2 > 0.0) message.stream_id = 7, message.valid_for_s = 0.1;
+    message.load_inertia_kgm2 = load_kgm2;
+    return consider(wire("SW.elbow.SETPOINT", message)).text;
+  };
+  EXPECT_TRUE(
+      refusal(0.5, 0.0, 0.8900001).starts_with("load_inertia_kgm2 = 0.8900001: from 0 to 0.89 is allowed"))
+      << refusal(0.5, 0.0, 0.8900001);
+  EXPECT_TRUE(refusal(1.0000001, 0.0, 0.0).starts_with("position_rad = 1.0000001: from -1 to 1 is allowed"));
+  EXPECT_TRUE(refusal(0.5, 6.0000001, 0.0).starts_with("speed_limit_rad_s = 6.0000001: from 0"));
+}
+
 TEST_F(AdmissionTest, JudgesTheRangeByTheJointThatIsMeant) {
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", setpoint(1.5)));
   EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
