@@ -56,6 +56,14 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
                {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
 }
 
+// But for the period that begins now.
+void JointController::miss(std::int64_t periods) noexcept {
+  if (streamed())
+    stream_.skip(periods - 1);
+  else
+    stream_.wait(periods - 1);
+}
+
 double JointController::stream_lead_s() const noexcept {
   return config_.use_shaping ? plan_.lag_s() + ahead_of_joint_s() : 0.0;
 }
