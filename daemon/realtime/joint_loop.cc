@@ -247,6 +247,7 @@ void JointLoop::end(const CycleTime& time) noexcept {
 void JointLoop::tell(const CycleTime& time) noexcept {
   if (!zero_.known()) notice(Notice::kNotHomed);
   if (const auto path = ordered_.path(); path && path->paused) notice(Notice::kPathPaused);
+  if (ordered_.ends_path()) notice(Notice::kPathEnds);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad =

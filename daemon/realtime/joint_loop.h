@@ -12,6 +12,7 @@
 #include "control/joint_controller.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/cycle_time.h"
+#include "daemon/realtime/fault_reach.h"
 #include "daemon/realtime/flight_recorder.h"
 #include "daemon/realtime/homing.h"
 #include "daemon/realtime/joint_loop_config.h"
@@ -70,6 +71,11 @@ class JointLoop {
     return config_.fault_stops_group && mode() == Mode::kFaulted && mode_.began(time.now_ns) &&
            mode_.fault() != Fault::kGroup;
   }
+  /// How those must stop that stop with it. One that yields has run into something, like one that has a fault for it.
+  OthersStop others_stop() const noexcept {
+    return controller_.yields() ? OthersStop::kAtOnce
+                                : strainwave::others_stop(mode_.fault(), mode_.drive_error());
+  }
   // Of a path: for its follower.
   /// What it has of one, begun or not; null: nothing.
   const LoadedPath* path() const noexcept { return path_; }
@@ -85,6 +91,9 @@ class JointLoop {
   PathPoint goes_on_from() const noexcept;
   /// From begin_path() until end_path(), or until something else took the joint off it.
   bool on_path() const noexcept { return ordered_.on_path(); }
+  /// It comes to rest along it: told until it is off it.
+  void path_ends() noexcept { ordered_.path_ends(); }
+  bool setpoint_rests() const noexcept { return motion_.at_target; }
   void end_path() noexcept;
   /// Comes to rest by itself, off the path.
   void stop_beside_path() noexcept;

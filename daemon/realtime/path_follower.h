@@ -7,6 +7,8 @@
 //   pause    -> the path's time comes to rest, as quickly as the accelerations allow
 //   hold, or a joint that is lost (fault, disable, another order)
 //            -> likewise, and then the path is over: the others rest on it and hold
+//   a joint that is lost to what is in its way, or that others live on as well (daemon/realtime/fault_reach.h)
+//            -> each of the others stops on its own, at once
 //
 // Where the path is just using what deceleration there is, resting along it waits. Joints that are to end, and do not rest along the path in
 // twice the time that they need on their own, stop on their own.
@@ -79,7 +81,9 @@ class PathFollower {
   void advance(std::size_t travel, const CycleTime& time) noexcept;
   bool return_to_path(std::size_t travel) noexcept;
   void find_path(std::size_t travel) noexcept;
-  void release_lost(std::size_t travel) noexcept;
+  bool release_lost(std::size_t travel) noexcept;
+  bool is_over(std::size_t travel) noexcept;
+  void stop_each(std::size_t travel) noexcept;
   void bring_to_rest(std::size_t travel) noexcept;
   RateRoom room(std::size_t travel) noexcept;
   void free(std::size_t travel) noexcept;
