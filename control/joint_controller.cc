@@ -208,10 +208,12 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   const SurpriseCause by_friction =
       follows_ == Follows::kStreamOnTime ? SurpriseCause::kStreamedFriction : SurpriseCause::kFriction;
   state_.step(measurement, loaded_model(), estimate_source(), planned ? by_friction : SurpriseCause::kLoad);
+  // Of a stall over which nobody knows what the joint did miss() has been told.
+  const bool missed = measurement.elapsed_periods > kMaxElapsedPeriods;
   if (yields())
     go_on_yielding(elapsed_periods);
-  else if (!goes_on_anew(measurement))
-    advance_reference(elapsed_periods);
+  else if (!missed || !goes_on_anew())
+    advance_reference(missed ? 1 : elapsed_periods);
   setpoint_velocity_rad_s_ =
       smoothed(setpoint_velocity_rad_s_, reference_.velocity_rad_s, state_.velocity_share(), elapsed_periods);
   follow_friction(elapsed_periods);

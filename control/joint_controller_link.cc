@@ -88,11 +88,15 @@ void JointController::go_on_from_here() noexcept {
   new_plans_.cancel();
 }
 
-// A motion after a stall over which nobody knows what the joint did.
-bool JointController::goes_on_anew(const JointMeasurement& measurement) noexcept {
-  const bool lost = measurement.elapsed_periods > kMaxElapsedPeriods && reference_moves();
-  if (lost) go_on_from_here();
-  return lost;
+// A motion after a stall over which nobody knows what the joint did. What it follows has gone on.
+bool JointController::goes_on_anew() noexcept {
+  if (!reference_moves()) return false;
+  go_on_from_here();
+  if (streamed())
+    told_load_ = stream_.step().load;
+  else
+    stream_.wait(1);
+  return true;
 }
 
 // Whether the torque is that of a motion.

@@ -37,8 +37,11 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
   if (!streamed() || begins) {
     const bool resumes = !begins && stream_.ended();
     // One that takes over an eased move on the way goes on eased, and ahead by what that takes: else the acceleration would step. A path
-    // begins at rest, as late as its companions.
-    if (on_time == OnTime::kPlan || (!resumes && plan_.rests() && ordered_.rests())) {
+    // begins at rest, and is as late as that makes it.
+    if (on_time == OnTime::kPlan) {
+      plan_.begin_path();
+      ordered_.begin_path();
+    } else if (!resumes && plan_.rests() && ordered_.rests()) {
       plan_.end_easing();
       ordered_.end_easing();
     }
@@ -56,12 +59,20 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
                {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
 }
 
+// But for the period that begins now.
+void JointController::miss(std::int64_t periods) noexcept {
+  if (streamed())
+    stream_.skip(periods - 1);
+  else
+    stream_.wait(periods - 1);
+}
+
 double JointController::stream_lead_s() const noexcept {
   return config_.use_shaping ? plan_.lag_s() + ahead_of_joint_s() : 0.0;
 }
 
 double JointController::plan_lead_s() const noexcept {
-  return config_.use_shaping ? plan_.uneased_lag_s() + ahead_of_joint_s() : 0.0;
+  return config_.use_shaping ? plan_.path_lag_s() + ahead_of_joint_s() : 0.0;
 }
 
 double JointController::ahead_of_joint_s() const noexcept {

@@ -27,4 +27,9 @@ void ReferencePlan::end_easing() noexcept {
   mean_is_ = unasked_;
 }
 
+void ReferencePlan::begin_path() noexcept {
+  if (unasked_ != Mean::kPaused) return end_easing();
+  if (wants_easing()) ease();
+}
+
 }  // namespace strainwave

@@ -3,8 +3,8 @@
 //
 //   plain      the shaper's motion itself
 //   limited    its mean, always
-//   eased      its mean in a move that begins at rest, and in what follows it until a stream begins at rest or the joint starts: a stream tells how
-//              it moves by itself. One that begins on the way goes on eased
+//   eased      its mean in a move or path that begins at rest, and in what follows it until a stream begins at rest or the joint starts: a stream
+//              tells how it moves by itself. One that begins on the way goes on eased
 //   plain_until_eased   its mean from ease_from() on, which takes a motion up that is under way, until a stream begins at rest or the joint starts
 //
 // While it is a mean it lags by lag_s(): the shaper is that much ahead, and goes on from where the mean is wherever one takes the other's place.
@@ -46,6 +46,8 @@ class ReferencePlan {
   bool wants_easing() const noexcept { return mean_is_ == Mean::kPaused && shaper_.at_target(); }
   void ease() noexcept;
   void end_easing() noexcept;
+  /// A path begins: eased where moves are.
+  void begin_path() noexcept;
 
   /// The reference for this sample; the plan then advances by a period.
   Reference step() noexcept { return averaged(shaper_.step()); }
@@ -57,8 +59,8 @@ class ReferencePlan {
   /// Whether the motion has ended, exactly on the target.
   bool rests() const noexcept { return shaper_.at_target() && (!averages() || mean_.rests()); }
   double lag_s() const noexcept { return averages() ? mean_.lag_s() : 0.0; }
-  /// The same of a motion that is not eased.
-  double uneased_lag_s() const noexcept { return unasked_ == Mean::kAlways ? mean_.lag_s() : 0.0; }
+  /// The same of a path.
+  double path_lag_s() const noexcept { return unasked_ != Mean::kNever ? mean_.lag_s() : 0.0; }
   /// Of the shaper's motion, which may be ahead: where the next sample begins, and where it ends.
   double position_rad() const noexcept { return shaper_.position_rad(); }
   double velocity_rad_s() const noexcept { return shaper_.velocity_rad_s(); }

@@ -178,6 +178,16 @@ MovingTarget StreamTarget::step() noexcept {
   return {begin.position_rad, begin.velocity_rad_s, state_.position_rad, state_.velocity_rad_s, load_};
 }
 
+// Whether it has ended, the next step() says: a sample that has come meanwhile may be taken before.
+void StreamTarget::skip(std::int64_t periods) noexcept {
+  const bool ended = ended_;
+  now_ += static_cast<double>(periods);
+  state_ = at(now_);
+  if (to_.velocity_rad_s != 0.0) state_ = at(std::min(now_, to_.due + longest_bridge_s() / period_s_));
+  ended_ = ended;
+  load_ = load_at(now_);
+}
+
 // Where the samples are: the last ones, and all that lie ahead.
 StreamTarget::Hull StreamTarget::known() const noexcept {
   Hull hull = hull_;

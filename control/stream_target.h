@@ -94,12 +94,13 @@ class StreamTarget {
   /// `lead_periods` >= 0.
   void begin(double position_rad, double velocity_rad_s, double lead_periods,
              const ToldLoad& load = {}) noexcept;
-  /// As begin() was told.
-  double lead_periods() const noexcept { return lead_; }
+  double lead_periods() const noexcept { return lead_; }  ///< as begin() was told
   /// The stream that has ended goes on with the next sample: who followed it is here by now, with this load.
   void resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept;
   /// So many periods went by since it ended.
-  void wait(int periods) noexcept { now_ += periods; }
+  void wait(std::int64_t periods) noexcept { now_ += static_cast<double>(periods); }
+  /// So many periods went by in which nobody followed: the target has gone on, as far as it goes without new samples.
+  void skip(std::int64_t periods) noexcept;
   void take(const StreamSample& sample, const Reach& reach) noexcept;
   /// The target of the period that begins now; time goes on by one period.
   MovingTarget step() noexcept;

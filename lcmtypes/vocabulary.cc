@@ -117,6 +117,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "inertia not as told";
     case Notice::kPathPaused:
       return "path paused";
+    case Notice::kPathEnds:
+      return "path ends early";
   }
   return "unknown";
 }
@@ -330,6 +332,7 @@ std::string_view configuration_key(Notice notice) noexcept {
     case Notice::kOtherInertia:
       return "joint.inertia_kgm2";
     case Notice::kPathPaused:
+    case Notice::kPathEnds:
       return "";
   }
   return "";

@@ -70,6 +70,7 @@ enum class Notice : std::int32_t {
   kLoadHigh = 1 << 12,
   kOtherInertia = 1 << 13,
   kPathPaused = 1 << 14,
+  kPathEnds = 1 << 15,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

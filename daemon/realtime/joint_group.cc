@@ -2,15 +2,30 @@
 
 namespace strainwave {
 
-void stop_faulted_groups(std::span<const std::unique_ptr<JointLoop>> joints, const CycleTime& time) noexcept {
-  for (const auto& faulted : joints) {
-    if (!faulted->stops_group(time) || faulted->group() < 0) continue;
-    for (const auto& other : joints) {
-      if (other == faulted || other->group() != faulted->group() || other->at_rest()) continue;
-      other->raise_fault(Fault::kGroup, time);
-      other->stop_drive();
-    }
+void JointGroups::stop_with_the_faulted(const CycleTime& time) noexcept {
+  for (const auto& joint : joints_)
+    if (joint->stops_group(time) && joint->group() >= 0) stop_group_of(*joint, time);
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint)
+    if (stops_off_path_[joint] && !joints_[joint]->on_path()) stop(joint, time);
+}
+
+void JointGroups::stop_group_of(const JointLoop& faulted, const CycleTime& time) noexcept {
+  const bool at_once = faulted.others_stop() == OthersStop::kAtOnce;
+  for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
+    const JointLoop& other = *joints_[joint];
+    if (&other == &faulted || other.group() != faulted.group()) continue;
+    if (!at_once && other.on_path() && paths_.end(joint))
+      stops_off_path_[joint] = true;
+    else
+      stop(joint, time);
   }
+}
+
+void JointGroups::stop(std::size_t joint, const CycleTime& time) noexcept {
+  stops_off_path_[joint] = false;
+  if (joints_[joint]->at_rest()) return;
+  joints_[joint]->raise_fault(Fault::kGroup, time);
+  joints_[joint]->stop_drive();
 }
 
 void fault_driven_joints(std::span<const std::unique_ptr<JointLoop>> joints, Fault fault,

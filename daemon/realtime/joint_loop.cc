@@ -72,6 +72,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   notices_ = 0;
+  if (time.elapsed_periods > kMaxElapsedPeriods) controller_.miss(time.elapsed_periods);
   take_orders(time);
   read_drive(time);
   check_reading(time);
@@ -245,6 +246,7 @@ void JointLoop::end(const CycleTime& time) noexcept {
 void JointLoop::tell(const CycleTime& time) noexcept {
   if (!zero_.known()) notice(Notice::kNotHomed);
   if (const auto path = ordered_.path(); path && path->paused) notice(Notice::kPathPaused);
+  if (ordered_.ends_path()) notice(Notice::kPathEnds);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad =

@@ -12,11 +12,12 @@
 #include "control/joint_controller.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/cycle_time.h"
+#include "daemon/realtime/fault_reach.h"
 #include "daemon/realtime/flight_recorder.h"
 #include "daemon/realtime/homing.h"
+#include "daemon/realtime/joint_loop_config.h"
 #include "daemon/realtime/joint_mode.h"
 #include "daemon/realtime/joint_zero.h"
-#include "daemon/realtime/load_limits.h"
 #include "daemon/realtime/motion_watch.h"
 #include "daemon/realtime/ordered_target.h"
 #include "daemon/realtime/orders.h"
@@ -29,44 +30,6 @@
 #include "drivers/faulty_actuator.h"
 
 namespace strainwave {
-
-/// Limits of one joint, joint side. Exceeding one latches a fault; the reference never leaves the softer ones.
-struct JointLimits {
-  double position_min_rad = 0.0;
-  double position_max_rad = 0.0;
-  double position_margin_rad = 0.0;  ///< fault beyond position_min - margin and position_max + margin
-  double overspeed_rad_s = 0.0;      ///< fault
-  double following_error_rad = 0.0;  ///< fault: |what the orders make of the reference - position|
-  double temperature_limit_C = 0.0;  ///< fault above
-  LoadLimitConfig load;              ///< the joint yields to a larger load
-};
-
-/// What becomes of a joint that yields to a load.
-enum class OverloadStop {
-  kTorqueOff,  ///< fault: torque 0, drive off
-  kHoldLoad,  ///< the torque is what held the load before, until the joint has been let go; then it holds where it comes to rest
-};
-
-struct JointLoopConfig {
-  JointControllerConfig controller;
-  JointLimits limits;
-  TemperatureCheckConfig temperature;
-  HomingConfig homing;
-  double temperature_update_period_s = 0.01;  ///< how often the gains are scheduled anew
-  int group = -1;                             ///< joints with the same number >= 0 belong together
-  bool fault_stops_group = false;             ///< a fault of this joint stops the others of its group
-  double start_timeout_s = 2.0;               ///< from enable to the drive's readiness
-  double stop_timeout_s = 3.0;                ///< from disable to standstill
-  double standstill_rad_s = 0.01;
-  double blocked_s = 0.5;    ///< at the torque limit without progress, before it is a fault
-  double overload_s = 0.02;  ///< that a load is too large, before the joint yields
-  OverloadStop overload_stop = OverloadStop::kTorqueOff;
-  double rest_tolerance_rad = 1e-3;  ///< notice: the joint holds farther from its place; at least two counts
-  double initial_load_Nm =
-      0.0;  ///< what holds the joint until it is first enabled holds this; later the estimate
-  double move_speed_share = 1.0;  ///< of the speed limit, in (0, 1]: how fast a move is that names no speed
-  int missed_readings_limit = 5;  ///< periods without a fresh position before it is a fault
-};
 
 class PathFollower;
 
@@ -108,6 +71,11 @@ class JointLoop {
     return config_.fault_stops_group && mode() == Mode::kFaulted && mode_.began(time.now_ns) &&
            mode_.fault() != Fault::kGroup;
   }
+  /// How those must stop that stop with it. One that yields has run into something, like one that has a fault for it.
+  OthersStop others_stop() const noexcept {
+    return controller_.yields() ? OthersStop::kAtOnce
+                                : strainwave::others_stop(mode_.fault(), mode_.drive_error());
+  }
   // Of a path: for its follower.
   /// What it has of one, begun or not; null: nothing.
   const LoadedPath* path() const noexcept { return path_; }
@@ -119,8 +87,13 @@ class JointLoop {
   /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
   void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
   void note_path(const OrderedTarget::PathProgress& progress) noexcept { ordered_.note(progress); }
+  /// Where its setpoint, by path_lead_s() ahead, goes on from in this period.
+  PathPoint goes_on_from() const noexcept;
   /// From begin_path() until end_path(), or until something else took the joint off it.
   bool on_path() const noexcept { return ordered_.on_path(); }
+  /// It comes to rest along it: told until it is off it.
+  void path_ends() noexcept { ordered_.path_ends(); }
+  bool setpoint_rests() const noexcept { return motion_.at_target; }
   void end_path() noexcept;
   /// Comes to rest by itself, off the path.
   void stop_beside_path() noexcept;

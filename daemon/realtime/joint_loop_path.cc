@@ -47,6 +47,10 @@ void JointLoop::follow_path(const PathPoint& point, std::int64_t in_periods, boo
   controller_.follow(sample, begins, 0.0, reachable_range(), OnTime::kPlan);
 }
 
+PathPoint JointLoop::goes_on_from() const noexcept {
+  return {zero_.to_joint_rad(controller_.plan_position_rad()), controller_.plan_velocity_rad_s(), 0.0};
+}
+
 // The setpoint rests, or will where its limits kept it from resting by now.
 void JointLoop::end_path() noexcept {
   ordered_.end();

@@ -17,14 +17,12 @@ constexpr double kLeastPatience_s = 2.0 / PathClock::kFastestChange_1_s;
 }  // namespace
 
 PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s)
-    : joints_(joints), period_s_(period_s), members_(joints.size()), travels_(joints.size()) {
+    : joints_(joints),
+      period_s_(period_s),
+      members_(joints.size()),
+      travels_(joints.size()),
+      stray_(joints.size()) {
   for (const auto& joint : joints_) joint->follow_paths_of(*this);
-}
-
-template <typename Act>
-void PathFollower::for_each_member(std::size_t travel, const Act& act) noexcept {
-  for (std::size_t joint = 0; joint < members_.size(); ++joint)
-    if (members_[joint].travel == travel) act(*joints_[joint], members_[joint]);
 }
 
 Ruling PathFollower::resume(std::size_t joint) noexcept {
@@ -57,7 +55,8 @@ Ruling PathFollower::begin(std::size_t first) noexcept {
   travel.phase = Phase::kBeginning;
   for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
     if (!takes_part(joint)) continue;
-    members_[joint] = {first, {}};
+    members_[joint] = {};
+    members_[joint].travel = first;
     travel.duration_s = std::max(travel.duration_s, joints_[joint]->path()->path.duration_s());
   }
   return Reason::kAccepted;
@@ -115,8 +114,16 @@ void PathFollower::wait_for_the_slowest(std::size_t travel) noexcept {
 void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   Travel& travel = travels_[index];
   const bool begins = travel.phase == Phase::kBeginning;
+  // Where the joints are is known after this period.
+  if (time.elapsed_periods > kMaxElapsedPeriods) {
+    if (!begins) travel.away_periods += time.elapsed_periods;
+    return;
+  }
   if (begins && !begin_all(index, time)) return free(index);
-  release_lost(index);
+  if (!release_lost(index)) return stop_each(index);
+  const bool anew = return_to_path(index) || begins;
+  const double elapsed_s = static_cast<double>(time.elapsed_periods) * period_s_;
+  travel.back_s = std::max(0.0, travel.back_s - elapsed_s);
   for (std::int64_t period = 0; period < time.elapsed_periods; ++period) {
     travel.clock.advance(period_s_, travel.clock.steady() ? PathClock::kMostRoom : room(index));
     travel.times.note(travel.clock.now());
@@ -124,29 +131,47 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   const bool ending = travel.phase == Phase::kEnding;
   for_each_member(index, [&](JointLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
-    const PathPoint point = member.reader.at(joint.path()->path, now.time_s);
-    joint.follow_path(in_path_time(point, now), time.elapsed_periods, begins);
+    const PathPoint on = in_path_time(member.reader.at(joint.path()->path, now.time_s), now);
+    joint.follow_path(on + member.back.step(elapsed_s), time.elapsed_periods, anew);
     joint.note_path({now.time_s, !ending && travel.clock.is_to_rest() && now.rate == 0.0});
   });
-  const PathTime last = travel.times.ago(travel.most_behind_periods);
-  if (last.time_s >= travel.duration_s || (ending && travel.clock.rests() && last.rate == 0.0)) {
+  if (is_over(index)) {
     for_each_member(index, [](JointLoop& joint, Member&) { joint.end_path(); });
     return free(index);
   }
-  if (!ending || (travel.rest_cycles -= time.elapsed_periods) > 0) return;
-  for_each_member(index, [](JointLoop& joint, Member&) { joint.stop_beside_path(); });
-  free(index);
+  if (travel.phase == Phase::kEnding && (travel.rest_cycles -= time.elapsed_periods) <= 0) stop_each(index);
+}
+
+// Of one that ends early all joints are on it until all rest: what is to stop with them waits for that.
+bool PathFollower::is_over(std::size_t index) noexcept {
+  const Travel& travel = travels_[index];
+  if (travel.back_s > 0.0) return false;
+  const PathTime last = travel.times.ago(travel.most_behind_periods);
+  const bool arrived = last.time_s >= travel.duration_s;
+  if (travel.phase != Phase::kEnding) return arrived;
+  bool all_rest = arrived || (travel.clock.rests() && last.rate == 0.0);
+  for_each_member(index, [&](JointLoop& joint, Member&) { all_rest = all_rest && joint.setpoint_rests(); });
+  return all_rest;
+}
+
+void PathFollower::stop_each(std::size_t travel) noexcept {
+  for_each_member(travel, [](JointLoop& joint, Member&) { joint.stop_beside_path(); });
+  free(travel);
 }
 
 // One that faulted, was disabled or got another order is no longer on it, and the others do not go on without it.
-void PathFollower::release_lost(std::size_t travel) noexcept {
+// False: they are to stop at once.
+bool PathFollower::release_lost(std::size_t travel) noexcept {
   bool lost = false;
+  bool at_once = false;
   for_each_member(travel, [&](JointLoop& joint, Member& member) {
     if (joint.on_path()) return;
     member.travel = kNoTravel;
     lost = true;
+    at_once = at_once || joint.others_stop() == OthersStop::kAtOnce;
   });
-  if (lost) bring_to_rest(travel);
+  if (lost && !at_once) bring_to_rest(travel);
+  return !at_once;
 }
 
 void PathFollower::bring_to_rest(std::size_t index) noexcept {
@@ -156,6 +181,7 @@ void PathFollower::bring_to_rest(std::size_t index) noexcept {
   double longest_s = 0.0;
   for_each_member(index, [&](JointLoop& joint, Member& member) {
     if (joint.path() == nullptr) return;
+    joint.path_ends();
     PathReader reader = member.reader;
     const PathPoint here = reader.at(joint.path()->path, travel.clock.time_s());
     longest_s =

@@ -7,9 +7,15 @@
 //   pause    -> the path's time comes to rest, as quickly as the accelerations allow
 //   hold, or a joint that is lost (fault, disable, another order)
 //            -> likewise, and then the path is over: the others rest on it and hold
+//   a joint that is lost to what is in its way, or that others live on as well (daemon/realtime/fault_reach.h)
+//            -> each of the others stops on its own, at once
 //
 // Where the path is just using what deceleration there is, resting along it waits. Joints that are to end, and do not rest along the path in
 // twice the time that they need on their own, stop on their own.
+//
+// After a stall of the loop over which nobody knows what a joint did (more than kMaxElapsedPeriods) each goes on from where it is. The path's time
+// waits for that, and goes on from where the path is nearest to all of them (control/path_return.h); what each is off it then goes away in a fifth of
+// a second or more.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +25,7 @@
 #include <vector>
 
 #include "control/path_clock.h"
+#include "control/path_return.h"
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/orders.h"
 
@@ -52,21 +59,31 @@ class PathFollower {
     PathTimes times;                   ///< of the clock
     double most_behind_periods = 0.0;  ///< of its members
     double duration_s = 0.0;
-    std::int64_t rest_cycles = 0;  ///< left for coming to rest along the path, while it ends
+    std::int64_t rest_cycles = 0;   ///< left for coming to rest along the path, while it ends
+    std::int64_t away_periods = 0;  ///< that the loop was, and nobody has found the path since
+    double back_s = 0.0;            ///< left for coming back to it
   };
   /// A joint's place on it.
   struct Member {
     std::size_t travel = kNoTravel;
     PathReader reader;
     double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
+    WayBack back;
   };
   template <typename Act>
-  void for_each_member(std::size_t travel, const Act& act) noexcept;
+  void for_each_member(std::size_t travel, const Act& act) noexcept {
+    for (std::size_t joint = 0; joint < members_.size(); ++joint)
+      if (members_[joint].travel == travel) act(*joints_[joint], members_[joint]);
+  }
   Ruling begin(std::size_t joint) noexcept;
   bool begin_all(std::size_t travel, const CycleTime& time) noexcept;
   void wait_for_the_slowest(std::size_t travel) noexcept;
   void advance(std::size_t travel, const CycleTime& time) noexcept;
-  void release_lost(std::size_t travel) noexcept;
+  bool return_to_path(std::size_t travel) noexcept;
+  void find_path(std::size_t travel) noexcept;
+  bool release_lost(std::size_t travel) noexcept;
+  bool is_over(std::size_t travel) noexcept;
+  void stop_each(std::size_t travel) noexcept;
   void bring_to_rest(std::size_t travel) noexcept;
   RateRoom room(std::size_t travel) noexcept;
   void free(std::size_t travel) noexcept;
@@ -75,6 +92,7 @@ class PathFollower {
   double period_s_;
   std::vector<Member> members_;  ///< by joint
   std::vector<Travel> travels_;  ///< by the joint that was told to begin
+  std::vector<StrayJoint> stray_;
 };
 
 }  // namespace strainwave

@@ -8,7 +8,6 @@
 
 #include "base/durations.h"
 #include "base/input_error.h"
-#include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/realtime_setup.h"
 
 namespace strainwave {
@@ -36,6 +35,7 @@ RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
         std::max(stop_deadline_periods_, static_cast<std::int64_t>(allowed_s / config.period_s));
   }
   paths_ = std::make_unique<PathFollower>(joints_, config.period_s);
+  groups_ = std::make_unique<JointGroups>(joints_, *paths_);
 }
 
 RealtimeLoop::~RealtimeLoop() {
@@ -84,7 +84,7 @@ void RealtimeLoop::run() noexcept {
     for (const auto& bus : buses_) bus->begin_cycle(time.now_ns);
     paths_->advance(time);
     for (const auto& joint : joints_) joint->step(time);
-    stop_faulted_groups(joints_, time);
+    groups_->stop_with_the_faulted(time);
     account_positions();
     for (const auto& bus : buses_) bus->end_cycle();
     publish(time);

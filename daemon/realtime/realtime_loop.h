@@ -14,6 +14,7 @@
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
+#include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/loop_parts.h"
 #include "daemon/realtime/overrun_watch.h"
@@ -88,6 +89,7 @@ class RealtimeLoop {
   std::vector<std::unique_ptr<Fieldbus>> buses_;  ///< the joints' drives refer to them
   std::vector<std::unique_ptr<JointLoop>> joints_;
   std::unique_ptr<PathFollower> paths_;
+  std::unique_ptr<JointGroups> groups_;
   std::thread thread_;
   std::string refusal_;
   std::string sleep_state_refusal_;

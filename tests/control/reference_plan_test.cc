@@ -205,5 +205,39 @@ TEST(ReferencePlan, FollowsAStream) {
   EXPECT_LT(worst_rad, 1e-5);
 }
 
+// As it is when it begins, wherever it was before.
+TEST(ReferencePlan, EasesAPathWhereMovesAreEasedAndTellsHowLateThatMakesIt) {
+  ReferencePlan path = eased();
+  EXPECT_EQ(path.lag_s(), 0.0) << "not yet";
+  EXPECT_GT(path.path_lag_s(), 0.0);
+  path.begin_path();
+  EXPECT_EQ(path.lag_s(), path.path_lag_s());
+  path.begin_path();
+  EXPECT_EQ(path.lag_s(), path.path_lag_s()) << "it was before";
+  ReferencePlan followed =
+      ReferencePlan::plain_until_eased(kPeriod_s, JerkLimit::spread_over(kMean_s, kPeriod_s));
+  followed.set_limits(kLimits);
+  followed.ease_from(0.0, 0.0);
+  EXPECT_EQ(followed.path_lag_s(), 0.0);
+  followed.begin_path();
+  EXPECT_EQ(followed.lag_s(), 0.0) << "its spring is told";
+  ReferencePlan limited = ReferencePlan::limited(kPeriod_s, JerkLimit(kLimits, 6000.0, kPeriod_s));
+  EXPECT_EQ(limited.path_lag_s(), limited.lag_s());
+  EXPECT_GT(limited.path_lag_s(), 0.0);
+  EXPECT_EQ(ReferencePlan::plain(kPeriod_s).path_lag_s(), 0.0);
+}
+
+// Where it goes on from on the way it stays eased, and goes on without a step.
+TEST(ReferencePlan, GoesOnWithAPathThatBeginsAnewOnTheWay) {
+  ReferencePlan plan = eased();
+  plan.begin_path();
+  plan.set_target(0.5);
+  Reference last;
+  (void)largest_step_rad_s2(plan, last, 60);
+  plan.begin_path();
+  EXPECT_LT(largest_step_rad_s2(plan, last, 400), kEasedStep_rad_s2 + 1e-6);
+  EXPECT_TRUE(plan.rests());
+}
+
 }  // namespace
 }  // namespace strainwave

@@ -574,5 +574,48 @@ TEST(ReferenceShaper, KeepsAllLimitsWhileItFollowsAnything) {
   }
 }
 
+TEST(StreamTarget, ThatIsSkippedIsWhereItWouldHaveGone) {
+  for (const int skipped : {5, 25, 45, 60}) {
+    StreamTarget stepped(kPeriod_s, 0.05);
+    StreamTarget leapt(kPeriod_s, 0.05);
+    for (StreamTarget* target : {&stepped, &leapt}) {
+      target->begin(0.0, 0.0, 0.0);
+      for (int k = 0; k < 200; ++k) {
+        if (k % 10 == 0) {
+          StreamSample sample = sine(1e-3 * (k + 30), 1);
+          sample.in_periods = 30;
+          target->take(sample, kReach);
+        }
+        (void)target->step();
+      }
+    }
+    MovingTarget last;
+    for (int k = 0; k < skipped; ++k) last = stepped.step();
+    leapt.skip(skipped);
+    const MovingTarget next = leapt.step();
+    EXPECT_EQ(next.position_rad, last.next_position_rad) << skipped;
+    EXPECT_EQ(next.velocity_rad_s, last.next_velocity_rad_s) << skipped;
+    EXPECT_FALSE(leapt.ended()) << skipped;
+  }
+}
+
+// What has come meanwhile is taken before anybody asks whether it has ended, and nothing goes on for as long as that in between.
+TEST(StreamTarget, ThatIsSkippedForLongEndsOnlyWhenNoSampleHasCome) {
+  for (const bool comes : {false, true}) {
+    StreamTarget target(kPeriod_s, 0.05);
+    target.begin(0.0, 0.0, 0.0);
+    for (int k = 0; k < 200; ++k) {
+      if (k % 10 == 0) target.take({0.5e-3 * k, 0.5, 0.0, 1, 10}, kReach);
+      (void)target.step();
+    }
+    target.skip(1000);
+    EXPECT_FALSE(target.ended());
+    if (comes) target.take({0.605, 0.5, 0.0, 1, 10}, kReach);
+    const MovingTarget next = target.step();
+    EXPECT_EQ(target.ended(), !comes);
+    EXPECT_LT(next.position_rad, 0.2) << "as far as a stream is bridged";
+  }
+}
+
 }  // namespace
 }  // namespace strainwave

@@ -7,6 +7,8 @@
 #include <set>
 #include <sstream>
 
+#include "daemon/realtime/fault_reach.h"
+#include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/vocabulary.h"
 #include "tests/daemon/realtime/injected_fault_table.h"
 #include "tests/support/message_files.h"
@@ -82,6 +84,24 @@ TEST(FaultsPage, ListsEveryFaultWithItsNumberTextAndKey) {
 
 TEST(FaultsPage, ListsEveryNoticeWithItsNumberTextAndKey) {
   expect_page_lists<Notice>("Notices", "Notice");
+}
+
+TEST(FaultsPage, SaysOfEveryFaultHowTheOthersOfAPathStopAndWhy) {
+  const auto text = [](OthersStop stop) {
+    return std::string(stop == OthersStop::kAtOnce ? "at once" : "along the path");
+  };
+  std::set<int> told;
+  for (const Row& row : rows_under("On a path")) {
+    const Fault fault = static_cast<Fault>(std::stoi(row.at(0)));
+    told.insert(std::stoi(row.at(0)));
+    EXPECT_EQ(row.at(1), declared("Fault").at(std::stoi(row.at(0))));
+    std::string stop = text(others_stop(fault, 0));
+    const OthersStop stuck = others_stop(fault, doubt_number(ReadingDoubt::kStuck));
+    if (stuck != others_stop(fault, 0)) stop += "; " + text(stuck) + " where the position stands still";
+    EXPECT_EQ(row.at(2), stop) << row.at(1);
+    EXPECT_FALSE(row.at(3).empty()) << row.at(1);
+  }
+  EXPECT_EQ(told.size() + 1, declared("Fault").size()) << "all but none";
 }
 
 TEST(FaultsPage, SaysOfEveryFaultWhatToDoAndHowFastItWorks) {

@@ -66,7 +66,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {2048, Notice::kOffTarget, "off target"},
                                      {4096, Notice::kLoadHigh, "load high"},
                                      {8192, Notice::kOtherInertia, "inertia not as told"},
-                                     {16384, Notice::kPathPaused, "path paused"}};
+                                     {16384, Notice::kPathPaused, "path paused"},
+                                     {32768, Notice::kPathEnds, "path ends early"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},

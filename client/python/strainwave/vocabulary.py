@@ -166,6 +166,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     LOAD_HIGH = 1 << 12
     OTHER_INERTIA = 1 << 13
     PATH_PAUSED = 1 << 14
+    PATH_ENDS = 1 << 15
 
     @property
     def texts(self):
@@ -195,6 +196,7 @@ _NOTICE_TEXTS = {
     Notice.LOAD_HIGH: "load high",
     Notice.OTHER_INERTIA: "inertia not as told",
     Notice.PATH_PAUSED: "path paused",
+    Notice.PATH_ENDS: "path ends early",
 }
 
 

@@ -106,5 +106,20 @@ TEST(OrderedTarget, IsShownToTheBitAsItWasOrderedAlsoAfterTheZeroHasMoved) {
   EXPECT_DOUBLE_EQ(target.shown_rad(drive_rad, zero), 0.9);
 }
 
+TEST(OrderedTarget, OfAPathThatEndsEarlyIsOnItUntilItIsOver) {
+  OrderedTarget target;
+  target.path_ends();
+  EXPECT_FALSE(target.ends_path()) << "there is none";
+  target.begin_path(1.0, 1.0);
+  EXPECT_FALSE(target.ends_path());
+  target.path_ends();
+  EXPECT_TRUE(target.ends_path());
+  EXPECT_TRUE(target.on_path());
+  EXPECT_TRUE(target.goes_on());
+  target.end();
+  EXPECT_FALSE(target.ends_path());
+  EXPECT_FALSE(target.on_path());
+}
+
 }  // namespace
 }  // namespace strainwave

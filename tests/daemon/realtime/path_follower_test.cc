@@ -348,7 +348,7 @@ TEST_F(PathFollowerTest, AHoldOfOneJointEndsThePathForAllAlongIt) {
 TEST_F(PathFollowerTest, AFaultOfOneJointBringsTheOthersToRestOnThePath) {
   begin();
   run(0.7);
-  bench_.inject(3, {InjectedFault::kPowerLost});
+  bench_.inject(3, {InjectedFault::kSensorNan});
   run(0.4);
   EXPECT_EQ(bench_.mode(3), Mode::kFaulted);
   double at_s = 0.6;
