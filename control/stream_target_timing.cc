@@ -160,7 +160,10 @@ void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
   if (!knot.told) {
     sender_.forget();
     clock_in(sample, present());
-    knot.at = arrival_;
+    knot.at = knot.clocked = arrival_;
+    if (slow())
+      for (std::size_t i = 0; i < past_count_; ++i)
+        if (past_[i].clocked > 0.0) past_[i].at = on_grid(past_[i]);
     return;
   }
   if (!sender_.take(sample.sent_us, present())) {
