@@ -155,9 +155,9 @@ double StreamTarget::nearest_of(double most, double farthest, const StreamSample
 }
 
 // Where it is told when a sample was sent, this is what it is for, unless samples lie in the rhythm that their sender meant to keep. Of a stream that
-// does not tell it of all, of none.
+// does not tell it of all, or by a clock that stands, of none.
 void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
-  untold_ = untold_ || sample.sent_us == 0;
+  untold_ = untold_ || sample.sent_us == 0 || sender_.repeats(sample.sent_us);
   knot.told = !untold_;
   if (!knot.told) {
     sender_.forget();
@@ -168,10 +168,7 @@ void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
         if (past_[i].clocked > 0.0) past_[i].at = on_grid(past_[i]);
     return;
   }
-  if (!sender_.take(sample.sent_us, present())) {
-    past_count_ = 0;
-    arrivals_ = 0;
-  }
+  sender_.take(sample.sent_us, present());
   knot.sent = sender_.sent();
   clock_in(sample, knot.sent + sender_.offset());
   knot.clocked = arrival_;
