@@ -4,7 +4,8 @@
 //   sent on our clock = sent on the sender's + offset
 //   offset   mean of arrival - sent over some forty messages, without those that came later than this by more than a network's jitter. One that
 //            comes so much earlier shows that all before were late, and none for so long as nobody is held up that the way has become
-//            longer; a difference of more than that, that the sender's clock was set
+//            longer
+//   a clock that was set, or stands still, says nothing: what comes by it came when it did, as if its way had been the usual one
 #pragma once
 
 #include <algorithm>
@@ -28,17 +29,20 @@ class SenderClock {
 
   /// The next message is the first.
   void forget() noexcept { messages_ = 0; }
-  /// A message of `sent_us` > 0 on the sender's clock comes in this period of ours. False: it is the first, or the first on a clock that was set:
-  /// what was sent before cannot be told from it.
-  bool take(std::int64_t sent_us, double period) noexcept {
-    const double since = messages_ > 0 ? static_cast<double>(sent_us - last_us_) / period_us_ : 0.0;
-    const double late = period - (sent_ + since + offset_);
-    last_us_ = sent_us;
-    if (messages_ == 0 || std::abs(late) * period_us_ > 1e6 * waits_.clock_set_s) {
+  /// A message of `sent_us` > 0 on the sender's clock comes in this period of ours.
+  void take(std::int64_t sent_us, double period) noexcept {
+    if (messages_ == 0) {
+      last_us_ = sent_us;
       sent_ = 0.0;
       offset_ = period;
-      begin_mean();
-      return false;
+      return begin_mean();
+    }
+    const double since = static_cast<double>(sent_us - last_us_) / period_us_;
+    const double late = period - (sent_ + since + offset_);
+    last_us_ = sent_us;
+    if (since <= 0.0 || std::abs(late) * period_us_ > 1e6 * waits_.clock_set_s) {
+      sent_ = std::max(sent_, period - offset_);
+      return;
     }
     sent_ += since;
     const double jitter = 1e6 * waits_.jitter_s / period_us_;
@@ -48,21 +52,20 @@ class SenderClock {
         quickest_ = period - sent_;
       }
       quickest_ = std::min(quickest_, period - sent_);
-      if ((period - since_) * period_us_ <= 1e6 * waits_.in_a_row_s) return true;
+      if ((period - since_) * period_us_ <= 1e6 * waits_.in_a_row_s) return;
       offset_ = quickest_;
-      begin_mean();
-      return true;
+      return begin_mean();
     }
     if (late < -jitter) {
       offset_ += late;
-      begin_mean();
-      return true;
+      return begin_mean();
     }
     messages_ = std::min(messages_ + 1, kAveraged);
     offset_ += late / messages_;
     held_up_ = false;
-    return true;
   }
+  /// A clock that shows this stands still.
+  bool repeats(std::int64_t sent_us) const noexcept { return messages_ > 0 && sent_us == last_us_; }
   /// Periods from the first message's sending to the last one's; rises with the sender's clock, whatever is learned of the way.
   double sent() const noexcept { return sent_; }
   /// sent() + offset(): the period of ours in which one that takes as long as most do would have come.

@@ -46,6 +46,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   waiting_.clear();
   interval_ = 0.0;
   arrivals_ = 0;
+  part_.forget();
   sender_.forget();
   untold_ = false;
   out_of_rhythm_ = 0.0;
@@ -53,6 +54,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   in_rhythm_ = false;
   caught_up_at_ = now_;
   past_count_ = 0;
+  nodes_.forget();
   missed_ = false;
   ended_ = false;
 }

@@ -13,7 +13,8 @@
 //                         d01 + (t0 - t1) (d01 - d12) / (t0 - t2),  dij = (pi - pj) / (ti - tj)
 //                       and the motion lags one interval. Accelerations that are not given by velocities, likewise. Below 48 Hz by the
 //                       polynomial through up to five samples, of which each more says no more that is new than half of what one of
-//                       the two before it did
+//                       the two before it did, and has helped of late (control/node_weights.h): what a sample's time is off would grow twentyfold where
+//                       one is lost
 //   contradiction       a velocity that is not that of the positions is not used; the positions are. Likewise an acceleration that is
 //                       farther than the limit from that of the velocities. And what is carried
 //                       forward is no farther from the line through the last two samples than the limit of acceleration
@@ -45,38 +46,12 @@
 #include <limits>
 #include <utility>
 
+#include "control/node_weights.h"
+#include "control/rhythm_part.h"
 #include "control/sender_clock.h"
+#include "control/stream_sample.h"
 
 namespace strainwave {
-
-/// What who streams knows of the load and the joint does not: a torque to add to the planned one, and an inertia that is carried
-/// besides the joint's own.
-struct ToldLoad {
-  double torque_Nm = 0.0;
-  double inertia_kgm2 = 0.0;  ///< >= 0
-};
-
-/// One setpoint of a stream. All finite.
-struct StreamSample {
-  double position_rad = 0.0;
-  double velocity_rad_s = 0.0;       ///< with derivatives >= 1
-  double acceleration_rad_s2 = 0.0;  ///< with derivatives == 2
-  int derivatives = 0;               ///< how many of the position's are given: 0, 1 or 2
-  /// Periods from now to the instant that it is for, > 0; 0: none is given.
-  std::int64_t in_periods = 0;
-  ToldLoad load{};
-  std::int64_t sent_us = 0;  ///< when it was sent, on the sender's clock; 0: not told
-};
-
-/// Target of a period: at its begin and at its end.
-struct MovingTarget {
-  double position_rad = 0.0;
-  double velocity_rad_s = 0.0;
-  double next_position_rad = 0.0;
-  double next_velocity_rad_s = 0.0;
-  ToldLoad load{};
-  bool rests() const noexcept { return velocity_rad_s == 0.0 && next_velocity_rad_s == 0.0; }
-};
 
 class StreamTarget {
  public:
@@ -121,7 +96,7 @@ class StreamTarget {
   static constexpr double kReach = 2.0;
   /// From so slow a stream on more than three samples tell velocity, acceleration and jerk: in faster ones it would be their noise.
   static constexpr double kSlow_s = 0.021;
-  static constexpr std::size_t kNodes = 5;  ///< samples that they tell them from at most
+  static constexpr std::size_t kNodes = NodeWeights::kMost;  ///< samples that they tell them from at most
   /// Velocities are estimated from positions that are at least so far apart.
   static constexpr double kApart_s = 0.01;
   struct Knot {
@@ -222,7 +197,7 @@ class StreamTarget {
     double second = 0.0;
     double third = 0.0;
   };
-  Derivatives derivatives_at(const Knot& newest, const Before& before, double Knot::*value) const noexcept;
+  Derivatives derivatives_at(const Knot& newest, const Before& before, double Knot::*value) noexcept;
   ToldLoad load_at(double period) const noexcept;
   double seconds(double periods) const noexcept { return periods * period_s_; }
   double expected_interval() const noexcept;
@@ -233,7 +208,9 @@ class StreamTarget {
   void reconsider(const StreamSample& sample) noexcept;
   Knot last_in_rhythm() const noexcept;
   void weigh_rhythm(const Knot& knot) noexcept;
-  double off_rad(const Knot& knot, double Knot::*time) const noexcept;
+  double on_grid(const Knot& one) const noexcept;
+  template <typename Time>
+  double off_rad(const Knot& knot, const Time& time_of) const noexcept;
   void clock_in(const StreamSample& sample, double came) noexcept;
   void clock_in_held_up() noexcept;
   double intervals_in(double gap, const StreamSample& sample) noexcept;
@@ -282,14 +259,16 @@ class StreamTarget {
   double came_ = 0.0;          ///< when it came
   double first_came_ = 0.0;    ///< when the first of arrivals_ did
   double caught_up_at_ = 0.0;  ///< period: until then what was missed is caught up with
-  int counted_lost_ = 0;       ///< intervals before the last sample
-  bool later_ = false;         ///< the last sample was, than jitter makes it
-  int held_up_ = 0;            ///< samples in a row
+  RhythmPart part_;
+  int counted_lost_ = 0;  ///< intervals before the last sample
+  bool later_ = false;    ///< the last sample was, than jitter makes it
+  int held_up_ = 0;       ///< samples in a row
   SenderClock sender_;
   bool untold_ = false;         ///< of a sample of this stream nobody said when it was sent
   double out_of_rhythm_ = 0.0;  ///< samples that lie off it, more than off where they were sent
   bool in_rhythm_ = false;      ///< samples are for the instants of the rhythm, not for when they were sent
-  int arrivals_ = 0;            ///< untimed ones, that the loop has locked to
+  NodeWeights nodes_;
+  int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
   Hull hull_;            ///< of past_

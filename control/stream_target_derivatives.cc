@@ -87,32 +87,40 @@ void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexc
 }
 
 // Of the polynomial through the newest and the samples before, in Newton's form: through two of them, and in slow streams through as many
-// more, up to kNodes with the newest, as say little that is new. Where one came at another time than it was taken for, each more would say
-// more.
+// more, up to kNodes with the newest, as say little that is new and have helped. Where one came at
+// another time than it was taken for, each more would say more.
 StreamTarget::Derivatives StreamTarget::derivatives_at(const Knot& newest, const Before& before,
-                                                       double Knot::*value) const noexcept {
-  std::array<double, kNodes> ages_s{};
-  std::array<double, kNodes> differences{};  // divided, from each node to the latest
+                                                       double Knot::*value) noexcept {
+  std::array<double, kNodes + 1> ages_s{};
+  std::array<double, kNodes + 1> differences{};  // divided, from each node to the latest
+  std::array<double, kNodes + 1> slopes{};       // divided, over the newest and all nodes up to this
+  NodeWeights::Missed missed{};
   differences[0] = newest.*value;
+  double product = 1.0;  // of the ages of the nodes between newest and latest
+  const Knot* node = before.last;
+  std::size_t nodes = 1;
+  for (; nodes <= kNodes && node != nullptr; ++nodes) {
+    ages_s[nodes] = seconds(newest.at - node->at);
+    differences[nodes] = node->*value;
+    for (std::size_t i = nodes; i-- > 0;)
+      differences[i] = (differences[i + 1] - differences[i]) / (ages_s[i] - ages_s[nodes]);
+    slopes[nodes] = differences[0];
+    product *= ages_s[nodes];
+    missed[nodes] = std::abs(differences[0]) * product;
+    node = nodes == 1 ? before.first : sample_before(node->at, kApart_s);
+  }
+  if (slow()) nodes_.weigh(missed, nodes - 1);
   // Of t, from 0 on: of the product of (t + age) over the nodes between newest and latest.
   std::array<double, 3> powers{1.0};
-  double last_new = 0.0, last_but_one_new = 0.0;
   Derivatives shown;
-  const Knot* node = before.last;
-  for (std::size_t n = 1; n < kNodes && node != nullptr; ++n) {
-    ages_s[n] = seconds(newest.at - node->at);
-    differences[n] = node->*value;
-    for (std::size_t i = n; i-- > 0;)
-      differences[i] = (differences[i + 1] - differences[i]) / (ages_s[i] - ages_s[n]);
-    // By what the polynomial of the older nodes misses the newest.
-    const double new_here = std::abs(differences[0]) * powers[0] * ages_s[n];
-    if (n > 2 && !(slow() && new_here <= kLittleNew * std::max(last_new, last_but_one_new))) break;
-    last_but_one_new = std::exchange(last_new, new_here);
-    shown.first += differences[0] * powers[0];
-    shown.second += 2.0 * differences[0] * powers[1];
-    shown.third += 6.0 * differences[0] * powers[2];
+  for (std::size_t n = 1; n < std::min(nodes, kNodes); ++n) {
+    if (n > 2 &&
+        !(slow() && missed[n] <= kLittleNew * std::max(missed[n - 1], missed[n - 2]) && nodes_.helps(n)))
+      break;
+    shown.first += slopes[n] * powers[0];
+    shown.second += 2.0 * slopes[n] * powers[1];
+    shown.third += 6.0 * slopes[n] * powers[2];
     powers = {ages_s[n] * powers[0], powers[0] + ages_s[n] * powers[1], powers[1] + ages_s[n] * powers[2]};
-    node = n == 1 ? before.first : sample_before(node->at, kApart_s);
   }
   return shown;
 }

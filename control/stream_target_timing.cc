@@ -1,5 +1,6 @@
 // Which instant a sample of StreamTarget is for that is not stamped.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,6 +15,8 @@ namespace {
 // over some forty.
 constexpr double kLeastArrivalGain = 0.05;
 constexpr double kLeastIntervalGain = 0.00125;
+// Of so many arrivals the first interval may have been no interval of the stream.
+constexpr int kFirst = 40;
 // Of so many arrivals on, one alone that is so much later says nothing either.
 constexpr int kLocked = 10;
 // For longer than this nobody is held up, and no motion goes on as it was.
@@ -152,46 +155,62 @@ double StreamTarget::nearest_of(double most, double farthest, const StreamSample
 }
 
 // Where it is told when a sample was sent, this is what it is for, unless samples lie in the rhythm that their sender meant to keep. Of a stream that
-// does not tell it of all, of none.
+// does not tell it of all, or by a clock that stands, of none.
 void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
-  untold_ = untold_ || sample.sent_us == 0;
+  untold_ = untold_ || sample.sent_us == 0 || sender_.repeats(sample.sent_us);
   knot.told = !untold_;
   if (!knot.told) {
     sender_.forget();
     clock_in(sample, present());
-    knot.at = arrival_;
+    knot.at = knot.clocked = arrival_;
+    if (slow())
+      for (std::size_t i = 0; i < past_count_; ++i)
+        if (past_[i].clocked > 0.0) past_[i].at = on_grid(past_[i]);
     return;
   }
-  if (!sender_.take(sample.sent_us, present())) {
-    past_count_ = 0;
-    arrivals_ = 0;
-  }
+  sender_.take(sample.sent_us, present());
   knot.sent = sender_.sent();
   clock_in(sample, knot.sent + sender_.offset());
   knot.clocked = arrival_;
   weigh_rhythm(knot);
-  const auto at = [&](const Knot& one) { return in_rhythm_ ? one.clocked : one.sent + sender_.offset(); };
+  const auto at = [&](const Knot& one) { return in_rhythm_ ? on_grid(one) : one.sent + sender_.offset(); };
   knot.at = at(knot);
   for (std::size_t i = 0; i < past_count_; ++i)
     if (past_[i].told) past_[i].at = at(past_[i]);
 }
 
-// By how much it misses the parabola through the three samples before it, by these times of theirs.
-double StreamTarget::off_rad(const Knot& knot, double Knot::*time) const noexcept {
-  const Knot &a = past_[0], &b = past_[1], &c = past_[2];
-  const double t = knot.*time, ta = a.*time, tb = b.*time, tc = c.*time;
-  if (ta <= tb || tb <= tc || t <= ta) return std::numeric_limits<double>::infinity();
-  const double ab = (a.position_rad - b.position_rad) / (ta - tb);
-  const double bc = (b.position_rad - c.position_rad) / (tb - tc);
-  const double abc = (ab - bc) / (ta - tc);
-  return std::abs(knot.position_rad - a.position_rad - (t - ta) * (ab + (t - tb) * abc));
+// Where the samples before it lie on the grid of the rhythm, which the smoothed instants of their arrivals approach.
+double StreamTarget::on_grid(const Knot& one) const noexcept {
+  return arrival_ - interval_ * std::round((arrival_ - one.clocked) / interval_);
+}
+
+// By how much it misses the polynomial through the samples before it that misses it least, of those through three and, in slow streams, more; by
+// these times of theirs.
+template <typename Time>
+double StreamTarget::off_rad(const Knot& knot, const Time& time_of) const noexcept {
+  std::array<double, kNodes + 1> differences{}, at{};
+  const std::size_t most = std::min(slow() ? kNodes : 3, past_count_);
+  double product = 1.0;
+  double least_rad = std::numeric_limits<double>::infinity();
+  at[0] = time_of(knot);
+  differences[0] = knot.position_rad;
+  for (std::size_t n = 1; n <= most && past_[n - 1].told; ++n) {
+    at[n] = time_of(past_[n - 1]);
+    if (at[n] >= at[n - 1]) break;
+    differences[n] = past_[n - 1].position_rad;
+    for (std::size_t i = n; i-- > 0;)
+      differences[i] = (differences[i + 1] - differences[i]) / (at[n] - at[i]);
+    product *= at[0] - at[n];
+    if (n >= 3) least_rad = std::min(least_rad, std::abs(differences[0]) * product);
+  }
+  return least_rad;
 }
 
 // Where samples lie farther from a motion: in the rhythm, or where they were sent. What the parabola misses of the motion, it does on both.
 void StreamTarget::weigh_rhythm(const Knot& knot) noexcept {
   if (past_count_ < 3 || !past_[0].told || !past_[1].told || !past_[2].told) return;
-  const double sent_rad = off_rad(knot, &Knot::sent);
-  const double rhythm_rad = off_rad(knot, &Knot::clocked);
+  const double sent_rad = off_rad(knot, [](const Knot& one) { return one.sent; });
+  const double rhythm_rad = off_rad(knot, [this](const Knot& one) { return on_grid(one); });
   if (std::max(rhythm_rad, sent_rad) < kSameTimes_rad) return;
   const double sum = rhythm_rad * rhythm_rad + sent_rad * sent_rad;
   const double more = std::isfinite(sum) ? (rhythm_rad * rhythm_rad - sent_rad * sent_rad) / sum : 0.0;
@@ -202,7 +221,8 @@ void StreamTarget::weigh_rhythm(const Knot& knot) noexcept {
 void StreamTarget::clock_in(const StreamSample& sample, double came) noexcept {
   ++arrivals_;
   const double gap = came - arrival_;
-  const bool at_once = arrivals_ > 1 && came - came_ < 0.5;
+  const double since_last = came - came_;
+  const bool at_once = arrivals_ > 1 && since_last < 0.5;
   came_ = came;
   if (arrivals_ == 1) first_came_ = came_;
   // Among as many from the first on as one hold-up may hold, one a period, one that comes with the one before was held up: no interval is
@@ -214,6 +234,13 @@ void StreamTarget::clock_in(const StreamSample& sample, double came) noexcept {
     arrival_ = came;
     counted_lost_ = 0;
     held_up_ = 0;
+    return;
+  }
+  if (arrivals_ <= kFirst && part_.take(since_last, interval_, kJitter_s / period_s_)) {
+    interval_ = part_.interval();
+    arrival_ = came;
+    arrivals_ = kLocked;
+    counted_lost_ = held_up_ = 0;
     return;
   }
   const double n = arrivals_;

@@ -43,14 +43,24 @@ TEST(SenderClock, TakesAWayThatStaysLongerForTheWay) {
   EXPECT_NEAR(offset, 3.0, 1.0) << "and one that gets shorter at once";
 }
 
-TEST(SenderClock, BeginsAnewWhereTheClockIsSet) {
+TEST(SenderClock, TakesWhatComesByAClockThatWasSetForWhenItCame) {
   SenderClock clock(kPeriod_s);
   for (int i = 0; i < 50; ++i) taken(clock, i, 3.0);
-  for (const std::int64_t set_us : {std::int64_t{3'600'000'000}, std::int64_t{-7'200'000'000}}) {
-    EXPECT_FALSE(clock.take(kEpoch_us + set_us, 1003.0));
-    EXPECT_EQ(clock.sent() + clock.offset(), 1003.0);
-    EXPECT_TRUE(clock.take(kEpoch_us + set_us + 20'000, 1023.0));
-    EXPECT_NEAR(clock.sent() + clock.offset(), 1023.0, 1e-6);
+  int i = 50;
+  for (const std::int64_t set_us :
+       {std::int64_t{3'600'000'000}, std::int64_t{-7'200'000'000}, std::int64_t{300'000}}) {
+    EXPECT_NEAR(taken(clock, i, 4.0, set_us), 20.0 * i + 4.0, 1e-6) << "the first as it came";
+    ++i;
+    EXPECT_NEAR(taken(clock, i, 3.0, set_us), 20.0 * i + 4.0, 1.0) << "and the next by the clock";
+    ++i;
+  }
+}
+
+TEST(SenderClock, TakesWhatComesByAClockThatStandsForWhenItCame) {
+  SenderClock clock(kPeriod_s);
+  for (int i = 0; i < 100; ++i) {
+    clock.take(kEpoch_us, 20.0 * i + 3.0);
+    EXPECT_NEAR(clock.sent() + clock.offset(), 20.0 * i + 3.0, 1e-6) << i;
   }
 }
 

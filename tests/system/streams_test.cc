@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "base/utime.h"
 #include "control/gain_table_json.h"
 #include "tests/support/daemon_fixture.h"
 
@@ -129,6 +130,81 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     return result;
   }
 
+  /// Positions alone, 20 a second, each for when its sender, by a clock of its own, planned to send it, and told when it was: up to 2 ms later.
+  /// It plans from the answer to its first on.
+  enum class Harm { kNone, kOneLost, kAll };
+  Ride ride_by_senders_clock(Harm harm) {
+    constexpr int kInterval_us = 50'000;
+    constexpr int kSamples = 90;
+    constexpr int kLost = 40;  // at full speed, in the second period of the sine
+    EXPECT_TRUE(client_->move("elbow", 0.0).accepted);
+    client_->pump(milliseconds(2000));
+    client_->begin_stream();
+    client_->forget_states();
+    setpoint_v2 first = client_->make_setpoint("elbow", 0.0, 0.3);
+    first.utime = utime_now();
+    client_->lcm().publish("SW.elbow.SETPOINT", &first);
+    EXPECT_TRUE(client_->wait_for_answer(first.sequence).accepted);
+    const std::int64_t base_us = utime_now() + 10'000;
+    base_ = client_->state("elbow")->cycle + 10;
+    std::mt19937 random(7);
+    const auto chance = [&] { return harm == Harm::kAll && random() % 10 == 0; };
+    std::optional<setpoint_v2> late;
+    int missing = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const std::int64_t due_us = base_us + i * kInterval_us + static_cast<std::int64_t>(random() % 2000);
+      while (utime_now() < due_us - 1000) client_->pump(milliseconds(1));
+      while (utime_now() < due_us) {
+      }
+      const double phase = kOmega_rad_s * 1e-6 * i * kInterval_us;
+      setpoint_v2 sample = client_->make_setpoint("elbow", kAmplitude_rad * std::sin(phase), 0.3);
+      sample.acknowledge = 0;
+      sample.utime = utime_now();
+      const bool gap = harm == Harm::kAll && i % 10 == 4;
+      const bool may_miss = i >= 20 && missing < 2;
+      const bool lost = may_miss && ((harm == Harm::kOneLost && i == kLost) || gap || chance());
+      const bool reordered = may_miss && !lost && !late && chance();
+      missing = lost || reordered ? missing + 1 : 0;
+      if (reordered) late = sample;
+      if (lost || reordered) continue;
+      for (int copies = chance() ? 2 : 1; copies > 0; --copies)
+        client_->lcm().publish("SW.elbow.SETPOINT", &sample);
+      if (late) client_->lcm().publish("SW.elbow.SETPOINT", &*late);
+      late.reset();
+    }
+    client_->pump(milliseconds(50));
+    EXPECT_TRUE(client_->command("elbow", Action::kHold).accepted);
+    EXPECT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding));
+    return judge_setpoint();
+  }
+
+  /// Of the setpoint from the sine at that lag, near an interval, that leaves least.
+  Ride judge_setpoint() {
+    Ride best;
+    best.largest_error_rad = kAmplitude_rad;
+    for (double lag_s = 0.045; lag_s < 0.06; lag_s += 0.00025) {
+      Ride one;
+      const state_v1* last = nullptr;
+      for (const state_v1& state : client_->history("elbow")) {
+        const std::int64_t k = state.cycle - base_;
+        if (k < 1500 || k >= 4400) continue;
+        EXPECT_EQ(state.mode, static_cast<std::int32_t>(Mode::kTracking));
+        const double sine_rad =
+            kAmplitude_rad * std::sin(kOmega_rad_s * (1e-3 * static_cast<double>(k) - lag_s));
+        ++one.cycles;
+        one.largest_error_rad =
+            std::max(one.largest_error_rad, std::abs(state.setpoint_position_rad - sine_rad));
+        if (last != nullptr && std::abs(state.setpoint_velocity_rad_s) > 0.3)
+          one.largest_step_Nm =
+              std::max(one.largest_step_Nm, std::abs(state.torque_commanded_Nm - last->torque_commanded_Nm));
+        last = &state;
+      }
+      if (one.largest_error_rad < best.largest_error_rad) best = one;
+    }
+    return best;
+  }
+
+  std::int64_t base_ = 0;  ///< cycle in which the sine begins
   std::optional<DaemonProcess> daemon_;
   std::optional<TestClient> client_;
 };
@@ -155,6 +231,25 @@ TEST_P(DaemonStreams, AreFollowedWithTheTorqueOfTheMotionWhateverTheNetworkDoes)
   const Ride hurt = ride(10, 1, true);
   print("lost, doubled, reordered, gaps", hurt);
   EXPECT_LT(hurt.largest_error_rad, 5e-3);
+}
+
+TEST_P(DaemonStreams, OfASlowSenderAreFollowedByItsClockWhateverIsLost) {
+  const auto print = [&](const char* what, const Ride& one) {
+    std::printf("20 Hz, positions by utime, %s: %lld cycles, setpoint off by %.2f mrad, step %.2f N.m\n",
+                what, static_cast<long long>(one.cycles), 1e3 * one.largest_error_rad, one.largest_step_Nm);
+  };
+  const Ride all_came = ride_by_senders_clock(Harm::kNone);
+  print("all came", all_came);
+  EXPECT_GT(all_came.cycles, 2500);
+  EXPECT_LT(all_came.largest_error_rad, 3e-3);
+  const Ride one_lost = ride_by_senders_clock(Harm::kOneLost);
+  print("one lost at full speed", one_lost);
+  EXPECT_LT(one_lost.largest_error_rad, 3e-3);
+  EXPECT_LT(one_lost.largest_step_Nm, all_came.largest_step_Nm + 1.0);
+  const Ride hurt = ride_by_senders_clock(Harm::kAll);
+  print("lost, doubled, reordered, gaps", hurt);
+  EXPECT_LT(hurt.largest_error_rad, 5e-3);
+  EXPECT_LT(hurt.largest_step_Nm, all_came.largest_step_Nm + 2.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(OnBothJoints, DaemonStreams, ::testing::Bool(),

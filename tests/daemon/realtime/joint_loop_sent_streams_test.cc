@@ -24,14 +24,15 @@ constexpr int kSentEnd = 8000;
 constexpr int kBridged = 80;
 constexpr double kSentTurning_rad_s = 0.3;
 constexpr std::int64_t kSentEpoch_us = 1'700'000'000'000'000;
+constexpr std::int64_t kHour_us = 3'600'000'000;
 
-/// Of which samples it is told when they were sent.
-enum class Telling { kAll, kNone, kEverySecond, kAnyOther, kAtFirst };
+/// Of which samples it is told when they were sent; or of all, by a clock that is set an hour on or back every fifteen samples, or that stands.
+enum class Telling { kAll, kNone, kEverySecond, kAnyOther, kAtFirst, kClockSet, kClockStands };
 
 struct SentSample {
-  int comes = 0;  ///< period
-  int sent = 0;   ///< period, and what it is for
-  bool told = false;
+  int comes = 0;             ///< period
+  int sent = 0;              ///< period, and what it is for
+  std::int64_t told_us = 0;  ///< 0: not
 };
 
 /// A tenth is lost, two in a row at most, a twentieth swapped, none comes for 30 ms twice a second and for 50 ms every 0.9 s; those come
@@ -44,6 +45,8 @@ std::vector<SentSample> sent_samples(Telling telling, bool timer_late, unsigned 
     const double any = chance();
     switch (telling) {
       case Telling::kAll:
+      case Telling::kClockSet:
+      case Telling::kClockStands:
         return true;
       case Telling::kNone:
         return false;
@@ -62,8 +65,12 @@ std::vector<SentSample> sent_samples(Telling telling, bool timer_late, unsigned 
   for (int i = 0; i < kSentEnd / kSentEvery; ++i) {
     const bool late = chance() < 0.02;
     const int late_by = static_cast<int>(20.0 * chance());
-    SentSample one{0, i * kSentEvery, told(i)};
+    const bool is_told = told(i);
+    SentSample one{0, i * kSentEvery, 0};
     if (i > 50 && late && timer_late) one.sent += std::min(late_by, kSentEvery - 1);
+    if (is_told)
+      one.told_us = kSentEpoch_us + (telling == Telling::kClockStands ? 0 : 1000 * std::int64_t{one.sent});
+    if (telling == Telling::kClockSet && i / 15 % 2 == 1) one.told_us += kHour_us;
     one.comes = one.sent;
     const bool gap = one.sent % 500 >= 200 && one.sent % 500 < 230;
     const bool lost = chance() < 0.1 || gap;
@@ -120,7 +127,7 @@ SentRide sent_ride(const std::vector<SentSample>& samples, bool flexible, double
       order.begins_stream = next == 0;
       order.valid_for_s = 0.2;
       order.position_rad = kSentAmplitude_rad * std::sin(kSentOmega_rad_s * 1e-3 * samples[next].sent);
-      if (samples[next].told) order.sent_us = kSentEpoch_us + 1000 * std::int64_t{samples[next].sent};
+      order.sent_us = samples[next].told_us;
       EXPECT_TRUE(bench.joint(0).orders().push(order));
     }
     bench.step();
@@ -187,9 +194,22 @@ TEST(JointLoopSentStreams, AreWhereTheirSenderWasIfToldOfSomeAndTheTimerIsOnTime
   }
 }
 
+// The sample that shows that the clock was set is taken for when it came, and by a clock that stands nothing is told.
+TEST(JointLoopSentStreams, GoOnWhereTheClockIsSetOrStands) {
+  for (const bool flexible : {false, true}) {
+    const double told_step_Nm = worst_ride(Telling::kAll, false, flexible).largest_step_Nm;
+    for (const Telling telling : {Telling::kClockSet, Telling::kClockStands}) {
+      const SentRide worst = worst_ride(telling, false, flexible);
+      EXPECT_LT(worst.largest_error_rad, 5e-3) << flexible;
+      EXPECT_LT(worst.largest_step_Nm, told_step_Nm + 1.0) << flexible;
+    }
+  }
+}
+
 TEST(JointLoopSentStreams, KeepTheJerkLimitWhateverIsTold) {
   constexpr double kJerk_rad_s3 = 2000.0;
-  for (const Telling telling : {Telling::kAll, Telling::kNone, kMixed[0], kMixed[1], kMixed[2]})
+  for (const Telling telling : {Telling::kAll, Telling::kNone, kMixed[0], kMixed[1], kMixed[2],
+                                Telling::kClockSet, Telling::kClockStands})
     for (const bool timer_late : {false, true}) {
       const SentRide worst = worst_ride(telling, timer_late, false, kJerk_rad_s3);
       EXPECT_LT(worst.largest_jerk_rad_s3, 1.001 * kJerk_rad_s3);
