@@ -108,7 +108,7 @@ class JointController {
   /// Decelerates to rest and holds.
   void stop() noexcept;
   /// Lets go: until what pushes the joint has let go of it or it stands, the torque is what holds `load_Nm`, gravity and what a stream tells
-  /// of. Then it decelerates to rest and holds. A load of no more than `let_go_Nm` besides has let go.
+  /// of. Then it decelerates to rest and holds. A load of no more than `let_go_Nm`, which is above `load_Nm`, has let go.
   void yield(double load_Nm, double let_go_Nm) noexcept;
   bool yields() const noexcept { return phase_ == MotionPhase::kYielding; }
   /// Where the motion ends, as far as the orders say: of a stream its last sample.
@@ -203,7 +203,7 @@ class JointController {
   /// What yield() began.
   struct Yielding {
     double load_Nm = 0.0;        ///< besides gravity, held ...
-    double let_go_Nm = 0.0;      ///< ... until no more shows besides
+    double let_go_Nm = 0.0;      ///< ... until no more shows
     double stands_at_rad = 0.0;  ///< about where the joint was last seen to stand
     int periods = 0;             ///< that it has stood, or been let go
   };

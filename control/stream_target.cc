@@ -35,9 +35,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   now_ = lead_periods;
   mean_s_ = 0.0;
   state_ = {position_rad, velocity_rad_s, 0.0};
-  load_ = load;
-  load_from_ = load;
-  load_to_ = load;
+  load_ = load_from_ = load_to_ = load;
   load_from_at_ = now_;
   load_to_at_ = now_;
   to_ = {now_, position_rad, velocity_rad_s, 0.0};

@@ -16,7 +16,7 @@ double yield_to_a_push(ControlledJoint& loop) {
   loop.run(1.0);
   const double held_rad = loop.position_rad();
   loop.load_torque_Nm = 20.0;
-  loop.controller().yield(kLoad_Nm, 4.0);
+  loop.controller().yield(kLoad_Nm, kLoad_Nm + 2.0);
   return held_rad;
 }
 
