@@ -48,6 +48,7 @@ void travel(Client& client, const Output& output, const std::vector<JointPath>& 
   load_path(client, path);
   start_path(client, path);
   std::vector<std::string> joints;
+  joints.reserve(path.size());
   for (const JointPath& part : path) joints.push_back(part.joint);
   const double path_s = path_duration_s(path);
   const std::string names = fmt::format("{}", fmt::join(joints, ", "));
