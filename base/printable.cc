@@ -106,7 +106,7 @@ std::string number_text(double value) {
 
 std::string bound_text(double bound) {
   for (int digits = kFewestDigits; digits < kAllDigits; ++digits) {
-    const std::string text = in_digits(bound, digits);
+    std::string text = in_digits(bound, digits);
     double read = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), read);
     if (std::abs(read - bound) <= 0.1 * kAtBound * std::abs(bound)) return text;
