@@ -11,6 +11,7 @@
 
 #include "client/joint/joint.h"
 #include "client/link/client.h"
+#include "client/link/connection.h"
 #include "client/link/cycle_clock.h"
 #include "client/link/published_limits.h"
 
@@ -31,6 +32,7 @@ class JointLink {
   std::unique_lock<std::recursive_mutex> lock() { return std::unique_lock(mutex_); }
 
   Client& client() noexcept { return client_; }
+  const Connection& connection() const noexcept { return connection_; }
   /// The latest, with what came by now; waits for the first. Throws NoAnswer when there is none that is new enough.
   const JointView& view();
   const limits_v1& limits();
@@ -55,6 +57,9 @@ class JointLink {
   std::recursive_mutex mutex_;
   std::jthread listener_;  ///< the last, so that it ends first
 };
+
+/// Throws InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles. `who_are`: "the joints of a path are".
+void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who_are);
 
 /// `value`, if it is finite and `is_allowed`. `joint`: whose it is. Throws InvalidInput.
 double checked_number(const std::string& joint, const std::string& name, double value,

@@ -13,10 +13,7 @@ Path::Path(const std::vector<PathPart>& parts) {
   for (const auto& [joint, knots] : parts) {
     links_.push_back(joint.link_);
     parts_.push_back({joint.name(), knots});
-    const std::string& prefix = joint.link_->client().options().prefix;
-    if (const std::string& of_first = first().client().options().prefix; prefix != of_first)
-      throw InvalidInput(fmt::format("{} has prefix {}, {} has {}: the joints of a path are of one daemon",
-                                     joint.name(), prefix, parts_.front().joint, of_first));
+    require_same_daemon(*joint.link_, first(), "the joints of a path are");
   }
   check_path(parts_);
 }

@@ -53,9 +53,16 @@ struct Stream::TimeBase {
   }
 };
 
+std::shared_ptr<Stream::TimeBase> Stream::base_of(JointLink& link, const Stream* beside) {
+  if (beside == nullptr) return std::make_shared<TimeBase>();
+  if (!beside->link_) throw InvalidInput(link.name() + ": beside: the stream there was moved from");
+  require_same_daemon(link, *beside->link_, "streams beside each other are");
+  return beside->base_;
+}
+
 Stream::Stream(std::shared_ptr<JointLink> link, const StreamOptions& options)
     : link_(std::move(link)),
-      base_(options.beside != nullptr ? options.beside->base_ : std::make_shared<TimeBase>()),
+      base_(base_of(*link_, options.beside)),
       options_(checked(link_->name(), options)),
       period_s_(period_of(*link_)),
       stream_id_(new_stream(*link_)),

@@ -54,6 +54,7 @@ class Stream {
   friend class Joint;
   struct TimeBase;
   Stream(std::shared_ptr<JointLink> link, const StreamOptions& options);
+  static std::shared_ptr<TimeBase> base_of(JointLink& link, const Stream* beside);
 
   setpoint_v2 sample(double position_rad, std::optional<double> velocity_rad_s,
                      std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const;

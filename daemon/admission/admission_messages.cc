@@ -24,6 +24,8 @@ constexpr double kMaxInjection_s = 3600.0;
 // Of a stream's samples: what no joint does. What this one cannot do is followed as far as its limits allow.
 constexpr double kMaxVelocity_rad_s = 1000.0;
 constexpr double kMaxAcceleration_rad_s2 = 1e6;
+// A limit this low is no calm motion but a joint that nobody sees move: a hundredth of what follows a star.
+constexpr double kLeastSpeedLimit_rad_s = 1e-6;
 // A load of so many times the joint's inertia leaves it a tenth of its acceleration, and no table is certified for it.
 constexpr double kHeaviestLoad = 10.0;
 
@@ -132,9 +134,11 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
          << kLongestValidFor_s << " s are allowed";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }
-  if (setpoint->speed_limit_rad_s < 0.0 || setpoint->speed_limit_rad_s > limits.speed_limit_rad_s) {
-    text << "speed_limit_rad_s = " << number_text(setpoint->speed_limit_rad_s)
-         << ": from 0 (no limit of its own) to " << number_text(limits.speed_limit_rad_s)
+  if (const double speed_rad_s = setpoint->speed_limit_rad_s;
+      speed_rad_s != 0.0 &&
+      !(speed_rad_s >= kLeastSpeedLimit_rad_s && speed_rad_s <= limits.speed_limit_rad_s)) {
+    text << "speed_limit_rad_s = " << number_text(speed_rad_s) << ": 0 (no limit of its own) or from "
+         << number_text(kLeastSpeedLimit_rad_s) << " to " << number_text(limits.speed_limit_rad_s)
          << " is allowed (joint.limits.speed_limit_rad_s of " << limits.name << ")";
     return refuse(requester, Reason::kOutOfRange, text.str());
   }

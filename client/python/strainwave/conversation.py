@@ -4,7 +4,7 @@ Source: client/link/client.h, pending_order.h; docs/messages.md.
 import collections
 
 from .ack_v1 import ack_v1
-from .errors import NoAnswer, Refused
+from .errors import InvalidInput, NoAnswer, Refused
 from .limits_v1 import limits_v1
 from .messages import decode_exactly, text_of
 from .network import now_s
@@ -61,6 +61,13 @@ class Conversation:
 
     def channel(self, kind):
         return f"{self.prefix}.{self.joint}.{kind}"
+
+    def require_same_daemon(self, other, who_are):
+        """Raises InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles."""
+        if self.prefix != other.prefix:
+            raise InvalidInput(f"{self.joint} has prefix {self.prefix}, {other.joint} has {other.prefix}: {who_are} of one daemon")
+        if self.network.url != other.network.url:
+            raise InvalidInput(f"{self.joint} is on {self.network.url}, {other.joint} on {other.network.url}: {who_are} of one daemon")
 
     def wait_for_state(self):
         """The latest state; waits for the first. Raises NoAnswer that says what is heard instead."""

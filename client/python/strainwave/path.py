@@ -32,6 +32,8 @@ class Path:
         for name in names:
             if names.count(name) > 1:
                 raise InvalidInput(f"{name}: {names.count(name)} Joints of that name have knots: one is allowed, with all of its knots")
+        for joint in knots:
+            joint._conversation.require_same_daemon(next(iter(knots))._conversation, "the joints of a path are")
         self._knots = {joint: self._checked(joint.name, of_joint) for joint, of_joint in knots.items()}
         self._joints = list(self._knots)
         self._started = False

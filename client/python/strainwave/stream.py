@@ -46,6 +46,8 @@ class Stream:
         self._speed_limit_rad_s = speed_limit_rad_s
         if beside is not None and not isinstance(beside, Stream):
             raise InvalidInput(f"{joint.name}: beside = {shown(beside)}: a Stream is allowed, of another joint's stream()")
+        if beside is not None:
+            conversation.require_same_daemon(beside._conversation, "streams beside each other are")
         self._base = TimeBase() if beside is None else beside._base
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None

@@ -118,6 +118,21 @@ TEST_F(StreamTest, BesideAnotherHasTheSameCycleForTheSameTime) {
   EXPECT_EQ(cycles.at(0.1), cycles.at(0.2));
 }
 
+TEST_F(StreamTest, IsBesideNoneOfAnotherDaemonWhichCountsItsOwnCycles) {
+  Joint others{"wrist", {.key = "", .prefix = "B", .lcm_url = own_url()}};
+  auto first = joint.stream();
+  try {
+    auto second = others.stream({.beside = &first});
+    FAIL() << "was not refused";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "wrist has prefix B, elbow has SW: streams beside each other are of one daemon");
+  }
+  const auto moved = std::move(first);
+  EXPECT_THROW((void)joint.stream({.beside = &first}),
+               InvalidInput);  // NOLINT(bugprone-use-after-move): that is tried
+}
+
 TEST_F(StreamTest, LeavesOutWhatComesAfterItsTime) {
   auto stream = joint.stream({.ahead_s = 0.05});
   EXPECT_TRUE(stream.put(0.0, 0.1));

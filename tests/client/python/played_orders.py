@@ -27,10 +27,10 @@ class PlayedNetwork:
         self.published.append((channel, message))
         self.daemon(channel, message)
 
-    def deliver(self, kind, message, joint="elbow", age_s=0.0):
+    def deliver(self, kind, message, joint="elbow", age_s=0.0, prefix="SW"):
         with self.changed:
             self.came_s = now_s() - age_s
-            for handler in self._handlers[f"SW.{joint}.{kind}".encode()]:
+            for handler in self._handlers[f"{prefix}.{joint}.{kind}".encode()]:
                 handler()(message.encode())
             self.changed.notify_all()
 

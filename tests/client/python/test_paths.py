@@ -25,7 +25,8 @@ class Paths(PlayedOrders):
 
     def test_of_anything_else_are_refused_with_what_is_allowed(self):
         for knots, words in ((None, "None: {joint: "), ({}, "at least one joint"), ({"elbow": self.KNOTS}, "as Joint.'elbow'."),
-                             ({self.elbow: self.KNOTS, Joint("elbow", key=""): self.KNOTS}, "elbow: 2 Joints of that name have knots")):
+                             ({self.elbow: self.KNOTS, Joint("elbow", key=""): self.KNOTS}, "elbow: 2 Joints of that name have knots"),
+                             ({self.elbow: self.KNOTS, Joint("wrist", key="", prefix="LEFT"): self.KNOTS}, "^wrist has prefix LEFT, elbow has SW: the joints of a path are of one daemon$")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path(knots)
 

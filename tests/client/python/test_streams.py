@@ -4,15 +4,18 @@ import time
 import unittest
 
 from played_orders import COMMAND, SETPOINT, PlayedOrders, published
-from strainwave import InvalidInput, Mode, NoAnswer, NotDone, Reason, Refused, limits_v1, messages
+from strainwave import InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, limits_v1, messages
 
 
 class Streams(PlayedOrders):
+    def setUp(self):
+        super().setUp()
+        self.limits = messages.blank(limits_v1)
+        self.limits.period_s, self.limits.position_min_rad, self.limits.position_max_rad, self.limits.torque_limit_Nm = 0.001, -1.0, 1.0, 34.0
+
     def stream(self, **options):
-        limits = messages.blank(limits_v1)
-        limits.period_s, limits.position_min_rad, limits.position_max_rad, limits.torque_limit_Nm = 0.001, -1.0, 1.0, 34.0
         self.publish_state(Mode.TRACKING, cycle=1000)
-        self.network.deliver("LIMITS", limits)
+        self.network.deliver("LIMITS", self.limits)
         return self.elbow.stream(**options)
 
     def test_send_samples_for_cycles_that_far_apart(self):
@@ -164,6 +167,14 @@ class Streams(PlayedOrders):
             stream.put(0.01, 1 / 0)
         self.assertEqual([channel for channel, _ in self.network.published], [SETPOINT, COMMAND])
         self.assertEqual(self.orders()[-1].action, 3)
+
+    def test_are_beside_none_of_another_daemon_which_counts_its_own_cycles(self):
+        first = self.stream()
+        wrist = Joint("wrist", key="", prefix="B")
+        self.network.deliver("STATE", self.state, "wrist", prefix="B")
+        self.network.deliver("LIMITS", self.limits, "wrist", prefix="B")
+        with self.assertRaisesRegex(InvalidInput, "^wrist has prefix B, elbow has SW: streams beside each other are of one daemon$"):
+            wrist.stream(beside=first)
 
     def test_refuse_samples_that_make_no_sense_before_anything_is_sent(self):
         stream = self.stream()
