@@ -15,10 +15,10 @@
 #include "daemon/drive_check.h"
 #include "daemon/gateway/preference.h"
 #include "daemon/initial_table.h"
+#include "daemon/loop_log.h"
 #include "daemon/realtime/realtime_setup.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/fingerprints.h"
-#include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
 
@@ -42,14 +42,6 @@ std::vector<InstanceLock> take_locks(const DaemonConfig& config) {
                      "stop that one (systemctl stop strainwaved), or give this one its own daemon.prefix");
   for (InstanceLock& lock : lock_drives(config)) locks.push_back(std::move(lock));
   return locks;
-}
-
-// The drive's own reason behind a fault, if there is one.
-std::string drive_words(const JointConfig& joint, const LoopEvent& event) {
-  if (event.drive_error == 0 || joint.drive_error_text == nullptr ||
-      event.fault == Fault::kImplausibleReading)
-    return "";
-  return ": " + joint.drive_error_text(event.fault, event.drive_error);
 }
 
 std::vector<FlightRecordWriter::Source> recorded_joints(const DaemonConfig& config, RealtimeLoop& loop) {
@@ -229,16 +221,9 @@ bool Supervisor::take_message(const InboundLane& lane, std::uint64_t& taken, std
 void Supervisor::take_events() {
   LoopEvent event;
   while (loop_.events().pop(event)) {
-    const std::string& joint = config_.joints[static_cast<std::size_t>(event.joint)].name;
-    if (event.to == Mode::kFaulted) {
-      admission_.fault(static_cast<std::size_t>(event.joint), event.cycle);
-      const std::string_view key = configuration_key(event.fault);
-      spdlog::error("{}: fault {}: {}{}{}{} (was {}, cycle {})", joint, static_cast<int>(event.fault),
-                    fault_words(event.fault, event.drive_error),
-                    drive_words(config_.joints[static_cast<std::size_t>(event.joint)], event),
-                    key.empty() ? "" : ", see ", key, to_text(event.from), event.cycle);
-    } else
-      spdlog::info("{}: {} -> {}", joint, to_text(event.from), to_text(event.to));
+    const JointConfig& joint = config_.joints[static_cast<std::size_t>(event.joint)];
+    if (tells_of_fault(event)) admission_.fault(static_cast<std::size_t>(event.joint), event.cycle);
+    log_loop_event(joint, event);
   }
 }
 

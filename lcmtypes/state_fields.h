@@ -26,6 +26,9 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("inertia_estimated_kgm2", state.inertia_estimated_kgm2);
   visit("link_position_rad", state.link_position_rad);
   visit("path_time_s", state.path_time_s);
+  visit("yield_load_Nm", state.yield_load_Nm);
+  visit("yield_limit_Nm", state.yield_limit_Nm);
+  visit("yield_position_rad", state.yield_position_rad);
 }
 
 }  // namespace strainwave

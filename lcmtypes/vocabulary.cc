@@ -119,6 +119,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "path paused";
     case Notice::kPathEnds:
       return "path ends early";
+    case Notice::kYielded:
+      return "yielded to a load";
   }
   return "unknown";
 }
@@ -334,6 +336,8 @@ std::string_view configuration_key(Notice notice) noexcept {
     case Notice::kPathPaused:
     case Notice::kPathEnds:
       return "";
+    case Notice::kYielded:
+      return "joint.limits.load_Nm";
   }
   return "";
 }

@@ -53,7 +53,7 @@ enum class Fault : std::int32_t {
   kChatter = 26,
 };
 
-/// state_v1.notices: a bit set; the joint goes on, limited.
+/// state_v1.notices: a bit set; the joint goes on, limited; kYielded tells of what has been.
 enum class Notice : std::int32_t {
   kTorqueLimited = 1 << 0,
   kTemperatureClamped = 1 << 1,
@@ -71,6 +71,7 @@ enum class Notice : std::int32_t {
   kOtherInertia = 1 << 13,
   kPathPaused = 1 << 14,
   kPathEnds = 1 << 15,
+  kYielded = 1 << 16,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

@@ -9,6 +9,9 @@ namespace strainwave {
 
 namespace {
 
+// Of what was measured.
+constexpr int kShownDigits = 4;
+
 bool is_of_path(OrderKind kind) {
   return kind == OrderKind::kLoadPath || kind == OrderKind::kPausePath || kind == OrderKind::kResumePath;
 }
@@ -35,6 +38,10 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
     text << std::fixed << std::setprecision(0) << ": at_cycle = " << reply.value
          << " is not to come any more, it is cycle " << reply.limit << "; from " << reply.limit + 1.0
          << " is allowed";
+  else if (reply.reason == Reason::kStreamEnded)
+    text << " and yielded to a load of " << std::setprecision(kShownDigits) << reply.value
+         << " N.m (joint.limits.load_Nm allows " << limit
+         << "), which ended this stream of setpoints; begin a new one once it holds";
   else if (kind == OrderKind::kUseTable)
     text << ": by the table's torque_limit_Nm the joint may carry " << value << " N.m, less than the "
          << limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "

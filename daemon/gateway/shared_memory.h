@@ -17,7 +17,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303038;  // "SWMEM008"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303039;  // "SWMEM009"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {

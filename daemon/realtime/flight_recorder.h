@@ -31,7 +31,7 @@ struct FlightSample {
   double temperature_measured_C = 0.0;
   double zero_velocity_weight = 0.0;
   std::uint32_t drive_error = 0;  ///< as in state_v1
-  std::uint16_t notices = 0;
+  std::uint32_t notices = 0;      ///< likewise
   std::uint8_t mode = 0;
   std::uint8_t fault = 0;
   std::uint8_t gains_in_use = 0;

@@ -225,7 +225,7 @@ bool JointLoop::change_mode(ModeEvent event, const CycleTime& time) noexcept {
 }
 
 void JointLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
-  (void)events_.push({index_, time.cycle, from, mode(), mode_.fault(), mode_.drive_error()});
+  (void)events_.push({index_, time.cycle, from, mode(), mode_.fault(), mode_.drive_error(), {}});
   if (mode_.is(Mode::kFaulted)) faulted_cycle_ = time.cycle;
   if (from == Mode::kHoming) homing_.abort();
   if (mode_.is(Mode::kStopping)) controller_.stop();
@@ -247,6 +247,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   if (!zero_.known()) notice(Notice::kNotHomed);
   if (const auto path = ordered_.path(); path && path->paused) notice(Notice::kPathPaused);
   if (ordered_.ends_path()) notice(Notice::kPathEnds);
+  if (yield_) notice(Notice::kYielded);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad =
@@ -256,6 +257,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   cycle.table_id = table_ != nullptr ? table_->id : 0;
   cycle.temperature_rules = table_ != nullptr ? table_->table.friction.rule_count : 0;
   cycle.notices = notices_;
+  cycle.yield = yield_;
   fill_record(cycle, record_);
   if (recorder_ != nullptr)
     recorder_->write(flight_sample(record_, time, reading().drive_state, watch_.fresh()));

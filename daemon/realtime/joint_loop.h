@@ -135,6 +135,7 @@ class JointLoop {
   Ruling enable(const CycleTime& time) noexcept;
   Ruling use_table(const TableSlot& slot) noexcept;
   Ruling begin_setpoint(const Order& order, const CycleTime& time) noexcept;
+  Ruling stream_ended(std::int64_t stream_id) const noexcept;
   Ruling take_path(const Order& order) noexcept;
   void drop_path() noexcept;
   PositionRange reachable_range() const noexcept;
@@ -185,6 +186,8 @@ class JointLoop {
   MotionWatch motion_watch_;
   SpeedGauge speed_gauge_;  ///< while nothing is controlled
   HeldLoad held_;
+  std::optional<Yield> yield_;       ///< since the last order that moved the joint, or cleared a fault
+  std::int64_t yielded_stream_ = 0;  ///< which it ended; 0: none
   Service service_ = Service::kServing;
   std::int64_t faulted_cycle_ = -1;  ///< the last in which it faulted
   JointStep motion_;                 ///< of this period

@@ -27,6 +27,7 @@ Reason JointLoop::home(const CycleTime& time) noexcept {
   if (!homing_.possible()) return Reason::kNoHoming;
   if (!change_mode(ModeEvent::kHomeOrdered, time)) return Reason::kWrongMode;
   zero_.forget();
+  yield_.reset();
   ordered_.forget();
   obey_homing(homing_.begin(observe(time)));
   return Reason::kAccepted;

@@ -106,7 +106,7 @@ Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   if (mode_.is(Mode::kFaulted)) return Reason::kFaulted;
   if (service_ == Service::kEnding) return Reason::kEnding;
   // A late packet of a stream that has ended must not set the joint moving again.
-  if (!ordered_.takes(order.stream_id, order.begins_stream)) return Reason::kStreamEnded;
+  if (!ordered_.takes(order.stream_id, order.begins_stream)) return stream_ended(order.stream_id);
   if (!zero_.known()) return Reason::kNotHomed;
   const std::int64_t in_periods = order.at_cycle == 0 ? 0 : order.at_cycle - time.cycle;
   if (order.at_cycle != 0 && in_periods <= 0)
@@ -132,8 +132,14 @@ Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
                         order.sent_us},
                        order.begins_stream, order.speed_limit_rad_s, reachable_range());
   if (on_path()) drop_path();
+  yield_.reset();
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   return Reason::kAccepted;
+}
+
+Ruling JointLoop::stream_ended(std::int64_t stream_id) const noexcept {
+  if (!yield_ || stream_id != yielded_stream_) return Reason::kStreamEnded;
+  return {Reason::kStreamEnded, std::abs(yield_->load_Nm), yield_->limit_Nm};
 }
 
 // As the drive counts it.
@@ -162,6 +168,7 @@ Reason JointLoop::clear_fault(const CycleTime& time) noexcept {
   if (!mode_.is(Mode::kFaulted)) return Reason::kWrongMode;
   actuator_->clear_fault();
   watch_.forgive();
+  yield_.reset();
   return change_mode(ModeEvent::kFaultCleared, time) ? Reason::kAccepted : Reason::kWrongMode;
 }
 

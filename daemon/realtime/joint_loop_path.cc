@@ -33,6 +33,7 @@ Ruling JointLoop::may_begin(const LoadedPath& path) const noexcept {
 
 void JointLoop::begin_path(const CycleTime& time) noexcept {
   (void)change_mode(ModeEvent::kSetpointAccepted, time);
+  yield_.reset();
   const double end_rad = path_->path.last().position_rad;
   ordered_.begin_path(end_rad, zero_.to_drive_rad(end_rad));
 }

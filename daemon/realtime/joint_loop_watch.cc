@@ -80,6 +80,9 @@ void JointLoop::stop_overloaded(const CycleTime& time) noexcept {
   const bool may_hold = config_.overload_stop == OverloadStop::kHoldLoad && !mode_.is(Mode::kHoming);
   if (!may_hold || controller_.yields() || motion_watch_.has_just_yielded(time.now_ns))
     return raise_fault(Fault::kOverload, time);
+  yield_ = {motion_.load_Nm, motion_watch_.loads().load_Nm, zero_.to_joint_rad(reading().joint_position_rad)};
+  yielded_stream_ = ordered_.stream_id();
+  (void)events_.push({index_, time.cycle, mode(), mode(), Fault::kNone, 0, yield_});
   ordered_.end();
   drop_path();
   controller_.yield(motion_watch_.usual_load_Nm(), motion_watch_.loads().notice_Nm);

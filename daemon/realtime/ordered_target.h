@@ -57,6 +57,8 @@ class OrderedTarget {
   void rezero(const JointZero& zero) noexcept { joint_rad_ = zero.to_joint_rad(drive_rad_); }
 
   bool streamed() const noexcept { return stream_ == Stream::kLive; }
+  /// Of the live stream; 0: none is.
+  std::int64_t stream_id() const noexcept { return streamed() ? stream_id_ : 0; }
   bool on_path() const noexcept { return stream_ == Stream::kPath || ends_path(); }
   bool ends_path() const noexcept { return stream_ == Stream::kEndingPath; }
   /// Nothing: the joint is on no path.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/spsc_queue.h"
 #include "drivers/injected_fault.h"
@@ -55,6 +56,7 @@ struct Order {
 ///   kOutOfRange of a table          its torque limit, and the torque that holds the joint, N.m
 ///   kOutOfRange of a path           how far from its setpoint it begins, and how far it may, rad
 ///   kWrongMode of a resume          joints that have their part of the path, and how many there must be
+///   kStreamEnded of a setpoint      the load that the joint yielded to, which ended its stream, and what load was allowed, N.m
 ///   kTooOld of a setpoint           its at_cycle, and the present cycle; 0 and 0 when it waited too long or is from before a fault
 struct Ruling {
   Ruling(Reason given) noexcept : reason(given) {}  // implicit: most are a reason alone
@@ -73,7 +75,14 @@ struct Reply {
   double limit = 0.0;      ///< likewise
 };
 
-/// A change worth a line in the log.
+/// What made a joint yield, joint side.
+struct Yield {
+  double load_Nm = 0.0;       ///< as it showed; > 0 pushes towards negative positions
+  double limit_Nm = 0.0;      ///< > 0, what load was allowed
+  double position_rad = 0.0;  ///< where the joint was
+};
+
+/// A change worth a line in the log: of the mode, or the begin of a yield.
 struct LoopEvent {
   std::int64_t joint = 0;
   std::int64_t cycle = 0;
@@ -81,6 +90,7 @@ struct LoopEvent {
   Mode to = Mode::kOff;
   Fault fault = Fault::kNone;
   std::uint32_t drive_error = 0;  ///< with a fault: what the driver said
+  std::optional<Yield> yield{};   ///< the joint began to yield, in this mode; nothing: its mode changed
 };
 
 /// Orders of a joint that may wait for its loop.

@@ -32,6 +32,13 @@ void fill_motion(const JointCycle& cycle, state_v1& state) noexcept {
   state.gains_in_use = static_cast<std::int32_t>(motion.gains_in_use);
 }
 
+void fill_yield(const std::optional<Yield>& yield, state_v1& state) noexcept {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  state.yield_load_Nm = yield ? yield->load_Nm : kNone;
+  state.yield_limit_Nm = yield ? yield->limit_Nm : kNone;
+  state.yield_position_rad = yield ? yield->position_rad : kNone;
+}
+
 }  // namespace
 
 void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
@@ -39,6 +46,7 @@ void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
   state.cycle = cycle.time.cycle;
   state.table_id = cycle.table_id;
   fill_motion(cycle, state);
+  fill_yield(cycle.yield, state);
   state.temperature_used_C =
       cycle.temperature.known() ? cycle.temperature.used_C() : std::numeric_limits<double>::quiet_NaN();
   std::copy(cycle.weights.weight.begin(), cycle.weights.weight.end(), state.temperature_weights);
@@ -74,7 +82,7 @@ FlightSample flight_sample(const StateRecord& record, const CycleTime& time, Dri
   sample.temperature_measured_C = record.temperature_measured_C;
   sample.zero_velocity_weight = state.zero_velocity_weight;
   sample.drive_error = static_cast<std::uint32_t>(state.drive_error);
-  sample.notices = static_cast<std::uint16_t>(state.notices);
+  sample.notices = static_cast<std::uint32_t>(state.notices);
   sample.mode = static_cast<std::uint8_t>(state.mode);
   sample.fault = static_cast<std::uint8_t>(state.fault);
   sample.gains_in_use = static_cast<std::uint8_t>(state.gains_in_use);

@@ -11,6 +11,7 @@
 #include "daemon/realtime/joint_mode.h"
 #include "daemon/realtime/joint_zero.h"
 #include "daemon/realtime/ordered_target.h"
+#include "daemon/realtime/orders.h"
 #include "daemon/realtime/temperature_check.h"
 #include "drivers/actuator.h"
 
@@ -32,6 +33,7 @@ struct JointCycle {
   std::int32_t temperature_rules = 0;  ///< of the table
   std::int32_t notices = 0;
   std::optional<double> inertia_kgm2{};  ///< as far as motions have shown it
+  std::optional<Yield> yield{};          ///< that the joint is to tell of
 };
 
 /// Every field but joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).

@@ -167,6 +167,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     OTHER_INERTIA = 1 << 13
     PATH_PAUSED = 1 << 14
     PATH_ENDS = 1 << 15
+    YIELDED = 1 << 16
 
     @property
     def texts(self):
@@ -197,6 +198,7 @@ _NOTICE_TEXTS = {
     Notice.OTHER_INERTIA: "inertia not as told",
     Notice.PATH_PAUSED: "path paused",
     Notice.PATH_ENDS: "path ends early",
+    Notice.YIELDED: "yielded to a load",
 }
 
 

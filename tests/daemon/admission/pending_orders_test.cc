@@ -108,6 +108,9 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
                   {"at_cycle", "2.5 s", "at most 1 s"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding, 86400123.0, 86400124.0}),
                   {"at_cycle = 86400123", "it is cycle 86400124", "from 86400125"});
+  expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kStreamEnded, Mode::kTracking, 13.1042, 12.0}),
+                  {"the joint is tracking and yielded to a load of 13.1 N.m (joint.limits.load_Nm allows 12)",
+                   "which ended this stream", "begin a new one once it holds"});
   expect_mentions(refusal(OrderKind::kUseTable, {0, Reason::kOutOfRange, Mode::kHolding, 8.0, 12.5}),
                   {"the table's torque_limit_Nm", "may carry 8 N.m", "12.5 N.m", "at least"});
 }

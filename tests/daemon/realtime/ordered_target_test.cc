@@ -13,6 +13,7 @@ TEST(OrderedTarget, OfAMoveNeverExpires) {
   OrderedTarget target;
   target.accept(kMove, 0);
   EXPECT_FALSE(target.streamed());
+  EXPECT_EQ(target.stream_id(), 0);
   EXPECT_FALSE(target.expire(INT64_MAX));
   EXPECT_FALSE(target.shows_expiry());
 }
@@ -21,10 +22,12 @@ TEST(OrderedTarget, OfAStreamExpiresOnceAtTheEndOfItsTime) {
   OrderedTarget target;
   target.accept(kStreamed, 0);
   EXPECT_TRUE(target.streamed());
+  EXPECT_EQ(target.stream_id(), 7);
   EXPECT_FALSE(target.expire(50 * kMillisecond_ns - 1));
   EXPECT_TRUE(target.expire(50 * kMillisecond_ns));
   EXPECT_FALSE(target.expire(51 * kMillisecond_ns));
   EXPECT_FALSE(target.streamed());
+  EXPECT_EQ(target.stream_id(), 0);
 }
 
 TEST(OrderedTarget, IsValidForTheTimeOfTheNewestSetpoint) {

@@ -30,6 +30,7 @@ class StateRecordTest : public ::testing::Test {
     cycle.temperature_rules = 2;
     cycle.notices = 5;
     cycle.inertia_kgm2 = inertia_kgm2_;
+    cycle.yield = yield_;
     fill_record(cycle, record_);
     return record_.state;
   }
@@ -42,6 +43,7 @@ class StateRecordTest : public ::testing::Test {
   TemperatureCheck temperature_{TemperatureCheckConfig{}};
   TemperatureWeights weights_;
   std::optional<double> inertia_kgm2_;
+  std::optional<Yield> yield_;
   StateRecord record_;
 };
 
@@ -87,6 +89,23 @@ TEST_F(StateRecordTest, ShowsHowFarThePathHasGotWhileThereIsOne) {
   EXPECT_EQ(filled().path_time_s, 3.25);
   ordered_.end();
   EXPECT_TRUE(std::isnan(filled().path_time_s));
+}
+
+TEST_F(StateRecordTest, ShowsAYieldAsLongAsTheJointIsToTellOfIt) {
+  EXPECT_TRUE(std::isnan(filled().yield_load_Nm));
+  EXPECT_TRUE(std::isnan(filled().yield_limit_Nm));
+  EXPECT_TRUE(std::isnan(filled().yield_position_rad));
+  yield_ = Yield{13.1, 12.0, 0.301};
+  EXPECT_EQ(filled().yield_load_Nm, 13.1);
+  EXPECT_EQ(filled().yield_limit_Nm, 12.0);
+  EXPECT_EQ(filled().yield_position_rad, 0.301);
+}
+
+TEST_F(StateRecordTest, TellsTheFlightRecorderOfEveryNotice) {
+  for (std::uint32_t notice = 1; notice <= static_cast<std::uint32_t>(Notice::kYielded); notice <<= 1U) {
+    record_.state.notices = static_cast<std::int32_t>(notice);
+    EXPECT_EQ(flight_sample(record_, time_, DriveState::kEnabled, true).notices, notice);
+  }
 }
 
 TEST_F(StateRecordTest, ShowsTheTargetToTheBitAsItWasOrdered) {

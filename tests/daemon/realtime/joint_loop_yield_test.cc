@@ -1,0 +1,141 @@
+// That a joint has yielded to a load is told until it is moved anew, and why, to whoever asks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/flexible_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+constexpr double kYieldsAt_rad = 0.5;
+constexpr double kYieldsTo_Nm_rad = 2000.0;
+constexpr double kRunsAt_rad_s = 1.0;
+constexpr double kMayBear_Nm = 12.0;
+
+BenchJoint joint_that_yields() {
+  BenchJoint joint = demo_joint();
+  joint.drive.plant.effects.contact = {
+      kYieldsAt_rad, kYieldsTo_Nm_rad,
+      0.2 * std::sqrt(kYieldsTo_Nm_rad * joint.drive.plant.joint.inertia_kgm2)};
+  joint.loop.limits.load.load_Nm = kMayBear_Nm;
+  joint.loop.limits.load.notice_Nm = 8.0;
+  joint.loop.overload_stop = OverloadStop::kHoldLoad;
+  return joint;
+}
+
+// Who was not looking sees it until somebody moves the joint anew.
+class AYieldIsTold : public ::testing::Test {
+ protected:
+  static constexpr Order kIntoTheWall{
+      .kind = OrderKind::kSetpoint, .position_rad = 1.0, .speed_limit_rad_s = kRunsAt_rad_s};
+
+  AYieldIsTold() { bench_.bring_to_hold(0); }
+  bool told() { return bench_.has_notice(0, Notice::kYielded); }
+  void run_into_the_wall(const Order& order = kIntoTheWall) {
+    ASSERT_EQ(bench_.order(0, order), Reason::kAccepted);
+    EXPECT_FALSE(told());
+    ASSERT_GE(bench_.step_until([&] { return told(); }, 2000), 0);
+  }
+
+  JointBench bench_{{joint_that_yields()}};
+};
+
+TEST_F(AYieldIsTold, WithTheLoadWhatWasAllowedAndWhereItWas) {
+  EXPECT_TRUE(std::isnan(bench_.state(0).yield_load_Nm));
+  run_into_the_wall();
+  const state_v1 began = bench_.state(0);
+  EXPECT_GT(began.yield_load_Nm, kMayBear_Nm) << "the wall pushes towards where the joint came from";
+  EXPECT_LT(began.yield_load_Nm, 45.0);
+  EXPECT_EQ(began.yield_limit_Nm, kMayBear_Nm);
+  EXPECT_EQ(began.yield_position_rad, began.joint_position_rad);
+  EXPECT_NE(began.torque_feedback_Nm, 0.0);
+  bench_.step();
+  EXPECT_EQ(bench_.state(0).torque_feedback_Nm, 0.0) << "it yields from this period on";
+  bench_.run(1.0);
+  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
+  EXPECT_EQ(bench_.state(0).yield_load_Nm, began.yield_load_Nm) << "of then, not of now";
+  EXPECT_EQ(bench_.state(0).yield_position_rad, began.yield_position_rad);
+}
+
+TEST_F(AYieldIsTold, OnceToTheLogWithTheModeThatItWasIn) {
+  LoopEvent event;
+  while (bench_.events().pop(event)) EXPECT_FALSE(event.yield);
+  run_into_the_wall();
+  bench_.run(1.0);
+  int yields = 0;
+  while (bench_.events().pop(event)) {
+    if (!event.yield) continue;
+    ++yields;
+    EXPECT_EQ(event.from, Mode::kTracking);
+    EXPECT_EQ(event.to, Mode::kTracking);
+    EXPECT_EQ(event.yield->load_Nm, bench_.state(0).yield_load_Nm);
+    EXPECT_EQ(event.yield->limit_Nm, kMayBear_Nm);
+  }
+  EXPECT_EQ(yields, 1);
+}
+
+TEST_F(AYieldIsTold, UntilTheNextMotionIsAccepted) {
+  run_into_the_wall();
+  EXPECT_EQ(bench_.move(0, 0.1), Reason::kMoving) << "it still yields";
+  bench_.run(1.0);
+  EXPECT_TRUE(told());
+  EXPECT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
+  bench_.run(0.1);
+  EXPECT_TRUE(told()) << "a hold moves nothing";
+  ASSERT_EQ(bench_.order(0, OrderKind::kDisable), Reason::kAccepted);
+  bench_.run(1.0);
+  EXPECT_TRUE(told());
+  ASSERT_EQ(bench_.order(0, OrderKind::kEnable), Reason::kAccepted);
+  bench_.run(0.5);
+  EXPECT_TRUE(told()) << "nor does enabling";
+  ASSERT_EQ(bench_.move(0, 0.1), Reason::kAccepted);
+  EXPECT_FALSE(told());
+  EXPECT_TRUE(std::isnan(bench_.state(0).yield_load_Nm));
+}
+
+TEST_F(AYieldIsTold, UntilAPathBegins) {
+  run_into_the_wall();
+  bench_.run(1.0);
+  const double here_rad = bench_.state(0).target_position_rad;
+  KnotPath path;
+  path.knots[path.count++] = {0.0, here_rad, 0.0};
+  path.knots[path.count++] = {1.0, 0.1, 0.0};
+  const auto slot = bench_.joint(0).path_slots().hand_over({7, 1, path});
+  ASSERT_EQ(bench_.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
+            Reason::kAccepted);
+  EXPECT_TRUE(told()) << "a part alone moves nothing";
+  ASSERT_EQ(bench_.order(0, OrderKind::kResumePath), Reason::kAccepted);
+  bench_.run(0.01);
+  EXPECT_FALSE(told());
+}
+
+TEST_F(AYieldIsTold, UntilTheFaultThatCameOfItIsCleared) {
+  run_into_the_wall();
+  bench_.joint(0).raise_fault(Fault::kOverload, bench_.time());
+  bench_.run(0.5);
+  ASSERT_EQ(bench_.mode(0), Mode::kFaulted);
+  EXPECT_TRUE(told());
+  ASSERT_EQ(bench_.order(0, OrderKind::kClearFault), Reason::kAccepted);
+  EXPECT_FALSE(told());
+}
+
+TEST_F(AYieldIsTold, ToTheStreamThatItEndedAndToNoOther) {
+  Order sample = kIntoTheWall;
+  sample.valid_for_s = 10.0;
+  sample.stream_id = 1;
+  sample.begins_stream = true;
+  run_into_the_wall(sample);
+  const auto refused = [&](std::int64_t stream_id) {
+    sample.begins_stream = false;
+    sample.stream_id = stream_id;
+    EXPECT_EQ(bench_.order(0, sample), Reason::kStreamEnded);
+    return bench_.last_reply();
+  };
+  EXPECT_EQ(refused(1).value, std::abs(bench_.state(0).yield_load_Nm));
+  EXPECT_EQ(refused(1).limit, kMayBear_Nm);
+  EXPECT_EQ(refused(2).limit, 0.0);
+}
+
+}  // namespace
+}  // namespace strainwave::testing
