@@ -28,7 +28,7 @@ void Failures::rethrow() const {
     worst = std::max(worst, failure.status());
     text += (text.empty() ? "" : "\n") + std::string(failure.what());
   }
-  throw ClientError(worst, text, {"", {}, {}, failures_});
+  throw ClientError(worst, text, {"", {}, {}, failures_, {}});
 }
 
 }  // namespace strainwave

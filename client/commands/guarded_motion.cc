@@ -43,7 +43,7 @@ void run_guarded(Client& client, const std::string& joint, const std::function<v
 void require_undisturbed(Client& client, const std::string& joint, std::int64_t session_id) {
   const JointView& view = *client.find(joint);
   const auto fail = [&](ExitStatus status, const std::string& why) {
-    throw ClientError(status, joint + ": " + why, {joint, {}, {}, {}});
+    throw ClientError(status, joint + ": " + why, {joint, {}, {}, {}, {}});
   };
   if (const auto refusal = client.take_refusal()) require_accepted(*refusal, joint, "a setpoint");
   if (seconds_between(view.received, now()) > kLongestSilence_s)

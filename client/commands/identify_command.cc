@@ -78,8 +78,11 @@ class Identification {
 
   void check(std::optional<double> target_rad) {
     require_undisturbed(client_, joint_, session_id_);
-    if (target_rad && state().target_position_rad != *target_rad)
+    if (target_rad && state().target_position_rad != *target_rad) {
+      if (const JointView& view = *client_.find(joint_); has_yielded(view))
+        throw yielded(joint_, "did not end its motion", view);
       throw ClientError(ExitStatus::kRefused, joint_ + ": another order replaced this one's");
+    }
     const double torque_Nm = std::abs(state().torque_applied_Nm);
     if (torque_Nm > plan_.max_torque_Nm)
       throw ClientError(ExitStatus::kRefused,

@@ -180,7 +180,7 @@ void Stream::begin(double t_s, setpoint_v2 message) {
   const Answer answer = client.request(link_->name(), channel_kind::kSetpoint, message, prepare);
   require_accepted(answer, link_->name(),
                    fmt::format("the first setpoint of the stream, {} rad,", message.position_rad));
-  last_cycle_ = message.at_cycle;
+  last_cycle_ = first_cycle_ = message.at_cycle;
 }
 
 // A refusal needs no waiting for the time that it is too late for.
@@ -192,17 +192,43 @@ void Stream::wait_until_due(std::int64_t cycle) {
   client.wait_until([&] { return client.has_refusals(); }, Deadline(std::max(0.0, wait_s)));
 }
 
+// What ended the stream, if that is the joint's own doing, is told before what became of the samples since.
 void Stream::check_refusals() {
+  check_state(first_cycle_);
   while (const auto refusal = link_->client().take_refusal()) {
     if (refusal->reason != Reason::kTooOld && !refusal->overtaken) {
-      if (refusal->reason == Reason::kStreamEnded || refusal->reason == Reason::kSuperseded) {
-        over_ = true;
-        last_cycle_.reset();  // whoever ended it has the joint
-      }
+      if (refusal->reason == Reason::kFaulted || refusal->reason == Reason::kStreamEnded) check_joint();
+      if (refusal->reason == Reason::kStreamEnded || refusal->reason == Reason::kSuperseded) lose();
       require_accepted(*refusal, link_->name(), "a setpoint of the stream");
     }
     ++late_;
   }
+}
+
+// A refusal may be here before the state that says why.
+void Stream::check_joint() {
+  Client& client = link_->client();
+  const JointView& view = client.wait_for_joint(link_->name());
+  const std::int64_t seen = view.messages;
+  client.wait_until([&] { return mode_of(view) == Mode::kFaulted || view.messages > seen + 1; },
+                    Deadline(kOldStates_s));
+  check_state(view.state.cycle);
+}
+
+/// Before `from_cycle` a yield may be one from before the stream.
+void Stream::check_state(std::int64_t from_cycle) {
+  const JointView& view = link_->client().wait_for_joint(link_->name());
+  const bool fault = mode_of(view) == Mode::kFaulted;
+  if (!fault && !(has_yielded(view) && view.state.cycle >= from_cycle)) return;
+  lose();
+  if (fault) throw faulted(link_->name(), view);
+  throw yielded(link_->name(), "did not follow the stream to its end", view);
+}
+
+// Whoever, or whatever, ended it has the joint.
+void Stream::lose() {
+  over_ = true;
+  last_cycle_.reset();
 }
 
 void Stream::leave_out(std::int64_t cycle) {

@@ -38,8 +38,8 @@ class Stream {
 
   /// The joint shall be at `position_rad` at time `t_s` (rising; the first is `ahead_s` from now), with the velocity and
   /// acceleration then if they are known. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
-  /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, NotDone (also when the stream is over),
-  /// NoAnswer, InvalidInput.
+  /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, Faulted, Yielded, NotDone (also when the stream
+  /// is over), NoAnswer, InvalidInput.
   bool put(double t_s, double position_rad, std::optional<double> velocity_rad_s = {},
            std::optional<double> acceleration_rad_s2 = {}, const CarriedLoad& load = {});
 
@@ -61,6 +61,9 @@ class Stream {
   void begin(double t_s, setpoint_v2 message);
   void wait_until_due(std::int64_t cycle);
   void check_refusals();
+  void check_joint();
+  void check_state(std::int64_t from_cycle);
+  void lose();
   void leave_out(std::int64_t cycle);
   void end() noexcept;
 
@@ -71,6 +74,7 @@ class Stream {
   std::int64_t stream_id_;
   std::optional<double> last_t_s_;
   std::optional<std::int64_t> last_cycle_;  ///< of the last sample that was sent; nothing: not begun, or over
+  std::int64_t first_cycle_ = 0;            ///< of the sample that it began with
   bool over_ = false;                       ///< closed, or ended by somebody
   long late_ = 0;
   int exceptions_;  ///< under way when it was made

@@ -11,6 +11,13 @@
 
 namespace strainwave {
 
+/// What made a joint let go (docs/faults.md, "Contact"), joint side.
+struct YieldedTo {
+  double load_Nm = 0.0;       ///< > 0 pushes towards negative positions
+  double limit_Nm = 0.0;      ///< what load was allowed
+  double position_rad = 0.0;  ///< where the joint was
+};
+
 /// Any of the following. what() is the whole sentence for the user: what was given, what is allowed or what the daemon answered,
 /// what to do.
 class ClientError : public ProgramError {
@@ -21,6 +28,7 @@ class ClientError : public ProgramError {
     std::optional<Reason> reason;   ///< why the daemon refused
     std::optional<Fault> fault;     ///< that the joint has
     std::vector<ClientError> each;  ///< what went wrong with each of several joints
+    std::optional<YieldedTo> yielded_to;
   };
   ClientError(ExitStatus status, const std::string& message, Details details = {})
       : ProgramError(status, message), details_(std::move(details)) {}
@@ -42,21 +50,21 @@ class ClientError : public ProgramError {
 class InvalidInput : public ClientError {
  public:
   explicit InvalidInput(const std::string& message, const std::string& joint = "")
-      : ClientError(ExitStatus::kUsage, message, {joint, {}, {}, {}}) {}
+      : ClientError(ExitStatus::kUsage, message, {joint, {}, {}, {}, {}}) {}
 };
 
 /// No daemon, no such joint, silence, or a network without multicast. Whether an order was carried out is not known.
 class NoAnswer : public ClientError {
  public:
   explicit NoAnswer(const std::string& message, const std::string& joint = "")
-      : ClientError(ExitStatus::kNoAnswer, message, {joint, {}, {}, {}}) {}
+      : ClientError(ExitStatus::kNoAnswer, message, {joint, {}, {}, {}, {}}) {}
 };
 
 /// The daemon answered and refused.
 class Refused : public ClientError {
  public:
   Refused(const std::string& message, const std::string& joint, Reason reason)
-      : ClientError(ExitStatus::kRefused, message, {joint, reason, {}, {}}) {}
+      : ClientError(ExitStatus::kRefused, message, {joint, reason, {}, {}, {}}) {}
   Reason reason() const noexcept { return *details().reason; }
 };
 
@@ -64,7 +72,7 @@ class Refused : public ClientError {
 class Faulted : public ClientError {
  public:
   Faulted(const std::string& message, const std::string& joint, Fault fault)
-      : ClientError(ExitStatus::kRefused, message, {joint, {}, fault, {}}) {}
+      : ClientError(ExitStatus::kRefused, message, {joint, {}, fault, {}, {}}) {}
   Fault fault() const noexcept { return *details().fault; }
 };
 
@@ -72,7 +80,19 @@ class Faulted : public ClientError {
 class NotDone : public ClientError {
  public:
   explicit NotDone(const std::string& message, const std::string& joint = "")
-      : ClientError(ExitStatus::kRefused, message, {joint, {}, {}, {}}) {}
+      : ClientError(ExitStatus::kRefused, message, {joint, {}, {}, {}, {}}) {}
+
+ protected:
+  NotDone(const std::string& message, Details details)
+      : ClientError(ExitStatus::kRefused, message, std::move(details)) {}
+};
+
+/// The joint yielded to a load, which ended its motion; it has no fault, and holds as soon as it rests.
+class Yielded : public NotDone {
+ public:
+  Yielded(const std::string& message, const std::string& joint, const YieldedTo& to)
+      : NotDone(message, Details{joint, {}, {}, {}, to}) {}
+  const YieldedTo& to() const noexcept { return *details().yielded_to; }
 };
 
 }  // namespace strainwave

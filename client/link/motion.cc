@@ -54,19 +54,31 @@ class MotionWatch {
   void check_fault() const {
     if (mode_of(*view_) == Mode::kFaulted) throw faulted(joint_, *view_);
   }
+  /// Throws that the joint has yielded, or the fault that came of that, once it rests or `timeout_s` is over.
+  void check_yield(Client& client, double timeout_s) {
+    if (!motion_.replaced || !in_force() || !has_yielded(*view_)) return;
+    client.wait_until([&] { return mode_of(*view_) != Mode::kTracking; }, Deadline(timeout_s));
+    check_fault();
+    throw yielded(joint_, "did not " + motion_.purpose, *view_);
+  }
   /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise, but for a fault.
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
       throw NoAnswer(joint_ + ": the daemon fell silent during the motion; the joint's state is not known",
                      joint_);
-    seen_ = seen_ || mode_of(*view_) == motion_.mode;
-    if (!seen_ && !old_states_.passed()) return false;
+    if (!in_force()) return false;
     if (const std::string end = motion_ended(*view_, motion_, session_id_); !end.empty())
       throw NotDone(fmt::format("{}: did not {}: {}", joint_, motion_.purpose, end), joint_);
     return done_(*view_);
   }
 
  private:
+  /// Whether the state is of this motion, or of what came after it.
+  bool in_force() {
+    seen_ = seen_ || (mode_of(*view_) == motion_.mode && !(motion_.replaced && motion_.replaced(*view_)));
+    return seen_ || old_states_.passed();
+  }
+
   std::string joint_;
   const JointView* view_;
   Motion motion_;
@@ -76,7 +88,19 @@ class MotionWatch {
   bool seen_ = false;
 };
 
-/// Returns once all of them are done. A fault is told before what it made of those that move with the joint.
+/// States of one cycle come one after the other: waits for those that belong to the first joint's.
+void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions, double timeout_s) {
+  const JointView& first = motions.front().view();
+  client.wait_until(
+      [&] {
+        return std::all_of(motions.begin(), motions.end(), [&](const MotionWatch& motion) {
+          return motion.view().state.cycle >= first.state.cycle;
+        });
+      },
+      Deadline(timeout_s));
+}
+
+/// Returns once all of them are done. A fault, or a yield, is told before what it made of those that move with the joint.
 /// `look`: see wait_until_arrived().
 void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
                       const std::function<void()>& look = nullptr) {
@@ -85,8 +109,11 @@ void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
     const JointView& view = motions.front().view();
     const std::int64_t seen = view.messages;
     client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
+    wait_for_the_others(client, motions, kLook_s);
+    const double timeout_s = client.options().timeout_s;
     for (const MotionWatch& motion : motions) motion.check_fault();
-    std::erase_if(motions, [&](MotionWatch& motion) { return motion.look(client.options().timeout_s); });
+    for (MotionWatch& motion : motions) motion.check_yield(client, timeout_s);
+    std::erase_if(motions, [&](MotionWatch& motion) { return motion.look(timeout_s); });
     if (look && !motions.empty()) look();
   }
 }

@@ -1,4 +1,5 @@
-// Motions that are waited for: to a position, to the home position, to a stop. Throw ClientError: Refused, NoAnswer, Faulted, NotDone.
+// Motions that are waited for: to a position, to the home position, to a stop. Throw ClientError: Refused, NoAnswer, Faulted,
+// Yielded, NotDone.
 // Not real-time.
 #pragma once
 

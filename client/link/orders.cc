@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "client/link/plain_zero.h"
 #include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
@@ -38,6 +41,22 @@ Faulted faulted(const std::string& joint, const JointView& view) {
   return {fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
                       view.state.fault, fault_words(fault, view.state.drive_error), joint),
           joint, fault};
+}
+
+bool has_yielded(const JointView& view) {
+  return (view.state.notices & static_cast<std::int32_t>(Notice::kYielded)) != 0;
+}
+
+Yielded yielded(const std::string& joint, const std::string& undone, const JointView& view) {
+  const state_v1& state = view.state;
+  const std::string now = mode_of(view) == Mode::kHolding
+                              ? fmt::format("it holds at {:.4g} rad", plain_zero(state.joint_position_rad))
+                              : fmt::format("it is {}", to_text(mode_of(view)));
+  return {fmt::format("{}: {}: it yielded to a load of {:.4g} N.m (load_Nm allows {:g}) at {:.4g} rad; {}",
+                      joint, undone, std::abs(state.yield_load_Nm), state.yield_limit_Nm,
+                      plain_zero(state.yield_position_rad), now),
+          joint,
+          {state.yield_load_Nm, state.yield_limit_Nm, state.yield_position_rad}};
 }
 
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,

@@ -19,6 +19,10 @@ Mode mode_of(const JointView& view);
 /// The joint has a latched fault, in words and as an error.
 Faulted faulted(const std::string& joint, const JointView& view);
 
+/// The joint has yielded to a load since it was last set moving (docs/faults.md, "Contact"); likewise. `undone`: what came of it, in words.
+bool has_yielded(const JointView& view);
+Yielded yielded(const std::string& joint, const std::string& undone, const JointView& view);
+
 /// Throws Refused with the reason unless `answer` accepts what `what` names.
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
                       const std::string& hint = "");

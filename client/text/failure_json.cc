@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 std::string kind_of(ExitStatus status, const ClientError::Details& details) {
   if (details.reason) return "refused";
   if (details.fault) return "faulted";
+  if (details.yielded_to) return "yielded";
   switch (status) {
     case ExitStatus::kUsage:
       return "wrong input";
@@ -64,6 +65,11 @@ Json json_of(ExitStatus status, const std::string& text, const ClientError::Deta
   if (details.fault) {
     json["fault"] = static_cast<int>(*details.fault);
     json["fault_text"] = to_text(*details.fault);
+  }
+  if (details.yielded_to) {
+    json["yield_load_Nm"] = details.yielded_to->load_Nm;
+    json["yield_limit_Nm"] = details.yielded_to->limit_Nm;
+    json["yield_position_rad"] = details.yielded_to->position_rad;
   }
   if (details.each.empty()) add_allowed(json, text);
   for (const ClientError& one : details.each)

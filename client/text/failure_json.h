@@ -1,10 +1,11 @@
 // Why a command ended, as one JSON object for scripts, with the numbers by name. Not real-time.
 //
-//   error        refused, faulted, not done, wrong input, no answer, interrupted
+//   error        refused, faulted, yielded, not done, wrong input, no answer, interrupted
 //   exit_status  the program's
 //   command      of the command line, if one was understood
 //   joint        whose it is; or joints, all that the command line names
 //   reason, reason_text, fault, fault_text   the daemon's, see docs/messages.md
+//   yield_load_Nm, yield_limit_Nm, yield_position_rad   of a joint that yielded, as in its state
 //   key, given, allowed   where the text has the form "key = given: ... allowed" (or "... is allowed"): its parts
 //   failures     of several joints, one such object each
 //   text         the sentence that people get

@@ -23,7 +23,7 @@ from .state_v1 import state_v1
 from .temperature_v1 import temperature_v1
 from .timing_v1 import timing_v1
 
-from .errors import Faulted, InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError
+from .errors import Faulted, InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, Yielded
 from .joint import Joint
 from .motion import Arrival
 from .path import Path

@@ -44,3 +44,14 @@ class Faulted(StrainwaveError):
 
 class NotDone(StrainwaveError):
     """An order that was accepted did not come to its end: another replaced it, the joint was disabled, it holds elsewhere."""
+
+
+class Yielded(NotDone):
+    """The joint yielded to a load, which ended its motion; it has no fault, and holds as soon as it rests.
+
+    load_Nm: above 0 pushes towards negative positions; limit_Nm: what load was allowed; position_rad: where the joint was.
+    """
+
+    def __init__(self, joint, message, load_Nm, limit_Nm, position_rad):
+        super().__init__(f"{joint}: {message}")
+        self.joint, self.load_Nm, self.limit_Nm, self.position_rad = joint, load_Nm, limit_Nm, position_rad

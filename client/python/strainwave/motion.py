@@ -2,10 +2,10 @@
 import dataclasses
 import math
 
-from .errors import Faulted, NoAnswer, NotDone
+from .errors import Faulted, NoAnswer, NotDone, Yielded
 from .network import now_s
 from .state import State
-from .vocabulary import Mode
+from .vocabulary import Mode, Notice
 
 OLD_STATES_S = 0.2  # a state that left the daemon before it took the order may arrive after the acknowledgement
 LONGEST_PATH_S = 3600.0  # kLongestPath_s of the daemon
@@ -64,21 +64,36 @@ def faulted(conversation):
     return Faulted(conversation.joint, state.fault, state.fault_words())
 
 
+def yielded(conversation, undone):
+    """The Yielded of a joint that has, since it was last set moving. undone: what came of it, in words."""
+    state = State(conversation.state, conversation.received_s)
+    now = f"it holds at {state.joint_position_rad:.4g} rad" if state.mode == Mode.HOLDING else f"it is {state.mode}"
+    return Yielded(conversation.joint, f"{undone}: it yielded to a load of {abs(state.yield_load_Nm):.4g} N.m (load_Nm allows "
+                   f"{state.yield_limit_Nm:g}) at {state.yield_position_rad:.4g} rad; {now}",
+                   state.yield_load_Nm, state.yield_limit_Nm, state.yield_position_rad)
+
+
+def has_yielded(state):
+    """Of a state_v1, or a State."""
+    return bool(state.notices & Notice.YIELDED)
+
+
 def _why_ended(state, session_id, replaced):
     if state.session_id != session_id:
         return "the daemon was restarted"
     if state.mode in (Mode.OFF, Mode.STOPPING):
         return "the joint was disabled"
-    return "another order replaced this one" if replaced(state) else ""
+    return "another order replaced this one" if replaced and replaced(state) else ""
 
 
 class MotionWatch:
     """A joint's motion, looked at again and again once its order is in force.
 
     mode: while the motion lasts; purpose: in words, after "did not"; done(State): whether it came to its end
+    replaced(State): whether another order of its kind did; None: cannot be
     """
 
-    def __init__(self, conversation, mode, purpose, done, replaced=lambda state: False):
+    def __init__(self, conversation, mode, purpose, done, replaced=None):
         self.conversation = conversation
         self._mode, self._purpose, self._done, self._replaced = mode, purpose, done, replaced
         self._session_id = conversation.state.session_id
@@ -90,14 +105,27 @@ class MotionWatch:
         if self.conversation.state.mode == Mode.FAULTED:
             raise faulted(self.conversation)
 
+    def check_yield(self):
+        """Raises Yielded, or the Faulted that came of it, once the joint rests or the conversation's patience ends."""
+        conversation = self.conversation
+        if self._replaced is None or not self._in_force(conversation.state) or not has_yielded(conversation.state):
+            return
+        conversation.network.wait_until(lambda: conversation.state.mode != Mode.TRACKING, conversation.timeout_s)
+        self.check_fault()
+        raise yielded(conversation, f"did not {self._purpose}")
+
+    def _in_force(self, state):
+        # Whether the state is of this motion, or of what came after it.
+        self._seen = self._seen or state.mode == self._mode and not (self._replaced and self._replaced(state))
+        return self._seen or now_s() >= self._old_states_end_s
+
     def look(self):
         """True once it is done. Raises NotDone, NoAnswer when it ended otherwise."""
         joint, conversation = self.conversation.joint, self.conversation
         if now_s() - conversation.received_s > conversation.timeout_s:
             raise NoAnswer(f"{joint}: the daemon fell silent during the motion; the joint's state is not known")
         state = State(conversation.state, conversation.received_s)
-        self._seen = self._seen or state.mode == self._mode
-        if not self._seen and now_s() < self._old_states_end_s:
+        if not self._in_force(state):
             return False
         why = _why_ended(state, self._session_id, self._replaced)
         if why:
@@ -106,16 +134,20 @@ class MotionWatch:
 
 
 def wait_for_motions(motions, look=lambda: None):
-    """Returns once all of them are done. Raises Faulted of one that faulted before it asks why those that move with it ended. look() is
-    called again and again meanwhile, and may raise.
+    """Returns once all of them are done. Raises Faulted or Yielded of one of them before it asks why those that move with it ended.
+    look() is called again and again meanwhile, and may raise.
     """
     under_way = list(motions)
     while under_way:
         first = under_way[0].conversation
         seen = first.messages
         first.network.wait_until(lambda: first.messages != seen, _LOOK_S)
+        # States of one cycle come one after the other.
+        first.network.wait_until(lambda: all(motion.conversation.state.cycle >= first.state.cycle for motion in under_way), _LOOK_S)
         for motion in under_way:
             motion.check_fault()
+        for motion in under_way:
+            motion.check_yield()
         under_way = [motion for motion in under_way if not motion.look()]
         if under_way:
             look()

@@ -3,9 +3,10 @@ import math
 
 from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, shown
 from .messages import blank
+from .motion import OLD_STATES_S, faulted, has_yielded, yielded
 from .network import now_s
 from .setpoint_v2 import setpoint_v2
-from .vocabulary import Reason
+from .vocabulary import Mode, Reason
 
 FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
@@ -52,6 +53,7 @@ class Stream:
         self._stream_id = conversation.sender.next_sequence()
         self._last_t = None
         self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun, or is over
+        self._first_cycle = 0  # of the sample that it began with
         self._over = False  # closed, or ended by somebody
 
     def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None, *, torque_Nm=0.0, load_inertia_kgm2=0.0):
@@ -59,8 +61,7 @@ class Stream:
         acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
         carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
         runs at the joint's pace. True: it was sent in time; whether the daemon takes it a later put() tells. False: it was left out, for its time
-        is over. Raises Refused, NotDone (also when the stream is over),
-        NoAnswer, InvalidInput.
+        is over. Raises Refused, Faulted, Yielded, NotDone (also when the stream is over), NoAnswer, InvalidInput.
         """
         if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
             raise NotDone(f"{self._joint.name}: this stream is over; Joint.stream() makes another one")
@@ -149,7 +150,7 @@ class Stream:
             again.at_cycle = self._base.cycle_of(t, self._period_s)
 
         self._conversation.request("SETPOINT", message, f"the first setpoint of the stream, {message.position_rad} rad,", prepare)
-        self._last_cycle = message.at_cycle
+        self._last_cycle = self._first_cycle = message.at_cycle
         return True
 
     def _now_cycle(self):
@@ -168,13 +169,38 @@ class Stream:
             conversation.network.wait_until(lambda: not conversation.is_behind, max(0.0, (cycle - self._now_cycle()) * self._period_s))
 
     def _check_refusals(self):
+        # What ended the stream, if that is the joint's own doing, is told before what became of the samples since.
+        self._check_state(self._first_cycle)
         while (refusal := self._conversation.take_refusal()) is not None:
             reason, text, overtaken = refusal
             if reason != Reason.TOO_OLD and not overtaken:
+                if reason in (Reason.FAULTED, Reason.STREAM_ENDED):
+                    self._check_joint()
                 if reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
-                    self._over, self._last_cycle = True, None  # whoever ended it has the joint
+                    self._lose()
                 raise Refused(self._joint.name, "a setpoint of the stream", reason, text)
             self.late += 1
+
+    # A refusal may be here before the state that says why.
+    def _check_joint(self):
+        conversation = self._conversation
+        seen = conversation.messages
+        conversation.network.wait_until(lambda: conversation.state.mode == Mode.FAULTED or conversation.messages > seen + 1, OLD_STATES_S)
+        self._check_state(conversation.state.cycle)
+
+    # Before `from_cycle` a yield may be one from before the stream.
+    def _check_state(self, from_cycle):
+        state = self._conversation.state
+        if state.mode == Mode.FAULTED:
+            self._lose()
+            raise faulted(self._conversation)
+        if has_yielded(state) and state.cycle >= from_cycle:
+            self._lose()
+            raise yielded(self._conversation, "did not follow the stream to its end")
+
+    # Whoever, or whatever, ended it has the joint.
+    def _lose(self):
+        self._over, self._last_cycle = True, None
 
     def _leave_out(self, cycle):
         self.late += 1

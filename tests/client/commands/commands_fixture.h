@@ -22,6 +22,7 @@ class CommandsTest : public ::testing::Test {
       return ExitStatus::kDone;
     } catch (const ClientError& error) {
       message = error.what();
+      details = error.details();
       return error.status();
     }
   }
@@ -37,6 +38,7 @@ class CommandsTest : public ::testing::Test {
   std::ostringstream stream;
   Output output{stream, false};
   std::string message;
+  ClientError::Details details;
 };
 
 }  // namespace strainwave::testing

@@ -72,6 +72,56 @@ TEST_F(CommandsTest, MoveEndsWhenAnotherOrderReplacesIt) {
   EXPECT_TRUE(message_has("another order")) << message;
 }
 
+TEST_F(CommandsTest, MoveThatALoadEndsSaysWhichAndWhereTheJointHolds) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.after_answer = [&] {
+    daemon.publish_state(Mode::kTracking);
+    daemon.show_yield();
+    daemon.state.target_position_rad = daemon.state.joint_position_rad = 0.29;
+    daemon.publish_state(Mode::kTracking);
+    daemon.state.joint_position_rad = 0.2871;
+  };
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kHolding};
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kRefused);
+  EXPECT_EQ(
+      message,
+      "elbow: did not arrive at 0.5 rad: it yielded to a load of 13.1 N.m (load_Nm allows 12) at 0.3011 "
+      "rad; it holds at 0.2871 rad");
+  EXPECT_EQ(details.joint, "elbow");
+  ASSERT_TRUE(details.yielded_to);
+  EXPECT_EQ(details.yielded_to->load_Nm, -13.1042);
+  EXPECT_EQ(details.yielded_to->limit_Nm, 12.0);
+  EXPECT_EQ(details.yielded_to->position_rad, 0.3011);
+}
+
+TEST_F(CommandsTest, MoveThatALoadEndsInAFaultTellsTheFault) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.after_answer = [&] {
+    daemon.publish_state(Mode::kTracking);
+    daemon.show_yield();
+    daemon.state.target_position_rad = 0.29;
+    daemon.state.fault = static_cast<std::int32_t>(Fault::kOverload);
+  };
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kFaulted};
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kRefused);
+  EXPECT_TRUE(message_has("24: load too large")) << message;
+}
+
+// What left the daemon before it took the order still tells of it.
+TEST_F(CommandsTest, MoveIsNotEndedByALoadOfBefore) {
+  daemon.publish_state(Mode::kHolding);
+  daemon.obeys_moves = false;
+  daemon.after_answer = [&] {
+    daemon.show_yield();
+    daemon.state.target_position_rad = 0.29;
+    daemon.publish_state(Mode::kTracking);
+    daemon.state.notices = 0;
+    daemon.state.target_position_rad = daemon.state.joint_position_rad = 0.5;
+  };
+  daemon.modes_after_answer = {Mode::kTracking, Mode::kHolding};
+  EXPECT_EQ(move_and_wait(0.5), ExitStatus::kDone) << message;
+}
+
 TEST_F(CommandsTest, MoveEndsWhenTheJointIsDisabledOrTheDaemonRestarted) {
   daemon.publish_state(Mode::kHolding);
   daemon.modes_after_answer = {Mode::kTracking, Mode::kStopping};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
@@ -161,6 +162,69 @@ TEST_P(EndedStreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
 }
 INSTANTIATE_TEST_SUITE_P(ForEachReason, EndedStreamTest,
                          ::testing::Values(Reason::kStreamEnded, Reason::kSuperseded));
+
+// A played daemon that stays silent about its joint, and refuses what comes, until the joint has come to its end.
+class StoppedStreamTest : public StreamTest {
+ protected:
+  Stream begun() {
+    auto stream = joint.stream({.ahead_s = 0.9, .valid_for_s = 10.0});
+    stream.put(0.0, 0.1);
+    return stream;
+  }
+  /// What the put that finds it out throws.
+  template <typename Error>
+  void expect_over(Stream& stream, const std::function<void(const Error&)>& look) {
+    double t_s = 0.0;
+    try {
+      while (t_s < 10.0) stream.put(t_s += 0.01, 0.1);
+      FAIL() << "went on";
+    } catch (const Error& error) {
+      look(error);
+    }
+    EXPECT_THROW(stream.put(20.0, 0.1), NotDone) << "over";
+    for (const command_v1& command : heard<command_v1>()) ADD_FAILURE() << command.action << " was sent";
+  }
+};
+
+TEST_F(StoppedStreamTest, ThrowsTheFaultThatEndedIt) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] {
+    if (played.heard().size() > 1) played.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+    played.reason = Reason::kFaulted;
+    played.state.fault = static_cast<std::int32_t>(Fault::kFollowingError);
+  };
+  auto stream = begun();
+  expect_over<Faulted>(stream,
+                       [](const Faulted& error) { EXPECT_EQ(error.fault(), Fault::kFollowingError); });
+}
+
+TEST_F(StoppedStreamTest, ThrowsTheRefusalOfAFaultThatSomebodyHasCleared) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kFaulted; };
+  auto stream = begun();
+  try {
+    for (int i = 1; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+    FAIL() << "went on";
+  } catch (const Refused& error) {
+    EXPECT_EQ(error.reason(), Reason::kFaulted);
+  }
+}
+
+TEST_F(StoppedStreamTest, ThrowsTheLoadThatTheJointYieldedTo) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] {
+    if (played.heard().size() > 1) played.show_yield();
+    played.reason = Reason::kStreamEnded;
+  };
+  auto stream = begun();
+  expect_over<Yielded>(stream, [](const Yielded& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "elbow: did not follow the stream to its end: it yielded to a load of 13.1 N.m (load_Nm allows "
+        "12) at 0.3011 rad; it holds at 0.1 rad");
+    EXPECT_EQ(error.to().load_Nm, -13.1042);
+    EXPECT_EQ(error.to().position_rad, 0.3011);
+  });
+}
 
 TEST_F(StreamTest, IsNotBegunAnewByASampleAfterItsEnd) {
   daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kStreamEnded; };

@@ -41,6 +41,13 @@ void FakeDaemon::publish_limits() {
   connection_.publish(channel(prefix_, joint_, channel_kind::kLimits), encode(limits));
 }
 
+void FakeDaemon::show_yield() {
+  state.notices = static_cast<std::int32_t>(Notice::kYielded);
+  state.yield_load_Nm = -13.1042;
+  state.yield_limit_Nm = 12.0;
+  state.yield_position_rad = 0.3011;
+}
+
 void FakeDaemon::on_order(const ReceivedMessage& message) {
   const auto bytes = message.bytes;
   heard_.push_back({message.channel, {bytes.begin(), bytes.end()}});

@@ -32,6 +32,8 @@ class FakeDaemon {
   void publish_state();
   void publish_state(Mode mode);
   void publish_limits();
+  /// From the next state on: it has yielded to 13.1042 N.m, towards positive positions, where 12 were allowed, at 0.3011 rad.
+  void show_yield();
 
   state_v1 state{};
   limits_v1 limits{};

@@ -5,8 +5,8 @@ import tempfile
 import threading
 import unittest
 
-from played_orders import PlayedOrders, published
-from strainwave import Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused
+from played_orders import YIELDED, PlayedOrders, published
+from strainwave import Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, Yielded
 
 
 class Orders(PlayedOrders):
@@ -161,6 +161,28 @@ class Orders(PlayedOrders):
             with self.subTest(words), self.assertRaisesRegex(error, words):
                 self.wait_for_move(self.elbow, moving, end)
             self.publish_state(session_id=11, fault=0)
+
+    def test_to_move_that_a_load_ended_say_which_and_where_the_joint_holds(self):
+        moving = dict(mode=Mode.TRACKING, target_position_rad=0.5)
+        yields = dict(mode=Mode.TRACKING, target_position_rad=0.2871, joint_position_rad=0.29, **YIELDED)
+        with self.assertRaises(Yielded) as caught:
+            self.wait_for_move(self.elbow, moving, yields, dict(mode=Mode.HOLDING, joint_position_rad=0.2871))
+        self.assertEqual(str(caught.exception), "elbow: did not arrive at 0.5 rad: it yielded to a load of 13.1 N.m (load_Nm allows 12) at "
+                         "0.3011 rad; it holds at 0.2871 rad")
+        self.assertEqual((caught.exception.joint, caught.exception.load_Nm, caught.exception.limit_Nm, caught.exception.position_rad),
+                         ("elbow", -13.1042, 12.0, 0.3011))
+        self.assertIsInstance(caught.exception, NotDone)
+
+    def test_to_move_that_a_load_ended_in_a_fault_tell_that(self):
+        moving = dict(mode=Mode.TRACKING, target_position_rad=0.5)
+        with self.assertRaisesRegex(Faulted, "24: load too large"):
+            self.wait_for_move(self.elbow, moving, dict(mode=Mode.TRACKING, target_position_rad=0.3, **YIELDED),
+                               dict(mode=Mode.FAULTED, fault=24))
+
+    def test_to_move_are_not_ended_by_a_load_of_before(self):
+        before = dict(mode=Mode.TRACKING, target_position_rad=0.3, **YIELDED)
+        moving = dict(mode=Mode.TRACKING, target_position_rad=0.5, notices=0)
+        self.wait_for_move(self.elbow, before, moving, dict(mode=Mode.HOLDING, joint_position_rad=0.5))
 
     def test_to_move_that_hold_outside_of_the_tolerance_say_how_far(self):
         moving = dict(mode=Mode.TRACKING, target_position_rad=0.5)

@@ -2,8 +2,8 @@
 import threading
 import unittest
 
-from played_orders import PATH, PlayedOrders, published
-from strainwave import Action, Faulted, InvalidInput, Joint, Mode, NotDone, Notice, Path, Reason, Refused
+from played_orders import PATH, YIELDED, PlayedOrders, published
+from strainwave import Action, Faulted, InvalidInput, Joint, Mode, NotDone, Notice, Path, Reason, Refused, Yielded
 
 
 class Paths(PlayedOrders):
@@ -77,6 +77,22 @@ class Paths(PlayedOrders):
         later.start()
         self.addCleanup(later.join)
         with self.assertRaisesRegex(Faulted, "wrist.*13"):
+            path.wait()
+
+    def test_tell_of_the_joint_that_yielded_and_not_of_those_that_it_stopped(self):
+        wrist = Joint("wrist", key="", timeout_s=30)
+        path = Path({self.elbow: self.KNOTS, wrist: self.KNOTS})
+        self.publish_state(Mode.TRACKING, target_position_rad=0.75)
+        self.publish_state(Mode.TRACKING, joint="wrist")
+
+        def give_way():
+            self.publish_state(Mode.TRACKING, cycle=5, target_position_rad=0.3)
+            self.publish_state(Mode.HOLDING, joint="wrist", joint_position_rad=0.2871, **YIELDED)
+
+        later = threading.Timer(0.05, give_way)
+        later.start()
+        self.addCleanup(later.join)
+        with self.assertRaisesRegex(Yielded, "^wrist: did not arrive at 0.75 rad: it yielded to a load of 13.1 N.m"):
             path.wait()
 
     def test_return_when_all_joints_are_there(self):

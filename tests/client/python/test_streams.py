@@ -3,8 +3,8 @@ import threading
 import time
 import unittest
 
-from played_orders import COMMAND, SETPOINT, PlayedOrders, published
-from strainwave import InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, limits_v1, messages
+from played_orders import COMMAND, SETPOINT, YIELDED, PlayedOrders, published
+from strainwave import Fault, Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, Yielded, limits_v1, messages
 
 
 class Streams(PlayedOrders):
@@ -101,6 +101,69 @@ class Streams(PlayedOrders):
                 with self.assertRaisesRegex(NotDone, "this stream is over"):
                     stream.put(0.03, 0.1)
                 self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
+
+    def stream_ended(self, reason, mode, **fields):
+        """A stream whose second sample is refused, and only then come the states that say why."""
+        def daemon(channel, message):
+            order = published(channel, message)
+            if order.begins_stream:
+                return self.answer(order)
+            self.answer(order, 0, reason)
+            for cycle in (1010, 1015):
+                later = threading.Timer(0.01 * (cycle - 1005) / 5, self.publish_state, [mode], dict(cycle=cycle, **fields))
+                later.start()
+                self.addCleanup(later.join)
+
+        self.network.daemon = daemon
+        stream = self.stream(ahead_s=0.9)
+        stream.put(0, 0.1)
+        stream.put(0.01, 0.1)
+        return stream
+
+    def test_that_a_fault_ended_raise_it_and_are_over(self):
+        stream = self.stream_ended(Reason.FAULTED, Mode.FAULTED, fault=14)
+        with self.assertRaises(Faulted) as caught, stream:
+            stream.put(0.02, 0.1)
+        self.assertIs(caught.exception.fault, Fault.FOLLOWING_ERROR)
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.03, 0.1)
+        self.assertEqual([channel for channel, _ in self.network.published], [SETPOINT] * 2, "its drive is off: there is nothing to hold")
+
+    def test_that_a_fault_ended_raise_it_though_no_refusal_came(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        for end in (lambda stream: stream.put(0.01, 0.1), lambda stream: stream.close()):
+            stream = self.stream(ahead_s=0.9)
+            stream.put(0, 0.1)
+            self.publish_state(Mode.FAULTED, cycle=3000, fault=14)
+            with self.assertRaises(Faulted):
+                end(stream)
+
+    def test_that_a_fault_ended_that_somebody_has_cleared_say_what_was_refused(self):
+        stream = self.stream_ended(Reason.FAULTED, Mode.OFF)
+        with self.assertRaises(Refused) as caught:
+            stream.put(0.02, 0.1)
+        self.assertIs(caught.exception.reason, Reason.FAULTED)
+
+    def test_that_a_load_ended_say_which_and_are_over(self):
+        stream = self.stream_ended(Reason.STREAM_ENDED, Mode.TRACKING, **YIELDED)
+        with self.assertRaises(Yielded) as caught, stream:
+            stream.put(0.02, 0.1)
+        self.assertEqual(str(caught.exception), "elbow: did not follow the stream to its end: it yielded to a load of 13.1 N.m (load_Nm allows 12) "
+                         "at 0.3011 rad; it is tracking")
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.03, 0.1)
+        self.assertEqual([channel for channel, _ in self.network.published], [SETPOINT] * 2)
+
+    def test_are_not_ended_by_a_load_of_before(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        for name, value in YIELDED.items():
+            setattr(self.state, name, value)
+        stream = self.stream(ahead_s=0.9)
+        stream.put(0, 0.1)
+        self.assertTrue(stream.put(0.01, 0.1))
+        self.publish_state(Mode.TRACKING, cycle=2500)
+        with self.assertRaises(Yielded):
+            stream.put(1.7, 0.1)
 
     def test_refuse_samples_after_their_close_and_begin_nothing(self):
         def daemon(channel, message):

@@ -44,6 +44,20 @@ TEST(FailureJson, HasTheFault) {
   EXPECT_FALSE(json.contains("reason") || json.contains("allowed"));
 }
 
+TEST(FailureJson, HasTheLoadThatAJointYieldedToWhatWasAllowedAndWhere) {
+  const auto json = json_of(Yielded("elbow: did not arrive at 0.5 rad: it yielded to a load of 13.1 N.m "
+                                    "(load_Nm allows 12) at 0.3011 rad; it holds at 0.2871 rad",
+                                    "elbow", {-13.1042, 12.0, 0.3011}),
+                            {"move", {"wrist", "elbow"}});
+  EXPECT_EQ(json.at("error"), "yielded");
+  EXPECT_EQ(json.at("exit_status"), 1);
+  EXPECT_EQ(json.at("joint"), "elbow");
+  EXPECT_EQ(json.at("yield_load_Nm"), -13.1042);
+  EXPECT_EQ(json.at("yield_limit_Nm"), 12.0);
+  EXPECT_EQ(json.at("yield_position_rad"), 0.3011);
+  EXPECT_FALSE(json.contains("reason") || json.contains("fault") || json.contains("allowed"));
+}
+
 TEST(FailureJson, NamesWhatWentWrongByTheExitStatus) {
   EXPECT_EQ(json_of(InvalidInput("x")).at("error"), "wrong input");
   EXPECT_EQ(json_of(NoAnswer("x")).at("error"), "no answer");
