@@ -89,7 +89,8 @@ class MotionWatch {
 };
 
 /// States of one cycle come one after the other: waits for those that belong to the first joint's.
-void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions, double timeout_s) {
+void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions) {
+  constexpr double kSameCycle_s = 0.05;
   const JointView& first = motions.front().view();
   client.wait_until(
       [&] {
@@ -97,7 +98,7 @@ void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions
           return motion.view().state.cycle >= first.state.cycle;
         });
       },
-      Deadline(timeout_s));
+      Deadline(kSameCycle_s));
 }
 
 /// Returns once all of them are done. A fault, or a yield, is told before what it made of those that move with the joint.
@@ -109,7 +110,7 @@ void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
     const JointView& view = motions.front().view();
     const std::int64_t seen = view.messages;
     client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
-    wait_for_the_others(client, motions, kLook_s);
+    wait_for_the_others(client, motions);
     const double timeout_s = client.options().timeout_s;
     for (const MotionWatch& motion : motions) motion.check_fault();
     for (MotionWatch& motion : motions) motion.check_yield(client, timeout_s);

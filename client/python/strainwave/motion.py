@@ -10,6 +10,7 @@ from .vocabulary import Mode, Notice
 OLD_STATES_S = 0.2  # a state that left the daemon before it took the order may arrive after the acknowledgement
 LONGEST_PATH_S = 3600.0  # kLongestPath_s of the daemon
 _LOOK_S = 0.01
+_SAME_CYCLE_S = 0.05  # between the states of a cycle
 _STAY_S = 0.1
 
 
@@ -143,7 +144,7 @@ def wait_for_motions(motions, look=lambda: None):
         seen = first.messages
         first.network.wait_until(lambda: first.messages != seen, _LOOK_S)
         # States of one cycle come one after the other.
-        first.network.wait_until(lambda: all(motion.conversation.state.cycle >= first.state.cycle for motion in under_way), _LOOK_S)
+        first.network.wait_until(lambda: all(motion.conversation.state.cycle >= first.state.cycle for motion in under_way), _SAME_CYCLE_S)
         for motion in under_way:
             motion.check_fault()
         for motion in under_way:

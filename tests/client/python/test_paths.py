@@ -1,5 +1,6 @@
 """Paths over a network that the test plays."""
 import threading
+import time
 import unittest
 
 from played_orders import PATH, YIELDED, PlayedOrders, published
@@ -87,6 +88,7 @@ class Paths(PlayedOrders):
 
         def give_way():
             self.publish_state(Mode.TRACKING, cycle=5, target_position_rad=0.3)
+            time.sleep(0.005)
             self.publish_state(Mode.HOLDING, joint="wrist", joint_position_rad=0.2871, **YIELDED)
 
         later = threading.Timer(0.05, give_way)

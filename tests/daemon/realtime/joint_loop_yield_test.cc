@@ -110,6 +110,22 @@ TEST_F(AYieldIsTold, UntilAPathBegins) {
   EXPECT_FALSE(told());
 }
 
+TEST(AYieldIsToldUntil, TheJointIsHomed) {
+  BenchJoint joint = joint_that_yields();
+  joint.drive.inputs = {-2.0, 2.0, -0.3, -0.2, 0.05, 0.125};
+  joint.loop.homing.target = HomingTarget::kHomeSwitch;
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kSetpoint,
+                                 .position_rad = 2.0 * kYieldsAt_rad,
+                                 .speed_limit_rad_s = kRunsAt_rad_s}),
+            Reason::kAccepted);
+  bench.run(2.0);
+  EXPECT_TRUE(bench.has_notice(0, Notice::kYielded));
+  ASSERT_EQ(bench.order(0, OrderKind::kHome), Reason::kAccepted);
+  EXPECT_FALSE(bench.has_notice(0, Notice::kYielded));
+}
+
 TEST_F(AYieldIsTold, UntilTheFaultThatCameOfItIsCleared) {
   run_into_the_wall();
   bench_.joint(0).raise_fault(Fault::kOverload, bench_.time());
