@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "daemon/loop_log.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -51,6 +52,26 @@ TEST(Log, TakesOneLineFromWhateverSomebodySends) {
 TEST(Log, KeepsWhatPeopleWriteAsItIs) {
   const std::string text = logged([] { spdlog::info("elbow: 5 \u00b0C, \u00fcber [0, 1]: {}", 0.5); });
   EXPECT_EQ(text, "<6>elbow: 5 \u00b0C, \u00fcber [0, 1]: 0.5\n");
+}
+
+TEST(LoopLog, NamesTheLoadThatAJointYieldedToWhatIsAllowedAndWhere) {
+  JointConfig joint;
+  joint.name = "elbow";
+  LoopEvent event{
+      0, 81234, Mode::kTracking, Mode::kTracking, Fault::kNone, 0, Yield{-13.1042, 12.0, 0.30104}};
+  EXPECT_FALSE(tells_of_fault(event));
+  EXPECT_EQ(
+      logged([&] { log_loop_event(joint, event); }),
+      "<4>elbow: yielded to a load of 13.1 N.m at 0.301 rad: joint.limits.load_Nm allows 12 (was tracking, "
+      "cycle 81234)\n");
+  event.yield.reset();
+  event.to = Mode::kHolding;
+  EXPECT_EQ(logged([&] { log_loop_event(joint, event); }), "<6>elbow: tracking -> holding\n");
+  event.to = Mode::kFaulted;
+  event.fault = Fault::kOverload;
+  EXPECT_TRUE(tells_of_fault(event));
+  EXPECT_EQ(logged([&] { log_loop_event(joint, event); }),
+            "<3>elbow: fault 24: load too large, see joint.limits.load_Nm (was tracking, cycle 81234)\n");
 }
 
 }  // namespace
