@@ -198,6 +198,24 @@ TEST_F(StoppedStreamTest, ThrowsTheFaultThatEndedIt) {
                        [](const Faulted& error) { EXPECT_EQ(error.fault(), Fault::kFollowingError); });
 }
 
+TEST_F(StoppedStreamTest, ThrowsTheFaultThoughNoRefusalCame) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] {
+    if (played.heard().size() > 1) played.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+  };
+  auto stream = begun();
+  expect_over<Faulted>(stream, [](const Faulted&) {});
+}
+
+TEST_F(StoppedStreamTest, IsNotOverForALoadThatMayBeOfBefore) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] { played.show_yield(); };
+  auto stream = begun();
+  EXPECT_TRUE(stream.put(0.001, 0.1));
+  EXPECT_TRUE(stream.put(0.002, 0.1));
+  expect_over<Yielded>(stream, [](const Yielded&) {});
+}
+
 TEST_F(StoppedStreamTest, ThrowsTheRefusalOfAFaultThatSomebodyHasCleared) {
   daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kFaulted; };
   auto stream = begun();
