@@ -63,6 +63,8 @@ class StateEstimator {
   /// Nothing remembered: where the encoder reads `position_rad`, at `velocity_rad_s`, while `load_Nm` was held by a torque as
   /// large. Friction is unknown in units of `friction_scale_Nm`. The next step() is the first.
   void reset(double position_rad, double velocity_rad_s, double load_Nm, double friction_scale_Nm) noexcept;
+  /// The position of reset() was this period's reading: by the next one a period will have passed.
+  void has_been_read() noexcept { first_ = false; }
   /// One period of a joint like `model`.
   void step(const JointMeasurement& measurement, const JointModel& model, EstimateSource source,
             SurpriseCause cause = SurpriseCause::kLoad) noexcept;

@@ -1,7 +1,9 @@
 // That a joint has yielded to a load is told until it is moved anew, and why, to whoever asks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "tests/support/flexible_bench.h"
 
@@ -151,6 +153,46 @@ TEST_F(AYieldIsTold, ToTheStreamThatItEndedAndToNoOther) {
   EXPECT_EQ(refused(1).value, std::abs(bench_.state(0).yield_load_Nm));
   EXPECT_EQ(refused(1).limit, kMayBear_Nm);
   EXPECT_EQ(refused(2).limit, 0.0);
+}
+
+// In its first period its plan stood still and the observer knew of no motion: 1.5 times the speed, 30 N.m for a period, and fault 13 near the
+// speed limit.
+TEST(AYieldsEnd, BrakesTheJointWithoutASurprise) {
+  for (const double stiffness_Nm_rad : {200.0, 2000.0})
+    for (const double speed_rad_s : {1.0, 2.0, 3.5}) {
+      BenchJoint joint = joint_that_yields();
+      joint.drive.plant.effects.contact.stiffness_Nm_rad = stiffness_Nm_rad;
+      JointBench bench({joint});
+      bench.bring_to_hold(0);
+      ASSERT_EQ(bench.order(
+                    0, {.kind = OrderKind::kSetpoint, .position_rad = 1.0, .speed_limit_rad_s = speed_rad_s}),
+                Reason::kAccepted);
+      ASSERT_GE(bench.step_until(
+                    [&] {
+                      return bench.state(0).setpoint_velocity_rad_s == 0.0 &&
+                             bench.has_notice(0, Notice::kYielded);
+                    },
+                    3000),
+                0);
+      const bool caught =
+          bench.step_until([&] { return bench.state(0).setpoint_velocity_rad_s != 0.0; }, 1000) >= 0;
+      double largest_Nm = 0.0, farthest_rad_s = 0.0, last_rad = bench.state(0).joint_position_rad;
+      for (int k = 0; k < 400; ++k) {
+        bench.step();
+        const state_v1 state = bench.state(0);
+        largest_Nm = std::max(largest_Nm, std::abs(state.torque_commanded_Nm));
+        farthest_rad_s = std::max(farthest_rad_s, std::abs(state.joint_velocity_rad_s -
+                                                           1e3 * (state.joint_position_rad - last_rad)));
+        last_rad = state.joint_position_rad;
+      }
+      std::printf(
+          "wall %.0f N.m/rad at %.1f rad/s: caught %d, at most %.1f N.m, velocity %.2f rad/s off what "
+          "positions say\n",
+          stiffness_Nm_rad, speed_rad_s, caught, largest_Nm, farthest_rad_s);
+      EXPECT_EQ(bench.fault(0), Fault::kNone);
+      EXPECT_LT(largest_Nm, 16.0) << "what decelerating takes is 13.4";
+      EXPECT_LT(farthest_rad_s, 0.5);
+    }
 }
 
 }  // namespace
