@@ -32,12 +32,21 @@ std::string kind_of(ExitStatus status, const ClientError::Details& details) {
 /// All errors are worded alike: what was given, a colon, what is allowed.
 void add_allowed(Json& json, const std::string& text) {
   static const std::regex given(R"(([\w.-]+) = ([^:;]*): )");
+  // What a path asks for at a knot: its limit's name says more than "speed in rad/s".
+  static const std::regex asked(R"((\w+) in [^=:;]* = ([^:;]*): )");
+  static const std::regex limit(R"(allowed \((joint\.[\w.]+)\))");
+  static const std::regex knot(R"(\bknot (\d+)\b)");
   static const std::regex allowed(R"((?:: |; )([^:;]*) (?:is|are) allowed)");
   std::smatch found;
   if (!std::regex_search(text, found, allowed)) return;
   const std::string range = found[1];
   const std::string before = text.substr(0, static_cast<std::size_t>(found.position()) + 2);
-  if (std::regex_search(before, found, given)) {
+  if (std::regex_search(before, found, knot)) json["knot"] = std::stol(found[1]);
+  if (std::regex_search(before, found, asked)) {
+    json["given"] = std::string(found[2]);
+    std::smatch limited;
+    json["key"] = std::regex_search(text, limited, limit) ? limited[1] : found[1];
+  } else if (std::regex_search(before, found, given)) {
     json["key"] = std::string(found[1]);
     json["given"] = std::string(found[2]);
   }

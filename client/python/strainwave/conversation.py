@@ -16,6 +16,7 @@ TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that
 _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
+_GONE_S = 2.5  # whose last state is older has gone, as far as anybody can tell
 _OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
 
 
@@ -49,6 +50,7 @@ class Conversation:
         self.state = None  # the latest state_v1
         self.received_s = 0.0
         self.is_behind = False  # the latest state came a while before this program took it: it stood still, and newer ones follow
+        self._misunderstood = False  # the last state
         self.messages = 0
         self.limits = None  # the latest limits_v1
         self.clock = CycleClock()
@@ -171,6 +173,7 @@ class Conversation:
 
     def _on_state(self, content):
         message = decode_exactly(state_v1, content)
+        self._misunderstood = message is None
         if message is None:
             return
         if self.state is not None and self.state.session_id != message.session_id:
@@ -196,11 +199,15 @@ class Conversation:
             self._refusals.append(ack)
 
     def _silence(self):
-        heard = sorted(self.network.joints)
+        now = now_s()
+        heard = sorted(joint for joint, came_s in self.network.joints.items() if now - came_s <= max(self.timeout_s, _GONE_S))
         joints = [joint for prefix, joint in heard if prefix == self.prefix]
-        if self.joint in joints:  # the name was heard, the state was not understood
+        if self._misunderstood:
             return (f"the daemon on prefix {self.prefix} speaks another version: its states have another type than state_v1 of this "
                     "program. Install both in the same version")
+        if self.joint in joints:
+            silent_s = now - self.network.joints[self.prefix, self.joint]
+            return f"{self.joint}: no state came in {self.timeout_s:g} s; the last one that was heard here came {silent_s:.2f} s ago"
         if joints:
             return f"no joint '{self.joint}' on prefix {self.prefix}; its joints are: {', '.join(joints)}"
         words = f"no daemon on prefix {self.prefix} in {self.timeout_s:g} s ({self.network.url})."

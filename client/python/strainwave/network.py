@@ -68,7 +68,7 @@ class Network:
     def __init__(self, url):
         self.url = url
         self.changed = threading.Condition(threading.RLock())
-        self.joints = set()  # (prefix, joint) of whoever publishes a state
+        self.joints = {}  # (prefix, joint) of whoever publishes a state: when the last came
         self.came_s = now_s()  # when the message that is handled now reached this machine
         self._caught_up_s = now_s()
         self._handlers = {}
@@ -164,8 +164,11 @@ class Network:
 
     def _note_joint(self, channel):
         name = _STATE_CHANNEL.fullmatch(channel)
-        if name and len(self.joints) < MAX_NAMES:
-            self.joints.add((name[1].decode(), name[2].decode()))
+        if name is None:
+            return
+        joint = (name[1].decode(), name[2].decode())
+        if joint in self.joints or len(self.joints) < MAX_NAMES:
+            self.joints[joint] = self.came_s
 
 
 def now_s():

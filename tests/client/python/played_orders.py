@@ -18,7 +18,7 @@ class PlayedNetwork:
 
     def __init__(self):
         self.changed = threading.Condition(threading.RLock())
-        self.joints = set()
+        self.joints = {}
         self._handlers = {}
         self.published = []
         self.came_s = now_s()

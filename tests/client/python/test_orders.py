@@ -7,6 +7,7 @@ import unittest
 
 from played_orders import YIELDED, PlayedOrders, published
 from strainwave import Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, Yielded
+from strainwave.network import now_s
 
 
 class Orders(PlayedOrders):
@@ -107,16 +108,26 @@ class Orders(PlayedOrders):
         self.assertEqual(self.elbow.state.mode, Mode.HOLDING)
 
     def test_to_a_joint_that_is_not_there_say_who_is(self):
-        self.network.joints = {("SW", "wrist"), ("LAB", "hip")}
+        self.network.joints = {("SW", "wrist"): now_s(), ("LAB", "hip"): now_s()}
         with self.assertRaisesRegex(NoAnswer, "no joint 'elbow' on prefix SW; its joints are: wrist"):
             self.impatient_elbow.enable()
-        self.network.joints = {("SW", "elbow")}  # its name is heard, and no state that is one
-        with self.assertRaisesRegex(NoAnswer, "the daemon on prefix SW speaks another version"):
+        # Another object of this program heard it, and it has not been heard since this one has been there.
+        self.network.joints = {("SW", "elbow"): now_s() - 0.5}
+        with self.assertRaisesRegex(NoAnswer, "^elbow: no state came in 0.2 s; the last one that was heard here came 0.7. s ago"):
             self.impatient_elbow.enable()
-        self.network.joints = {("LAB", "hip")}
+        self.network.joints = {("SW", "elbow"): now_s() - 60.0, ("LAB", "foot"): now_s() - 60.0}
+        with self.assertRaisesRegex(NoAnswer, "no daemon on prefix SW in 0.2 s .*Is strainwaved running"):
+            self.impatient_elbow.enable()
+        self.network.joints = {("LAB", "hip"): now_s()}
         with self.assertRaisesRegex(NoAnswer, "Daemons are heard on: LAB"):
             self.impatient_elbow.enable()
         self.assertEqual(self.network.published, [])
+
+    def test_to_a_joint_whose_states_are_no_states_say_that_versions_differ(self):
+        for handler in self.network._handlers[b"SW.elbow.STATE"]:
+            handler()(b"something else")
+        with self.assertRaisesRegex(NoAnswer, "the daemon on prefix SW speaks another version"):
+            self.impatient_elbow.enable()
 
     def wait_for_move(self, elbow, *states):
         """The result of a move to 0.5 after which these states follow each other; the last one again and again."""

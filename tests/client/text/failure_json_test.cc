@@ -36,6 +36,17 @@ TEST(FailureJson, HasTheReasonOfARefusalAndWhatIsAllowed) {
   EXPECT_FALSE(json.contains("fault"));
 }
 
+TEST(FailureJson, OfAPathHasTheKnotAndTheLimit) {
+  const auto json = json_of(Refused(
+      "elbow: its part of the path refused (3, out of range): elbow, knot 3 (at 1.25 s): acceleration in "
+      "rad/s^2 = 120: at most 30 is allowed (joint.limits.acceleration_rad_s2)",
+      "elbow", Reason::kOutOfRange));
+  EXPECT_EQ(json.at("knot"), 3);
+  EXPECT_EQ(json.at("key"), "joint.limits.acceleration_rad_s2");
+  EXPECT_EQ(json.at("given"), "120");
+  EXPECT_EQ(json.at("allowed"), "at most 30");
+}
+
 TEST(FailureJson, HasTheFault) {
   const auto json = json_of(Faulted("elbow: faulted", "elbow", Fault::kFollowingError));
   EXPECT_EQ(json.at("error"), "faulted");
