@@ -20,6 +20,8 @@ constexpr double kReplanPushes = 4.0;
 // On a joint that is not declared rigid friction is compensated towards the target for so long after the
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
+// What has stood for a shorter time on a path turns, and has not come to rest.
+constexpr double kTurns_s = 0.06;
 constexpr double kHuntingCounts = 20.0;
 // What swings less than the counts above at the catalogue's encoder does so by the give of its gear, however fine the encoder: a hand or a
 // tap makes it.
@@ -71,6 +73,10 @@ bool JointController::landing_possible() const noexcept {
 
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
   if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
+  // A path that turns goes on: a push to the very count would only be in its way.
+  if (!linked() && follows_ == Follows::kStreamLater && phase_ == MotionPhase::kTracking &&
+      reference_rest_s_ < kTurns_s)
+    return;
   if (linked() && correct_link(measurement.joint_position_rad)) return enter(MotionPhase::kTracking);
   if (!may_land()) {
     attempts_.wait();

@@ -1,0 +1,73 @@
+// Paths that rest for some milliseconds, as where one turns at a knot. Virtual time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "daemon/realtime/path_follower.h"
+#include "tests/support/flexible_bench.h"
+
+namespace strainwave::testing {
+namespace {
+
+/// Slowly there, a rest of `rest_s`, and slowly back; `later_s` shifts the turn against the periods.
+KnotPath turning(double rest_s, double later_s, double scale) {
+  KnotPath path;
+  const double there_s = 0.55 + later_s, back_s = there_s + rest_s;
+  path.knots[1] = {0.5 + later_s, -0.05 * scale, -0.02 * scale};
+  path.knots[2] = {there_s, -0.0505 * scale, 0.0};
+  path.knots[3] = {back_s, -0.0505 * scale, 0.0};
+  path.knots[4] = {back_s + 0.05, -0.0499 * scale, 0.0175 * scale};
+  path.knots[5] = {back_s + 0.65, 0.0, 0.0};
+  path.count = 6;
+  return path;
+}
+
+/// How far the joint is from its setpoint at most, about the turn.
+double farthest_rad(double rest_s, double later_s, double scale, double temperature_C) {
+  BenchJoint joint = demo_joint();
+  joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  const auto slot = bench.joint(0).path_slots().hand_over({7, 1, turning(rest_s, later_s, scale)});
+  EXPECT_EQ(bench.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
+            Reason::kAccepted);
+  EXPECT_EQ(bench.order(0, OrderKind::kResumePath), Reason::kAccepted);
+  double farthest_rad = 0.0, last_rad = 0.0;
+  for (int k = 1; k < 1700; ++k) {
+    bench.step();
+    const state_v1& state = bench.state(0);
+    if (k > 500 && k < 900)
+      farthest_rad = std::max(farthest_rad, std::abs(state.joint_position_rad - last_rad));
+    last_rad = state.setpoint_position_rad;
+  }
+  EXPECT_EQ(bench.mode(0), Mode::kHolding);
+  return farthest_rad;
+}
+
+// What rests for so short a time goes on: a landing that was begun there, and pushed, threw the joint up to 1.9 mrad off.
+TEST(RestingPath, DoesNotThrowTheJointOff) {
+  for (const double scale : {1.0, 5.0})
+    for (const double rest_s : {0.003, 0.005, 0.008, 0.012, 0.018, 0.025, 0.05, 0.3}) {
+      double farthest = 0.0, sum_rad = 0.0;
+      int rides = 0, off = 0;
+      for (const double temperature_C : {-5.0, 25.0})
+        for (int i = 0; i < 12; ++i) {
+          const double one_rad = farthest_rad(rest_s, 0.00237 * i, scale, temperature_C);
+          farthest = std::max(farthest, one_rad);
+          sum_rad += one_rad;
+          off += one_rad > 0.5e-3 ? 1 : 0;
+          ++rides;
+        }
+      std::printf(
+          "rest of %.0f ms, scale %.0f: %.2f mrad off at most, %.2f in the mean, %d of %d beyond 0.5\n",
+          1e3 * rest_s, scale, 1e3 * farthest, 1e3 * sum_rad / rides, off, rides);
+      EXPECT_LE(off, 1);
+      EXPECT_LT(farthest, 1.1e-3);
+      EXPECT_LT(sum_rad, 0.3e-3 * rides);
+    }
+}
+
+}  // namespace
+}  // namespace strainwave::testing
