@@ -64,7 +64,7 @@ void JointController::go_on_yielding(int elapsed_periods) noexcept {
   start(position_rad, velocity_rad_s, yielding_.load_Nm + config_.gravity.at(position_rad));
   // In a period that has been read already: the next reading is one period of this velocity farther, and so is the reference.
   state_.has_been_read();
-  advance_reference(elapsed_periods);
+  advance_reference(1);
 }
 
 }  // namespace strainwave
