@@ -20,9 +20,9 @@ constexpr double kReplanPushes = 4.0;
 // On a joint that is not declared rigid friction is compensated towards the target for so long after the
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
+constexpr double kHuntingCounts = 20.0;
 // What has stood for a shorter time on a path turns, and has not come to rest.
 constexpr double kTurns_s = 0.06;
-constexpr double kHuntingCounts = 20.0;
 // What swings less than the counts above at the catalogue's encoder does so by the give of its gear, however fine the encoder: a hand or a
 // tap makes it.
 constexpr double kLeastSwing_rad = 4e-4;

@@ -6,7 +6,9 @@
 //   joint        whose it is; or joints, all that the command line names
 //   reason, reason_text, fault, fault_text   the daemon's, see docs/messages.md
 //   yield_load_Nm, yield_limit_Nm, yield_position_rad   of a joint that yielded, as in its state
-//   key, given, allowed   where the text has the form "key = given: ... allowed" (or "... is allowed"): its parts
+//   key, given, allowed   where the text has the form "key = given: ... allowed" (or "... is allowed"): its parts;
+//                         of a path's knot the key is its limit's
+//   knot         of a path, where one is named
 //   failures     of several joints, one such object each
 //   text         the sentence that people get
 #pragma once
