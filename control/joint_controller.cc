@@ -208,7 +208,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   const SurpriseCause by_friction =
       follows_ == Follows::kStreamOnTime ? SurpriseCause::kStreamedFriction : SurpriseCause::kFriction;
   state_.step(measurement, loaded_model(), estimate_source(), planned ? by_friction : SurpriseCause::kLoad);
-  // Of a stall over which nobody knows what the joint did miss() has been told.
+  // Of a stall over which nobody knows what the joint did begin_period() has been told.
   const bool missed = measurement.elapsed_periods > kMaxElapsedPeriods;
   if (yields())
     go_on_yielding(elapsed_periods);

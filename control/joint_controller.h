@@ -99,9 +99,9 @@ class JointController {
   double stream_lead_s() const noexcept;
   /// With OnTime::kPlan, from rest, how much later than the samples say the joint is where they say.
   double plan_lead_s() const noexcept;
-  /// The loop was away for so many periods, more than kMaxElapsedPeriods, which the next step() is told as elapsed: before samples that
-  /// have come since are followed.
-  void miss(std::int64_t periods) noexcept;
+  /// So many periods, >= 1, after the last step() comes the next, which is told so, too: before samples that have come since are followed.
+  /// May be left out where it is one.
+  void begin_period(std::int64_t elapsed_periods) noexcept;
   /// Where the plan, which may be ahead of the reference, goes on from in the next period, and how fast.
   double plan_position_rad() const noexcept { return plan_.position_rad(); }
   double plan_velocity_rad_s() const noexcept { return plan_.velocity_rad_s(); }

@@ -59,12 +59,14 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
                {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
 }
 
-// But for the period that begins now.
-void JointController::miss(std::int64_t periods) noexcept {
-  if (streamed())
-    stream_.skip(periods - 1);
+// Through what it left out step() goes as if it had been there; not where nobody knows what the joint did.
+void JointController::begin_period(std::int64_t elapsed_periods) noexcept {
+  if (elapsed_periods <= kMaxElapsedPeriods)
+    stream_.leave_out(elapsed_periods - 1);
+  else if (streamed())
+    stream_.skip(elapsed_periods - 1);
   else
-    stream_.wait(periods - 1);
+    stream_.wait(elapsed_periods - 1);
 }
 
 double JointController::stream_lead_s() const noexcept {

@@ -18,8 +18,6 @@ constexpr double kSmooth = 0.1;
 // For so long a smooth motion's acceleration goes on, or until it would have changed by that share.
 constexpr double kSmoothIntervals = 2.5;
 constexpr double kSmooth_s = 0.06;
-// Streams whose jerk is carried on: just those of 100 Hz.
-constexpr double kJerkGoesOn_s = 0.009;
 // By so much of an interval a sample is late before it is missing.
 constexpr double kLate = 0.5;
 constexpr double kLongestBridge_s = 0.2;
@@ -79,7 +77,7 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   }
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
-  if (waiting_.empty() && now_ > to_.at && !to_.rests()) missed_ = true;
+  if (waiting_.empty() && begins() > to_.at && !to_.rests()) missed_ = true;
   if (std::exchange(missed_, false) && past_count_ > 0) catch_up_in(knot.at - past_[0].at);
   if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
   const double apart_s = sample.derivatives == 0 && sample.in_periods == 0 && (!knot.told || in_rhythm_)
@@ -121,7 +119,7 @@ double StreamTarget::least_ahead() const noexcept {
 
 // Whatever comes meanwhile.
 void StreamTarget::catch_up_in(double periods) noexcept {
-  caught_up_at_ = std::max(caught_up_at_, now_ + std::min(periods, kLongestBridge_s / period_s_));
+  caught_up_at_ = std::max(caught_up_at_, begins() + std::min(periods, kLongestBridge_s / period_s_));
 }
 
 double StreamTarget::way_ahead_rad() const noexcept {
@@ -174,6 +172,7 @@ MovingTarget StreamTarget::step() noexcept {
   const State begin = state_;
   state_ = at(now_ + 1.0);
   now_ += 1.0;
+  left_out_ = std::max(0.0, left_out_ - 1.0);
   load_ = load_at(now_);
   return {begin.position_rad, begin.velocity_rad_s, state_.position_rad, state_.velocity_rad_s, load_};
 }
@@ -182,6 +181,7 @@ MovingTarget StreamTarget::step() noexcept {
 void StreamTarget::skip(std::int64_t periods) noexcept {
   const bool ended = ended_;
   now_ += static_cast<double>(periods);
+  left_out_ = 0.0;
   state_ = at(now_);
   if (to_.velocity_rad_s != 0.0) state_ = at(std::min(now_, to_.due + longest_bridge_s() / period_s_));
   ended_ = ended;
@@ -268,11 +268,6 @@ StreamTarget::State StreamTarget::between(double period) const noexcept {
   return {from_.position_rad + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5)))),
           (c1 + s * (2.0 * c2 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / T,
           (2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / (T * T)};
-}
-
-// In fast streams it would be their noise.
-double StreamTarget::carried_on_jerk_rad_s3(const Knot& knot) const noexcept {
-  return knot.smooth && seconds(expected_interval()) > kJerkGoesOn_s ? knot.jerk_rad_s3 : 0.0;
 }
 
 // As it was: with its acceleration for an interval, or where it is smooth for as long as samples may be missing, and then with the velocity

@@ -73,7 +73,13 @@ class StreamTarget {
   /// The stream that has ended goes on with the next sample: who followed it is here by now, with this load.
   void resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept;
   /// So many periods went by since it ended.
-  void wait(std::int64_t periods) noexcept { now_ += static_cast<double>(periods); }
+  void wait(std::int64_t periods) noexcept {
+    now_ += static_cast<double>(periods);
+    left_out_ = 0.0;
+  }
+  /// What comes now comes so many periods, >= 0, after the one that the next step() begins: those that the loop left out, through which
+  /// step() will go one by one.
+  void leave_out(std::int64_t periods) noexcept { left_out_ = static_cast<double>(periods); }
   /// So many periods went by in which nobody followed: the target has gone on, as far as it goes without new samples.
   void skip(std::int64_t periods) noexcept;
   void take(const StreamSample& sample, const Reach& reach) noexcept;
@@ -223,7 +229,8 @@ class StreamTarget {
   double least_ahead() const noexcept;
   void catch_up_in(double periods) noexcept;
   void queue(const StreamSample& sample, const Knot& knot) noexcept;
-  double present() const noexcept { return now_ - lead_; }
+  double begins() const noexcept { return now_ + left_out_; }  // the period in which samples come
+  double present() const noexcept { return begins() - lead_; }
   void derive_from_positions(const Before& before, Knot& knot) noexcept;
   void lead_to(const Knot& knot) noexcept;
   bool rests_at(const Knot& knot) const noexcept;
@@ -240,10 +247,11 @@ class StreamTarget {
 
   double period_s_;
   double bridge_s_;
-  double lead_ = 0.0;  ///< periods
-  double now_ = 0.0;   ///< periods since begin(), and the lead
-  State state_;        ///< now
-  ToldLoad load_;      ///< now
+  double lead_ = 0.0;      ///< periods
+  double now_ = 0.0;       ///< periods since begin(), and the lead
+  double left_out_ = 0.0;  ///< periods after now_ that have gone by
+  State state_;            ///< now
+  ToldLoad load_;          ///< now
   ToldLoad load_from_;
   ToldLoad load_to_;
   double load_from_at_ = 0.0;  ///< periods, as now_; so the next

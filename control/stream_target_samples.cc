@@ -11,6 +11,8 @@ namespace {
 // Of so many samples that are stamped the least of their intervals is the stream's: others were lost. Where a fifth is lost, all of six
 // came after a loss once in 3000 samples, of twelve once in 50 million.
 constexpr std::size_t kIntervals = 12;
+// Streams whose jerk is carried on: just those of 100 Hz.
+constexpr double kJerkGoesOn_s = 0.009;
 }  // namespace
 
 void StreamTarget::remember(const Knot& knot) noexcept {
@@ -32,6 +34,11 @@ const StreamTarget::Knot* StreamTarget::sample_before(double period, double apar
   return found;
 }
 
+// In fast streams it would be their noise.
+double StreamTarget::carried_on_jerk_rad_s3(const Knot& knot) const noexcept {
+  return knot.smooth && seconds(expected_interval()) > kJerkGoesOn_s ? knot.jerk_rad_s3 : 0.0;
+}
+
 // By `least_ahead` periods from its time, or until what was missed is caught up with.
 StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, const Knot& knot,
                                                  double least_ahead, double lag) const noexcept {
@@ -45,8 +52,8 @@ StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, con
   const double jerk_rad_s3 = ahead <= interval + lead_ ? knot.jerk_rad_s3 : carried_on_jerk_rad_s3(knot);
   Knot carried = knot;
   carried.carried = true;
-  carried.at = std::max(knot.at + ahead, now_ + 1.0);
-  carried.due = std::max(knot.at + least_ahead, now_ + 1.0);
+  carried.at = std::max(knot.at + ahead, begins() + 1.0);
+  carried.due = std::max(knot.at + least_ahead, begins() + 1.0);
   carried.acceleration_rad_s2 += carried_s * jerk_rad_s3;
   carried.velocity_rad_s += carried_s * (knot.acceleration_rad_s2 + 0.5 * carried_s * jerk_rad_s3);
   carried.position_rad +=

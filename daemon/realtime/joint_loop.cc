@@ -72,7 +72,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   notices_ = 0;
-  if (time.elapsed_periods > kMaxElapsedPeriods) controller_.miss(time.elapsed_periods);
+  controller_.begin_period(time.elapsed_periods);
   take_orders(time);
   read_drive(time);
   check_reading(time);
