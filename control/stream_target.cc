@@ -42,7 +42,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   waiting_.clear();
   interval_ = 0.0;
   arrivals_ = 0;
-  part_.forget();
+  usual_gap_.forget();
   sender_.forget();
   untold_ = false;
   out_of_rhythm_ = 0.0;

@@ -47,9 +47,9 @@
 #include <utility>
 
 #include "control/node_weights.h"
-#include "control/rhythm_part.h"
 #include "control/sender_clock.h"
 #include "control/stream_sample.h"
+#include "control/usual_gap.h"
 
 namespace strainwave {
 
@@ -267,7 +267,7 @@ class StreamTarget {
   double came_ = 0.0;          ///< when it came
   double first_came_ = 0.0;    ///< when the first of arrivals_ did
   double caught_up_at_ = 0.0;  ///< period: until then what was missed is caught up with
-  RhythmPart part_;
+  UsualGap usual_gap_;
   int counted_lost_ = 0;  ///< intervals before the last sample
   bool later_ = false;    ///< the last sample was, than jitter makes it
   int held_up_ = 0;       ///< samples in a row

@@ -15,8 +15,6 @@ namespace {
 // over some forty.
 constexpr double kLeastArrivalGain = 0.05;
 constexpr double kLeastIntervalGain = 0.00125;
-// Of so many arrivals the first interval may have been no interval of the stream.
-constexpr int kFirst = 40;
 // Of so many arrivals on, one alone that is so much later says nothing either.
 constexpr int kLocked = 10;
 // For longer than this nobody is held up, and no motion goes on as it was.
@@ -236,10 +234,10 @@ void StreamTarget::clock_in(const StreamSample& sample, double came) noexcept {
     held_up_ = 0;
     return;
   }
-  if (arrivals_ <= kFirst && part_.take(since_last, interval_, kJitter_s / period_s_)) {
-    interval_ = part_.interval();
-    arrival_ = came;
-    arrivals_ = kLocked;
+  if (usual_gap_.take(since_last, interval_, kJitter_s / period_s_)) {
+    interval_ = std::max(1.0, usual_gap_.interval());
+    arrival_ = came - usual_gap_.late();
+    arrivals_ = usual_gap_.told_by() + 1;
     counted_lost_ = held_up_ = 0;
     return;
   }
