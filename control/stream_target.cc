@@ -51,6 +51,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   caught_up_at_ = now_;
   past_count_ = 0;
   nodes_.forget();
+  fit_.forget();
   missed_ = false;
   ended_ = false;
 }

@@ -14,7 +14,7 @@
 //                       and the motion lags one interval. Accelerations that are not given by velocities, likewise. Below 48 Hz by the
 //                       polynomial through up to five samples, of which each more says no more that is new than half of what one of
 //                       the two before it did, and has helped of late (control/node_weights.h): what a sample's time is off would grow twentyfold where
-//                       one is lost
+//                       one is lost. Where more have not helped, by the least squares of fourteen if these have (control/motion_fit.h)
 //   contradiction       a velocity that is not that of the positions is not used; the positions are. Likewise an acceleration that is
 //                       farther than the limit from that of the velocities. And what is carried
 //                       forward is no farther from the line through the last two samples than the limit of acceleration
@@ -46,6 +46,7 @@
 #include <limits>
 #include <utility>
 
+#include "control/motion_fit.h"
 #include "control/node_weights.h"
 #include "control/sender_clock.h"
 #include "control/stream_sample.h"
@@ -232,6 +233,7 @@ class StreamTarget {
   double begins() const noexcept { return now_ + left_out_; }  // the period in which samples come
   double present() const noexcept { return begins() - lead_; }
   void derive_from_positions(const Before& before, Knot& knot) noexcept;
+  bool fits_better(const Knot& newest, const Before& before, double missed_rad) noexcept;
   void lead_to(const Knot& knot) noexcept;
   bool rests_at(const Knot& knot) const noexcept;
   bool crowds(const Knot& knot) const noexcept;
@@ -276,6 +278,7 @@ class StreamTarget {
   double out_of_rhythm_ = 0.0;  ///< samples that lie off it, more than off where they were sent
   bool in_rhythm_ = false;      ///< samples are for the instants of the rhythm, not for when they were sent
   NodeWeights nodes_;
+  MotionFit fit_;
   int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;

@@ -86,6 +86,26 @@ void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexc
   knot.jerk_rad_s3 = shown.third;
 }
 
+// Whether the fit through many positions has missed what came by less, or little more, than the polynomial that would be taken else, which missed this one by
+// `missed_rad`.
+bool StreamTarget::fits_better(const Knot& newest, const Before& before, double missed_rad) noexcept {
+  fit_.weigh(seconds(newest.at - past_[0].at), newest.position_rad - past_[0].position_rad, missed_rad);
+  MotionFit::Samples ages_s{}, positions_rad{};
+  positions_rad[0] = newest.position_rad;
+  std::size_t count = 1;
+  const Knot* node = before.last;
+  for (; count < MotionFit::kSamples && node != nullptr; ++count) {
+    ages_s[count] = seconds(newest.at - node->at);
+    positions_rad[count] = node->position_rad;
+    node = count == 1 ? before.first : sample_before(node->at, kApart_s);
+  }
+  if (count == MotionFit::kSamples)
+    fit_.fit(ages_s, positions_rad);
+  else
+    fit_.no_fit();
+  return fit_.helps();
+}
+
 // Of the polynomial through the newest and the samples before, in Newton's form: through two of them, and in slow streams through as many
 // more, up to kNodes with the newest, as say little that is new and have helped. Where one came at
 // another time than it was taken for, each more would say more.
@@ -110,6 +130,10 @@ StreamTarget::Derivatives StreamTarget::derivatives_at(const Knot& newest, const
     node = nodes == 1 ? before.first : sample_before(node->at, kApart_s);
   }
   if (slow()) nodes_.weigh(missed, nodes - 1);
+  const double missed_else = nodes > 4 && nodes_.helps(3) ? missed[4] : missed[3];
+  const bool positions = nodes > 3 && value == &Knot::position_rad;
+  if (slow() && positions && fits_better(newest, before, missed_else) && !nodes_.helps(4))
+    return {fit_.first(), fit_.second(), fit_.third()};
   // Of t, from 0 on: of the product of (t + age) over the nodes between newest and latest.
   std::array<double, 3> powers{1.0};
   Derivatives shown;
