@@ -35,6 +35,12 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
+/// No editor, and no spreadsheet, writes such a byte into lines of text.
+bool is_no_text(char byte) {
+  return static_cast<unsigned char>(byte) < ' ' &&
+         std::string_view("\t\n\v\f\r").find(byte) == std::string_view::npos;
+}
+
 }  // namespace
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -78,6 +84,8 @@ template struct CsvRows<std::string>;
 template struct CsvRows<double>;
 
 CsvText parse_csv_text(std::string_view text, const std::string& source) {
+  if (std::any_of(text.begin(), text.end(), is_no_text))
+    throw InputError(source + ": is not text, but a CSV file is: lines of fields with commas between them");
   CsvText table;
   table.source = source;
   int number = 0;
