@@ -11,16 +11,6 @@
 
 namespace strainwave {
 
-namespace {
-
-NotDone not_started(const JointPath& part) {
-  return NotDone(fmt::format("{}: is not on its way to {} rad: this path was not started: start() does that",
-                             part.joint, part.knots.back().position_rad),
-                 part.joint);
-}
-
-}  // namespace
-
 Path::Path(const std::vector<PathPart>& parts) {
   for (const auto& [joint, knots] : parts) {
     links_.push_back(joint.link_);
@@ -67,15 +57,23 @@ std::vector<Arrival> Path::wait(double tolerance_rad, double timeout_s) {
   return wait_for_path(first().client(), parts_, {.tolerance_rad = tolerance_rad, .timeout_s = timeout_s});
 }
 
-// Joints that stand at its end may have come there in any way.
-void Path::check_under_way() {
+const JointPath* Path::joint_elsewhere() {
   bool moving = false;
   for (const JointPath& part : parts_) {
     const JointView& view = *first().client().find(part.joint);
-    if (view.state.target_position_rad != part.knots.back().position_rad) throw not_started(part);
+    if (view.state.target_position_rad != part.knots.back().position_rad) return &part;
     moving = moving || mode_of(view) == Mode::kTracking || !std::isnan(view.state.path_time_s);
   }
-  if (!moving) throw not_started(parts_.front());
+  return moving ? nullptr : &parts_.front();
+}
+
+void Path::check_under_way() {
+  Client& client = first().client();
+  if (client.wait_until([&] { return joint_elsewhere() == nullptr; }, Deadline(kOldStates_s))) return;
+  const JointPath& part = *joint_elsewhere();
+  throw NotDone(fmt::format("{}: is not on its way to {} rad: this path was not started: start() does that",
+                            part.joint, part.knots.back().position_rad),
+                part.joint);
 }
 
 }  // namespace strainwave

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sized
 from .errors import InvalidInput, NotDone, shown
 from .joint import Joint
 from .messages import blank
-from .motion import ArrivalWatch, MotionWatch, degrees_hint, wait_for_motions
+from .motion import OLD_STATES_S, ArrivalWatch, MotionWatch, degrees_hint, wait_for_motions
 from .network import now_s
 from .path_v1 import path_v1
 from .stream import check_number
@@ -72,7 +72,7 @@ class Path:
         """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Waits while
         somebody has paused the path, too: Notice.PATH_PAUSED and path_time_s of the state tell. Raises Faulted, NoAnswer, and NotDone: after
         `timeout_s`, which says where the path is and whether it is paused, or when something else ended it. Of a path that another program
-        started, too, while it is under way; of one that is not, NotDone at once, also where the joints stand at its end.
+        started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at its end.
         """
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
         if timeout_s is not None:
@@ -89,13 +89,19 @@ class Path:
         wait_for_motions([self._motion(joint, knots[-1][1], arrivals[joint]) for joint, knots in self._knots.items()], look)
         return {joint: watch.arrival for joint, watch in arrivals.items()}
 
-    def _check_under_way(self):
+    def _joint_elsewhere(self):
+        """Of those that are not on their way to this path's end the first; None: it is under way."""
         # Joints that stand at its end may have come there in any way.
-        ends = [(joint, joint._conversation.wait_for_state(), knots[-1][1]) for joint, knots in self._knots.items()]
+        ends = [(joint, joint._conversation.state, knots[-1][1]) for joint, knots in self._knots.items()]
         elsewhere = [joint for joint, state, end_rad in ends if state.target_position_rad != end_rad]
         moving = any(state.mode == Mode.TRACKING or not math.isnan(state.path_time_s) for _, state, _ in ends)
-        if elsewhere or not moving:
-            joint = (elsewhere or self._joints)[0]
+        return elsewhere[0] if elsewhere else None if moving else self._joints[0]
+
+    def _check_under_way(self):
+        for joint in self._joints:
+            joint._conversation.wait_for_state()
+        if not self._joints[0]._wait_until(lambda: self._joint_elsewhere() is None, OLD_STATES_S):
+            joint = self._joint_elsewhere() or self._joints[0]
             raise NotDone(f"{joint.name}: is not on its way to {self._knots[joint][-1][1]:g} rad: this path was not started: start() does that")
 
     def _where(self):

@@ -71,6 +71,14 @@ class Paths(PlayedOrders):
         with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path was not started: start.. does that"):
             Path({self.elbow: self.KNOTS}).wait()
 
+    def test_that_another_program_has_just_started_are_waited_for_though_old_states_come_first(self):
+        self.publish_state(target_position_rad=0.75, joint_position_rad=0.75, path_time_s=math.nan)
+        later = threading.Timer(0.05, self.publish_state, [Mode.TRACKING], dict(path_time_s=0.1))
+        later.start()
+        self.addCleanup(later.join)
+        with self.assertRaisesRegex(NotDone, "did not arrive in 0.5 s: it is at 0.100 s of 1.000 s"):
+            Path({self.elbow: self.KNOTS}).wait(timeout_s=0.5)
+
     def test_tell_of_the_joint_that_faulted_and_not_of_those_that_it_stopped(self):
         wrist = Joint("wrist", key="", timeout_s=30)
         path = Path({self.elbow: self.KNOTS, wrist: self.KNOTS})
