@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 
 namespace strainwave {
@@ -103,7 +104,7 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
       continue;
     }
     if (fields.size() != table.columns.size())
-      throw InputError(where + ": has " + std::to_string(fields.size()) + " fields, the header has " +
+      throw InputError(where + ": has " + counted(fields.size(), "field") + ", the header has " +
                        std::to_string(table.columns.size()) + " (" + joined(table.columns) + ")");
     table.rows.push_back(std::move(fields));
     table.line_numbers.push_back(number);

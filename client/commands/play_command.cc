@@ -3,6 +3,7 @@
 
 #include <strainwave/setpoint_v2.hpp>
 
+#include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
 #include "client/link/client_error.h"
@@ -102,8 +103,8 @@ void play(Client& client, const Output& output, const PlayArguments& arguments) 
         "play: recorded setpoints are sent only as new orders of somebody: say who with --key FILE");
   const std::vector<TimedSetpoint> setpoints = read_setpoints(arguments);
   say(output,
-      fmt::format("{}: {} setpoint{} over {:.1f} s", arguments.joint, setpoints.size(),
-                  setpoints.size() == 1 ? "" : "s", setpoints.back().at_s),
+      fmt::format("{}: {} over {:.1f} s", arguments.joint, counted(setpoints.size(), "setpoint"),
+                  setpoints.back().at_s),
       {{"joint", arguments.joint},
        {"setpoints", static_cast<std::int64_t>(setpoints.size())},
        {"duration_s", setpoints.back().at_s}});
