@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 
 namespace strainwave {
@@ -33,6 +34,12 @@ std::vector<std::string> fields_of(std::string_view line) {
 std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+/// No editor, and no spreadsheet, writes such a byte into lines of text.
+bool is_no_text(char byte) {
+  return static_cast<unsigned char>(byte) < ' ' &&
+         std::string_view("\t\n\v\f\r").find(byte) == std::string_view::npos;
 }
 
 }  // namespace
@@ -78,6 +85,8 @@ template struct CsvRows<std::string>;
 template struct CsvRows<double>;
 
 CsvText parse_csv_text(std::string_view text, const std::string& source) {
+  if (std::any_of(text.begin(), text.end(), is_no_text))
+    throw InputError(source + ": is not text, but a CSV file is: lines of fields with commas between them");
   CsvText table;
   table.source = source;
   int number = 0;
@@ -95,7 +104,7 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
       continue;
     }
     if (fields.size() != table.columns.size())
-      throw InputError(where + ": has " + std::to_string(fields.size()) + " fields, the header has " +
+      throw InputError(where + ": has " + counted(fields.size(), "field") + ", the header has " +
                        std::to_string(table.columns.size()) + " (" + joined(table.columns) + ")");
     table.rows.push_back(std::move(fields));
     table.line_numbers.push_back(number);

@@ -30,7 +30,7 @@ struct CsvRows {
 using CsvText = CsvRows<std::string>;  ///< fields without the blanks around them; they are not quoted
 using CsvTable = CsvRows<double>;      ///< finite numbers alone
 
-/// Throws InputError "file:line: ..." on repeated columns, a row of another length, a file without a row, and for a CsvTable
+/// Throws InputError on what is no text, and "file:line: ..." on repeated columns, a row of another length, a file without a row, and for a CsvTable
 /// on a field that is not a finite number. A byte order mark is skipped.
 CsvText parse_csv_text(std::string_view text, const std::string& source);
 CsvTable parse_csv(std::string_view text, const std::string& source);

@@ -1,6 +1,7 @@
 // Text and numbers made fit for a terminal or a log. Not real-time.
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,12 @@ std::string printable_lines(std::string_view text);
 /// The same as what a program says of itself: every line but the first is indented, so that no text that was given to it can pass for
 /// a line of its own.
 std::string printable_paragraph(std::string_view text);
+
+/// "1 knot", "2 knots". `thing`: one of them.
+template <std::integral Number>
+std::string counted(Number count, std::string_view thing) {
+  return std::to_string(count).append(" ").append(thing).append(count == 1 ? "" : "s");
+}
 
 /// The shortest digits that read back to the same number: 0.1, -0.089, 1e-09.
 std::string number_text(double value);

@@ -197,7 +197,7 @@ std::string what_is_allowed(const PathDefect& defect) {
       break;
     case PathDefect::Kind::kTime:
       if (defect.knot == 0)
-        text << "the first knot is at 0";
+        text << "0 is allowed, the first knot begins the path";
       else
         text << "at least " << bound << " is allowed, a period after the knot before";
       break;
@@ -205,7 +205,7 @@ std::string what_is_allowed(const PathDefect& defect) {
       text << "at most " << bound << " is allowed";
       break;
     case PathDefect::Kind::kNotAtRest:
-      text << "a path begins and ends at rest, with 0";
+      text << "0 is allowed, a path begins and ends at rest";
       break;
     case PathDefect::Kind::kPosition:
       if (above) at_most("position_max_rad");
@@ -236,10 +236,13 @@ PathPoint PathReader::at(const KnotPath& path, double time_s) noexcept {
   return segment_between(from, path.knots[segment_ + 1]).at(std::max(0.0, time_s - from.time_s));
 }
 
+PathDefect wrong_count(double count) {
+  return {PathDefect::Kind::kCount, 0, 0.0, count, static_cast<double>(KnotPath::kMostKnots)};
+}
+
 std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits) {
   if (path.count < 2 || path.count > KnotPath::kMostKnots)
-    return PathDefect{PathDefect::Kind::kCount, 0, 0.0, static_cast<double>(path.count),
-                      static_cast<double>(KnotPath::kMostKnots)};
+    return wrong_count(static_cast<double>(path.count));
   for (std::size_t knot = 0; knot < path.count; ++knot)
     if (auto found = find_number_defect(path, knot, limits.period_s)) return found;
   // Places before the ways there: who gives degrees is not told of their accelerations.
@@ -247,12 +250,14 @@ std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& li
     const PathKnot& here = path.knots[knot];
     if (auto found = Judge(limits, knot).position(here.position_rad, here.time_s)) return found;
   }
+  // Speeds, too: between two that no joint has no acceleration is a number.
   for (std::size_t knot = 0; knot < path.count; ++knot) {
     const PathKnot& here = path.knots[knot];
+    if (auto found = Judge(limits, knot).speed(here.velocity_rad_s, here.time_s)) return found;
+  }
+  for (std::size_t knot = 0; knot + 1 < path.count; ++knot) {
     const Judge judge(limits, knot);
-    if (auto found = judge.speed(here.velocity_rad_s, here.time_s)) return found;
-    if (knot + 1 == path.count) break;
-    const Segment segment = segment_between(here, path.knots[knot + 1]);
+    const Segment segment = segment_between(path.knots[knot], path.knots[knot + 1]);
     if (auto found = judge_ends(segment, judge)) return found;
     if (auto found = judge_inside(segment, judge)) return found;
   }

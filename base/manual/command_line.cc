@@ -18,6 +18,17 @@ namespace strainwave {
 
 namespace {
 
+// What CLI11 says of a flag that was given a value.
+constexpr std::string_view kFlagWithValue = "disallowed flag override";
+
+/// CLI11 would take "--wait=3" for "--wait".
+void refuse_values_of_flags(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_expected_max() == 0) option->disable_flag_override();
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    refuse_values_of_flags(*command);
+}
+
 std::string exit_status_footer() {
   std::string text = "Exit status:\n";
   for (const auto& [number, meaning] : exit_statuses())
@@ -117,6 +128,24 @@ std::string explain_count(const CLI::App& app, const std::string& message) {
          option->get_description() + "): " + message.substr(last + 1) + " were given";
 }
 
+/// "--wait takes no value: '3' was given; --tolerance_rad takes one", in place of CLI11's "disallowed flag override".
+std::string explain_flag(const CLI::App& app, const std::string& message,
+                         const std::vector<std::string>& words) {
+  const std::string name = "--" + message.substr(0, message.find(' '));
+  const auto given = std::find_if(words.begin(), words.end(),
+                                  [&](const std::string& word) { return word.starts_with(name + "="); });
+  std::string text = name + " takes no value";
+  if (given != words.end()) text += ": '" + given->substr(name.size() + 1) + "' was given";
+  const CLI::App& command = innermost(app);
+  std::vector<std::string> others;
+  if (&command != &app && command.get_option_no_throw(name) != nullptr)
+    for (const CLI::Option* option : command.get_options())
+      if (!option->get_lnames().empty() && option->get_expected_max() > 0)
+        others.push_back("--" + option->get_lnames().front());
+  if (!others.empty()) text += "; " + list(others) + (others.size() == 1 ? " takes one" : " take one");
+  return text;
+}
+
 /// "--model: 'fuzy' is none of exponential, fuzzy, both; did you mean fuzzy?", in place of CLI11's "fuzy not in {...}".
 std::string explain_choice(const std::string& message) {
   constexpr std::string_view kNotIn = " not in {";
@@ -156,7 +185,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ConversionError))
     return text + ": " + explain_number(text);
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch))
-    return explain_count(app, text);
+    return text.ends_with(kFlagWithValue) ? explain_flag(app, text, words) : explain_count(app, text);
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ValidationError)) return explain_choice(text);
   return text;
 }
@@ -165,6 +194,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error,
 std::optional<ExitStatus> parse(CLI::App& app, std::vector<std::string> words, std::ostream& out) {
   for (std::string& word : words)
     if (word.starts_with("-.")) word.insert(1, "0");  // which CLI11 would take for an option
+  refuse_values_of_flags(app);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants the last first
     return std::nullopt;

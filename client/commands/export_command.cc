@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "client/commands/commands.h"
 #include "client/link/output_file.h"
@@ -78,7 +79,7 @@ class StateExport {
   void finish(const Output& output) {
     require_complete(file_, path_);
     for (const auto& [joint, count] : counts_)
-      say(output, fmt::format("{}: {} states in {}", joint, count, path_.string()),
+      say(output, fmt::format("{}: {} in {}", joint, counted(count, "state"), path_.string()),
           {{"joint", joint}, {"states", std::int64_t{count}}, {"file", path_.string()}});
   }
 
@@ -110,7 +111,7 @@ class ChannelExport {
   void finish(const Output& output) {
     for (auto& [channel, file] : files_) {
       require_complete(file.stream, file.path);
-      say(output, fmt::format("{}: {} messages in {}", channel, file.count, file.path.string()),
+      say(output, fmt::format("{}: {} in {}", channel, counted(file.count, "message"), file.path.string()),
           {{"channel", channel}, {"messages", std::int64_t{file.count}}, {"file", file.path.string()}});
     }
   }
@@ -169,7 +170,7 @@ class McapExport {
   }
   void finish(const Output& output) {
     log_.finish();
-    say(output, fmt::format("{} messages in {}", log_.messages(), path_.string()),
+    say(output, fmt::format("{} in {}", counted(log_.messages(), "message"), path_.string()),
         {{"messages", static_cast<std::int64_t>(log_.messages())}, {"file", path_.string()}});
   }
 
@@ -207,7 +208,9 @@ void export_flight_record(const Output& output, const ExportArguments& arguments
                           " is a flight record, which is CSV already: --mcap makes an MCAP file of it");
   (void)create(arguments.out, arguments.overwrite);
   const FlightMcap written = write_flight_mcap(arguments.log, arguments.out);
-  say(output, fmt::format("{}: {} messages in {}", written.topic, written.messages, arguments.out.string()),
+  say(output,
+      fmt::format("{}: {} in {}", written.topic, counted(written.messages, "message"),
+                  arguments.out.string()),
       {{"channel", written.topic},
        {"messages", static_cast<std::int64_t>(written.messages)},
        {"file", arguments.out.string()}});

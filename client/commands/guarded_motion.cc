@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <strainwave/command_v1.hpp>
+#include <utility>
 
 #include "client/commands/commands.h"
 #include "client/link/client_error.h"
@@ -40,18 +41,42 @@ void run_guarded(Client& client, const std::string& joint, const std::function<v
   }
 }
 
-void require_undisturbed(Client& client, const std::string& joint, std::int64_t session_id) {
-  const JointView& view = *client.find(joint);
-  const auto fail = [&](ExitStatus status, const std::string& why) {
-    throw ClientError(status, joint + ": " + why, {joint, {}, {}, {}, {}});
-  };
-  if (const auto refusal = client.take_refusal()) require_accepted(*refusal, joint, "a setpoint");
-  if (seconds_between(view.received, now()) > kLongestSilence_s)
+GuardedJoint::GuardedJoint(Client& client, const std::string& joint, std::string purpose)
+    : client_(client),
+      joint_(joint),
+      purpose_(std::move(purpose)),
+      view_(client.wait_for_joint(joint)),
+      session_id_(view_.state.session_id) {}
+
+void GuardedJoint::require_undisturbed() {
+  check_yield();
+  if (const auto refusal = client_.take_refusal()) {
+    if (refusal->reason == Reason::kStreamEnded) wait_for_news();
+    require_accepted(*refusal, joint_, "a setpoint");
+  }
+  if (seconds_between(view_.received, now()) > kLongestSilence_s)
     fail(ExitStatus::kNoAnswer, fmt::format("nothing heard for {} s", kLongestSilence_s));
-  if (view.state.session_id != session_id) fail(ExitStatus::kRefused, "the daemon was restarted");
-  const auto mode = static_cast<Mode>(view.state.mode);
-  if (mode == Mode::kFaulted) throw faulted(joint, view);
+  if (view_.state.session_id != session_id_) fail(ExitStatus::kRefused, "the daemon was restarted");
+  const Mode mode = mode_of(view_);
+  if (mode == Mode::kFaulted) throw faulted(joint_, view_);
   if (mode != Mode::kHolding && mode != Mode::kTracking) fail(ExitStatus::kRefused, "it was disabled");
+}
+
+void GuardedJoint::fail(ExitStatus status, const std::string& why) const {
+  throw ClientError(status, joint_ + ": " + why, {joint_, {}, {}, {}, {}});
+}
+
+void GuardedJoint::check_yield() const {
+  if (old_states_ && old_states_->passed() && mode_of(view_) != Mode::kFaulted && has_yielded(view_))
+    throw yielded(joint_, "did not " + purpose_, view_);
+}
+
+// A refusal may be here before the state that says why.
+void GuardedJoint::wait_for_news() {
+  const std::int64_t seen = view_.messages;
+  client_.wait_until([&] { return view_.messages > seen + 1; }, Deadline(kOldStates_s));
+  if (mode_of(view_) == Mode::kFaulted) throw faulted(joint_, view_);
+  if (has_yielded(view_)) throw yielded(joint_, "did not " + purpose_, view_);
 }
 
 }  // namespace strainwave

@@ -1,10 +1,13 @@
 // Motion that a program orders setpoint by setpoint: whatever ends it before its time ends in a hold. Not real-time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "client/link/client.h"
+#include "client/link/orders.h"
 
 namespace strainwave {
 
@@ -12,8 +15,30 @@ namespace strainwave {
 /// or that it could not be told.
 void run_guarded(Client& client, const std::string& joint, const std::function<void()>& motion);
 
-/// Throws ClientError unless the joint is as it must be while a program moves it: the same daemon, heard of
-/// within the last half second, enabled, without a fault, no order of this client refused.
-void require_undisturbed(Client& client, const std::string& joint, std::int64_t session_id);
+/// A joint that a program moves, setpoint by setpoint.
+class GuardedJoint {
+ public:
+  /// `purpose`: of the motion, in words, after "did not".
+  GuardedJoint(Client& client, const std::string& joint, std::string purpose);
+
+  /// A setpoint was accepted: what states tell of a load from now on, old ones aside, is this motion's.
+  void accepted() { old_states_ = Deadline(kOldStates_s); }
+
+  /// Throws ClientError unless the joint is as it must be: the same daemon, heard of within the last half second, enabled, without a fault, not
+  /// yielding to a load, no order of this client refused.
+  void require_undisturbed();
+
+ private:
+  [[noreturn]] void fail(ExitStatus status, const std::string& why) const;
+  void check_yield() const;
+  void wait_for_news();
+
+  Client& client_;
+  std::string joint_;
+  std::string purpose_;
+  const JointView& view_;
+  std::int64_t session_id_;
+  std::optional<Deadline> old_states_;  ///< nothing: no setpoint was accepted yet
+};
 
 }  // namespace strainwave

@@ -26,7 +26,7 @@ constexpr double kPatience_s = 5.0;
 class Identification {
  public:
   Identification(Client& client, const std::string& joint, const IdentifyPlan& plan)
-      : client_(client), joint_(joint), plan_(plan), session_id_(client.find(joint)->state.session_id) {}
+      : client_(client), joint_(joint), plan_(plan), guarded_(client, joint, "end its motion") {}
 
   /// All sweeps; `report` is called after each.
   void run(const std::function<void(const Sweep&)>& report) {
@@ -70,6 +70,7 @@ class Identification {
     setpoint.begins_stream = 1;
     setpoint.acknowledge = 1;
     require_accepted(client_.request(joint_, channel_kind::kSetpoint, setpoint), joint_, "a setpoint");
+    guarded_.accepted();
   }
 
   bool arrived(double target_rad) const {
@@ -77,12 +78,9 @@ class Identification {
   }
 
   void check(std::optional<double> target_rad) {
-    require_undisturbed(client_, joint_, session_id_);
-    if (target_rad && state().target_position_rad != *target_rad) {
-      if (const JointView& view = *client_.find(joint_); has_yielded(view))
-        throw yielded(joint_, "did not end its motion", view);
+    guarded_.require_undisturbed();
+    if (target_rad && state().target_position_rad != *target_rad)
       throw ClientError(ExitStatus::kRefused, joint_ + ": another order replaced this one's");
-    }
     const double torque_Nm = std::abs(state().torque_applied_Nm);
     if (torque_Nm > plan_.max_torque_Nm)
       throw ClientError(ExitStatus::kRefused,
@@ -93,7 +91,7 @@ class Identification {
   Client& client_;
   std::string joint_;
   const IdentifyPlan& plan_;
-  std::int64_t session_id_;
+  GuardedJoint guarded_;
 };
 
 void require_ready(const JointView& view, const std::string& joint) {

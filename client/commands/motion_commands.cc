@@ -44,8 +44,8 @@ void move(Client& client, const Output& output, const MoveArguments& arguments) 
   const Arrival arrival = interruptible(joint, fmt::format("to {} rad", position_rad),
                                         [&] { return move_joint(client, joint, order); });
   say(output,
-      fmt::format("{}: arrived at {} rad in {:.3f} s, error {:.2e} rad", joint, position_rad,
-                  arrival.duration_s, arrival.error_rad),
+      fmt::format("{}: arrived at {} rad in {}, error {} rad", joint, position_rad,
+                  duration_text(arrival.duration_s), error_text(arrival.error_rad, arguments.tolerance_rad)),
       {{"joint", joint},
        {"target_rad", position_rad},
        {"arrived", true},

@@ -68,8 +68,8 @@ void travel(Client& client, const Output& output, const std::vector<JointPath>& 
   };
   const Arrival arrival = wait_for_all(client, path, {.tolerance_rad = tolerance_rad, .tell = tell});
   say(output,
-      fmt::format("{}: arrived in {:.3f} s, largest error {:.2e} rad", names, arrival.duration_s,
-                  arrival.error_rad),
+      fmt::format("{}: arrived in {}, largest error {} rad", names, duration_text(arrival.duration_s),
+                  error_text(arrival.error_rad, tolerance_rad)),
       {{"joints", joints},
        {"path_s", path_s},
        {"arrived", true},
@@ -77,15 +77,13 @@ void travel(Client& client, const Output& output, const std::vector<JointPath>& 
        {"error_rad", arrival.error_rad}});
 }
 
-void require_in_range(const JointTarget& target, const limits_v1& limits) {
-  if (target.position_rad >= limits.position_min_rad && target.position_rad <= limits.position_max_rad)
-    return;
-  const std::string hint = degrees_hint(target.position_rad);
-  throw InvalidInput(fmt::format("{0}: position_rad = {1}: from {2} to {3} is allowed "
-                                 "(joint.limits.position_min_rad and position_max_rad of {0}){4}{5}",
-                                 target.joint, target.position_rad, limits.position_min_rad,
-                                 limits.position_max_rad, hint.empty() ? "" : "; ", hint),
-                     target.joint);
+void require_allowed_speed(const std::string& joint, double speed_limit_rad_s, const limits_v1& limits) {
+  if (speed_limit_rad_s <= limits.speed_limit_rad_s) return;
+  throw InvalidInput(
+      fmt::format(
+          "{0}: speed_limit_rad_s = {1}: at most {2} is allowed (joint.limits.speed_limit_rad_s of {0})",
+          joint, speed_limit_rad_s, limits.speed_limit_rad_s),
+      joint);
 }
 
 /// The daemon would name a knot, of a path that nobody has made himself.
@@ -115,8 +113,7 @@ StraightMove straight_move(const JointTarget& target, const state_v1& state, con
   return {target.joint,
           state.target_position_rad,
           target.position_rad,
-          speed_limit_rad_s > 0.0 ? std::min(speed_limit_rad_s, limits.speed_limit_rad_s)
-                                  : kCalmShare * limits.speed_limit_rad_s,
+          speed_limit_rad_s > 0.0 ? speed_limit_rad_s : kCalmShare * limits.speed_limit_rad_s,
           kShareOfAcceleration * std::min(limits.acceleration_rad_s2, by_torque_rad_s2),
           kShareOfAcceleration * std::min(limits.deceleration_rad_s2, by_torque_rad_s2)};
 }
@@ -161,7 +158,8 @@ void move_together(Client& client, const Output& output, const MoveTogetherArgum
   for (const JointTarget& target : arguments.targets) {
     const state_v1& state = client.wait_for_joint(target.joint).state;
     const limits_v1& limits = published_limits.wait_for(target.joint);
-    require_in_range(target, limits);
+    require_in_range(target.joint, target.position_rad, limits);
+    require_allowed_speed(target.joint, arguments.speed_limit_rad_s, limits);
     moves.push_back(straight_move(target, state, limits, arguments.speed_limit_rad_s));
   }
   const std::vector<JointPath> path = straight_path(moves);

@@ -3,6 +3,7 @@
 
 #include <strainwave/setpoint_v2.hpp>
 
+#include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
 #include "client/link/client_error.h"
@@ -64,7 +65,7 @@ void require_order(Client& client, const std::string& joint, setpoint_v2 order) 
 }
 
 void send_all(Client& client, const std::string& joint, const std::vector<TimedSetpoint>& setpoints) {
-  const std::int64_t session_id = client.wait_for_joint(joint).state.session_id;
+  GuardedJoint guarded(client, joint, "follow the recording to its end");
   const Instant start = now();
   const TimedSetpoint* last = nullptr;
   std::int64_t stream_id = 0;
@@ -72,7 +73,7 @@ void send_all(Client& client, const std::string& joint, const std::vector<TimedS
     const Deadline due(next.at_s - seconds_between(start, now()));
     do {
       client.wait_until([] { return false; }, Deadline(std::min(0.02, due.remaining_ms() * 1e-3)));
-      require_undisturbed(client, joint, session_id);
+      guarded.require_undisturbed();
     } while (!due.passed());
     const bool streamed = next.setpoint.stream_id != 0;
     const bool begins = streamed && (last == nullptr || last->setpoint.stream_id != next.setpoint.stream_id ||
@@ -80,15 +81,17 @@ void send_all(Client& client, const std::string& joint, const std::vector<TimedS
     if (begins) stream_id = client.new_stream();
     setpoint_v2 order = order_of(next.setpoint);
     order.stream_id = streamed ? stream_id : 0;
-    if (last == nullptr || begins)
+    if (last == nullptr || begins) {
       require_order(client, joint, order);
-    else
+      guarded.accepted();
+    } else {
       client.send(joint, channel_kind::kSetpoint, order);
+    }
     last = &next;
   }
   // The last refusal, if there is one, is on its way.
   client.wait_until([] { return false; }, Deadline(0.1));
-  require_undisturbed(client, joint, session_id);
+  guarded.require_undisturbed();
 }
 
 }  // namespace
@@ -100,7 +103,8 @@ void play(Client& client, const Output& output, const PlayArguments& arguments) 
         "play: recorded setpoints are sent only as new orders of somebody: say who with --key FILE");
   const std::vector<TimedSetpoint> setpoints = read_setpoints(arguments);
   say(output,
-      fmt::format("{}: {} setpoints over {:.1f} s", arguments.joint, setpoints.size(), setpoints.back().at_s),
+      fmt::format("{}: {} over {:.1f} s", arguments.joint, counted(setpoints.size(), "setpoint"),
+                  setpoints.back().at_s),
       {{"joint", arguments.joint},
        {"setpoints", static_cast<std::int64_t>(setpoints.size())},
        {"duration_s", setpoints.back().at_s}});

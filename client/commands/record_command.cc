@@ -99,14 +99,15 @@ void record_into(Log& log, const Senders& senders, Client& client, const Output&
   std::int64_t messages = 0;
   for (const auto& [channel, count] : log.counts()) {
     messages += count;
-    say(output, fmt::format("{}: {} messages in {}", printable(channel), count, arguments.file.string()),
+    say(output,
+        fmt::format("{}: {} in {}", printable(channel), counted(count, "message"), arguments.file.string()),
         {{"channel", channel}, {"messages", std::int64_t{count}}, {"file", arguments.file.string()}});
   }
   const auto missing = static_cast<std::int64_t>(senders.missing());
-  const std::string lost =
-      missing > 0 ? fmt::format("{} more of the same senders are missing: {}", missing, senders.remedy())
-                  : "none is missing";
-  say(output, fmt::format("{}: {} messages; {}", arguments.file.string(), messages, lost),
+  const std::string lost = missing > 0 ? fmt::format("{} more of the same senders {} missing: {}", missing,
+                                                     missing == 1 ? "is" : "are", senders.remedy())
+                                       : "none is missing";
+  say(output, fmt::format("{}: {}; {}", arguments.file.string(), counted(messages, "message"), lost),
       {{"file", arguments.file.string()},
        {"messages", messages},
        {"missing", missing},

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/link/client_error.h"
 #include "client/link/latest_messages.h"
@@ -15,7 +16,7 @@ namespace {
 std::string describe(const timing_v1& timing) {
   std::string text = fmt::format(
       "real time                {}\n"
-      "period                   {} s, {} joints\n"
+      "period                   {} s, {}\n"
       "cycles                   {}\n"
       "overruns                 {}\n"
       "wake-up latency, worst   {:.1f} us\n"
@@ -24,7 +25,7 @@ std::string describe(const timing_v1& timing) {
       "page faults in the loop  {}\n"
       "state records dropped    {}\n",
       timing.real_time == 1 ? "yes (SCHED_FIFO, locked memory)" : "no (refused by the system)",
-      timing.period_s, timing.joint_count, timing.cycles, timing.overruns,
+      timing.period_s, counted(timing.joint_count, "joint"), timing.cycles, timing.overruns,
       static_cast<double>(timing.wakeup_latency_max_ns) * 1e-3,
       static_cast<double>(timing.execution_time_max_ns) * 1e-3,
       timing.position_delay_max_ns > 0

@@ -58,9 +58,11 @@ ClientOptions client_options(const std::string& name, const JointOptions& option
 }  // namespace
 
 double checked_number(const std::string& joint, const std::string& name, double value,
-                      const std::string& allowed, bool is_allowed) {
+                      const std::string& allowed, bool is_allowed, const std::string& key) {
   if (!std::isfinite(value) || !is_allowed)
-    throw InvalidInput(fmt::format("{}: {} = {}: {} is allowed", joint, name, value, allowed), joint);
+    throw InvalidInput(fmt::format("{0}: {1} = {2}: {3} is allowed{4}", joint, name, value, allowed,
+                                   key.empty() ? "" : fmt::format(" ({} of {})", key, joint)),
+                       joint);
   return value;
 }
 
@@ -91,6 +93,12 @@ const JointView& JointLink::view() {
   if (silent_s > client_.options().timeout_s)
     throw NoAnswer(fmt::format("{}: has been silent for {:.1f} s; its state is not known", name_, silent_s));
   return view;
+}
+
+std::string JointLink::silence(const std::string& what) const {
+  const JointView* const view = client_.find(name_);
+  const std::string since = view != nullptr ? silence_of(*view, client_.options().timeout_s) : "";
+  return name_ + ": " + what + (since.empty() ? "" : ": " + since);
 }
 
 const limits_v1& JointLink::limits() {

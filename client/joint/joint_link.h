@@ -36,6 +36,8 @@ class JointLink {
   /// The latest, with what came by now; waits for the first. Throws NoAnswer when there is none that is new enough.
   const JointView& view();
   const limits_v1& limits();
+  /// "elbow: fell silent: its state stopped coming 3.2 s ago"; `what`: how that is to be called.
+  std::string silence(const std::string& what) const;
   /// The cycle that the daemon is in by now, see CycleClock; a state must have come.
   double cycle_now(double period_s) const { return clock_.cycle_at(now(), period_s); }
 
@@ -61,8 +63,9 @@ class JointLink {
 /// Throws InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles. `who_are`: "the joints of a path are".
 void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who_are);
 
-/// `value`, if it is finite and `is_allowed`. `joint`: whose it is. Throws InvalidInput.
+/// `value`, if it is finite and `is_allowed`. `joint`: whose it is; `key`: of the daemon's configuration that says what is allowed, if one
+/// does. Throws InvalidInput.
 double checked_number(const std::string& joint, const std::string& name, double value,
-                      const std::string& allowed, bool is_allowed = true);
+                      const std::string& allowed, bool is_allowed = true, const std::string& key = "");
 
 }  // namespace strainwave

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "client/joint/joint_link.h"
 #include "client/link/joint_path.h"
 #include "client/link/motion.h"
@@ -50,16 +52,28 @@ std::vector<Arrival> Path::wait(double tolerance_rad, double timeout_s) {
   if (!(timeout_s > 0.0)) checked_number(first().name(), "timeout_s", timeout_s, "a number above 0", false);
   const auto held = first().lock();
   first().view();
-  for (const JointPath& part : parts_) {
-    const double end_rad = part.knots.back().position_rad;
-    if (!started_ && first().client().wait_for_joint(part.joint).state.target_position_rad != end_rad)
-      throw NotDone(
-          fmt::format("{}: is not on its way to {} rad: this path was not started: start() does that",
-                      part.joint, end_rad),
-          part.joint);
-    first().client().wait_for_joint(part.joint);
-  }
+  for (const JointPath& part : parts_) first().client().wait_for_joint(part.joint);
+  if (!started_) check_under_way();
   return wait_for_path(first().client(), parts_, {.tolerance_rad = tolerance_rad, .timeout_s = timeout_s});
+}
+
+const JointPath* Path::joint_elsewhere() {
+  bool moving = false;
+  for (const JointPath& part : parts_) {
+    const JointView& view = *first().client().find(part.joint);
+    if (view.state.target_position_rad != part.knots.back().position_rad) return &part;
+    moving = moving || mode_of(view) == Mode::kTracking || !std::isnan(view.state.path_time_s);
+  }
+  return moving ? nullptr : &parts_.front();
+}
+
+void Path::check_under_way() {
+  Client& client = first().client();
+  if (client.wait_until([&] { return joint_elsewhere() == nullptr; }, Deadline(kOldStates_s))) return;
+  const JointPath& part = *joint_elsewhere();
+  throw NotDone(fmt::format("{}: is not on its way to {} rad: this path was not started: start() does that",
+                            part.joint, part.knots.back().position_rad),
+                part.joint);
 }
 
 }  // namespace strainwave

@@ -47,12 +47,17 @@ class Path {
   /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Waits
   /// while somebody has paused the path, too: State::has(Notice::kPathPaused) and State::path_time_s tell. Throws Faulted, NoAnswer, and
   /// NotDone: after `timeout_s`, which says where the path is and whether it is paused, or when something else ended it.
-  /// Of a path that another program started, too; of one that nobody did, NotDone at once.
+  /// Of a path that another program started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at
+  /// its end.
   std::vector<Arrival> wait(double tolerance_rad = 1e-3,
                             double timeout_s = std::numeric_limits<double>::infinity());
 
  private:
   JointLink& first() { return *links_.front(); }
+  /// Of those that are not on their way to this path's end the first; null: it is under way. Joints that stand at its end may have come there in
+  /// any way.
+  const JointPath* joint_elsewhere();
+  void check_under_way();
 
   std::vector<std::shared_ptr<JointLink>> links_;
   std::vector<JointPath> parts_;

@@ -123,7 +123,7 @@ void Stream::close() {
   const JointView& view = link_->view();
   if (!client.wait_until([&] { return view.state.cycle >= *last_cycle_; },
                          Deadline(options_.ahead_s + client.options().timeout_s)))
-    throw NoAnswer(link_->name() + ": fell silent before the stream's end");
+    throw NoAnswer(link_->silence("fell silent before the stream's end"), link_->name());
   check_refusals();
   last_cycle_.reset();
   send_stop(client, link_->name(), Action::kHold);
@@ -134,10 +134,8 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
                            std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const {
   const limits_v1& limits = link_->limits();
   setpoint_v2 message{};
-  message.position_rad =
-      checked_number(link_->name(), "position_rad", position_rad,
-                     fmt::format("from {} to {}", limits.position_min_rad, limits.position_max_rad),
-                     position_rad >= limits.position_min_rad && position_rad <= limits.position_max_rad);
+  require_in_range(link_->name(), position_rad, limits);
+  message.position_rad = position_rad;
   if (acceleration_rad_s2 && !velocity_rad_s)
     throw InvalidInput(fmt::format("{}: acceleration_rad_s2 = {}: only with velocity_rad_s", link_->name(),
                                    *acceleration_rad_s2));
@@ -154,7 +152,7 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
   message.torque_Nm =
       checked_number(link_->name(), "torque_Nm", load.torque_Nm,
                      fmt::format("from {} to {}", -limits.torque_limit_Nm, limits.torque_limit_Nm),
-                     std::abs(load.torque_Nm) <= limits.torque_limit_Nm);
+                     std::abs(load.torque_Nm) <= limits.torque_limit_Nm, "joint.limits.torque_limit_Nm");
   message.load_inertia_kgm2 = checked_number(link_->name(), "load_inertia_kgm2", load.load_inertia_kgm2,
                                              "a number from 0", load.load_inertia_kgm2 >= 0.0);
   message.stream_id = stream_id_;

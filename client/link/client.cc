@@ -77,12 +77,16 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
   const int transmissions = awaited_->most_transmissions();
   awaited_.reset();
   if (ack_) return to_answer(*ack_);
-  if (find(joint) == nullptr) explain_silence(joint);
+  const JointView* const view = find(joint);
+  if (view == nullptr) explain_silence(joint);
+  const std::string silence = silence_of(*view, options_.timeout_s);
   throw NoAnswer(
       fmt::format(
-          "{}: no acknowledgement in {} s, after {} transmissions: the daemon publishes its state but does "
-          "not answer; see its log. Whether the order was carried out is not known: strainwavectl status {}",
-          joint, options_.timeout_s, transmissions, joint),
+          "{0}: no acknowledgement in {1} s, after {2} transmissions: {3} Whether the order was carried "
+          "out is not known: strainwavectl status {0}",
+          joint, options_.timeout_s, transmissions,
+          silence.empty() ? "the daemon publishes its state but does not answer; see its log."
+                          : silence + "; is strainwaved running?"),
       joint);
 }
 

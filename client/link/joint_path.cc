@@ -9,6 +9,7 @@
 #include <strainwave/path_v1.hpp>
 #include <utility>
 
+#include "base/printable.h"
 #include "client/link/client_error.h"
 #include "client/link/motion.h"
 #include "client/link/orders.h"
@@ -127,9 +128,9 @@ void check_path(const std::vector<JointPath>& path) {
     if (!named.insert(joint).second)
       throw InvalidInput(fmt::format("{} is named twice: each joint once is allowed", joint), joint);
     if (knots.size() < 2 || knots.size() > JointPath::kMostKnots)
-      throw InvalidInput(
-          fmt::format("{}: {} knots: 2 to {} are allowed", joint, knots.size(), JointPath::kMostKnots),
-          joint);
+      throw InvalidInput(fmt::format("{}: {}: 2 to {} are allowed", joint, counted(knots.size(), "knot"),
+                                     JointPath::kMostKnots),
+                         joint);
     for (std::size_t i = 0; i < knots.size(); ++i)
       for (const auto& [name, number] :
            {std::pair{"time_s", knots[i].time_s}, std::pair{"position_rad", knots[i].position_rad},

@@ -25,6 +25,8 @@ struct Motion {
   std::string purpose;  ///< in words, after "did not"
   std::function<bool(const JointView&)> replaced =
       nullptr;  ///< by another order of this kind; null: cannot be
+  std::function<void(const JointView&)> observe =
+      nullptr;  ///< of a state that shows this order's target, though it may be from before it
 };
 
 /// What ends the wait before the joint is there, in words; empty while it is on its way.
@@ -64,8 +66,11 @@ class MotionWatch {
   /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise, but for a fault.
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
-      throw NoAnswer(joint_ + ": the daemon fell silent during the motion; the joint's state is not known",
-                     joint_);
+      throw NoAnswer(
+          fmt::format("{}: the daemon fell silent during the motion: {}; what the joint does is not known",
+                      joint_, silence_of(*view_, silence_s)),
+          joint_);
+    if (motion_.observe && !motion_.replaced(*view_)) motion_.observe(*view_);
     if (!in_force()) return false;
     if (const std::string end = motion_ended(*view_, motion_, session_id_); !end.empty())
       throw NotDone(fmt::format("{}: did not {}: {}", joint_, motion_.purpose, end), joint_);
@@ -125,13 +130,16 @@ class ArrivalWatch {
   ArrivalWatch(double target_rad, double tolerance_rad, double patience_s)
       : target_rad_(target_rad), tolerance_rad_(tolerance_rad), patience_s_(patience_s), start_(now()) {}
 
-  /// True once the joint has been inside for long enough. Throws ClientError (refused) when it holds outside.
-  bool reached(const std::string& joint, const JointView& view) {
-    constexpr double kStay_s = 0.1;
+  /// From when on it is inside. A short motion may be over before it is known to be this order's.
+  void observe(const JointView& view) {
     if (!(std::abs(error_rad(view)) <= tolerance_rad_))
       inside_.reset();
     else if (!inside_)
       inside_ = view.received;
+  }
+  /// True once the joint has been inside for long enough. Throws ClientError (refused) when it holds outside.
+  bool reached(const std::string& joint, const JointView& view) {
+    constexpr double kStay_s = 0.1;
     if (mode_of(view) != Mode::kHolding) {
       holding_.reset();
       return false;
@@ -139,8 +147,8 @@ class ArrivalWatch {
     if (!holding_) holding_ = now();
     if (inside_ && seconds_between(*inside_, now()) >= kStay_s) return true;
     if (seconds_between(*holding_, now()) > patience_s_)
-      throw NotDone(fmt::format("{}: holds {:.2e} rad away from {} rad, outside of tolerance_rad {}", joint,
-                                error_rad(view), target_rad_, tolerance_rad_),
+      throw NotDone(fmt::format("{}: holds {} rad away from {} rad, outside of tolerance_rad {}", joint,
+                                error_text(error_rad(view), tolerance_rad_), target_rad_, tolerance_rad_),
                     joint);
     return false;
   }
@@ -181,9 +189,26 @@ bool holds(const JointView& view) {
 }  // namespace
 
 std::string degrees_hint(double position_rad) {
-  if (std::abs(position_rad) <= 2.0 * std::numbers::pi) return "";
+  if (!std::isfinite(position_rad) || std::abs(position_rad) <= 2.0 * std::numbers::pi) return "";
   return fmt::format("positions are in rad: {} degrees would be {:.6g}", position_rad,
                      position_rad * std::numbers::pi / 180.0);
+}
+
+std::string error_text(double error_rad, double tolerance_rad) {
+  constexpr int kFewest = 2;
+  constexpr int kAll = 16;
+  std::string text;
+  for (int digits = kFewest; digits <= kAll; ++digits) {
+    text = fmt::format("{:.{}e}", error_rad, digits);
+    if ((std::abs(std::stod(text)) <= tolerance_rad) == (std::abs(error_rad) <= tolerance_rad)) break;
+  }
+  return text;
+}
+
+std::string duration_text(double duration_s) {
+  constexpr double kShortest_s = 0.01;
+  return duration_s < kShortest_s ? fmt::format("less than {} s", kShortest_s)
+                                  : fmt::format("{:.3f} s", duration_s);
 }
 
 void start_move(Client& client, const std::string& joint, const MoveOrder& order) {
@@ -218,9 +243,11 @@ std::vector<Arrival> wait_until_arrived(Client& client, const std::vector<JointT
     const auto done = [target, &arrival = arrivals[i]](const JointView& view) {
       return arrival.reached(target.joint, view);
     };
+    const auto observe = [&arrival = arrivals[i]](const JointView& view) { arrival.observe(view); };
     motions.emplace_back(
         client, target.joint,
-        Motion{Mode::kTracking, fmt::format("arrive at {} rad", target.position_rad), replaced}, done);
+        Motion{Mode::kTracking, fmt::format("arrive at {} rad", target.position_rad), replaced, observe},
+        done);
   }
   wait_for_motions(client, std::move(motions), look);
   std::vector<Arrival> arrived;

@@ -21,6 +21,12 @@ struct JointTarget {
 /// What to say of a position that was refused and may be meant in degrees; empty when it cannot be.
 std::string degrees_hint(double position_rad);
 
+/// "-9.90e-04": an error, with as many more digits as tell on which side of `tolerance_rad` it is.
+std::string error_text(double error_rad, double tolerance_rad);
+
+/// "1.234 s", or "less than 0.01 s": two states of a joint are that far apart.
+std::string duration_text(double duration_s);
+
 /// Orders the move; the joint is on its way.
 void start_move(Client& client, const std::string& joint, const MoveOrder& order);
 

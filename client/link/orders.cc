@@ -25,8 +25,13 @@ command_v1 command_message(Action action) {
 template <typename Decided>
 void wait_for_mode(Client& client, const std::string& joint, const Decided& decided) {
   if (client.wait_until(decided, Deadline(client.options().timeout_s))) return;
-  throw NoAnswer(fmt::format("{}: accepted, but still {} after {} s", joint,
-                             to_text(mode_of(*client.find(joint))), client.options().timeout_s),
+  const JointView& view = *client.find(joint);
+  const double timeout_s = client.options().timeout_s;
+  const std::string silence = silence_of(view, timeout_s);
+  const std::string mode(to_text(mode_of(view)));
+  throw NoAnswer(silence.empty()
+                     ? fmt::format("{}: accepted, but still {} after {} s", joint, mode, timeout_s)
+                     : fmt::format("{}: accepted, but {}, when it was {}", joint, silence, mode),
                  joint);
 }
 

@@ -10,6 +10,9 @@
 
 namespace strainwave {
 
+/// Throws InvalidInput unless `joint` may go to `position_rad`; in the daemon's words, and with a hint to who may mean degrees.
+void require_in_range(const std::string& joint, double position_rad, const limits_v1& limits);
+
 class PublishedLimits {
  public:
   /// Starts to listen for `joints`, under the client's prefix. `client` outlives this.

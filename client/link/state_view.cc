@@ -1,5 +1,9 @@
 #include "client/link/state_view.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "client/link/plain_zero.h"
 #include "lcmtypes/cycle_fields.h"
 
@@ -24,6 +28,13 @@ double JointView::period_s() const noexcept {
   const double cycles = static_cast<double>(state.cycle) - static_cast<double>(first_cycle);
   const double duration_s = 1e-6 * (static_cast<double>(state.utime) - static_cast<double>(first_utime));
   return cycles > 0.0 && duration_s > 0.0 ? duration_s / cycles : 0.0;
+}
+
+std::string silence_of(const JointView& view, double timeout_s) {
+  constexpr double kLongest_s = 0.5;  // states come ten times a second at the least
+  const double silent_s = seconds_between(view.received, now());
+  if (silent_s < std::min(kLongest_s, timeout_s)) return "";
+  return fmt::format("its state stopped coming {:.1f} s ago", silent_s);
 }
 
 double tracking_error_rad(const JointView& view) noexcept {

@@ -25,6 +25,9 @@ struct JointView {
   double period_s() const noexcept;
 };
 
+/// "its state stopped coming 3.2 s ago" where none came for half a second, or for `timeout_s` if that is less; else empty.
+std::string silence_of(const JointView& view, double timeout_s);
+
 /// See lcmtypes/cycle_fields.h.
 double tracking_error_rad(const JointView& view) noexcept;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/printable.h"
 #include "base/saturated_sum.h"
 #include "client/link/orders.h"
 #include "client/text/text.h"
@@ -72,11 +73,6 @@ void draw_body(const WatchModel& model, Screen& screen, int first, int end) {
   if (model.selected >= 0 && model.selected < static_cast<int>(model.joints.size()))
     draw_detail(model, model.joints[static_cast<std::size_t>(model.selected)], screen, first + table + 1,
                 end);
-}
-
-/// "1 joint", "2 joints".
-std::string counted(std::size_t number, std::string_view thing) {
-  return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
 }
 
 /// Who needs somebody, on the screen or not.

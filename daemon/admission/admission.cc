@@ -120,9 +120,10 @@ std::optional<Verdict> Admission::check_sender(const WireMessage& message, Role 
                                                FairShare& verifications) {
   if (is_unsigned(payload(message))) {
     if (!security_.unsigned_allowed)
-      return refuse(
-          requester, Reason::kUnsigned,
-          "this daemon obeys signed orders only: strainwavectl --key FILE, see strainwavectl keygen --help");
+      return refuse(requester, Reason::kUnsigned,
+                    "this daemon obeys signed orders only: give a key (strainwavectl --key FILE, the key of "
+                    "a Joint in Python and "
+                    "C++, or STRAINWAVE_KEY); strainwavectl keygen --help tells how one is made");
     return check_sequence(unsigned_sequences_, requester.sender_id, requester);
   }
   const auto key = security_.keys.find(key_id_of(payload(message)));

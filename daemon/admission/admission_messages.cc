@@ -45,16 +45,18 @@ std::optional<std::string> complaint_about_numbers(std::initializer_list<Number>
 std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
   std::ostringstream text;
   if (setpoint.derivatives < 0 || setpoint.derivatives > 2)
-    text << "derivatives = " << setpoint.derivatives << ": 0, 1 (velocity) or 2 (acceleration, too)";
+    text << "derivatives = " << setpoint.derivatives
+         << ": 0, 1 (velocity) or 2 (acceleration, too) is allowed";
   else if (setpoint.stream_id == 0 && (setpoint.derivatives != 0 || setpoint.at_cycle != 0))
     text << "a move (stream_id 0) ends at rest, as soon as it can: derivatives and at_cycle must be 0";
   else if (setpoint.at_cycle < 0)
-    text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none";
+    text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none, is allowed";
   else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
-    text << "velocity_rad_s = " << number_text(setpoint.velocity_rad_s) << ": at most " << kMaxVelocity_rad_s;
+    text << "velocity_rad_s = " << number_text(setpoint.velocity_rad_s) << ": from " << -kMaxVelocity_rad_s
+         << " to " << kMaxVelocity_rad_s << " is allowed";
   else if (std::abs(setpoint.acceleration_rad_s2) > kMaxAcceleration_rad_s2)
-    text << "acceleration_rad_s2 = " << number_text(setpoint.acceleration_rad_s2) << ": at most "
-         << kMaxAcceleration_rad_s2;
+    text << "acceleration_rad_s2 = " << number_text(setpoint.acceleration_rad_s2) << ": from "
+         << -kMaxAcceleration_rad_s2 << " to " << kMaxAcceleration_rad_s2 << " is allowed";
   else
     return std::nullopt;
   return text.str();
@@ -67,8 +69,9 @@ std::optional<std::string> complaint_about_load(const setpoint_v2& setpoint, con
   if (setpoint.stream_id == 0 && (setpoint.torque_Nm != 0.0 || setpoint.load_inertia_kgm2 != 0.0))
     text << "a move (stream_id 0) plans its own torque: torque_Nm and load_inertia_kgm2 must be 0";
   else if (std::abs(setpoint.torque_Nm) > joint.torque_limit_Nm)
-    text << "torque_Nm = " << number_text(setpoint.torque_Nm) << ": at most "
-         << number_text(joint.torque_limit_Nm) << " is allowed (joint.limits.torque_limit_Nm)";
+    text << "torque_Nm = " << number_text(setpoint.torque_Nm) << ": from "
+         << number_text(-joint.torque_limit_Nm) << " to " << number_text(joint.torque_limit_Nm)
+         << " is allowed (joint.limits.torque_limit_Nm)";
   else if (setpoint.load_inertia_kgm2 < 0.0 || setpoint.load_inertia_kgm2 > (1.0 + kAtBound) * heaviest_kgm2)
     text << "load_inertia_kgm2 = " << beyond_text(setpoint.load_inertia_kgm2, heaviest_kgm2) << ": from 0 to "
          << bound_text(heaviest_kgm2) << " is allowed (" << kHeaviestLoad << " times joint.inertia_kgm2)";

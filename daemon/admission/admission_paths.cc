@@ -44,7 +44,9 @@ Verdict Admission::judge_path(std::size_t joint, const WireMessage& message) {
   loaded->joint_count = path->joint_count;
   loaded->path = knots_of(*path);
   const JointAdmission& limits = joints_[joint];
-  if (const auto defect = find_defect(loaded->path, limits.path)) {
+  const auto defect = path->knot_count < 0 ? std::optional(wrong_count(path->knot_count))
+                                           : find_defect(loaded->path, limits.path);
+  if (defect) {
     const bool no_number = defect->kind == PathDefect::Kind::kNotFinite;
     return refuse(requester, no_number ? Reason::kNotFinite : Reason::kOutOfRange,
                   limits.name + ", " + describe(*defect));

@@ -34,6 +34,23 @@ TEST(Csv, NamesFileAndLineOfEveryDefect) {
   }
 }
 
+TEST(Csv, SaysOfWhatIsNoTextThatItIsNone) {
+  const std::string words =
+      "file.csv: is not text, but a CSV file is: lines of fields with commas between them";
+  EXPECT_EQ(message_of(std::string("\x7f"
+                                   "ELF\0,\n1,2\n",
+                                   11)),
+            words);
+  EXPECT_EQ(message_of(std::string("\xff\xfe"
+                                   "a\0,\0b\0\n\0",
+                                   10)),
+            words)
+      << "UTF-16";
+  EXPECT_EQ(message_of("# \xb0"
+                       "C of an older editor\r\na,\tb\r\n1,2\r\n"),
+            "");
+}
+
 TEST(Csv, RefusesFilesWithoutData) {
   EXPECT_NE(message_of(""), "");
   EXPECT_NE(message_of("# only a note\n"), "");

@@ -59,6 +59,12 @@ TEST(Printable, PrintsABoundSoThatWhoGivesItIsNotBeyondIt) {
   }
 }
 
+TEST(Printable, CountsOneThingAsOne) {
+  EXPECT_EQ(counted(1, "knot"), "1 knot");
+  EXPECT_EQ(counted(0, "knot"), "0 knots");
+  EXPECT_EQ(counted(-1, "state"), "-1 states");
+}
+
 TEST(Printable, StopsAtTheFirstZeroByte) {
   EXPECT_EQ(printable(std::string("ab\0cd", 5)), "ab");
 }

@@ -1,10 +1,12 @@
 """Strainwave's joints from Python: orders that are signed, acknowledged and repeated, streams of setpoints, states with names.
 
-    from strainwave import Joint
+    joint = Joint("elbow", key="~/.strainwave-key")       # and enable(), move(0.5), hold(), disable(), home(), state, limits, states()
+    path = Path({joint: [(0, 0, 0), (1, 0.4, 0)]})        # knots (time_s, position_rad, velocity_rad_s); start(), wait(), pause(), resume()
+    with joint.stream() as stream:                        # a Stream: put() again and again, close() at its end
+        stream.put(t, position_rad, velocity_rad_s)
 
-    joint = Joint("elbow", key="~/.strainwave-key")
-    joint.enable()
-    joint.move(0.5)
+All that fails is a StrainwaveError: InvalidInput (refused here), NoAnswer (silence), Refused (by the daemon, with its reason), Faulted,
+NotDone (accepted, but it did not come to its end) and Yielded (a NotDone: to a load). Each says what was given, what is allowed and what to do.
 
 Pure Python; signing needs libsodium. docs/python.md has examples, docs/messages.md every field. The message types (state_v1, ...) are
 those that lcm-gen makes, for programs that speak LCM themselves.
@@ -30,3 +32,9 @@ from .path import Path
 from .state import Limits, State
 from .stream import Stream
 from .vocabulary import Action, Fault, GainsInUse, Mode, Notice, Reason, TemperatureStatus
+
+__all__ = ["Joint", "Path", "Stream", "Arrival", "State", "Limits",
+           "StrainwaveError", "InvalidInput", "NoAnswer", "Refused", "Faulted", "NotDone", "Yielded",
+           "Mode", "Fault", "Reason", "Notice", "Action", "GainsInUse", "TemperatureStatus",
+           "ack_v1", "box_cell_v1", "command_v1", "feedback_gains_v1", "gain_table_v2", "inject_v1", "limits_v1", "path_v1", "setpoint_v2",
+           "state_v1", "temperature_v1", "timing_v1"]

@@ -17,6 +17,7 @@ _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
 _GONE_S = 2.5  # whose last state is older has gone, as far as anybody can tell
+_SILENCE_S = 0.5  # states come ten times a second at the least
 _OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
 
 
@@ -99,7 +100,8 @@ class Conversation:
             answer = self._exchange(kind, message, state)
             if answer is None:
                 raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after "
-                               f"{most_transmissions(len(message.encode()))} transmissions. Whether the order was carried out is not known: look at the state")
+                               f"{most_transmissions(len(message.encode()))} transmissions: {self._why_no_answer()} Whether the order was carried "
+                               "out is not known: look at the state")
             if answer.accepted == 1:
                 return
             if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):
@@ -112,7 +114,7 @@ class Conversation:
         answer = self._exchange(kind, message, self.state)
         if answer is None:
             raise NoAnswer(f"{self.joint}: the stop was sent {TRANSMISSIONS} times, and nothing answered: "
-                           + ("the daemon publishes its state but does not answer" if self.state else self._silence()))
+                           + (self._why_no_answer() if self.state else self._silence()))
         if answer.accepted != 1:
             raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))
 
@@ -197,6 +199,19 @@ class Conversation:
             self._awaited[ack.sequence] = self._awaited[ack.sequence] or ack
         elif ack.accepted != 1 and ack.sequence in self._sent:
             self._refusals.append(ack)
+
+    def silence(self):
+        """"its state stopped coming 3.2 s ago" where none came for half a second, or for the time-out if that is less; else empty."""
+        silent_s = now_s() - self.received_s
+        return f"its state stopped coming {silent_s:.1f} s ago" if silent_s >= min(_SILENCE_S, self.timeout_s) else ""
+
+    def fell_silent(self, what):
+        """The NoAnswer of a joint that did; what: how that is to be called."""
+        return NoAnswer(": ".join(part for part in (self.joint, what, self.silence()) if part))
+
+    def _why_no_answer(self):
+        silence = self.silence()
+        return f"{silence}; is strainwaved running?" if silence else "the daemon publishes its state but does not answer; see its log."
 
     def _silence(self):
         now = now_s()

@@ -23,12 +23,12 @@ class Joint:
     name: the joint's in the daemon's configuration; prefix: the daemon's
     key: file of the secret key (strainwavectl keygen); None: what STRAINWAVE_KEY names; "" or neither: orders go out unsigned
     lcm_url: None: what LCM_DEFAULT_URL says, or LCM's usual one on this machine
-    timeout_s: of every single wait: for a state, for an acknowledgement, for a change of mode
+    timeout_s: of every single wait: for a state, for an acknowledgement, for a change of mode; 0.1 to 3600
     """
 
     def __init__(self, name, key=None, *, prefix="SW", lcm_url=None, timeout_s=2.0):
         self.name = check_name("name", name)
-        self._timeout_s = check_number("timeout_s", timeout_s, "above 0 to 3600", lambda s: 0 < s <= 3600, name)
+        self._timeout_s = check_number("timeout_s", timeout_s, "0.1 to 3600", lambda s: 0.1 <= s <= 3600, name)
         sender = Sender(os.environ.get("STRAINWAVE_KEY") if key is None else key)
         self._conversation = Conversation(Network.shared(lcm_url), check_name("prefix", prefix), name, sender, self._timeout_s)
         self._wait_until = self._conversation.network.wait_until
@@ -47,7 +47,8 @@ class Joint:
         """Limits of the joint, constant while the daemon runs; waits for the first."""
         self._conversation.wait_for_state()
         if not self._wait_until(lambda: self._conversation.limits is not None, max(self._timeout_s, 2.0)):
-            raise NoAnswer(f"{self.name}: publishes its state but not its limits")
+            silence = self._conversation.silence()
+            raise NoAnswer(f"{self.name}: " + (f"its limits are not known: {silence}" if silence else "publishes its state but not its limits"))
         return Limits(self._conversation.limits, self._conversation.received_s)
 
     def states(self, duration_s=math.inf):
@@ -65,7 +66,7 @@ class Joint:
             while True:
                 if not self._wait_until(lambda: inbox, self._timeout_s):
                     self._conversation.wait_for_state()  # says more when there never was one
-                    raise NoAnswer(f"{self.name}: fell silent")
+                    raise self._conversation.fell_silent("fell silent")
                 message, received_s = inbox.popleft()
                 end_s = received_s + duration_s if end_s is None else end_s
                 if received_s > end_s:
@@ -148,7 +149,7 @@ class Joint:
             return None
         watch = ArrivalWatch(self.name, position_rad, tolerance_rad, self._timeout_s)
         wait_for_motion(self._conversation, Mode.TRACKING, f"arrive at {position_rad:g} rad", watch.reached,
-                        lambda state: state.target_position_rad != position_rad)
+                        lambda state: state.target_position_rad != position_rad, watch.observe)
         return watch.arrival
 
     def stream(self, *, ahead_s=0.1, valid_for_s=2.0, speed_limit_rad_s=0.0, beside=None):
@@ -189,4 +190,5 @@ class Joint:
 
     def _wait_for(self, decided):
         if not self._wait_until(decided, self._timeout_s):
-            raise NoAnswer(f"{self.name}: accepted, but still {self._mode().text} after {self._timeout_s:g} s")
+            mode, silence = self._mode().text, self._conversation.silence()
+            raise NoAnswer(f"{self.name}: accepted, but " + (f"{silence}, when it was {mode}" if silence else f"still {mode} after {self._timeout_s:g} s"))

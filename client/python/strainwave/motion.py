@@ -21,6 +21,12 @@ def degrees_hint(position_rad):
     return f"positions are in rad: {position_rad:g} degrees would be {math.radians(position_rad):.6g}"
 
 
+def error_text(error_rad, tolerance_rad):
+    """"-9.90e-04": an error, with as many more digits as tell on which side of `tolerance_rad` it is."""
+    texts = (f"{error_rad:.{digits}e}" for digits in range(2, 17))
+    return next(text for text in texts if (abs(float(text)) <= tolerance_rad) == (abs(error_rad) <= tolerance_rad))
+
+
 @dataclasses.dataclass(frozen=True)
 class Arrival:
     """How a move ended: from the order to when the joint was inside the tolerance for good, and target minus position."""
@@ -38,13 +44,16 @@ class ArrivalWatch:
         self._inside_s = self._holding_s = None
         self.arrival = None
 
-    def reached(self, state):
-        """True once the joint has been inside for long enough. Raises NotDone when it holds outside."""
-        error_rad = self._target_rad - state.joint_position_rad
-        if not abs(error_rad) <= self._tolerance_rad:
+    def observe(self, state):
+        """From when on it is inside. A short motion may be over before it is known to be this order's."""
+        if not abs(self._target_rad - state.joint_position_rad) <= self._tolerance_rad:
             self._inside_s = None
         elif self._inside_s is None:
             self._inside_s = state.received_s
+
+    def reached(self, state):
+        """True once the joint has been inside for long enough. Raises NotDone when it holds outside."""
+        error_rad = self._target_rad - state.joint_position_rad
         if state.mode != Mode.HOLDING:
             self._holding_s = None
             return False
@@ -54,8 +63,8 @@ class ArrivalWatch:
             self.arrival = Arrival(max(0.0, self._inside_s - self._start_s), error_rad)
             return True
         if now_s() - self._holding_s > self._patience_s:
-            raise NotDone(f"{self._joint}: holds {error_rad:.2e} rad away from {self._target_rad:g} rad, outside of tolerance_rad "
-                          f"{self._tolerance_rad:g}")
+            raise NotDone(f"{self._joint}: holds {error_text(error_rad, self._tolerance_rad)} rad away from {self._target_rad:g} rad, outside of "
+                          f"tolerance_rad {self._tolerance_rad!r}")
         return False
 
 
@@ -92,10 +101,11 @@ class MotionWatch:
 
     mode: while the motion lasts; purpose: in words, after "did not"; done(State): whether it came to its end
     replaced(State): whether another order of its kind did; None: cannot be
+    observe(State): called with every state that shows this order's target, though it may be from before it
     """
 
-    def __init__(self, conversation, mode, purpose, done, replaced=None):
-        self.conversation = conversation
+    def __init__(self, conversation, mode, purpose, done, replaced=None, observe=lambda state: None):
+        self.conversation, self._observe = conversation, observe
         self._mode, self._purpose, self._done, self._replaced = mode, purpose, done, replaced
         self._session_id = conversation.state.session_id
         self._old_states_end_s = now_s() + OLD_STATES_S
@@ -124,8 +134,10 @@ class MotionWatch:
         """True once it is done. Raises NotDone, NoAnswer when it ended otherwise."""
         joint, conversation = self.conversation.joint, self.conversation
         if now_s() - conversation.received_s > conversation.timeout_s:
-            raise NoAnswer(f"{joint}: the daemon fell silent during the motion; the joint's state is not known")
+            raise NoAnswer(f"{joint}: the daemon fell silent during the motion: {conversation.silence()}; what the joint does is not known")
         state = State(conversation.state, conversation.received_s)
+        if self._replaced is not None and not self._replaced(state):
+            self._observe(state)
         if not self._in_force(state):
             return False
         why = _why_ended(state, self._session_id, self._replaced)

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sized
 from .errors import InvalidInput, NotDone, shown
 from .joint import Joint
 from .messages import blank
-from .motion import ArrivalWatch, MotionWatch, degrees_hint, wait_for_motions
+from .motion import OLD_STATES_S, ArrivalWatch, MotionWatch, degrees_hint, wait_for_motions
 from .network import now_s
 from .path_v1 import path_v1
 from .stream import check_number
@@ -28,12 +28,12 @@ class Path:
         for joint in knots:
             if not isinstance(joint, Joint):
                 raise InvalidInput(f"{shown(joint)}: a Joint is allowed, as Joint({shown(joint)})")
+        for joint in knots:
+            joint._conversation.require_same_daemon(next(iter(knots))._conversation, "the joints of a path are")
         names = [joint.name for joint in knots]
         for name in names:
             if names.count(name) > 1:
                 raise InvalidInput(f"{name}: {names.count(name)} Joints of that name have knots: one is allowed, with all of its knots")
-        for joint in knots:
-            joint._conversation.require_same_daemon(next(iter(knots))._conversation, "the joints of a path are")
         self._knots = {joint: self._checked(joint.name, of_joint) for joint, of_joint in knots.items()}
         self._joints = list(self._knots)
         self._started = False
@@ -72,12 +72,13 @@ class Path:
         """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Waits while
         somebody has paused the path, too: Notice.PATH_PAUSED and path_time_s of the state tell. Raises Faulted, NoAnswer, and NotDone: after
         `timeout_s`, which says where the path is and whether it is paused, or when something else ended it. Of a path that another program
-        started, too; of one that nobody did, NotDone at once.
+        started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at its end.
         """
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0)
         if timeout_s is not None:
             timeout_s = check_number("timeout_s", timeout_s, "None or a number above 0", lambda seconds: seconds > 0)
-        self._check_started()
+        if not self._started:
+            self._check_under_way()
         begin_s = now_s()
 
         def look():
@@ -88,10 +89,20 @@ class Path:
         wait_for_motions([self._motion(joint, knots[-1][1], arrivals[joint]) for joint, knots in self._knots.items()], look)
         return {joint: watch.arrival for joint, watch in arrivals.items()}
 
-    def _check_started(self):
-        for joint, knots in self._knots.items():
-            if not self._started and joint._conversation.wait_for_state().target_position_rad != knots[-1][1]:
-                raise NotDone(f"{joint.name}: is not on its way to {knots[-1][1]:g} rad: this path was not started: start() does that")
+    def _joint_elsewhere(self):
+        """Of those that are not on their way to this path's end the first; None: it is under way."""
+        # Joints that stand at its end may have come there in any way.
+        ends = [(joint, joint._conversation.state, knots[-1][1]) for joint, knots in self._knots.items()]
+        elsewhere = [joint for joint, state, end_rad in ends if state.target_position_rad != end_rad]
+        moving = any(state.mode == Mode.TRACKING or not math.isnan(state.path_time_s) for _, state, _ in ends)
+        return elsewhere[0] if elsewhere else None if moving else self._joints[0]
+
+    def _check_under_way(self):
+        for joint in self._joints:
+            joint._conversation.wait_for_state()
+        if not self._joints[0]._wait_until(lambda: self._joint_elsewhere() is None, OLD_STATES_S):
+            joint = self._joint_elsewhere() or self._joints[0]
+            raise NotDone(f"{joint.name}: is not on its way to {self._knots[joint][-1][1]:g} rad: this path was not started: start() does that")
 
     def _where(self):
         state = self._joints[0].state
@@ -104,7 +115,7 @@ class Path:
     def _motion(joint, end_rad, watch):
         joint._conversation.wait_for_state()
         return MotionWatch(joint._conversation, Mode.TRACKING, f"arrive at {end_rad:g} rad", watch.reached,
-                           lambda state: state.target_position_rad != end_rad)
+                           lambda state: state.target_position_rad != end_rad, watch.observe)
 
     @staticmethod
     def _checked(name, knots):
@@ -112,7 +123,7 @@ class Path:
             raise InvalidInput(f"{name}: {shown(knots)}: a list of knots (time_s, position_rad, velocity_rad_s) is allowed")
         knots = list(knots)
         if not 2 <= len(knots) <= MOST_KNOTS:
-            raise InvalidInput(f"{name}: {len(knots)} knots: 2 to {MOST_KNOTS} are allowed")
+            raise InvalidInput(f"{name}: {len(knots)} knot{'' if len(knots) == 1 else 's'}: 2 to {MOST_KNOTS} are allowed")
         for index, knot in enumerate(knots):
             if not isinstance(knot, Sized) or len(knot) != 3:
                 raise InvalidInput(f"{name}: knot {index} = {shown(knot)}: (time_s, position_rad, velocity_rad_s) is allowed")

@@ -3,7 +3,7 @@ import math
 
 from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, shown
 from .messages import blank
-from .motion import OLD_STATES_S, faulted, has_yielded, yielded
+from .motion import OLD_STATES_S, degrees_hint, faulted, has_yielded, yielded
 from .network import now_s
 from .setpoint_v2 import setpoint_v2
 from .vocabulary import Mode, Reason
@@ -12,8 +12,10 @@ FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
-def check_number(name, value, allowed, is_allowed, joint=""):
-    """`value` as a float, if it is a finite number that is allowed. A text or a truth value is none. `joint`: whose it is, if it is one's."""
+def check_number(name, value, allowed, is_allowed, joint="", keys="", hint=lambda number: ""):
+    """`value` as a float, if it is a finite number that is allowed. A text or a truth value is none. `joint`: whose it is, if it is one's;
+    `keys`: of the daemon's configuration that say what is allowed; hint(number): what to say besides of a finite number.
+    """
     try:
         if isinstance(value, (str, bytes, bool)):
             raise TypeError
@@ -21,7 +23,8 @@ def check_number(name, value, allowed, is_allowed, joint=""):
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number) or not is_allowed(number):
-        raise InvalidInput(f"{joint}{': ' if joint else ''}{name} = {shown(value)}: {allowed} is allowed")
+        words = f"{joint}{': ' if joint else ''}{name} = {shown(value)}: {allowed} is allowed" + (f" ({keys} of {joint})" if keys else "")
+        raise InvalidInput("; ".join(part for part in (words, hint(number) if math.isfinite(number) else "") if part))
     return number
 
 
@@ -68,7 +71,8 @@ class Stream:
         t = self._checked("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
         most_Nm = self._joint.limits.torque_limit_Nm
-        message.torque_Nm = self._checked("torque_Nm", torque_Nm, f"from {-most_Nm} to {most_Nm}", lambda Nm: abs(Nm) <= most_Nm)
+        message.torque_Nm = self._checked("torque_Nm", torque_Nm, f"from {-most_Nm} to {most_Nm}", lambda Nm: abs(Nm) <= most_Nm,
+                                          "joint.limits.torque_limit_Nm")
         message.load_inertia_kgm2 = self._checked("load_inertia_kgm2", load_inertia_kgm2, "a number from 0", lambda kgm2: kgm2 >= 0)
         self._last_t = t
         if self._last_cycle is None:
@@ -94,7 +98,7 @@ class Stream:
         try:
             self._check_refusals()
             if not network.wait_until(lambda: conversation.state.cycle >= self._last_cycle, self._ahead_s + conversation.timeout_s):
-                raise NoAnswer(f"{self._joint.name}: fell silent before the stream's end")
+                raise conversation.fell_silent("fell silent before the stream's end")
             self._check_refusals()
         finally:
             if self._last_cycle is not None:
@@ -115,15 +119,16 @@ class Stream:
         except StrainwaveError as second:
             error.add_note(f"and the joint could not be told to hold: {second}")
 
-    def _checked(self, name, value, allowed, is_allowed):
-        return check_number(name, value, allowed, is_allowed, self._joint.name)
+    def _checked(self, name, value, allowed, is_allowed, keys="", hint=lambda number: ""):
+        return check_number(name, value, allowed, is_allowed, self._joint.name, keys, hint)
 
     def _message(self, position_rad, velocity_rad_s, acceleration_rad_s2):
         limits = self._joint.limits
         message = blank(setpoint_v2)
         message.position_rad = self._checked(
             "position_rad", position_rad, f"from {limits.position_min_rad} to {limits.position_max_rad}",
-            lambda rad: limits.position_min_rad <= rad <= limits.position_max_rad)
+            lambda rad: limits.position_min_rad <= rad <= limits.position_max_rad,
+            "joint.limits.position_min_rad and position_max_rad", degrees_hint)
         if velocity_rad_s is not None:
             message.velocity_rad_s = self._checked("velocity_rad_s", velocity_rad_s, "a finite number", lambda _: True)
             message.derivatives = 1

@@ -104,7 +104,11 @@ TEST_F(CommandsTest, EnableThatNeverEndsIsNoSuccess) {
   daemon.publish_state();
   daemon.modes_after_answer = {Mode::kStarting};
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);
-  EXPECT_TRUE(message_has("still starting")) << message;
+  EXPECT_EQ(message, "elbow: accepted, but its state stopped coming 0.3 s ago, when it was starting");
+  StateAfterState states(connection, daemon);
+  daemon.publish_state();
+  EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);
+  EXPECT_TRUE(message_has("accepted, but still starting after 0.3 s")) << message;
 }
 
 TEST_F(CommandsTest, DisableReachesAJointThatIsNotHeard) {

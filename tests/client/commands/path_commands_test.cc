@@ -33,7 +33,6 @@ class PathCommandsTest : public testing::CommandsTest {
   /// Both joints hold and are heard with their limits as soon as the client listens.
   void let_two_joints_hold() {
     for (FakeDaemon* const one : {&daemon, &wrist}) {
-      one->limits.speed_limit_rad_s = 2.0;
       one->limits.acceleration_rad_s2 = one->limits.deceleration_rad_s2 = 20.0;
       one->limits.torque_limit_Nm = 30.0;
       one->limits.inertia_kgm2 = 0.5;
@@ -77,7 +76,7 @@ TEST_F(PathCommandsTest, AFilesRowsMayStandInAnyOrderOfTheJoints) {
 TEST_F(PathCommandsTest, WhatIsWrongInAFileIsNamedWithItsPlace) {
   const std::string header = "joint,time_s,position_rad,velocity_rad_s\n";
   const std::vector<std::pair<std::string, std::string>> cases{
-      {header + "elbow,0,0,0\n", "path.csv: elbow: 1 knots: 2 to 320 are allowed"},
+      {header + "elbow,0,0,0\n", "path.csv: elbow: 1 knot: 2 to 320 are allowed"},
       {header + "el bow,0,0,0\n", "path.csv:2: joint = el bow: 1 to 24 characters"},
       {header + "elbow,0,0,0\nelbow,1,half,0\n", "path.csv:3: position_rad = \"half\""},
       {header + "elbow,0,0,0\nelbow,1,nan,0\n", "path.csv:3: position_rad = \"nan\""},
@@ -147,6 +146,13 @@ TEST_F(PathCommandsTest, ATargetOutOfRangeIsRefusedBeforeAnythingIsSent) {
   EXPECT_TRUE(message_has("wrist: position_rad = 90: from -3 to 3 is allowed")) << message;
   EXPECT_TRUE(message_has("90 degrees would be 1.5708")) << message;
   EXPECT_TRUE(daemon.heard().empty() && wrist.heard().empty());
+}
+
+TEST_F(PathCommandsTest, ASpeedBeyondOneJointsLimitIsRefusedAndNamesThatJoint) {
+  wrist.limits.speed_limit_rad_s = 1.0;
+  EXPECT_EQ(move_both({{{"elbow", 1.0}, {"wrist", -0.5}}, false, 2.0}), ExitStatus::kUsage);
+  EXPECT_EQ(message,
+            "wrist: speed_limit_rad_s = 2: at most 1 is allowed (joint.limits.speed_limit_rad_s of wrist)");
 }
 
 TEST_F(PathCommandsTest, WhatIsWrongWithOneOfSeveralJointsIsSaidOfThatJoint) {

@@ -85,6 +85,8 @@ TEST_F(JointTest, SaysThatAStopWasSentWhenNothingAnswers) {
   daemon.stop();
   const std::string words = error_of<NoAnswer>([&] { joint.disable(); });
   EXPECT_TRUE(has(words, "the stop was sent 4 times, and nothing answered")) << words;
+  EXPECT_TRUE(has(words, ": its state stopped coming 1.")) << words;
+  EXPECT_FALSE(has(words, "publishes its state")) << words;
 }
 
 TEST_F(JointTest, WhatIsWrongIsRefusedBeforeAnythingIsSent) {

@@ -88,6 +88,24 @@ TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSo) {
   }
 }
 
+TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSoWhereTheJointStandsAtItsEnd) {
+  auto& state = daemon.daemon().state;
+  state.path_time_s = std::nan("");
+  state.target_position_rad = state.joint_position_rad = 0.4;
+  Joint elbow = joint("elbow");
+  Path path({{elbow, {{0, 0, 0}, {1, 0.4, 0}}}});
+  EXPECT_THROW(path.wait(), NotDone);
+}
+
+TEST_F(PathTest, AWaitForWhatAnotherProgramStartedReturnsWhenItIsThere) {
+  auto& state = daemon.daemon().state;
+  state.target_position_rad = state.joint_position_rad = 0.4;
+  state.path_time_s = 0.9;
+  Joint elbow = joint("elbow");
+  Path path({{elbow, {{0, 0, 0}, {1, 0.4, 0}}}});
+  EXPECT_EQ(path.wait().size(), 1U);
+}
+
 TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
   const Joint elbow = joint("elbow");
   const Joint of_another_daemon = joint("wrist", "LEFT");
@@ -96,7 +114,7 @@ TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
       {{}, "at least one joint"},
       {{{elbow, knots}, {elbow, knots}}, "elbow is named twice"},
       {{{elbow, knots}, {of_another_daemon, knots}}, "wrist has prefix LEFT, elbow has SW"},
-      {{{elbow, {{0, 0, 0}}}}, "elbow: 1 knots: 2 to 320"},
+      {{{elbow, {{0, 0, 0}}}}, "elbow: 1 knot: 2 to 320"},
       {{{elbow, std::vector<JointKnot>(321)}}, "elbow: 321 knots: 2 to 320"},
       {{{elbow, {{0, 0, 0}, {1, std::nan(""), 0}}}}, "elbow: knot 1: position_rad = nan: a finite"}};
   for (const auto& [parts, words] : cases) {

@@ -268,13 +268,29 @@ TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
     stream.put(0.0, 3.5);
     ADD_FAILURE() << "a position beyond the range was sent";
   } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(), "elbow: position_rad = 3.5: from -3 to 3 is allowed");
+    EXPECT_STREQ(error.what(),
+                 "elbow: position_rad = 3.5: from -3 to 3 is allowed (joint.limits.position_min_rad and "
+                 "position_max_rad of elbow)");
+  }
+  try {
+    stream.put(0.0, 90.0, 0.0, {}, {.torque_Nm = -30.5});
+    ADD_FAILURE() << "degrees were sent";
+  } catch (const InvalidInput& error) {
+    EXPECT_TRUE(std::string(error.what()).ends_with("; positions are in rad: 90 degrees would be 1.5708"))
+        << error.what();
   }
   EXPECT_THROW(stream.put(0.0, 0.1, std::nan("")), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, {}, 1.0), InvalidInput);
   EXPECT_THROW(stream.put(std::nan(""), 0.1), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = std::nan("")}), InvalidInput);
-  EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = -30.5}), InvalidInput);
+  try {
+    stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = -30.5});
+    ADD_FAILURE() << "a torque beyond the limit was sent";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "elbow: torque_Nm = -30.5: from -30 to 30 is allowed (joint.limits.torque_limit_Nm of elbow)");
+  }
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.load_inertia_kgm2 = -0.1}), InvalidInput);
   stream.close();
   EXPECT_TRUE(heard<setpoint_v2>().empty());

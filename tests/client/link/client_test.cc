@@ -99,6 +99,21 @@ TEST_F(ClientTest, GivesUpAfterItsRepetitionsAndSaysThatTheOutcomeIsUnknown) {
   EXPECT_EQ(daemon.heard().size(), 1U + PendingOrder::kRepetitions);
 }
 
+TEST_F(ClientTest, TellsADaemonThatDoesNotAnswerFromOneWhoseStatesHaveStopped) {
+  daemon.publish_state();
+  daemon.drop = 100;
+  const std::string silent = failure("elbow");
+  EXPECT_NE(silent.find(": its state stopped coming 0.2 s ago; is strainwaved running? Whether"),
+            std::string::npos)
+      << silent;
+  StateAfterState states(connection, daemon);
+  daemon.publish_state();
+  const std::string mute = failure("elbow");
+  EXPECT_NE(mute.find(": the daemon publishes its state but does not answer; see its log. Whether"),
+            std::string::npos)
+      << mute;
+}
+
 TEST_F(ClientTest, DoesNotTakeAnAnswerToAnotherMessageForItsOwn) {
   daemon.publish_state();
   daemon.sequence_error = 1;

@@ -23,6 +23,7 @@ FakeDaemon::FakeDaemon(Connection& connection, std::string prefix, std::string j
   limits.period_s = 1e-3;
   limits.position_min_rad = -3.0;
   limits.position_max_rad = 3.0;
+  limits.speed_limit_rad_s = 2.0;
   limits.torque_limit_Nm = 30.0;
 }
 

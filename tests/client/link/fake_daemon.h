@@ -3,11 +3,13 @@
 // network; on memq:// it shares the client's connection.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "client/link/connection.h"
@@ -56,6 +58,23 @@ class FakeDaemon {
   std::string joint_;
   std::vector<Heard> heard_;
   Subscription subscription_;
+};
+
+/// As long as it lives, each state of the daemon is followed by the next, a few milliseconds later.
+class StateAfterState {
+ public:
+  StateAfterState(Connection& connection, FakeDaemon& daemon)
+      : daemon_(daemon),
+        states_(connection.subscribe("SW\\.elbow\\.STATE", &StateAfterState::on_state, this)) {}
+
+ private:
+  void on_state(const ReceivedMessage&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    daemon_.publish_state();
+  }
+
+  FakeDaemon& daemon_;
+  Subscription states_;
 };
 
 }  // namespace strainwave

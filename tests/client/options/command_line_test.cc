@@ -96,6 +96,22 @@ TEST(CommandLine, NamesUnexpectedWordsAsTheyWereTyped) {
       << run({"pause", "elbow", "wrist", "hip"}).err;
 }
 
+TEST(CommandLine, RefusesAValueWhereNoneIsTakenAndNamesTheOptionsThatTakeOne) {
+  const auto error_of = [](const std::vector<const char*>& words) {
+    const Result result = run(words);
+    EXPECT_EQ(result.status, ExitStatus::kUsage);
+    return result.err;
+  };
+  EXPECT_EQ(error_of({"move", "elbow", "0.1", "--wait=3"}),
+            "strainwavectl: --wait takes no value: '3' was given; --speed-limit_rad_s, --tolerance_rad take "
+            "one; see "
+            "strainwavectl --help\n");
+  EXPECT_TRUE(error_of({"enable", "--all=yes"})
+                  .starts_with("strainwavectl: --all takes no value: 'yes' was given; see "));
+  EXPECT_TRUE(error_of({"--json=2", "status"})
+                  .starts_with("strainwavectl: --json takes no value: '2' was given; see "));
+}
+
 TEST(CommandLine, RefusesATimeOutTooShortToHearAnything) {
   const Result result = run({"--timeout_s", "0.01", "status"});
   EXPECT_EQ(result.status, ExitStatus::kUsage);

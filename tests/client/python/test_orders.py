@@ -3,6 +3,7 @@ import base64
 import pathlib
 import tempfile
 import threading
+import time
 import unittest
 
 from played_orders import YIELDED, PlayedOrders, published
@@ -13,7 +14,8 @@ from strainwave.network import now_s
 class Orders(PlayedOrders):
     def test_that_nobody_answers_are_repeated_identically_and_then_given_up(self):
         self.publish_state()
-        with self.assertRaisesRegex(NoAnswer, "no acknowledgement of release in 0.2 s, after 4 transmissions"):
+        with self.assertRaisesRegex(NoAnswer, "no acknowledgement of release in 0.2 s, after 4 transmissions: its state stopped coming 0.2 s ago; "
+                                    "is strainwaved running. Whether the order was carried out is not known"):
             self.impatient_elbow.release()
         self.assertEqual(len(self.network.published), 4)
         self.assertEqual(len(set(self.network.published)), 1)
@@ -89,6 +91,32 @@ class Orders(PlayedOrders):
             self.impatient_elbow.disable()
         self.assertEqual([order.action for order in self.orders()], [2] * 4)
 
+    def test_tell_a_daemon_that_does_not_answer_from_one_whose_states_have_stopped(self):
+        self.publish_state()
+        time.sleep(0.2)
+        with self.assertRaisesRegex(NoAnswer, "the stop was sent 4 times, and nothing answered: its state stopped coming 0.[4-9] s ago"):
+            self.impatient_elbow.disable()
+        self.network.daemon = lambda *entry: self.publish_state()
+        for order in (self.impatient_elbow.disable, self.impatient_elbow.release):
+            with self.assertRaisesRegex(NoAnswer, ": the daemon publishes its state but does not answer; see its log"):
+                order()
+        with self.assertRaisesRegex(NoAnswer, "^elbow: its limits are not known: its state stopped coming 2.. s ago$"):
+            self.impatient_elbow.limits
+
+    def test_that_were_accepted_say_so_when_the_states_stop(self):
+        def daemon(*entry):
+            self.answer(published(*entry))
+            self.publish_state(Mode.STARTING)
+
+        self.publish_state(Mode.OFF)
+        self.network.daemon = daemon
+        with self.assertRaisesRegex(NoAnswer, "^elbow: accepted, but its state stopped coming 0.2 s ago, when it was starting$"):
+            self.impatient_elbow.enable()
+        self.publish_state(Mode.HOLDING)
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        with self.assertRaisesRegex(NoAnswer, "fell silent during the motion: its state stopped coming 0.. s ago; what the joint does is not known$"):
+            self.impatient_elbow.move(0.5)
+
     def test_to_enable_and_clear_are_not_sent_for_what_is_so_already(self):
         self.publish_state(Mode.TRACKING)
         self.elbow.enable()
@@ -160,6 +188,10 @@ class Orders(PlayedOrders):
         self.assertAlmostEqual(arrival.error_rad, 0.0005)
         self.assertGreater(arrival.duration_s, 0)
 
+    def test_to_move_a_little_are_not_said_to_have_taken_as_long_as_old_states_may_come(self):
+        there = dict(mode=Mode.HOLDING, target_position_rad=0.5, joint_position_rad=0.4995)
+        self.assertLess(self.wait_for_move(self.elbow, there).duration_s, 0.1)
+
     def test_to_move_that_end_elsewhere_say_so(self):
         moving = dict(mode=Mode.TRACKING, target_position_rad=0.5)
         for end, error, words in ((dict(mode=Mode.FAULTED, fault=14), Faulted, "14: following error"),
@@ -200,6 +232,11 @@ class Orders(PlayedOrders):
         with self.assertRaisesRegex(NotDone, "holds 1.00e-01 rad away from 0.5 rad, outside of tolerance_rad 0.001"):
             self.wait_for_move(self.impatient_elbow, moving, dict(mode=Mode.HOLDING, joint_position_rad=0.4))
 
+    def test_to_move_that_hold_outside_say_how_far_in_as_many_digits_as_show_it(self):
+        moving = dict(mode=Mode.TRACKING, target_position_rad=0.5)
+        with self.assertRaisesRegex(NotDone, "holds -1.0004e-03 rad away from 0.5 rad, outside of tolerance_rad 0.001$"):
+            self.wait_for_move(self.impatient_elbow, moving, dict(mode=Mode.HOLDING, joint_position_rad=0.5010004))
+
     def test_that_make_no_sense_are_refused_before_anything_is_sent(self):
         for attempt, words in ((lambda: self.elbow.move(float("inf")), "^elbow: position_rad = inf"),
                                (lambda: self.elbow.move("0.5"), "position_rad = '0.5'"),
@@ -207,7 +244,8 @@ class Orders(PlayedOrders):
                                (lambda: self.elbow.move(0, tolerance_rad=0), "tolerance_rad = 0"),
                                (lambda: Joint("el bow"), "name = 'el bow': 1 to 24 characters"),
                                (lambda: Joint("elbow", prefix=""), "prefix = ''"),
-                               (lambda: Joint("elbow", timeout_s=0), "timeout_s = 0"),
+                               (lambda: Joint("elbow", timeout_s=0), "^elbow: timeout_s = 0: 0.1 to 3600 is allowed$"),
+                               (lambda: Joint("elbow", timeout_s=0.09), "^elbow: timeout_s = 0.09: 0.1 to 3600 is allowed$"),
                                (lambda: self.elbow.move(10**400), "^elbow: position_rad = 1000"),
                                (lambda: self.elbow.move(10**5000), "^elbow: position_rad = <int>: a finite number"),
                                (lambda: self.elbow.states(duration_s=float("nan")), "^elbow: duration_s = nan: 0 or above is allowed"),

@@ -1,4 +1,5 @@
 """Paths over a network that the test plays."""
+import math
 import threading
 import time
 import unittest
@@ -27,6 +28,7 @@ class Paths(PlayedOrders):
     def test_of_anything_else_are_refused_with_what_is_allowed(self):
         for knots, words in ((None, "None: {joint: "), ({}, "at least one joint"), ({"elbow": self.KNOTS}, "as Joint.'elbow'."),
                              ({self.elbow: self.KNOTS, Joint("elbow", key=""): self.KNOTS}, "elbow: 2 Joints of that name have knots"),
+                             ({self.elbow: self.KNOTS, Joint("elbow", key="", prefix="LEFT"): self.KNOTS}, "^elbow has prefix LEFT, elbow has SW: "),
                              ({self.elbow: self.KNOTS, Joint("wrist", key="", prefix="LEFT"): self.KNOTS}, "^wrist has prefix LEFT, elbow has SW: the joints of a path are of one daemon$")):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 Path(knots)
@@ -63,6 +65,19 @@ class Paths(PlayedOrders):
         self.publish_state(target_position_rad=0.1)
         with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path was not started: start.. does that"):
             Path({self.elbow: self.KNOTS}).wait()
+
+    def test_that_nobody_started_say_so_though_the_joint_stands_at_their_end(self):
+        self.publish_state(target_position_rad=0.75, joint_position_rad=0.75, path_time_s=math.nan)
+        with self.assertRaisesRegex(NotDone, "elbow: is not on its way to 0.75 rad: this path was not started: start.. does that"):
+            Path({self.elbow: self.KNOTS}).wait()
+
+    def test_that_another_program_has_just_started_are_waited_for_though_old_states_come_first(self):
+        self.publish_state(target_position_rad=0.75, joint_position_rad=0.75, path_time_s=math.nan)
+        later = threading.Timer(0.05, self.publish_state, [Mode.TRACKING], dict(path_time_s=0.1))
+        later.start()
+        self.addCleanup(later.join)
+        with self.assertRaisesRegex(NotDone, "did not arrive in 0.5 s: it is at 0.100 s of 1.000 s"):
+            Path({self.elbow: self.KNOTS}).wait(timeout_s=0.5)
 
     def test_tell_of_the_joint_that_faulted_and_not_of_those_that_it_stopped(self):
         wrist = Joint("wrist", key="", timeout_s=30)
@@ -131,7 +146,7 @@ class Paths(PlayedOrders):
 
     def test_with_more_knots_than_there_is_room_for_are_refused_before_anything_is_sent(self):
         Path({self.elbow: [(i, 0, 0) for i in range(320)]})
-        for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knots"),
+        for knots, words in (([(i, 0, 0) for i in range(321)], "321 knots: 2 to 320"), ([(0, 0, 0)], "1 knot:"),
                              ([(0, 0), (1, 0, 0)], "knot 0"), ([(0, 0, 0), (1, "x", 0)], "knot 1: position_rad = 'x'"),
                              ([(0, 0, 0), (float("nan"), 0, 0)], "elbow: knot 1: time_s = nan: a finite"),
                              ([(0, 0, 0), (1, 0, 10**400)], "elbow: knot 1: velocity_rad_s = 1"),

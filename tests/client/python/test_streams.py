@@ -1,4 +1,5 @@
 """Streams over a network that the test plays: which cycles samples are for, what is late, and how a stream ends."""
+import math
 import threading
 import time
 import unittest
@@ -17,6 +18,14 @@ class Streams(PlayedOrders):
         self.publish_state(Mode.TRACKING, cycle=1000)
         self.network.deliver("LIMITS", self.limits)
         return self.elbow.stream(**options)
+
+    def test_that_fall_silent_before_their_end_say_since_when(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.1)
+        stream.put(0, 0.1)
+        self.elbow._conversation.timeout_s = 0.2
+        with self.assertRaisesRegex(NoAnswer, "its state stopped coming [0-9.]+ s ago"):
+            stream.close()
 
     def test_send_samples_for_cycles_that_far_apart(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
@@ -241,11 +250,13 @@ class Streams(PlayedOrders):
 
     def test_refuse_samples_that_make_no_sense_before_anything_is_sent(self):
         stream = self.stream()
-        for attempt, words in ((lambda: stream.put(0, 1.5), "^elbow: position_rad = 1.5: from -1.0 to 1.0 is allowed"),
+        for attempt, words in ((lambda: stream.put(0, 1.5), "^elbow: position_rad = 1.5: from -1.0 to 1.0 is allowed .joint.limits.position_min_rad and position_max_rad of elbow.$"),
+                               (lambda: stream.put(0, 90), "^elbow: position_rad = 90: .*; positions are in rad: 90 degrees would be 1.5708$"),
+                               (lambda: stream.put(0, math.inf), "^elbow: position_rad = inf: .* of elbow.$"),
                                (lambda: stream.put(float("nan"), 0), "^elbow: t = nan"), (lambda: stream.put(0, "there"), "position_rad = 'there'"),
                                (lambda: stream.put(0, 0, acceleration_rad_s2=1), "^elbow: .*only with velocity_rad_s"),
                                (lambda: stream.put(0, 0, torque_Nm=float("inf")), "torque_Nm = inf"),
-                               (lambda: stream.put(0, 0, torque_Nm=-99), "elbow: torque_Nm = -99: from -34.0 to 34.0 is allowed"),
+                               (lambda: stream.put(0, 0, torque_Nm=-99), "elbow: torque_Nm = -99: from -34.0 to 34.0 is allowed .joint.limits.torque_limit_Nm of elbow.$"),
                                (lambda: stream.put(0, 0, load_inertia_kgm2=-1), "load_inertia_kgm2 = -1"),
                                (lambda: self.elbow.stream(beside=self.elbow), "^elbow: beside = <.*>: a Stream is allowed"),
                                (lambda: self.elbow.stream(beside=0), "^elbow: beside = 0: a Stream is allowed"),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/gain_table_v2.hpp>
 #include <strainwave/setpoint_v2.hpp>
@@ -105,6 +106,14 @@ TEST_F(SignedAdmission, ASignatureWithoutAKeyIdIsNotTakenForNoSignature) {
   std::fill_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(message.size - kSealBytes), sizeof(KeyId),
               0);
   EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
+}
+
+TEST_F(SignedAdmission, TellsWhoeverDoesNotSignHowAKeyIsGiven) {
+  const Verdict verdict = consider(wire(kSetpoint, filled<setpoint_v2>(1, 5), nullptr));
+  for (const char* const way :
+       {"strainwavectl --key FILE", "Joint in Python and C++", "STRAINWAVE_KEY", "keygen"})
+    EXPECT_NE(verdict.text.find(way), std::string::npos) << verdict.text;
+  EXPECT_LT(verdict.text.size(), sizeof(ack_v1::text)) << "all of it is sent";
 }
 
 TEST_F(SignedAdmission, AForgeryDoesNotUseUpASequenceNumber) {

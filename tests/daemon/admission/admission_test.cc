@@ -275,6 +275,26 @@ TEST_F(AdmissionTest, ReleasesWithoutTheLoopAndTakesOverWithTheEndOfAStream) {
   EXPECT_EQ(admission_.ownership().owner_id(0, 0), 2);
 }
 
+TEST_F(AdmissionTest, SaysOfASamplesNumbersWhatIsAllowed) {
+  setpoint_v2 sample = setpoint(0.5);
+  sample.stream_id = 7;
+  sample.valid_for_s = 0.1;
+  const auto text_with = [&](auto setpoint_v2::*field, auto value) {
+    setpoint_v2 wrong = sample;
+    wrong.sequence = ++sample.sequence;
+    wrong.*field = value;
+    return consider(wire("SW.elbow.SETPOINT", wrong)).text;
+  };
+  EXPECT_EQ(text_with(&setpoint_v2::velocity_rad_s, 1e300),
+            "velocity_rad_s = 1e+300: from -1000 to 1000 is allowed");
+  EXPECT_EQ(text_with(&setpoint_v2::acceleration_rad_s2, -2e6),
+            "acceleration_rad_s2 = -2e+06: from -1e+06 to 1e+06 is allowed");
+  EXPECT_EQ(text_with(&setpoint_v2::derivatives, 3),
+            "derivatives = 3: 0, 1 (velocity) or 2 (acceleration, too) is allowed");
+  EXPECT_EQ(text_with(&setpoint_v2::at_cycle, -1),
+            "at_cycle = -1: a cycle to come, or 0 for none, is allowed");
+}
+
 TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
   setpoint_v2 message = setpoint(0.5);
   message.valid_for_s = 0.1;

@@ -87,11 +87,11 @@ TEST_F(PathAdmissionTest, TakesUpTo320KnotsInOneMessage) {
 
 TEST_F(PathAdmissionTest, RefusesByKnotJointAndLimit) {
   path_v1 message = path(5);
-  message.velocity_rad_s[2] = 2.5;
+  message.velocity_rad_s[2] = 1.2;
   const Verdict verdict = consider(message);
   EXPECT_EQ(verdict.kind, Verdict::Kind::kRefuse);
   EXPECT_EQ(verdict.reason, Reason::kOutOfRange);
-  EXPECT_NE(verdict.text.find("elbow, knot 1 (at 0.5 s): acceleration in rad/s^2 = 16: at most 10 "),
+  EXPECT_NE(verdict.text.find("elbow, knot 1 (at 0.5 s): acceleration in rad/s^2 = 10.8: at most 10 "),
             std::string::npos)
       << verdict.text;
   message = path(5);
@@ -103,6 +103,15 @@ TEST_F(PathAdmissionTest, RefusesByKnotJointAndLimit) {
   message = path(5);
   message.position_rad[3] = std::nan("");
   EXPECT_EQ(consider(message).reason, Reason::kNotFinite);
+}
+
+TEST_F(PathAdmissionTest, RefusesNumbersThatNoJointKnowsAsTheyWereGiven) {
+  EXPECT_EQ(consider(path(-5)).text, "elbow, knot_count = -5: from 2 to 320 are allowed");
+  path_v1 message = path(5);
+  message.velocity_rad_s[2] = -1e308;
+  EXPECT_EQ(consider(message).text,
+            "elbow, knot 2 (at 1 s): speed in rad/s = 1e+308: at most 2 is allowed "
+            "(joint.limits.speed_limit_rad_s)");
 }
 
 TEST_F(PathAdmissionTest, RefusesAPathOfNobodyAndOfMoreJointsThanThereAre) {
