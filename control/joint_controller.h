@@ -168,6 +168,8 @@ class JointController {
   void follow_friction(int elapsed_periods) noexcept;
   double planned_velocity_rad_s() const noexcept;
   bool reference_moves() const noexcept;
+  /// Where a path turns the reference stands, for some milliseconds.
+  bool turns() const noexcept;
   /// What it follows may flicker about a place.
   bool may_dither() const noexcept { return follows_ == Follows::kStreamOnTime; }
   bool streamed() const noexcept { return follows_ != Follows::kTarget; }

@@ -13,6 +13,8 @@ namespace {
 constexpr double kFallbackReserve = 0.5;
 // A load that a stream told of fades to 1/e in this time once the stream is over: slower than the feedback takes it over.
 constexpr double kForget_s = 0.5;
+// What has stood for a shorter time on a path turns, and has not come to rest.
+constexpr double kTurns_s = 0.06;
 
 }  // namespace
 
@@ -57,6 +59,10 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
   sample_position_rad_ = sample.position_rad;
   stream_.take(sample,
                {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
+}
+
+bool JointController::turns() const noexcept {
+  return !linked() && follows_ == Follows::kStreamLater && reference_rest_s_ < kTurns_s;
 }
 
 // Through what it left out step() goes as if it had been there; not where nobody knows what the joint did.

@@ -21,8 +21,6 @@ constexpr double kReplanPushes = 4.0;
 // reference has come to rest, and longer only farther away than so many counts: one push makes some of them.
 constexpr double kHunting_s = 0.1;
 constexpr double kHuntingCounts = 20.0;
-// What has stood for a shorter time on a path turns, and has not come to rest.
-constexpr double kTurns_s = 0.06;
 // What swings less than the counts above at the catalogue's encoder does so by the give of its gear, however fine the encoder: a hand or a
 // tap makes it.
 constexpr double kLeastSwing_rad = 4e-4;
@@ -74,9 +72,7 @@ bool JointController::landing_possible() const noexcept {
 void JointController::choose_phase(const JointMeasurement& measurement) noexcept {
   if (!config_.use_rest || reference_moves()) return enter(MotionPhase::kTracking);
   // A path that turns goes on: a push to the very count would only be in its way.
-  if (!linked() && follows_ == Follows::kStreamLater && phase_ == MotionPhase::kTracking &&
-      reference_rest_s_ < kTurns_s)
-    return;
+  if (phase_ == MotionPhase::kTracking && turns()) return;
   if (linked() && correct_link(measurement.joint_position_rad)) return enter(MotionPhase::kTracking);
   if (!may_land()) {
     attempts_.wait();
@@ -210,14 +206,17 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   // Static friction pushed towards the target from either side hunts for the last counts, and a spring turns that
   // into an oscillation: what has not come off soon after the reference, and the fallback, leave them to the integral.
   const bool moves = torque_is_planned();
+  // Where a path turns nothing is pushed: the joint stands by its friction until it goes on.
+  const bool stands = !moves && turns();
   reference_rest_s_ = moves ? 0.0 : reference_rest_s_ + config_.period_s;
   const double near_rad = kHuntingCounts * count_rad();
   const double off_rad = state_.then().position_rad - reference_.position_rad;
   hunted_ = !config_.rigid && reference_rest_s_ > kHunting_s && std::abs(off_rad) <= near_rad;
   signs_.swung_over = swing_side_.swings_over(off_rad, std::max(near_rad, kLeastSwing_rad));
-  input.planned = moves || fallen_back() || hunted_ || linked();
+  input.planned = moves || stands || fallen_back() || hunted_ || linked();
   // At rest a landing holds the load of a rigid joint.
-  const double at_rest_Nm = config_.rigid && !fallen_back() ? told_load_.torque_Nm : held_load_Nm();
+  const bool landed = config_.rigid && !stands && !fallen_back();
+  const double at_rest_Nm = landed ? told_load_.torque_Nm : held_load_Nm();
   input.planned_torque_Nm = moves ? planned_torque_Nm(disturbance_.value()) : at_rest_Nm;
   if (config_.use_rest) input.rest_zone_rad = std::max(input.rest_zone_rad, config_.encoder_resolution_rad);
   input.torque_limit_Nm = torque_limit_Nm_;

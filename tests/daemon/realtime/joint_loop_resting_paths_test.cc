@@ -46,26 +46,24 @@ double farthest_rad(double rest_s, double later_s, double scale, double temperat
   return farthest_rad;
 }
 
-// What rests for so short a time goes on: a landing that was begun there, and pushed, threw the joint up to 1.9 mrad off.
+// What rests for so short a time goes on: a landing that was begun there, and pushed, threw the joint up to 1.9 mrad off; the law's push to the
+// target, which the motion after it took up as an answer to a reading, up to 0.9.
 TEST(RestingPath, DoesNotThrowTheJointOff) {
   for (const double scale : {1.0, 5.0})
     for (const double rest_s : {0.003, 0.005, 0.008, 0.012, 0.018, 0.025, 0.05, 0.3}) {
       double farthest = 0.0, sum_rad = 0.0;
-      int rides = 0, off = 0;
+      int rides = 0;
       for (const double temperature_C : {-5.0, 25.0})
         for (int i = 0; i < 12; ++i) {
           const double one_rad = farthest_rad(rest_s, 0.00237 * i, scale, temperature_C);
           farthest = std::max(farthest, one_rad);
           sum_rad += one_rad;
-          off += one_rad > 0.5e-3 ? 1 : 0;
           ++rides;
         }
-      std::printf(
-          "rest of %.0f ms, scale %.0f: %.2f mrad off at most, %.2f in the mean, %d of %d beyond 0.5\n",
-          1e3 * rest_s, scale, 1e3 * farthest, 1e3 * sum_rad / rides, off, rides);
-      EXPECT_LE(off, 1);
-      EXPECT_LT(farthest, 1.1e-3);
-      EXPECT_LT(sum_rad, 0.3e-3 * rides);
+      std::printf("rest of %.0f ms, scale %.0f: %.2f mrad off at most, %.2f in the mean\n", 1e3 * rest_s,
+                  scale, 1e3 * farthest, 1e3 * sum_rad / rides);
+      EXPECT_LT(farthest, 0.5e-3);
+      EXPECT_LT(sum_rad, 0.2e-3 * rides);
     }
 }
 
