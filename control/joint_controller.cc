@@ -120,6 +120,7 @@ void JointController::load(const GainTable& table) noexcept {
   model_.stribeck = {kStribeckShare * table.friction.velocity.zero_width_rad_s, kStribeckExponent};
   model_.friction = law_.friction();
   torque_limit_Nm_ = config_.torque_limit_with(table);
+  table_limit_Nm_ = table.torque_limit_Nm;
   model_.friction_scale_Nm =
       std::max(table.friction.least_static_Nm(), kLeastFrictionShare * torque_limit_Nm_);
 }

@@ -243,6 +243,7 @@ class JointController {
   StreamTarget::Confinement ordered_confined_ = 0;  ///< of ordered_
   double sample_position_rad_ = 0.0;                ///< of the stream's last
   double torque_limit_Nm_ = 0.0;
+  double table_limit_Nm_ = 0.0;  ///< the table's alone
   double hold_torque_Nm_ = 0.0;  ///< besides told_load_
   ToldLoad told_load_;           ///< by the stream, and what is left of it since
   double shown_load_Nm_ = 0.0;   ///< JointStep's

@@ -10,8 +10,8 @@ namespace strainwave {
 
 namespace {
 
-// Landing begins where one push with this share of the
-// torque, and one period's braking, can end on the target.
+// Landing begins where one push with this share of the torque that the table allows, and one period's braking, can end on the target. A lower
+// limit of the joint's own makes several of it: near its friction hardly a count, and each that it is off would ask for a new plan.
 constexpr double kLandingShare = 0.5;
 // A landing that finds itself this many times farther away is given up: something pushed the joint.
 constexpr double kLandingLost = 4.0;
@@ -56,9 +56,9 @@ double JointController::distance_to_target_rad() const noexcept {
   return std::abs(state_.then().position_rad - plan_.target_rad());
 }
 
-// How far one period's push, and one period's braking, can take the joint.
+// How far one period's push, and one period's braking, can take the joint, but for its own torque limit.
 double JointController::landing_reach_rad() const noexcept {
-  const double torque_Nm = kLandingShare * std::max(0.0, torque_limit_Nm_ - model_.friction.static_Nm);
+  const double torque_Nm = kLandingShare * std::max(0.0, table_limit_Nm_ - model_.friction.static_Nm);
   return torque_Nm * config_.period_s * config_.period_s / state_.model().inertia_kgm2;
 }
 
