@@ -99,6 +99,8 @@ class JointController {
   double stream_lead_s() const noexcept;
   /// With OnTime::kPlan, from rest, how much later than the samples say the joint is where they say.
   double plan_lead_s() const noexcept;
+  /// The same of the reference: what a mean of the plan, or a link's motion, takes.
+  double reference_lag_s() const noexcept;
   /// So many periods, >= 1, after the last step() comes the next, which is told so, too: before samples that have come since are followed.
   /// May be left out where it is one.
   void begin_period(std::int64_t elapsed_periods) noexcept;
@@ -137,6 +139,7 @@ class JointController {
   void choose_gains(const JointMeasurement& measurement) noexcept;
   void advance_reference(int elapsed_periods) noexcept;
   double ahead_of_joint_s() const noexcept;
+  double spread_lag_s() const noexcept;
   bool goes_on_anew() noexcept;
   void go_on_from_here() noexcept;
   void choose_phase(const JointMeasurement& measurement) noexcept;

@@ -83,10 +83,18 @@ double JointController::plan_lead_s() const noexcept {
   return config_.use_shaping ? plan_.path_lag_s() + ahead_of_joint_s() : 0.0;
 }
 
+double JointController::reference_lag_s() const noexcept {
+  return config_.use_shaping ? plan_.path_lag_s() + spread_lag_s() : 0.0;
+}
+
+double JointController::spread_lag_s() const noexcept {
+  return linked() ? 0.5 * link_motion_->spread_s() : 0.0;
+}
+
 double JointController::ahead_of_joint_s() const noexcept {
   // Without a model of the joint the law follows the reading of now.
   const double delay_s = observing() || linked() ? config_.delay_periods * config_.period_s : 0.0;
-  return delay_s + (linked() ? 0.5 * link_motion_->spread_s() : 0.0);
+  return delay_s + spread_lag_s();
 }
 
 void JointController::advance_reference(int elapsed_periods) noexcept {

@@ -84,6 +84,8 @@ class JointLoop {
   void begin_path(const CycleTime& time) noexcept;
   /// How much later than it is told the joint is where it is told to be on a path.
   double path_lead_s() const noexcept { return controller_.plan_lead_s(); }
+  /// The same of its setpoint, which a state shows as it was when the period began.
+  double path_setpoint_lag_s() const noexcept { return controller_.reference_lag_s(); }
   /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
   void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
   void note_path(const OrderedTarget::PathProgress& progress) noexcept { ordered_.note(progress); }

@@ -133,7 +133,10 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint on = in_path_time(member.reader.at(joint.path()->path, now.time_s), now);
     joint.follow_path(on + member.back.step(elapsed_s), time.elapsed_periods, anew);
-    joint.note_path({now.time_s, !ending && travel.clock.is_to_rest() && now.rate == 0.0});
+    // Of the setpoint that the same state shows: where the joint is told to be now its reference is a period later, or more.
+    const double later_periods = 1.0 + joint.path_setpoint_lag_s() / period_s_;
+    const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
+    joint.note_path({shown.time_s, !ending && travel.clock.is_to_rest() && shown.rate == 0.0});
   });
   if (is_over(index)) {
     for_each_member(index, [](JointLoop& joint, Member&) { joint.end_path(); });

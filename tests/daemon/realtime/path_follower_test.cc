@@ -243,6 +243,30 @@ TEST(GentlePaths, AreFollowedWithoutAJolt) {
   }
 }
 
+TEST(PathTimes, AreThoseOfTheSetpointsInTheSameStates) {
+  BenchJoint gentle = demo_joint();
+  gentle.loop.controller.jerk_limit_rad_s3 = 2000.0;
+  const std::pair<BenchJoint, double> cases[] = {{demo_joint(), 1e-9}, {gentle, 1e-3}};
+  for (const auto& [joint, tolerance_rad] : cases) {
+    JointBench bench({joint});
+    bench.bring_to_hold(0);
+    const KnotPath path = wave(0);
+    const auto slot = bench.joint(0).path_slots().hand_over({7, 1, path});
+    ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
+              Reason::kAccepted);
+    ASSERT_EQ(bench.order(0, OrderKind::kResumePath), Reason::kAccepted);
+    PathReader reader;
+    double farthest_rad = 0.0;
+    for (int k = 0; k < 3000 && !std::isnan(bench.state(0).path_time_s); ++k) {
+      const state_v1& state = bench.state(0);
+      farthest_rad = std::max(farthest_rad, std::abs(state.setpoint_position_rad -
+                                                     reader.at(path, state.path_time_s).position_rad));
+      bench.step();
+    }
+    EXPECT_LT(farthest_rad, tolerance_rad);
+  }
+}
+
 TEST_F(PathFollowerTest, NothingMovesBeforeEveryJointHasItsPart) {
   for (std::size_t i = 0; i + 1 < kJoints; ++i) ASSERT_EQ(load(i, wave(i)), Reason::kAccepted);
   EXPECT_EQ(bench_.order(0, OrderKind::kResumePath), Reason::kWrongMode);
