@@ -3,7 +3,8 @@
 // Real-time safe.
 //
 //   usual gap   median of the last gaps between arrivals: what losses lengthen and hold-ups move are fewer
-//   contradicts three fifths of the gaps are about the usual one, and of those that are about the interval there are less than half as many
+//   contradicts three fifths of the gaps are about the usual one, and of those that are about the interval there are less than half as many;
+//               in the first fifteen gaps, where the interval differs from their mean by more than 4 % and what the network may do to that
 //
 // About as long are gaps that differ by a quarter, or by what a network does to arrivals all the time: of a stream that is faster than that
 // nothing is said.
@@ -39,7 +40,7 @@ class UsualGap {
       if (gaps_[i] < 0.5 * usual) ++at_once;
     }
     if (5 * usual_ones < 3 * count_ || 5 * at_once > count_) return false;
-    find_rhythm(usual, tolerance);
+    if (!find_rhythm(usual, tolerance)) return false;
     if (few) return std::abs(interval_ - interval) > std::max(kClose * interval_, jitter / told_by_);
     if (about(interval, usual, tolerance) || usual_ones < 2 * intervals + kMore) return false;
     forget();
@@ -63,9 +64,8 @@ class UsualGap {
     return std::abs(gap - other) <= std::max(kSame * other, tolerance);
   }
   double newest(std::size_t i) const noexcept { return gaps_[(next_ + kGaps - 1 - i) % kGaps]; }
-  /// From the last gap back to the first that is no multiple of the interval, or of more than losses make it.
-  void find_rhythm(double usual, double tolerance) noexcept {
-    interval_ = usual;
+  /// From the last gap back to the first that is no multiple of the interval, or of more than losses make it. False: the last is none.
+  bool find_rhythm(double usual, double tolerance) noexcept {
     double sum = 0.0, intervals = 0.0, late = 0.0;
     std::size_t i = 0;
     for (; i < count_; ++i) {
@@ -77,9 +77,10 @@ class UsualGap {
       late += sum - intervals * usual;
     }
     told_by_ = static_cast<int>(i);
-    if (i == 0) return;
+    if (i == 0) return false;
     late_ = late / static_cast<double>(i + 1);
     interval_ = sum / intervals;
+    return true;
   }
   double median() const noexcept {
     std::array<double, kGaps> sorted = gaps_;

@@ -81,6 +81,16 @@ TEST(UsualGap, IsToldAnewWhereASenderSlowsDownOrSpeedsUp) {
   EXPECT_LE(samples_taken_later({10.0}, 20.0), 12);
 }
 
+// A rhythm that no gap tells would be that of the one before.
+TEST(UsualGap, IsNotToldByAGapThatIsInNoRhythm) {
+  UsualGap gaps;
+  for (int i = 0; i < 14; ++i) EXPECT_FALSE(gaps.take(20.0, 20.0, kJitter));
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(gaps.take(20.0, 20.0, kJitter));
+  EXPECT_FALSE(gaps.take(30.0, 10.0, kJitter));
+  EXPECT_TRUE(gaps.take(20.0, 10.0, kJitter));
+  EXPECT_EQ(gaps.told_by(), 1);
+}
+
 TEST(UsualGap, IsNotWhatLossesAndHoldUpsMakeOfARhythm) {
   EXPECT_EQ(samples_taken_later({20.0, 10.0, 20.0, 10.0, 30.0}, 10.0), 0);
   EXPECT_EQ(samples_taken_later({50.0, 0.0, 0.0, 0.0, 0.0, 10.0, 10.0, 10.0}, 10.0), 0);
