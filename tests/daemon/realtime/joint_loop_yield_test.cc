@@ -155,6 +155,17 @@ TEST_F(AYieldIsTold, ToTheStreamThatItEndedAndToNoOther) {
   EXPECT_EQ(refused(2).limit, 0.0);
 }
 
+void yield_on_the_way(JointBench& bench, double speed_rad_s) {
+  bench.bring_to_hold(0);
+  ASSERT_EQ(
+      bench.order(0, {.kind = OrderKind::kSetpoint, .position_rad = 1.0, .speed_limit_rad_s = speed_rad_s}),
+      Reason::kAccepted);
+  const auto yields = [&] {
+    return bench.state(0).setpoint_velocity_rad_s == 0.0 && bench.has_notice(0, Notice::kYielded);
+  };
+  ASSERT_GE(bench.step_until(yields, 3000), 0);
+}
+
 // In its first period its plan stood still and the observer knew of no motion: 1.5 times the speed, 30 N.m for a period, and fault 13 near the
 // speed limit.
 TEST(AYieldsEnd, BrakesTheJointWithoutASurprise) {
@@ -163,17 +174,7 @@ TEST(AYieldsEnd, BrakesTheJointWithoutASurprise) {
       BenchJoint joint = joint_that_yields();
       joint.drive.plant.effects.contact.stiffness_Nm_rad = stiffness_Nm_rad;
       JointBench bench({joint});
-      bench.bring_to_hold(0);
-      ASSERT_EQ(bench.order(
-                    0, {.kind = OrderKind::kSetpoint, .position_rad = 1.0, .speed_limit_rad_s = speed_rad_s}),
-                Reason::kAccepted);
-      ASSERT_GE(bench.step_until(
-                    [&] {
-                      return bench.state(0).setpoint_velocity_rad_s == 0.0 &&
-                             bench.has_notice(0, Notice::kYielded);
-                    },
-                    3000),
-                0);
+      ASSERT_NO_FATAL_FAILURE(yield_on_the_way(bench, speed_rad_s));
       const bool caught =
           bench.step_until([&] { return bench.state(0).setpoint_velocity_rad_s != 0.0; }, 1000) >= 0;
       double largest_Nm = 0.0, farthest_rad_s = 0.0, last_rad = bench.state(0).joint_position_rad;
@@ -198,28 +199,15 @@ TEST(AYieldsEnd, BrakesTheJointWithoutASurprise) {
 // Its plan began as many periods ahead of the joint as had been left out before it.
 TEST(AYieldsEnd, AfterPeriodsThatWereLeftOutBeginsWhereTheJointIs) {
   constexpr OverrunLimits kTolerant{1000, 2.0, 1.0};
-  const auto yield = [](JointBench& bench, double speed_rad_s) {
-    bench.bring_to_hold(0);
-    EXPECT_EQ(
-        bench.order(0, {.kind = OrderKind::kSetpoint, .position_rad = 1.0, .speed_limit_rad_s = speed_rad_s}),
-        Reason::kAccepted);
-    EXPECT_GE(bench.step_until(
-                  [&] {
-                    return bench.state(0).setpoint_velocity_rad_s == 0.0 &&
-                           bench.has_notice(0, Notice::kYielded);
-                  },
-                  3000),
-              0);
-  };
   const auto ended = [](JointBench& bench) { return bench.state(0).setpoint_velocity_rad_s != 0.0; };
   for (const double speed_rad_s : {1.0, 2.0, 3.5}) {
     JointBench whole({joint_that_yields()}, kTolerant);
-    yield(whole, speed_rad_s);
+    ASSERT_NO_FATAL_FAILURE(yield_on_the_way(whole, speed_rad_s));
     const std::int64_t lasts = whole.step_until([&] { return ended(whole); }, 1000);
     ASSERT_GT(lasts, 2);
     for (const std::int64_t left_out : {1, 4, 9}) {
       JointBench bench({joint_that_yields()}, kTolerant);
-      yield(bench, speed_rad_s);
+      ASSERT_NO_FATAL_FAILURE(yield_on_the_way(bench, speed_rad_s));
       for (std::int64_t k = left_out + 1; k < lasts; ++k) bench.step();
       ASSERT_FALSE(ended(bench));
       bench.stall(left_out);
