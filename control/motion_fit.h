@@ -7,6 +7,7 @@
 //             would be taken else: what is about as good an interval on is better farther on, where rounding has grown more
 #pragma once
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,27 +31,21 @@ class MotionFit {
   }
   /// Newest first: ages >= 0, each greater than the one before, the first 0.
   void fit(const Samples& ages_s, const Samples& values) noexcept {
-    constexpr std::size_t kTerms = kDegree + 1;
-    std::array<std::array<double, kTerms + 1>, kTerms> normal{};  // of time in units of the oldest's age
+    using Terms = Eigen::Matrix<double, kDegree + 1, 1>;
+    Eigen::Matrix<double, kDegree + 1, kDegree + 1> normal =
+        decltype(normal)::Zero();  // of time in units of the oldest's age
+    Terms moments = Terms::Zero();
     const double oldest_s = ages_s.back();
     for (std::size_t i = 0; i < kSamples; ++i) {
-      std::array<double, kTerms> powers{1.0};
-      for (std::size_t k = 1; k < kTerms; ++k) powers[k] = -powers[k - 1] * ages_s[i] / oldest_s;
-      for (std::size_t row = 0; row < kTerms; ++row) {
-        for (std::size_t k = 0; k < kTerms; ++k) normal[row][k] += powers[row] * powers[k];
-        normal[row][kTerms] += powers[row] * (values[i] - values[0]);
-      }
+      Terms powers = Terms::Ones();
+      for (int k = 1; k <= kDegree; ++k) powers[k] = -powers[k - 1] * ages_s[i] / oldest_s;
+      normal += powers * powers.transpose();
+      moments += powers * (values[i] - values[0]);
     }
-    for (std::size_t pivot = 0; pivot < kTerms; ++pivot)
-      for (std::size_t row = 0; row < kTerms; ++row) {
-        if (row == pivot) continue;
-        const double share = normal[row][pivot] / normal[pivot][pivot];
-        for (std::size_t k = pivot; k <= kTerms; ++k) normal[row][k] -= share * normal[pivot][k];
-      }
-    const auto term = [&](std::size_t k) { return normal[k][kTerms] / normal[k][k]; };
-    first_ = term(1) / oldest_s;
-    second_ = 2.0 * term(2) / (oldest_s * oldest_s);
-    third_ = 6.0 * term(3) / (oldest_s * oldest_s * oldest_s);
+    const Terms terms = normal.ldlt().solve(moments);
+    first_ = terms[1] / oldest_s;
+    second_ = 2.0 * terms[2] / (oldest_s * oldest_s);
+    third_ = 6.0 * terms[3] / (oldest_s * oldest_s * oldest_s);
     known_ = std::isfinite(first_) && std::isfinite(second_) && std::isfinite(third_);
   }
   /// There are too few samples.
@@ -62,7 +57,7 @@ class MotionFit {
   double third() const noexcept { return third_; }
 
  private:
-  static constexpr std::size_t kDegree = 5;
+  static constexpr int kDegree = 5;
   static constexpr int kWeighed = 16;
   static constexpr int kLeast = 4;
   static constexpr double kHelps = 0.1;
