@@ -78,6 +78,15 @@ class Conversation:
             raise NoAnswer(self._silence())
         return self.state
 
+    def heard_state(self):
+        """The latest state, as wait_for_state(). Raises NoAnswer, too, when none came for longer than `timeout_s`: not where this program
+        itself stood still, and what came meanwhile waits to be taken."""
+        self.wait_for_state()
+        seen = self.messages
+        if now_s() - self.received_s > self.timeout_s and not self.network.wait_until(lambda: self.messages > seen, _OLD_STATE_S):
+            raise NoAnswer(f"{self.joint}: has been silent for {now_s() - self.received_s:.1f} s; its state is not known")
+        return self.state
+
     def open_inbox(self):
         """A queue that gets every state from now on, with when it came; the oldest are lost when nobody takes them."""
         inbox = collections.deque(maxlen=_INBOX)
@@ -119,8 +128,8 @@ class Conversation:
             raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))
 
     def send(self, kind, message):
-        """Once and without waiting: one of a stream. A refusal of it is for take_refusal()."""
-        state = self.wait_for_state()
+        """Once: one of a stream. A refusal of it is for take_refusal(). Raises NoAnswer of a joint that has fallen silent."""
+        state = self.heard_state()
         channel = self.channel(kind)
         encoded = self.sender.seal(channel, message, state)
         with self.network.changed:

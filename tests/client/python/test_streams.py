@@ -27,6 +27,28 @@ class Streams(PlayedOrders):
         with self.assertRaisesRegex(NoAnswer, "its state stopped coming [0-9.]+ s ago"):
             stream.close()
 
+    def test_of_a_joint_that_fell_silent_tell_so_with_the_next_sample(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.1)
+        stream.put(0, 0.1)
+        self.elbow._conversation.timeout_s = 0.2
+        stream.put(0.05, 0.1)
+        with self.assertRaisesRegex(NoAnswer, "elbow: has been silent for [0-9.]+ s; its state is not known"):
+            for k in range(100, 150):
+                stream.put(0.01 * k, 0.1)
+        self.assertLess(len(self.orders()), 5)
+
+    def test_of_a_program_that_stood_still_itself_go_on_with_the_states_that_wait(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        stream = self.stream(ahead_s=0.1)
+        stream.put(0, 0.1)
+        self.elbow._conversation.received_s -= 10.0
+        timer = threading.Timer(0.1, lambda: self.publish_state(Mode.TRACKING, cycle=1500))
+        timer.start()
+        stream.put(0.7, 0.1)
+        timer.join()
+        self.assertEqual(len(self.orders()), 2)
+
     def test_send_samples_for_cycles_that_far_apart(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
         stream = self.stream(ahead_s=0.9)
