@@ -35,12 +35,14 @@ struct JointEstimate {
   bool surprised = false;               ///< this reading contradicted what the model foresaw
 };
 
-/// What a reading that contradicts the model is first taken for.
+/// What a reading that contradicts the model is first taken for, by what the joint was doing.
 enum class SurpriseCause {
   kLoad,      ///< a joint that rests, or is pushed towards its last counts: something else pushed it
   kFriction,  ///< a planned motion: as far as a count goes, friction that is not the model's, as it never quite is while a joint breaks away
   /// The same where the motion is a stream's: both edges of a reading tell how far the joint has broken away.
   kStreamedFriction,
+  /// The same on a path, which is known to its end.
+  kPathFriction,
 };
 
 class VelocityObserver {
@@ -54,7 +56,8 @@ class VelocityObserver {
   void reset(double position_rad, double friction_scale_Nm, double velocity_rad_s = 0.0,
              double load_Nm = 0.0) noexcept;
   /// The period that ends now: the torque that acted over it, by a joint like `model`.
-  void predict(double torque_Nm, const JointModel& model) noexcept;
+  void predict(double torque_Nm, const JointModel& model,
+               SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// The encoder's reading now.
   void correct(double position_rad, SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// Exact position and velocity, for joints that have them.
@@ -64,10 +67,13 @@ class VelocityObserver {
 
  private:
   double inertia_ratio() const noexcept;
+  static constexpr double kSurprise =
+      4.0;  ///< deviations outside of its edge: the model did not foresee the reading
   using State = Eigen::Matrix<double, 5, 1>;  // position, velocity, friction offset, load, inertia ratio - 1
   using Covariance = Eigen::Matrix<double, 5, 5>;
 
-  void drift(double end_velocity_rad_s, const JointModel& model) noexcept;
+  void doubt_rest(double torque_Nm, const JointModel& model) noexcept;
+  void drift(double end_velocity_rad_s, const JointModel& model, bool on_path) noexcept;
   void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
   double reading_variance() const noexcept;
   void truncate(double edge_rad, double side, SurpriseCause cause) noexcept;
