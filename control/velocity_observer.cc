@@ -9,8 +9,6 @@ namespace strainwave {
 
 namespace {
 
-enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
-
 // Bounds of what may be estimated: friction offset and load in
 // units of static friction, inertia relative to the model's.
 constexpr double kLeastFriction = -0.8;
@@ -28,6 +26,8 @@ constexpr double kFrictionUncertainty = 0.3 / kShippedScale_Nm;
 constexpr double kLoadUncertainty = 0.1 / kShippedScale_Nm;
 constexpr double kFrictionDrift = 0.1 / kShippedScale_Nm;
 constexpr double kRestDrift = 0.001 / kShippedScale_Nm;  // per period in motion, however slow
+// The same two on a path.
+constexpr double kFrictionDriftOnPath = 0.01 / kShippedScale_Nm;
 constexpr double kRestDriftOnPath = 0.003 / kShippedScale_Nm;
 constexpr double kInertiaUncertainty = 0.1;
 // Of the inertia, per rad/s of change of speed; of the accelerating torque, from period to period. Relative,
@@ -130,18 +130,21 @@ void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_d
   }
 }
 
-// What the model gets wrong differs from speed to speed
-// (friction), and grows with the acceleration (inertia). On a path, what is estimated is taken up gradually (eased_disturbance.h), so that more
-// may be doubted: of friction at another speed, the Stribeck velocity away, no more is known than before the joint had moved.
+// What the model gets wrong differs from speed to speed (friction), and grows with the acceleration (inertia). On a path friction's error is
+// taken to be the same while the speed is, and at another speed, the Stribeck velocity away, no better known than before the joint had moved.
 void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model, bool on_path) noexcept {
   const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
   const double share = square(square(std::min(1.0, speed / model.stribeck.velocity_rad_s)));
-  const double drift = square(kFrictionDrift * model.friction_scale_Nm * share) +
-                       square((on_path ? kRestDriftOnPath : kRestDrift) * model.friction_scale_Nm);
+  const double sliding = on_path ? kFrictionDriftOnPath : kFrictionDrift;
+  const double slow = on_path ? kRestDriftOnPath : kRestDrift;
+  const double drift = square(model.friction_scale_Nm) * (square(sliding * share) + square(slow));
   const double change_rad_s = std::abs(end_velocity_rad_s - state_(kVelocity));
-  if (on_path)
-    covariance_(kFriction, kFriction) += square(kFrictionUncertainty * model.friction_scale_Nm) *
-                                         std::min(1.0, change_rad_s / model.stribeck.velocity_rad_s);
+  if (on_path) {
+    const double unknown =
+        square(kFrictionUncertainty * model.friction_scale_Nm) - covariance_(kFriction, kFriction);
+    covariance_(kFriction, kFriction) +=
+        std::max(0.0, unknown) * std::min(1.0, change_rad_s / model.stribeck.velocity_rad_s);
+  }
   covariance_(kFriction, kFriction) += drift;
   covariance_(kLoad, kLoad) += kLoadDrift * drift;
   covariance_(kInertia, kInertia) += square(kInertiaDrift * change_rad_s);

@@ -4,8 +4,8 @@
 // An encoder reads intervals, not positions. What a reading adds is which of its two edges has been passed,
 // or not yet been reached, since the last one; the estimate is conditioned on exactly that (a Gaussian
 // truncated at the edge). So a count change tells the position to within what the joint moves in a period,
-// and a joint at rest learns nothing from the same reading again. In a streamed motion, where the
-// position is known no better than one reading tells it, both edges of it are news. The estimate is quiet: at rest, with less
+// and a joint at rest learns nothing from the same reading again. In a stream and on a path, where
+// the position is known no better than one reading tells it, both edges of it are news. The estimate is quiet: at rest, with less
 // torque than friction holds, velocity is exactly zero. Source: assumed-density filtering, Maybeck,
 // "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12. It knows one mass: what the motions of a joint with a spring
 // show of its inertia, inertia_estimate.h tells.
@@ -69,6 +69,7 @@ class VelocityObserver {
   double inertia_ratio() const noexcept;
   static constexpr double kSurprise =
       4.0;  ///< deviations outside of its edge: the model did not foresee the reading
+  enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
   using State = Eigen::Matrix<double, 5, 1>;  // position, velocity, friction offset, load, inertia ratio - 1
   using Covariance = Eigen::Matrix<double, 5, 5>;
 
