@@ -84,7 +84,9 @@ double JointController::plan_lead_s() const noexcept {
 }
 
 double JointController::reference_lag_s() const noexcept {
-  return config_.use_shaping ? plan_.path_lag_s() + spread_lag_s() : 0.0;
+  if (!config_.use_shaping) return 0.0;
+  // A motor before its link is told where it is read now: its plan has the delay behind it.
+  return plan_.path_lag_s() + (linked() ? ahead_of_joint_s() : 0.0);
 }
 
 double JointController::spread_lag_s() const noexcept {

@@ -49,7 +49,7 @@ void StateEstimator::step(const JointMeasurement& measurement, const JointModel&
   const int most_late = kMaxControlDelay - config_.delay_periods;
   const int waiting = waiting_torques(measurement);
   let_torque_act(first_ ? 0 : elapsed_periods, std::clamp(measurement.late_periods, 0, most_late), waiting,
-                 model, source);
+                 model, source, cause);
   first_ = false;
   const double position_rad = measurement.joint_position_rad;
   still_periods_ = position_rad == previous_position_rad_
@@ -108,11 +108,11 @@ void StateEstimator::prolong(int waiting) noexcept {
 // From the last position's sampling to this one's, fewer periods have passed when positions become late, and more when they
 // catch up.
 void StateEstimator::let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
-                                    EstimateSource source) noexcept {
+                                    EstimateSource source, SurpriseCause cause) noexcept {
   const auto predict = [&](int late) {
     const double torque_Nm = torque_before_Nm(config_.delay_periods + late);
     if (source == EstimateSource::kObserver)
-      observer_.predict(current_loop_.mean_Nm(torque_Nm, acting_Nm_), model);
+      observer_.predict(current_loop_.mean_Nm(torque_Nm, acting_Nm_), model, cause);
     acting_Nm_ = current_loop_.end_Nm(torque_Nm, acting_Nm_);
   };
   const int later = late_periods - late_periods_;

@@ -88,7 +88,7 @@ class StateEstimator {
   int waiting_torques(const JointMeasurement& measurement) const noexcept;
   void prolong(int waiting) noexcept;
   void let_torque_act(int periods, int late_periods, int waiting, const JointModel& model,
-                      EstimateSource source) noexcept;
+                      EstimateSource source, SurpriseCause cause) noexcept;
   void observe(const JointMeasurement& measurement, SurpriseCause cause) noexcept;
   void read(const JointMeasurement& measurement, EstimateSource source) noexcept;
   void follow_reading(double position_rad) noexcept;

@@ -49,5 +49,8 @@ constexpr double motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(double joint_visco
 constexpr double sign(double value) {
   return static_cast<double>(value > 0.0) - static_cast<double>(value < 0.0);
 }
+constexpr double square(double x) {
+  return x * x;
+}
 
 }  // namespace strainwave

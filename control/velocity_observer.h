@@ -4,8 +4,8 @@
 // An encoder reads intervals, not positions. What a reading adds is which of its two edges has been passed,
 // or not yet been reached, since the last one; the estimate is conditioned on exactly that (a Gaussian
 // truncated at the edge). So a count change tells the position to within what the joint moves in a period,
-// and a joint at rest learns nothing from the same reading again. In a streamed motion, where the
-// position is known no better than one reading tells it, both edges of it are news. The estimate is quiet: at rest, with less
+// and a joint at rest learns nothing from the same reading again. In a stream and on a path, where
+// the position is known no better than one reading tells it, both edges of it are news. The estimate is quiet: at rest, with less
 // torque than friction holds, velocity is exactly zero. Source: assumed-density filtering, Maybeck,
 // "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12. It knows one mass: what the motions of a joint with a spring
 // show of its inertia, inertia_estimate.h tells.
@@ -35,12 +35,14 @@ struct JointEstimate {
   bool surprised = false;               ///< this reading contradicted what the model foresaw
 };
 
-/// What a reading that contradicts the model is first taken for.
+/// What a reading that contradicts the model is first taken for, by what the joint was doing.
 enum class SurpriseCause {
   kLoad,      ///< a joint that rests, or is pushed towards its last counts: something else pushed it
   kFriction,  ///< a planned motion: as far as a count goes, friction that is not the model's, as it never quite is while a joint breaks away
   /// The same where the motion is a stream's: both edges of a reading tell how far the joint has broken away.
   kStreamedFriction,
+  /// The same on a path, which is known to its end.
+  kPathFriction,
 };
 
 class VelocityObserver {
@@ -54,7 +56,8 @@ class VelocityObserver {
   void reset(double position_rad, double friction_scale_Nm, double velocity_rad_s = 0.0,
              double load_Nm = 0.0) noexcept;
   /// The period that ends now: the torque that acted over it, by a joint like `model`.
-  void predict(double torque_Nm, const JointModel& model) noexcept;
+  void predict(double torque_Nm, const JointModel& model,
+               SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// The encoder's reading now.
   void correct(double position_rad, SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// Exact position and velocity, for joints that have them.
@@ -64,10 +67,14 @@ class VelocityObserver {
 
  private:
   double inertia_ratio() const noexcept;
+  static constexpr double kSurprise =
+      4.0;  ///< deviations outside of its edge: the model did not foresee the reading
+  enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
   using State = Eigen::Matrix<double, 5, 1>;  // position, velocity, friction offset, load, inertia ratio - 1
   using Covariance = Eigen::Matrix<double, 5, 5>;
 
-  void drift(double end_velocity_rad_s, const JointModel& model) noexcept;
+  void doubt_rest(double torque_Nm, const JointModel& model) noexcept;
+  void drift(double end_velocity_rad_s, const JointModel& model, bool on_path) noexcept;
   void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
   double reading_variance() const noexcept;
   void truncate(double edge_rad, double side, SurpriseCause cause) noexcept;
