@@ -43,7 +43,7 @@ class Streams(PlayedOrders):
         stream = self.stream(ahead_s=0.1)
         stream.put(0, 0.1)
         self.elbow._conversation.received_s -= 10.0
-        timer = threading.Timer(0.1, lambda: self.publish_state(Mode.TRACKING, cycle=1500))
+        timer = threading.Timer(0.1, lambda: self.publish_state(Mode.TRACKING, cycle=1100))
         timer.start()
         stream.put(0.7, 0.1)
         timer.join()
