@@ -45,7 +45,7 @@ class Streams(PlayedOrders):
         self.elbow._conversation.received_s -= 10.0
         timer = threading.Timer(0.1, lambda: self.publish_state(Mode.TRACKING, cycle=1100))
         timer.start()
-        stream.put(0.7, 0.1)
+        stream.put(0.05, 0.1)
         timer.join()
         self.assertEqual(len(self.orders()), 2)
 
