@@ -42,7 +42,7 @@ class Streams(PlayedOrders):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
         stream = self.stream(ahead_s=0.1)
         stream.put(0, 0.1)
-        self.elbow._conversation.received_s -= 10.0
+        self.elbow._conversation.received_s -= 40.0
         timer = threading.Timer(0.1, lambda: self.publish_state(Mode.TRACKING, cycle=1100))
         timer.start()
         stream.put(0.05, 0.1)
