@@ -55,7 +55,8 @@ class VelocityObserver {
   /// with `load_Nm`; friction and load unknown again, in units of `friction_scale_Nm` (joint_model.h).
   void reset(double position_rad, double friction_scale_Nm, double velocity_rad_s = 0.0,
              double load_Nm = 0.0) noexcept;
-  /// The period that ends now: the torque that acted over it, by a joint like `model`.
+  /// The period that ends now: the torque that acted over it, by a joint like `model`, and what the joint was doing: on a path (kPathFriction)
+  /// friction's error is taken to go with the speed, and what seems to stand may yet be moving.
   void predict(double torque_Nm, const JointModel& model,
                SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// The encoder's reading now.
@@ -67,8 +68,8 @@ class VelocityObserver {
 
  private:
   double inertia_ratio() const noexcept;
-  static constexpr double kSurprise =
-      4.0;  ///< deviations outside of its edge: the model did not foresee the reading
+  /// So many deviations outside of its edges, the model did not foresee a reading.
+  static constexpr double kSurprise = 4.0;
   enum : int { kPosition = 0, kVelocity = 1, kFriction = 2, kLoad = 3, kInertia = 4 };
   using State = Eigen::Matrix<double, 5, 1>;  // position, velocity, friction offset, load, inertia ratio - 1
   using Covariance = Eigen::Matrix<double, 5, 5>;

@@ -11,7 +11,7 @@ namespace strainwave {
 namespace {
 
 constexpr double kCertain = 6.0;  // this many deviations inside, an edge says nothing
-// Load that one surprise may bring, in units of static friction, and where both edges of the next reading tell of it.
+// Load that one surprise may bring, in units of static friction; the second on a path.
 constexpr double kSurpriseLoad = 3.0;
 constexpr double kSurpriseLoadOnPath = 1.0;
 // A count in a period would be the doing of a load of several N.m, and of friction that is a fraction of itself off: in a planned motion

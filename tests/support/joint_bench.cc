@@ -39,13 +39,17 @@ BenchJoint demo_joint() {
   return joint;
 }
 
-BenchJoint demo_joint_with_friction(double scale) {
-  BenchJoint joint = demo_joint();
+void scale_friction(BenchJoint& joint, double scale) {
   for (FrictionParameters* part :
        {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
     part->static_Nm *= scale;
     part->coulomb_Nm *= scale;
   }
+}
+
+BenchJoint demo_joint_with_friction(double scale) {
+  BenchJoint joint = demo_joint();
+  scale_friction(joint, scale);
   return joint;
 }
 

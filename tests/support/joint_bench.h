@@ -24,6 +24,8 @@ struct BenchJoint {
   std::vector<Injection> faults;
 };
 BenchJoint demo_joint();
+/// So many times the static and Coulomb friction that it had, which its table knows.
+void scale_friction(BenchJoint& joint, double scale);
 /// The same with so many times the static and Coulomb friction that its table knows.
 BenchJoint demo_joint_with_friction(double scale);
 

@@ -24,11 +24,7 @@ BenchJoint plain_joint() {
 /// With so many times the friction that its table declares.
 BenchJoint sticky_joint(double times) {
   BenchJoint joint = plain_joint();
-  ExponentialTemperatureLaw& friction = joint.drive.plant.joint.friction;
-  for (FrictionParameters* part : {&friction.asymptote, &friction.amplitude}) {
-    part->static_Nm *= times;
-    part->coulomb_Nm *= times;
-  }
+  scale_friction(joint, times);
   return joint;
 }
 

@@ -20,7 +20,7 @@ constexpr DrawnWithin kModerate{kMotion.velocity_rad_s / 3.0, kMotion.accelerati
 constexpr double kJerk_rad_s3 = 6000.0;
 /// Limits are kept but for rounding.
 constexpr double kKept = 1.0 + 1e-6;
-/// What issue 15 asks for.
+/// As far as a joint is to be from its path at most, at moderate speed.
 constexpr double kFarOff_rad = 0.5e-3;
 /// How far from the path a plan may begin anew, and on what share of the rides.
 constexpr double kAnew_rad = 2.5e-3;
@@ -38,11 +38,7 @@ struct Bounds {
 
 BenchJoint joint_of(Kind kind, double friction, double temperature_C, std::uint64_t seed) {
   BenchJoint joint = kind == Kind::kSpring ? flexible_joint() : demo_joint();
-  for (FrictionParameters* part :
-       {&joint.drive.plant.joint.friction.asymptote, &joint.drive.plant.joint.friction.amplitude}) {
-    part->static_Nm *= friction;
-    part->coulomb_Nm *= friction;
-  }
+  scale_friction(joint, friction);
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
   joint.drive.seed = seed;
   joint.loop.controller.motion = kMotion;
