@@ -52,6 +52,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   past_count_ = 0;
   nodes_.forget();
   fit_.forget();
+  doubted_ = 0;
   missed_ = false;
   ended_ = false;
 }
@@ -92,7 +93,7 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   knot.sent_ahead = knot.at - present() - lead_;
   knot.load = sample.load;
   knot.sent_rad_s = sample.velocity_rad_s;
-  if (sample.derivatives > 0 && contradicts_itself(knot, before)) sample.derivatives = 0;
+  if (sample.derivatives > 0 && !believes(knot, before)) sample.derivatives = 0;
   if (sample.derivatives == 2) {
     const double mean_rad_s2 = last != nullptr ? (knot.velocity_rad_s - last->velocity_rad_s) / mean_s_ : 0.0;
     if (std::abs(knot.acceleration_rad_s2 - mean_rad_s2) > reach_.acceleration_rad_s2) sample.derivatives = 1;

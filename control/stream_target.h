@@ -209,7 +209,7 @@ class StreamTarget {
   double seconds(double periods) const noexcept { return periods * period_s_; }
   double expected_interval() const noexcept;
   bool slow() const noexcept { return seconds(expected_interval()) > kSlow_s; }
-  bool contradicts_itself(const Knot& knot, const Before& before) const noexcept;
+  bool believes(const Knot& knot, const Before& before) noexcept;
   void time(const StreamSample& sample, Knot& knot) noexcept;
   void make_room() noexcept;
   void reconsider(const StreamSample& sample) noexcept;
@@ -279,6 +279,7 @@ class StreamTarget {
   bool in_rhythm_ = false;      ///< samples are for the instants of the rhythm, not for when they were sent
   NodeWeights nodes_;
   MotionFit fit_;
+  int doubted_ = 0;                 ///< its velocities: more with each that contradicts, less with each that agrees
   int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;

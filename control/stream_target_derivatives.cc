@@ -18,6 +18,10 @@ constexpr double kLittleNew = 0.5;
 constexpr double kDoubtOfLimit = 0.02;
 constexpr double kDoubtOfItself = 0.5;
 constexpr double kDoubtOfAcceleration = 2.0;
+// What agrees makes up for a contradiction so many times slower; of so much doubt on none is believed, and more is not gathered.
+constexpr int kDoubt = 2;
+constexpr int kDoubted = 4;
+constexpr int kMostDoubted = 1000;
 
 /// Of three values that lie on a parabola, by the mean rates of the newer and the older interval.
 double change_of_rate(double newer, double newer_s, double older, double older_s) noexcept {
@@ -26,11 +30,11 @@ double change_of_rate(double newer, double newer_s, double older, double older_s
 
 }  // namespace
 
-// Whether the velocity that it gives is not that of its positions: in degrees, of another sign, or left over. Followed, it would take the
-// joint away from every position that was sent.
-bool StreamTarget::contradicts_itself(const Knot& knot, const Before& before) const noexcept {
+// Whether the velocity that it gives is that of its positions, and not in degrees, of another sign, or left over. Followed, it would take the
+// joint away from every position that was sent. Where all are near 0 none contradicts: there it is the stream's other velocities that tell.
+bool StreamTarget::believes(const Knot& knot, const Before& before) noexcept {
   const auto [last, first] = before;
-  if (last == nullptr) return false;
+  if (last == nullptr) return doubted_ < kDoubted;
   const double doubt_rad_s = kDoubtOfLimit * reach_.velocity_rad_s * std::min(1.0, kApart_s / mean_s_) +
                              kDoubtOfItself * std::min(std::abs(knot.velocity_rad_s), std::abs(mean_rad_s_));
   double acceleration_rad_s2 = reach_.acceleration_rad_s2;
@@ -42,8 +46,14 @@ bool StreamTarget::contradicts_itself(const Knot& knot, const Before& before) co
   }
   const double changed_rad_s = acceleration_rad_s2 * mean_s_;
   const double between_rad_s = 0.5 * (knot.sent_rad_s + last->sent_rad_s);
-  return std::abs(knot.velocity_rad_s - mean_rad_s_) > doubt_rad_s + changed_rad_s ||
-         std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s;
+  const bool contradicts = std::abs(knot.velocity_rad_s - mean_rad_s_) > doubt_rad_s + changed_rad_s ||
+                           std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s;
+  // Where none at all would contradict as well, this one agrees.
+  if (contradicts)
+    doubted_ = std::min(doubted_ + kDoubt, kMostDoubted);
+  else if (std::abs(mean_rad_s_) > doubt_rad_s + changed_rad_s)
+    doubted_ = std::max(doubted_ - 1, 0);
+  return !contradicts && doubted_ < kDoubted;
 }
 
 void StreamTarget::estimate_derivatives(const StreamSample& sample, const Before& before,

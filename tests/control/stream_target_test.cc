@@ -503,6 +503,41 @@ TEST(StreamTarget, NeverLeavesThePositionsWhoseVelocitiesAreWrong) {
     }
 }
 
+// Now and then a wrong velocity happens to be near the right one: where it is used there alone, it is a jerk.
+TEST(StreamTarget, UsesNoneOfTheVelocitiesOfAStreamInWhichMostAreWrong) {
+  struct Mistake {
+    const char* name;
+    std::function<double(double velocity_rad_s)> told_rad_s;
+  };
+  const std::vector<Mistake> mistakes = {
+      {"other sign", [](double velocity_rad_s) { return -velocity_rad_s; }},
+      {"degrees", [](double velocity_rad_s) { return 57.3 * velocity_rad_s; }},
+      {"a fifth", [](double velocity_rad_s) { return 0.2 * velocity_rad_s; }},
+      {"left over, fast", [](double) { return 2.0; }},
+      {"left over, slow", [](double) { return 0.5; }},
+      {"left over, none", [](double) { return 0.0; }}};
+  for (const Mistake& mistake : mistakes)
+    for (const bool stamped : {false, true})
+      for (const int rate_Hz : {20, 50, 100, 250, 500}) {
+        Following following;
+        following.begin(0.0);
+        const int every = 1000 / rate_Hz;
+        double hardest_rad_s2 = 0.0;
+        for (int k = 0; k < 6000; ++k) {
+          if (k % every == 0) {
+            StreamSample sample = sine(k * kPeriod_s, 1);
+            sample.velocity_rad_s = mistake.told_rad_s(sample.velocity_rad_s);
+            if (stamped) sample.in_periods = 60;
+            following.take(sample);
+          }
+          const double acceleration_rad_s2 = following.step().acceleration_rad_s2;
+          if (k > 500) hardest_rad_s2 = std::max(hardest_rad_s2, std::abs(acceleration_rad_s2));
+        }
+        EXPECT_LT(hardest_rad_s2, 1.1 * kAmplitude_rad * kOmega_rad_s * kOmega_rad_s)
+            << mistake.name << " at " << rate_Hz << " Hz" << (stamped ? ", stamped" : "");
+      }
+}
+
 // Near what the joint can just do, and with a few samples a swing, who follows is always late: it must not chase the sine away.
 TEST(StreamTarget, StaysWithTheSamplesOfASineThatItCannotFollow) {
   constexpr MotionLimits limits{4.0, 30.0, 30.0};
