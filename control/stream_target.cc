@@ -49,7 +49,7 @@ void StreamTarget::begin(double position_rad, double velocity_rad_s, double lead
   later_ = false;
   in_rhythm_ = false;
   caught_up_at_ = now_;
-  past_count_ = 0;
+  past_count_ = left_behind_ = 0;
   nodes_.forget();
   fit_.forget();
   doubted_ = 0;
@@ -77,11 +77,14 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   } else {
     time(sample, knot);
   }
+  knot.stamped = sample.in_periods > 0;
+  if (knot.stamped) withdraw_from(knot.at);
   // What is not newer than the last has nothing to add.
   if (past_count_ > 0 && knot.at <= past_[0].at) return;
   if (waiting_.empty() && begins() > to_.at && !to_.rests()) missed_ = true;
   if (std::exchange(missed_, false) && past_count_ > 0) catch_up_in(knot.at - past_[0].at);
-  if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s) past_count_ = 0;
+  if (past_count_ > 0 && seconds(knot.at - past_[0].at) > kLongestBridge_s)
+    left_behind_ = std::exchange(past_count_, 0);
   const double apart_s = sample.derivatives == 0 && sample.in_periods == 0 && (!knot.told || in_rhythm_)
                              ? 2.0 * kApart_s
                              : kApart_s;

@@ -15,10 +15,10 @@
 //                       polynomial through up to five samples, of which each more says no more that is new than half of what one of
 //                       the two before it did, and has helped of late (control/node_weights.h): what a sample's time is off would grow twentyfold where
 //                       one is lost. Where more have not helped, by the least squares of fourteen if these have (control/motion_fit.h)
-//   contradiction       a velocity that is not that of the positions is not used; the positions are. Likewise an acceleration that is
-//                       farther than the limit from that of the velocities. And what is carried
-//                       forward is no farther from the line through the last two samples than the limit of acceleration
-//                       could take it: A t (t + T) / 2, T between the two
+//   contradiction       a velocity that is not that of the positions is not used, and none where most are not; the positions are. Likewise an
+//                       acceleration that is farther than the limit from that of the velocities. What is carried forward is no farther
+//                       from the line through the last two samples than that could take it: A t (t + T) / 2, T between the two
+//   withdrawn           of samples of their own times the newest order counts: it takes the place of all that are for later
 //   load                along a straight line from knot to knot; without a sample's time it is there an interval after the sample. After
 //                       the last it stays
 //   arrival             a sample that comes late was held up, or those before it were lost. Its place on the motion tells which; where it does
@@ -118,6 +118,7 @@ class StreamTarget {
     bool moving = false;      ///< one came with it, and is believed
     bool carried = false;     ///< forward: not what was sent
     bool smooth = false;   ///< three samples show its acceleration, which changes little from one to the next
+    bool stamped = false;  ///< came with a time of its own
     bool told = false;     ///< when it was sent: `at` is `clocked`, or `sent` and the way
     double sent = 0.0;     ///< SenderClock::sent()
     double clocked = 0.0;  ///< period: by the loop that is locked to the sender's rhythm
@@ -155,9 +156,8 @@ class StreamTarget {
       all.widen(newer_);
       return all;
     }
-    const Knot& last() const noexcept { return knots_[(first_ + count_ - 1) % kKnots]; }
-    /// Before the last; not of fewer than two.
-    const Knot& last_but_one() const noexcept { return knots_[(first_ + count_ - 2) % kKnots]; }
+    const Knot& operator[](std::size_t i) const noexcept { return knots_[(first_ + i) % kKnots]; }
+    const Knot& last() const noexcept { return (*this)[count_ - 1]; }
     std::size_t size() const noexcept { return count_; }
     void push(const Knot& knot) noexcept {
       count_ = std::min(count_ + 1, kKnots);
@@ -167,8 +167,15 @@ class StreamTarget {
       knots_[(first_ + count_ - 1) % kKnots] = knot;
       newer_.widen(knot);
     }
+    /// All that lie at this period or later.
+    void drop_from(double period) noexcept {
+      while (count_ > 0 && last().at >= period) --count_;
+      newer_ = older_ = {};
+      older_left_ = 0;
+      for (std::size_t i = 0; i < count_; ++i) newer_.widen((*this)[i]);
+    }
     Knot pop() noexcept {
-      const Knot& first = knots_[first_];
+      const Knot& first = (*this)[0];
       first_ = (first_ + 1) % kKnots;
       --count_;
       if (older_left_ == 0 || --older_left_ == 0) begin_hull();
@@ -222,6 +229,7 @@ class StreamTarget {
   void clock_in_held_up() noexcept;
   double intervals_in(double gap, const StreamSample& sample) noexcept;
   double nearest_of(double most, double farthest, const StreamSample& sample) const noexcept;
+  void withdraw_from(double period) noexcept;
   void remember(const Knot& knot) noexcept;
   const Knot* sample_before(double period, double apart_s) const noexcept;
   void estimate_derivatives(const StreamSample& sample, const Before& before, Knot& knot) noexcept;
@@ -279,12 +287,13 @@ class StreamTarget {
   bool in_rhythm_ = false;      ///< samples are for the instants of the rhythm, not for when they were sent
   NodeWeights nodes_;
   MotionFit fit_;
-  int doubted_ = 0;                 ///< its velocities: more with each that contradicts, less with each that agrees
-  int arrivals_ = 0;                ///< untimed ones, that the loop has locked to
+  int doubted_ = 0;   ///< its velocities: more with each that contradicts, less with each that agrees
+  int arrivals_ = 0;  ///< untimed ones, that the loop has locked to
   std::array<Knot, kPast> past_{};  ///< the last samples as they were, newest first
   std::size_t past_count_ = 0;
-  Hull hull_;            ///< of past_
-  bool missed_ = false;  ///< the motion was carried on, or ended, and not by what was known of it
+  std::size_t left_behind_ = 0;  ///< of past_, after those: too long before them to tell of their motion
+  Hull hull_;                    ///< of past_
+  bool missed_ = false;          ///< the motion was carried on, or ended, and not by what was known of it
   bool ended_ = false;
 };
 

@@ -87,7 +87,7 @@ void StreamTarget::derive_from_positions(const Before& before, Knot& knot) noexc
   const double older_rad_s = (last->position_rad - first->position_rad) / older_s;
   const double acceleration_rad_s2 = change_of_rate(mean_rad_s_, mean_s_, older_rad_s, older_s);
   if (std::abs(acceleration_rad_s2) > kReach * reach_.acceleration_rad_s2) {
-    past_count_ = 0;
+    past_count_ = left_behind_ = 0;
     return;
   }
   const Derivatives shown = derivatives_at(knot, before, &Knot::position_rad);

@@ -1,6 +1,7 @@
 // What StreamTarget makes of a sample: where it is carried to.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "control/stream_target.h"
 
@@ -14,6 +15,22 @@ constexpr std::size_t kIntervals = 12;
 // Streams whose jerk is carried on: just those of 100 Hz.
 constexpr double kJerkGoesOn_s = 0.009;
 }  // namespace
+
+// What was taken for this period and later, of samples with a time of their own: a newer one is for before the last of them. The same time again
+// is a double. Where the motion was on its way to one of them it goes on from where it is, as after samples that were missed.
+void StreamTarget::withdraw_from(double period) noexcept {
+  if (past_count_ == 0 || !past_[0].stamped || past_[0].at <= period) return;
+  waiting_.drop_from(period);
+  const auto end = past_.begin() + static_cast<std::ptrdiff_t>(std::min(past_count_ + left_behind_, kPast));
+  const auto kept = std::find_if(past_.begin(), end, [&](const Knot& one) { return one.at < period; });
+  past_count_ = static_cast<std::size_t>(end - kept);
+  left_behind_ = 0;
+  std::copy(kept, end, past_.begin());
+  if (to_.at < period) return;
+  to_ = {now_, state_.position_rad, state_.velocity_rad_s, state_.acceleration_rad_s2};
+  to_.carried = true;
+  to_.due = now_;
+}
 
 void StreamTarget::remember(const Knot& knot) noexcept {
   std::copy_backward(past_.begin(), past_.end() - 1, past_.end());
@@ -70,7 +87,7 @@ StreamTarget::Knot StreamTarget::carried_forward(const StreamSample& sample, con
 // accelerations.
 bool StreamTarget::crowds(const Knot& knot) const noexcept {
   if (waiting_.empty()) return false;
-  const Knot& before = waiting_.size() > 1 ? waiting_.last_but_one() : to_;
+  const Knot& before = waiting_.size() > 1 ? waiting_[waiting_.size() - 2] : to_;
   return seconds(knot.at - before.at) <= kApart_s + 0.5 * period_s_;
 }
 

@@ -222,7 +222,7 @@ TEST(StreamTarget, EndsAsSoonWhileItCatchesUp) {
 }
 
 // What has nothing to add does not set a motion going again that has ended.
-TEST(StreamTarget, StaysEndedWhereALateSampleComes) {
+TEST(StreamTarget, StaysEndedWhereTheLastSampleComesAgain) {
   StreamTarget target(kPeriod_s, 0.05);
   target.begin(0.0, 1.0, 80.0);
   const auto take = [&](int in_periods) {
@@ -236,7 +236,7 @@ TEST(StreamTarget, StaysEndedWhereALateSampleComes) {
   for (; ended_after < 300 && !target.ended(); ++ended_after) (void)target.step();
   ASSERT_LT(ended_after, 100) << "the last sample's time is not over, but the target is ahead of it";
   target.resume(0.2, 0.5, {});
-  take(100 - ended_after - 1);
+  take(100 - ended_after);
   (void)target.step();
   EXPECT_TRUE(target.ended());
   target.resume(0.2, 0.5, {});
@@ -501,6 +501,42 @@ TEST(StreamTarget, NeverLeavesThePositionsWhoseVelocitiesAreWrong) {
       }
       EXPECT_LE(farthest_rad, rate_Hz < 50 ? 0.16 : 0.06) << mistake.name << " at " << rate_Hz << " Hz";
     }
+}
+
+/// Positions of a reference that follows a sine whose samples are stamped `ahead` periods ahead, and once a second the wrong one besides,
+/// `too_far` periods more; 0: none.
+std::vector<double> stamped_wrongly(int derivatives, int every, int ahead, int too_far) {
+  Following following;
+  following.begin(0.0);
+  std::vector<double> positions_rad;
+  for (int k = 0; k < 6000; ++k) {
+    if (k % every == 0) {
+      StreamSample sample = sine((k + ahead) * kPeriod_s, derivatives);
+      sample.in_periods = ahead + too_far;
+      if (k % 1000 == 0 && k > 0 && too_far > 0) following.take(sample);
+      sample.in_periods = ahead;
+      following.take(sample);
+    }
+    positions_rad.push_back(following.step().position_rad);
+  }
+  return positions_rad;
+}
+
+// One that is stamped too far ahead must not silence the good ones behind it.
+TEST(StreamTarget, TheNewestSampleTakesThePlaceOfThoseForLater) {
+  for (const int derivatives : {0, 1, 2})
+    for (const int every : {2, 10, 50})
+      for (const int ahead : {5, 60, 200}) {
+        const std::vector<double> right_rad = stamped_wrongly(derivatives, every, ahead, 0);
+        for (const int too_far : {every, 100, 700}) {
+          const std::vector<double> positions_rad = stamped_wrongly(derivatives, every, ahead, too_far);
+          double farthest_rad = 0.0;
+          for (std::size_t k = 0; k < right_rad.size(); ++k)
+            farthest_rad = std::max(farthest_rad, std::abs(positions_rad[k] - right_rad[k]));
+          EXPECT_LT(farthest_rad, 1e-4) << derivatives << " derivatives, every " << every << " ms, " << ahead
+                                        << " ms ahead, one " << too_far << " ms too far";
+        }
+      }
 }
 
 // Now and then a wrong velocity happens to be near the right one: where it is used there alone, it is a jerk.
