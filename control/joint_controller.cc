@@ -206,9 +206,8 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   // Of the motion until now: a plan's, or a push that ends on the target.
   const bool planned =
       phase_ == MotionPhase::kLanding || (phase_ == MotionPhase::kTracking && torque_is_planned());
-  const SurpriseCause by_friction = follows_ == Follows::kStreamOnTime  ? SurpriseCause::kStreamedFriction
-                                    : follows_ == Follows::kStreamLater ? SurpriseCause::kPathFriction
-                                                                        : SurpriseCause::kFriction;
+  const SurpriseCause by_friction =
+      follows_ == Follows::kTarget ? SurpriseCause::kFriction : SurpriseCause::kFollowedFriction;
   state_.step(measurement, loaded_model(), estimate_source(), planned ? by_friction : SurpriseCause::kLoad);
   // Of a stall over which nobody knows what the joint did begin_period() has been told.
   const bool missed = measurement.elapsed_periods > kMaxElapsedPeriods;

@@ -26,9 +26,9 @@ constexpr double kFrictionUncertainty = 0.3 / kShippedScale_Nm;
 constexpr double kLoadUncertainty = 0.1 / kShippedScale_Nm;
 constexpr double kFrictionDrift = 0.1 / kShippedScale_Nm;
 constexpr double kRestDrift = 0.001 / kShippedScale_Nm;  // per period in motion, however slow
-// The same two on a path.
-constexpr double kFrictionDriftOnPath = 0.01 / kShippedScale_Nm;
-constexpr double kRestDriftOnPath = 0.003 / kShippedScale_Nm;
+// The same two in a stream and on a path.
+constexpr double kFollowedFrictionDrift = 0.01 / kShippedScale_Nm;
+constexpr double kFollowedRestDrift = 0.003 / kShippedScale_Nm;
 constexpr double kInertiaUncertainty = 0.1;
 // Of the inertia, per rad/s of change of speed; of the accelerating torque, from period to period. Relative,
 // tuned on the same joint.
@@ -77,9 +77,9 @@ void VelocityObserver::predict(double torque_Nm, const JointModel& model, Surpri
       adapted.advance(torque_Nm, {state_(kFriction), state_(kLoad)}, state_(kVelocity), config_.period_s);
   moved_rad_ += motion.displacement_rad;
   ++periods_;
-  const bool on_path = cause == SurpriseCause::kPathFriction;
+  const bool followed = cause == SurpriseCause::kFollowedFriction;
   if (!motion.moved) {
-    if (on_path) doubt_rest(torque_Nm, adapted);
+    if (followed) doubt_rest(torque_Nm, adapted);
     return;
   }
   Covariance transition = Covariance::Identity();
@@ -93,7 +93,7 @@ void VelocityObserver::predict(double torque_Nm, const JointModel& model, Surpri
   const double start_deviation = std::sqrt(covariance_(kVelocity, kVelocity));
   covariance_ = transition * covariance_ * transition.transpose();
   doubt_direction(motion, start_deviation, adapted);
-  drift(motion.velocity_rad_s, model, on_path);
+  drift(motion.velocity_rad_s, model, followed);
   state_(kPosition) += motion.displacement_rad;
   state_(kVelocity) = motion.velocity_rad_s;
 }
@@ -130,16 +130,16 @@ void VelocityObserver::doubt_direction(const ModelMotion& motion, double start_d
   }
 }
 
-// What the model gets wrong differs from speed to speed (friction), and grows with the acceleration (inertia). On a path friction's error is
+// What the model gets wrong differs from speed to speed (friction), and grows with the acceleration (inertia). In a stream and on a path friction's error is
 // taken to be the same while the speed is, and at another speed, the Stribeck velocity away, no better known than before the joint had moved.
-void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model, bool on_path) noexcept {
+void VelocityObserver::drift(double end_velocity_rad_s, const JointModel& model, bool followed) noexcept {
   const double speed = std::max(std::abs(state_(kVelocity)), std::abs(end_velocity_rad_s));
   const double share = square(square(std::min(1.0, speed / model.stribeck.velocity_rad_s)));
-  const double sliding = on_path ? kFrictionDriftOnPath : kFrictionDrift;
-  const double slow = on_path ? kRestDriftOnPath : kRestDrift;
+  const double sliding = followed ? kFollowedFrictionDrift : kFrictionDrift;
+  const double slow = followed ? kFollowedRestDrift : kRestDrift;
   const double drift = square(model.friction_scale_Nm) * (square(sliding * share) + square(slow));
   const double change_rad_s = std::abs(end_velocity_rad_s - state_(kVelocity));
-  if (on_path) {
+  if (followed) {
     const double unknown =
         square(kFrictionUncertainty * model.friction_scale_Nm) - covariance_(kFriction, kFriction);
     covariance_(kFriction, kFriction) +=

@@ -5,7 +5,7 @@
 // or not yet been reached, since the last one; the estimate is conditioned on exactly that (a Gaussian
 // truncated at the edge). So a count change tells the position to within what the joint moves in a period,
 // and a joint at rest learns nothing from the same reading again. In a stream and on a path, where
-// the position is known no better than one reading tells it, both edges of it are news. The estimate is quiet: at rest, with less
+// the position is known no better than a new count tells it, both edges of that are news. The estimate is quiet: at rest, with less
 // torque than friction holds, velocity is exactly zero. Source: assumed-density filtering, Maybeck,
 // "Stochastic Models, Estimation and Control" vol. 2 (1982), chapter 12. It knows one mass: what the motions of a joint with a spring
 // show of its inertia, inertia_estimate.h tells.
@@ -39,10 +39,8 @@ struct JointEstimate {
 enum class SurpriseCause {
   kLoad,      ///< a joint that rests, or is pushed towards its last counts: something else pushed it
   kFriction,  ///< a planned motion: as far as a count goes, friction that is not the model's, as it never quite is while a joint breaks away
-  /// The same where the motion is a stream's: both edges of a reading tell how far the joint has broken away.
-  kStreamedFriction,
-  /// The same on a path, which is known to its end.
-  kPathFriction,
+  /// The same where the motion is a stream's or a path's, which may turn anywhere.
+  kFollowedFriction,
 };
 
 class VelocityObserver {
@@ -55,8 +53,8 @@ class VelocityObserver {
   /// with `load_Nm`; friction and load unknown again, in units of `friction_scale_Nm` (joint_model.h).
   void reset(double position_rad, double friction_scale_Nm, double velocity_rad_s = 0.0,
              double load_Nm = 0.0) noexcept;
-  /// The period that ends now: the torque that acted over it, by a joint like `model`, and what the joint was doing: on a path (kPathFriction)
-  /// friction's error is taken to go with the speed, and what seems to stand may yet be moving.
+  /// The period that ends now: the torque that acted over it, by a joint like `model`, and what the joint was doing: in a stream and on a path
+  /// (kFollowedFriction) friction's error is taken to go with the speed, and what seems to stand may yet be moving.
   void predict(double torque_Nm, const JointModel& model,
                SurpriseCause cause = SurpriseCause::kLoad) noexcept;
   /// The encoder's reading now.
@@ -75,7 +73,7 @@ class VelocityObserver {
   using Covariance = Eigen::Matrix<double, 5, 5>;
 
   void doubt_rest(double torque_Nm, const JointModel& model) noexcept;
-  void drift(double end_velocity_rad_s, const JointModel& model, bool on_path) noexcept;
+  void drift(double end_velocity_rad_s, const JointModel& model, bool followed) noexcept;
   void doubt_direction(const ModelMotion& motion, double start_deviation, const JointModel& model) noexcept;
   double reading_variance() const noexcept;
   void truncate(double edge_rad, double side, SurpriseCause cause) noexcept;

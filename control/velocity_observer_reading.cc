@@ -10,10 +10,8 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kCertain = 6.0;  // this many deviations inside, an edge says nothing
-// Load that one surprise may bring, in units of static friction; the second on a path.
-constexpr double kSurpriseLoad = 3.0;
-constexpr double kSurpriseLoadOnPath = 1.0;
+constexpr double kCertain = 6.0;       // this many deviations inside, an edge says nothing
+constexpr double kSurpriseLoad = 3.0;  // that one may bring, in units of static friction
 // A count in a period would be the doing of a load of several N.m, and of friction that is a fraction of itself off: in a planned motion
 // this share of it is laid to a load, as if that had come some three periods before.
 constexpr double kLoadShareOfACount = 0.11;
@@ -37,9 +35,8 @@ void VelocityObserver::admit_surprise(double distance_rad, SurpriseCause cause) 
   const double by_friction_rad =
       cause != SurpriseCause::kLoad ? std::min(distance_rad, config_.encoder_resolution_rad) : 0.0;
   const double by_load_rad = distance_rad - (1.0 - kLoadShareOfACount) * by_friction_rad;
-  const double load_Nm = std::min(
-      2.0 * inertia_kgm2_ * by_load_rad / square(since_s),
-      (cause == SurpriseCause::kPathFriction ? kSurpriseLoadOnPath : kSurpriseLoad) * static_friction_Nm_);
+  const double load_Nm =
+      std::min(2.0 * inertia_kgm2_ * by_load_rad / square(since_s), kSurpriseLoad * static_friction_Nm_);
   const double correlation = 0.5;
   covariance_(kPosition, kPosition) += square(distance_rad);
   covariance_(kVelocity, kVelocity) += square(velocity);
@@ -99,12 +96,10 @@ void VelocityObserver::correct(double position_rad, SurpriseCause cause) noexcep
   else if (tighter_rad != 0.0) {
     const double nearer_rad = std::copysign(half_rad, tighter_rad);
     truncate(position_rad - nearer_rad, sign(tighter_rad), cause);
-    // Where a reading alone tells more, as while a joint breaks away, its other edge is news as well: by one edge the joint would be far beyond
-    // it. What something else pushed may be anywhere.
+    // Where a new count alone tells more, as while a joint breaks away, its other edge is news as well: by one edge the joint would be far
+    // beyond it. What something else pushed may be anywhere.
     const bool doubtful = covariance_(kPosition, kPosition) > square(config_.encoder_resolution_rad) / 12.0;
-    // On a path, slow as it may be, those of a count that has changed: the same edge again is no news.
-    const bool changed = cause == SurpriseCause::kPathFriction && position_rad != reading_rad_;
-    if (doubtful && (changed || cause == SurpriseCause::kStreamedFriction))
+    if (cause == SurpriseCause::kFollowedFriction && doubtful && position_rad != reading_rad_)
       truncate(position_rad + nearer_rad, -sign(tighter_rad), cause);
   }
   reading_rad_ = position_rad;

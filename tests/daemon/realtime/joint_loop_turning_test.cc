@@ -128,15 +128,15 @@ TEST(TurningSines, MakeHardlyMoreThanTheTurnOfFriction) {
   for (const double friction : {0.7, 1.0, 1.3}) {
     const Turns turns = rides(friction, 0.0);
     EXPECT_GT(turns.count, 100);
-    EXPECT_LT(turns.steps, 0.04 * turns.count);
-    EXPECT_LT(turns.largest_step_Nm, 2.5);
-    EXPECT_LT(turns.farthest_rad, 2.5e-3);
-    EXPECT_LT(turns.sum_rad / turns.rides, 0.35e-3);
+    EXPECT_LT(turns.steps, 0.02 * turns.count);
+    EXPECT_LT(turns.largest_step_Nm, 1.3);
+    EXPECT_LT(turns.farthest_rad, 0.5e-3);
+    EXPECT_LT(turns.sum_rad / turns.rides, 0.18e-3);
   }
 }
 
 TEST(TurningSines, TakeALoadThatComesOnTheWay) {
-  for (const double load_Nm : {3.0, 8.0, -8.0}) EXPECT_LT(rides(1.0, load_Nm).farthest_rad, 8e-3);
+  for (const double load_Nm : {3.0, 8.0, -8.0}) EXPECT_LT(rides(1.0, load_Nm).farthest_rad, 6e-3);
 }
 
 }  // namespace
