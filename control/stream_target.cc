@@ -224,7 +224,7 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
   const double with_rad_s = std::clamp(out * target.velocity_rad_s, 0.0, speed_rad_s);
   const double braking_rad2_s2 =
       std::max(fastest_rad_s * fastest_rad_s, with_rad_s * (2.0 * speed_rad_s - with_rad_s));
-  const double room_rad = fastest_rad_s * (since_s + 0.5 * seconds(interval_)) +
+  const double room_rad = fastest_rad_s * (since_s + std::max(0.5 * seconds(interval_), kApart_s)) +
                           0.5 * braking_rad2_s2 / reach_.acceleration_rad_s2;
   const double rest_rad = position_rad + 0.5 * velocity_rad_s * speed_rad_s / reach_.acceleration_rad_s2;
   const double edge_rad = out > 0 ? known.high_rad : known.low_rad;
@@ -233,7 +233,7 @@ MovingTarget StreamTarget::confined(const MovingTarget& target, double position_
   const bool beyond = out * (target.next_position_rad - edge_rad) - led_rad > kBack * (room_rad - led_rad);
   if (moves == out && out * (rest_rad - edge_rad) > room_rad)
     way = out;
-  else if (moves != out && !beyond)
+  else if (!beyond)
     way = 0;
   if (way == 0) return target;
   return {edge_rad, 0.0, edge_rad, 0.0, target.load};

@@ -29,8 +29,8 @@
 //   missed              a motion that was carried on, or has ended, and goes on, is caught up with in the time since its last sample, 0.2 s at
 //                       most: until then every knot is carried forward to the end of that time
 //   confined            who follows at speed v and could not come to rest before it is farther out than the last samples and what
-//                       their speed V takes since the last of them is led to rest there until it has turned and the target is back:
-//                         V (now - t) + V T / 2 + max(V^2, w (2 v - w)) / 2A,  w the target's speed
+//                       their speed V takes since the last of them is led to rest there until it could and the target is back:
+//                         V (now - t) + V max(T / 2, 10 ms) + max(V^2, w (2 v - w)) / 2A,  w the target's speed
 //                       where the motion was carried on and has not caught up yet, V is no less than what it was carried on with, and `now` the
 //                       end of catching up
 //                       What is always late, near the limits, would else be driven farther with each swing

@@ -48,10 +48,12 @@ constexpr double kSameTimes_rad = 2e-5;
 // Samples that were lost on the way leave whole intervals out; those that were held up do not. Where a sample lies tells which it is: it
 // is the one that its motion brings nearest. Where that does not tell, they are lost until they come after all.
 double StreamTarget::intervals_in(double gap, const StreamSample& sample) noexcept {
-  if (counted_lost_ > 0 && gap < interval_ - std::max(kOutOfTurn * interval_, kJitter_s / period_s_)) {
+  const double out_of_turn = std::max(kOutOfTurn * interval_, kJitter_s / period_s_);
+  // Of those that nothing was counted lost before none can be for later than it comes.
+  if (gap < (counted_lost_ > 0 ? interval_ - out_of_turn : -std::max(interval_, out_of_turn))) {
     // The same again is a double.
     if (past_count_ > 0 && sample.position_rad == past_[0].position_rad) return 0.0;
-    --counted_lost_;
+    counted_lost_ = std::max(counted_lost_ - 1, 0);
     make_room();
     return 0.0;
   }
@@ -225,7 +227,8 @@ void StreamTarget::clock_in(const StreamSample& sample, double came) noexcept {
   if (arrivals_ == 1) first_came_ = came_;
   // Among as many from the first on as one hold-up may hold, one a period, one that comes with the one before was held up: no interval is
   // known yet that could tell. Later, it may be one that was taken for lost.
-  const bool among_first = arrivals_ <= kLongestHoldUp_s / period_s_;
+  const bool among_first = arrivals_ <= kLocked || (arrivals_ <= kLongestHoldUp_s / period_s_ &&
+                                                    seconds(came_ - first_came_) <= kLongestInARow_s);
   if (at_once && among_first && gap < kOutOfTurn * interval_) return clock_in_held_up();
   if (arrivals_ <= 2) {
     interval_ = arrivals_ == 2 ? std::max(gap, 1.0) : 0.0;
