@@ -26,7 +26,7 @@ constexpr std::array kNotices{
     Notice::kReadingMissed, Notice::kSpeedLimited,       Notice::kNotHomed,      Notice::kAtLimitSwitch,
     Notice::kPlainLaw,      Notice::kOffStream,          Notice::kPositionLate,  Notice::kOffTarget,
     Notice::kLoadHigh,      Notice::kOtherInertia,       Notice::kPathPaused,    Notice::kPathEnds,
-    Notice::kYielded};
+    Notice::kYielded,       Notice::kSamplesMissing};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
