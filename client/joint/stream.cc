@@ -219,7 +219,7 @@ void Stream::check_state(std::int64_t from_cycle) {
   const bool fault = mode_of(view) == Mode::kFaulted;
   if (!fault && !(has_yielded(view) && view.state.cycle >= from_cycle)) return;
   lose();
-  if (fault) throw faulted(link_->name(), view);
+  if (fault) throw faulted(link_->client(), link_->name());
   throw yielded(link_->name(), "did not follow the stream to its end", view);
 }
 
