@@ -155,14 +155,13 @@ std::vector<double> StrictObject::numbers(const std::string& key) {
 
 std::vector<double> StrictObject::numbers(const std::string& key, std::size_t size) {
   std::vector<double> result = numbers(key);
-  if (result.size() != size) complain(key, "a list of " + std::to_string(size) + " numbers");
+  if (result.size() != size) complain(key, "a list of " + counted(size, "number"));
   return result;
 }
 
 std::vector<double> StrictObject::matrix(const std::string& key, std::size_t rows, std::size_t columns) {
   const ordered_json& value = get(key);
-  const std::string allowed =
-      std::to_string(rows) + " lists (the rows) of " + std::to_string(columns) + " numbers";
+  const std::string allowed = counted(rows, "list") + " (the rows) of " + counted(columns, "number");
   if (!value.is_array() || value.size() != rows) complain(key, allowed);
   std::vector<double> result;
   for (const ordered_json& row : value) {

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "control/gain_table_json.h"
 #include "daemon/assembly.h"
 #include "daemon/realtime/realtime_loop.h"
@@ -110,9 +111,8 @@ int run(int slices, double seconds, int joints) {
     add(ours, run_ours(seconds, joints, table));
     add(theirs, run_cyclictest(seconds));
   }
-  std::printf(
-      "wake-up latency in us, 1 kHz, SCHED_FIFO %d, %d alternating slices of %g s, %d joint(s) in our loop\n",
-      kPriority, slices, seconds, joints);
+  std::printf("wake-up latency in us, 1 kHz, SCHED_FIFO %d, %d alternating slices of %g s, in our loop %s\n",
+              kPriority, slices, seconds, counted(joints, "joint").c_str());
   std::printf("%-12s %12s %12s %8s\n", "", "strainwave", "cyclictest", "ratio");
   const std::pair<const char*, double> rows[] = {
       {"p50", 0.5}, {"p90", 0.9}, {"p99", 0.99}, {"p99.9", 0.999}, {"p99.99", 0.9999}};

@@ -20,6 +20,10 @@ std::string text_of(const BoxRange& range) {
   return text.str();
 }
 
+std::string periods_text(const BoxRange& range) {
+  return text_of(range) + (range.to == 1.0 ? " period" : " periods");
+}
+
 ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods) {
   const int n = spring_loop_states(cell.delay_periods, lead_periods);
   ProofMatrix P(n, n);
@@ -135,9 +139,8 @@ std::optional<std::string> find_outside_box(const GainTable& table, const LinkMo
     return outside("joint.control.damping_Nms_rad", text_of({link.damping_Nms_rad, link.damping_Nms_rad}),
                    text_of(box.damping_Nms_rad) + " N m s/rad");
   if (delay_periods < box.least_delay || delay_periods > box.most_delay)
-    return outside(
-        "delay_periods", std::to_string(delay_periods),
-        text_of({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) + " periods");
+    return outside("delay_periods", std::to_string(delay_periods),
+                   periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}));
   return std::nullopt;
 }
 
@@ -147,10 +150,9 @@ std::string describe(const CertifiedBox& box) {
   return "motor " + text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2, link " +
          text_of(box.link_inertia_kgm2) + " kg m2, stiffness " + text_of(box.stiffness_Nm_rad) +
          " N m/rad, damping " + text_of(box.damping_Nms_rad) + " N m s/rad, delay " +
-         text_of({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +
-         " periods, encoder on the " + to_text(box.encoder_side) +
-         (box.lead_periods == 0.0 ? ""
-                                  : ", lead " + text_of({box.lead_periods, box.lead_periods}) + " periods");
+         periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +
+         ", encoder on the " + to_text(box.encoder_side) +
+         (box.lead_periods == 0.0 ? "" : ", lead " + periods_text({box.lead_periods, box.lead_periods}));
 }
 
 }  // namespace strainwave

@@ -94,6 +94,8 @@ class JointController {
   /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
   void follow(const StreamSample& sample, bool begins, double speed_limit_rad_s, const PositionRange& range,
               OnTime on_time = OnTime::kJoint) noexcept;
+  /// The samples of the stream that was followed last have stopped coming while it moved, and it has not gone on since.
+  bool ran_out_of_samples() const noexcept { return stream_.ended(); }
   /// With OnTime::kJoint the joint is where a stream is because the controller is so much ahead of it: a sample that comes later than
   /// this before its time is carried forward.
   double stream_lead_s() const noexcept;

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/printable.h"
 #include "daemon/realtime/periodic_clock.h"
 
 namespace strainwave {
@@ -85,9 +86,10 @@ void GatewayGuard::log_dropped_datagrams(std::int64_t now_ns) {
   if (dropped == dropped_seen_ || !dropped_log_.allow(now_ns, suppressed)) return;
   dropped_seen_ = dropped;
   spdlog::warn(
-      "dropped by the gateway since its start: {} malformed datagrams, {} too long, {} messages with missing "
-      "fragments, {} messages too many at once",
-      malformed, too_long, interrupted, crowded_out);
+      "dropped by the gateway since its start: {}, {} too long, {} with missing fragments, {} too many at "
+      "once",
+      counted(malformed, "malformed datagram"), too_long, counted(interrupted, "message"),
+      counted(crowded_out, "message"));
 }
 
 void GatewayGuard::log_foreign_states() {

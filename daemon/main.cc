@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
     config.gateway_socket = gateway_socket;
     if (check_only) {
       strainwave::check_start(config, std::cout);
-      std::cout << strainwave::printable(config_path) << ": sound, " << config.joints.size()
-                << " joint(s), prefix " << config.prefix << '\n';
+      std::cout << strainwave::printable(config_path) << ": sound, "
+                << strainwave::counted(config.joints.size(), "joint") << ", prefix " << config.prefix << '\n';
       return strainwave::ExitStatus::kDone;
     }
     if (check_lines) return as_status(strainwave::check_lines(config, std::cout));

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "daemon/admission/verdict.h"
 #include "daemon/assembly.h"
 #include "daemon/drive_check.h"
@@ -61,7 +62,7 @@ FlightRecordWriter::Report log_flight_records() {
     if (!lost) return spdlog::info("{}", text);
     std::int64_t suppressed = 0;
     if (!complaints.allow(now_ns, suppressed)) return;
-    if (suppressed > 0) spdlog::warn("{} more lines about flight records were not logged", suppressed);
+    if (suppressed > 0) spdlog::warn("not logged: {} about flight records", counted(suppressed, "more line"));
     spdlog::warn("{}", text);
   };
 }
@@ -139,8 +140,8 @@ void Supervisor::run() {
     spdlog::warn("no real time: {}", loop_.real_time_refusal());
   if (!loop_.sleep_state_refusal().empty()) spdlog::warn("{}", loop_.sleep_state_refusal());
   if (const std::string warning = compaction_warning(); !warning.empty()) spdlog::warn("{}", warning);
-  spdlog::info("prefix {}, {} joint(s), period {} s, session {}", config_.prefix, config_.joints.size(),
-               config_.loop.period_s, session_id_);
+  spdlog::info("prefix {}, {}, period {} s, session {}", config_.prefix,
+               counted(config_.joints.size(), "joint"), config_.loop.period_s, session_id_);
   while (!loop_.finished()) {
     wait(kTurn_ms);
     turn(monotonic_now_ns());
@@ -271,7 +272,7 @@ void Supervisor::tell_systemd(std::int64_t now_ns) {
 void Supervisor::log_refusal(const Verdict& verdict, std::int64_t now_ns) {
   std::int64_t suppressed = 0;
   if (!refusal_log_.allow(now_ns, suppressed)) return;
-  if (suppressed > 0) spdlog::warn("{} more refused messages were not logged", suppressed);
+  if (suppressed > 0) spdlog::warn("not logged: {}", counted(suppressed, "more refused message"));
   if (verdict.kind == Verdict::Kind::kDiscard) {
     const auto name = parse_channel(incoming_->channel.view());
     const bool other = name && is_of_another_version(name->kind, payload(*incoming_));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "design/student.h"
 
 namespace strainwave {
@@ -21,8 +22,8 @@ constexpr double kLeastVariance_N2m2 = 1e-18;
 
 [[noreturn]] void refuse(const std::vector<SteadyPoint>& points, const StribeckShape& shape) {
   std::ostringstream text;
-  text << points.size() << " speeds at " << points.front().temperature_C
-       << " degC do not tell static, Coulomb and viscous friction apart: at least " << kLeastRegressionPoints
+  text << "static, Coulomb and viscous friction cannot be told apart by " << counted(points.size(), "speed")
+       << " at " << points.front().temperature_C << " degC: at least " << kLeastRegressionPoints
        << " are needed, some below " << shape.velocity_rad_s << " rad/s and some well above";
   throw InputError(text.str());
 }

@@ -121,6 +121,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "path ends early";
     case Notice::kYielded:
       return "yielded to a load";
+    case Notice::kSamplesMissing:
+      return "samples missing";
   }
   return "unknown";
 }
@@ -338,6 +340,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "";
     case Notice::kYielded:
       return "joint.limits.load_Nm";
+    case Notice::kSamplesMissing:
+      return "joint.control.stream_bridge_s";
   }
   return "";
 }

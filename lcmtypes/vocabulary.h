@@ -72,6 +72,7 @@ enum class Notice : std::int32_t {
   kPathPaused = 1 << 14,
   kPathEnds = 1 << 15,
   kYielded = 1 << 16,
+  kSamplesMissing = 1 << 17,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).

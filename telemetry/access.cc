@@ -9,6 +9,7 @@
 #include <charconv>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 
 namespace strainwave {
@@ -101,7 +102,7 @@ std::string read_token(const std::string& file) {
     refuse("everybody may read or write it: chmod o-rw " + file);
   std::string token = text.substr(0, text.find_first_of("\r\n"));
   if (token.size() < AccessRules::kShortestToken)
-    refuse("its first line has " + std::to_string(token.size()) + " characters: a token has at least " +
+    refuse("its first line has " + counted(token.size(), "character") + ": a token has at least " +
            std::to_string(AccessRules::kShortestToken));
   const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
   if (!std::all_of(token.begin(), token.end(), fits)) refuse("a token is of A-Z a-z 0-9 - and _");

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "client/commands/commands.h"
 #include "drivers/can/can_scan.h"
 
@@ -40,7 +41,7 @@ void can_scan(const Output& output, const std::string& interface_name) {
     return;
   }
   for (const ScannedNode& node : nodes) output.stream << text_of(node);
-  output.stream << interface_name << ": " << nodes.size() << " CANopen node(s) answered"
+  output.stream << interface_name << ": " << counted(nodes.size(), "CANopen node") << " answered"
                 << (nodes.empty() ? "; check bit rate, termination, and the drives' supply" : "") << '\n';
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "client/link/orders.h"
+
 namespace strainwave {
 
 std::vector<std::string> joints_or_all(Client& client, const std::vector<std::string>& joints) {
@@ -23,12 +25,8 @@ void Failures::rethrow() const {
   if (failures_.empty()) return;
   if (failures_.size() == 1) throw ClientError(failures_.front());
   ExitStatus worst = ExitStatus::kDone;
-  std::string text;
-  for (const ClientError& failure : failures_) {
-    worst = std::max(worst, failure.status());
-    text += (text.empty() ? "" : "\n") + std::string(failure.what());
-  }
-  throw ClientError(worst, text, {"", {}, {}, failures_, {}});
+  for (const ClientError& failure : failures_) worst = std::max(worst, failure.status());
+  throw ClientError(worst, lines_of(failures_), {"", {}, {}, failures_, {}});
 }
 
 }  // namespace strainwave

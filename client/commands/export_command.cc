@@ -197,7 +197,8 @@ void export_into(Export into, const Output& output, const std::filesystem::path&
     say(output, fmt::format("nothing in {} could be exported", log.string()),
         {{"exported", std::int64_t{0}}});
   if (others > 0)
-    say(output, fmt::format("{} other messages were left out", others), {{"left_out", std::int64_t{others}}});
+    say(output, fmt::format("left out: {}", counted(others, "other message")),
+        {{"left_out", std::int64_t{others}}});
   if (reader.truncated()) say(output, "the log's last message is cut off", {{"truncated", true}});
 }
 

@@ -58,7 +58,7 @@ void GuardedJoint::require_undisturbed() {
     fail(ExitStatus::kNoAnswer, fmt::format("nothing heard for {} s", kLongestSilence_s));
   if (view_.state.session_id != session_id_) fail(ExitStatus::kRefused, "the daemon was restarted");
   const Mode mode = mode_of(view_);
-  if (mode == Mode::kFaulted) throw faulted(joint_, view_);
+  if (mode == Mode::kFaulted) throw faulted(client_, joint_);
   if (mode != Mode::kHolding && mode != Mode::kTracking) fail(ExitStatus::kRefused, "it was disabled");
 }
 
@@ -75,7 +75,7 @@ void GuardedJoint::check_yield() const {
 void GuardedJoint::wait_for_news() {
   const std::int64_t seen = view_.messages;
   client_.wait_until([&] { return view_.messages > seen + 1; }, Deadline(kOldStates_s));
-  if (mode_of(view_) == Mode::kFaulted) throw faulted(joint_, view_);
+  if (mode_of(view_) == Mode::kFaulted) throw faulted(client_, joint_);
   if (has_yielded(view_)) throw yielded(joint_, "did not " + purpose_, view_);
 }
 

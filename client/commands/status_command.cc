@@ -17,14 +17,14 @@ void show_status(Client& client, const Output& output, const StatusArguments& ar
     output.stream << to_json(client.states(), joints) << '\n';
     return;
   }
-  if (!arguments.joint) output.stream << state_header() << '\n';
+  if (!arguments.joint) output.stream << state_header(name_columns(joints)) << '\n';
   for (const JointName& name : joints) {
     const JointView& view = *client.states().find(name.prefix, name.joint);
     const double age_s = seconds_between(view.received, now());
     if (arguments.joint) {
       output.stream << state_details(name.joint, view, age_s);
     } else {
-      output.stream << state_row(display_name(name, joints), view, age_s) << '\n';
+      output.stream << state_row(display_name(name, joints), name_columns(joints), view, age_s) << '\n';
     }
   }
 }

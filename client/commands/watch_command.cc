@@ -35,13 +35,15 @@ bool wait_interval(Client& client, const Deadline& interval) {
 void watch_lines(Client& client, const Output& output, const WatchArguments& arguments) {
   const std::optional<Deadline> end =
       arguments.duration_s ? std::optional<Deadline>(*arguments.duration_s) : std::nullopt;
-  if (!output.json) output.stream << state_header() << '\n';
+  const std::size_t columns = name_columns(chosen(client, arguments.joints));
+  if (!output.json) output.stream << state_header(columns) << '\n';
   do {
     const std::vector<JointName> names = chosen(client, arguments.joints);
     if (output.json) output.stream << to_json(client.states(), names, -1) << '\n';
     for (const JointName& name : output.json ? std::vector<JointName>{} : names) {
       const JointView& view = *client.states().find(name.prefix, name.joint);
-      output.stream << state_row(display_name(name, names), view, seconds_between(view.received, now()))
+      output.stream << state_row(display_name(name, names), columns, view,
+                                 seconds_between(view.received, now()))
                     << '\n';
     }
     output.stream.flush();

@@ -19,6 +19,18 @@ namespace {
 // The daemon takes a second; the way there takes some of it.
 constexpr double kFarthestAhead_s = 0.9;
 
+constexpr auto kAnotherOne = "this stream is over; Joint::stream() makes another one";
+
+/// Of what became of the joint.
+bool tells_less_than_the_state(Reason refusal) {
+  return refusal == Reason::kFaulted || refusal == Reason::kStreamEnded || refusal == Reason::kWrongSession;
+}
+
+bool ends_stream(Reason refusal) {
+  return refusal == Reason::kStreamEnded || refusal == Reason::kSuperseded ||
+         refusal == Reason::kWrongSession;
+}
+
 StreamOptions checked(const std::string& joint, const StreamOptions& options) {
   checked_number(joint, "ahead_s", options.ahead_s, "above 0 to 0.9",
                  options.ahead_s > 0.0 && options.ahead_s <= kFarthestAhead_s);
@@ -79,7 +91,7 @@ void Stream::end() noexcept {
   try {
     if (std::uncaught_exceptions() == exceptions_) return close();
     const auto held = link_->lock();
-    send_stop(link_->client(), link_->name(), Action::kHold);
+    hold();
   } catch (const std::exception&) {
     // The stream expires by itself.
   }
@@ -91,7 +103,11 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
                  !last_t_s_ || t_s > *last_t_s_);
   const auto held = link_->lock();
   // Not begun anew by the next sample: somebody may have ended it for a reason.
-  if (over_) throw NotDone(link_->name() + ": this stream is over; Joint::stream() makes another one");
+  if (over_) throw NotDone(fmt::format("{}: {}", link_->name(), kAnotherOne));
+  if (last_cycle_) {
+    link_->client().catch_up();
+    check_restart();
+  }
   setpoint_v2 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2, load);
   last_t_s_ = t_s;
   if (!last_cycle_) {
@@ -118,16 +134,29 @@ void Stream::close() {
   over_ = true;
   if (!last_cycle_) return;
   const auto held = link_->lock();
-  Client& client = link_->client();
+  try {
+    wait_for_end();
+  } catch (const ClientError&) {
+    hold();
+    throw;
+  }
+  hold();
+  wait_until_holding(link_->client(), link_->name());
+}
+
+void Stream::wait_for_end() {
   check_refusals();
   const JointView& view = link_->view();
-  if (!client.wait_until([&] { return view.state.cycle >= *last_cycle_; },
+  Client& client = link_->client();
+  if (!client.wait_until([&] { return restarted() || view.state.cycle >= *last_cycle_; },
                          Deadline(options_.ahead_s + client.options().timeout_s)))
     throw NoAnswer(link_->silence("fell silent before the stream's end"), link_->name());
   check_refusals();
-  last_cycle_.reset();
-  send_stop(client, link_->name(), Action::kHold);
-  wait_until_holding(client, link_->name());
+}
+
+// Once, whatever comes of it, and not where it is somebody else's by now.
+void Stream::hold() {
+  if (std::exchange(last_cycle_, std::nullopt)) send_stop(link_->client(), link_->name(), Action::kHold);
 }
 
 setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_rad_s,
@@ -179,6 +208,7 @@ void Stream::begin(double t_s, setpoint_v2 message) {
   require_accepted(answer, link_->name(),
                    fmt::format("the first setpoint of the stream, {} rad,", message.position_rad));
   last_cycle_ = first_cycle_ = message.at_cycle;
+  session_id_ = client.find(link_->name())->state.session_id;
 }
 
 // A refusal needs no waiting for the time that it is too late for.
@@ -187,7 +217,7 @@ void Stream::wait_until_due(std::int64_t cycle) {
   client.catch_up();
   const double wait_s =
       (static_cast<double>(cycle) - link_->cycle_now(period_s_)) * period_s_ - options_.ahead_s;
-  client.wait_until([&] { return client.has_refusals(); }, Deadline(std::max(0.0, wait_s)));
+  client.wait_until([&] { return client.has_refusals() || restarted(); }, Deadline(std::max(0.0, wait_s)));
 }
 
 // What ended the stream, if that is the joint's own doing, is told before what became of the samples since.
@@ -195,9 +225,10 @@ void Stream::check_refusals() {
   check_state(first_cycle_);
   while (const auto refusal = link_->client().take_refusal()) {
     if (refusal->reason != Reason::kTooOld && !refusal->overtaken) {
-      if (refusal->reason == Reason::kFaulted || refusal->reason == Reason::kStreamEnded) check_joint();
-      if (refusal->reason == Reason::kStreamEnded || refusal->reason == Reason::kSuperseded) lose();
-      require_accepted(*refusal, link_->name(), "a setpoint of the stream");
+      if (tells_less_than_the_state(refusal->reason)) check_joint();
+      if (ends_stream(refusal->reason)) lose();
+      require_accepted(*refusal, link_->name(), "a setpoint of the stream",
+                       ends_stream(refusal->reason) ? kAnotherOne : "");
     }
     ++late_;
   }
@@ -208,19 +239,37 @@ void Stream::check_joint() {
   Client& client = link_->client();
   const JointView& view = client.wait_for_joint(link_->name());
   const std::int64_t seen = view.messages;
-  client.wait_until([&] { return mode_of(view) == Mode::kFaulted || view.messages > seen + 1; },
-                    Deadline(kOldStates_s));
+  client.wait_until(
+      [&] { return mode_of(view) == Mode::kFaulted || restarted() || view.messages > seen + 1; },
+      Deadline(kOldStates_s));
   check_state(view.state.cycle);
 }
 
 /// Before `from_cycle` a yield may be one from before the stream.
 void Stream::check_state(std::int64_t from_cycle) {
+  check_restart();
   const JointView& view = link_->client().wait_for_joint(link_->name());
   const bool fault = mode_of(view) == Mode::kFaulted;
   if (!fault && !(has_yielded(view) && view.state.cycle >= from_cycle)) return;
   lose();
-  if (fault) throw faulted(link_->name(), view);
+  if (fault) throw faulted(link_->client(), link_->name());
   throw yielded(link_->name(), "did not follow the stream to its end", view);
+}
+
+// Each daemon counts its own cycles: the samples' times are none of the new one's.
+bool Stream::restarted() const {
+  return link_->client().find(link_->name())->state.session_id != session_id_;
+}
+
+void Stream::check_restart() {
+  if (!restarted()) return;
+  lose();
+  const Mode mode = mode_of(*link_->client().find(link_->name()));
+  throw NotDone(
+      fmt::format("{}: did not follow the stream to its end: the daemon was restarted, and the joint is {}; "
+                  "enable it, and go on with a new stream: Joint::stream()",
+                  link_->name(), to_text(mode)),
+      link_->name());
 }
 
 // Whoever, or whatever, ended it has the joint.

@@ -43,8 +43,8 @@ class Stream {
   bool put(double t_s, double position_rad, std::optional<double> velocity_rad_s = {},
            std::optional<double> acceleration_rad_s2 = {}, const CarriedLoad& load = {});
 
-  /// Waits for the last sample's time, ends the stream and waits until the joint holds. The destructor does the same, but cannot
-  /// tell of what went wrong.
+  /// Waits for the last sample's time, ends the stream and waits until the joint holds. Where that goes wrong, the joint is told to hold
+  /// first, and then it throws what went wrong. The destructor does the same, once, but cannot tell.
   void close();
 
   /// Samples that came after their time and were left out.
@@ -64,6 +64,10 @@ class Stream {
   void check_joint();
   void check_state(std::int64_t from_cycle);
   void lose();
+  bool restarted() const;
+  void check_restart();
+  void wait_for_end();
+  void hold();
   void leave_out(std::int64_t cycle);
   void end() noexcept;
 
@@ -75,6 +79,7 @@ class Stream {
   std::optional<double> last_t_s_;
   std::optional<std::int64_t> last_cycle_;  ///< of the last sample that was sent; nothing: not begun, or over
   std::int64_t first_cycle_ = 0;            ///< of the sample that it began with
+  std::int64_t session_id_ = 0;             ///< of the daemon that it began with
   bool over_ = false;                       ///< closed, or ended by somebody
   long late_ = 0;
   int exceptions_;  ///< under way when it was made

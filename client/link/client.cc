@@ -28,6 +28,10 @@ Client::Client(Connection& connection, const ClientOptions& options)
       acknowledgements_(
           connection.subscribe(channel_pattern(options.prefix, channel_kind::kAck), &Client::on_ack, this)) {}
 
+std::string Client::advice(std::string_view call, std::string_view command, const std::string& joint) const {
+  return options_.names_commands ? fmt::format("strainwavectl {} {}", command, joint) : std::string(call);
+}
+
 const JointView& Client::wait_for_joint(const std::string& joint) {
   states_.keep(options_.prefix, joint);
   if (!wait_until([&] { return find(joint) != nullptr; }, Deadline(options_.timeout_s)))
@@ -83,10 +87,11 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
   throw NoAnswer(
       fmt::format(
           "{0}: no acknowledgement in {1} s, after {2} transmissions: {3} Whether the order was carried "
-          "out is not known: strainwavectl status {0}",
+          "out is not known: see {4}",
           joint, options_.timeout_s, transmissions,
           silence.empty() ? "the daemon publishes its state but does not answer; see its log."
-                          : silence + "; is strainwaved running?"),
+                          : silence + "; is strainwaved running?",
+          advice("Joint::state()", "status", joint)),
       joint);
 }
 

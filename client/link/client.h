@@ -29,7 +29,8 @@ struct ClientOptions {
   double timeout_s =
       2.0;  ///< of every single wait: for a state, for an acknowledgement, for a change of mode
   std::filesystem::path key_file = {};  ///< secret key to sign orders with; empty: unsigned
-  bool all_prefixes = false;  ///< what only looks (status, watch) looks at every daemon that is heard
+  bool all_prefixes = false;    ///< what only looks (status, watch) looks at every daemon that is heard
+  bool names_commands = false;  ///< errors advise commands of strainwavectl, not calls of the library
 };
 
 class Client {
@@ -45,6 +46,9 @@ class Client {
 
   /// The latest view of `joint`, or null when nothing was heard of it.
   const JointView* find(const std::string& joint) const { return states_.find(options_.prefix, joint); }
+
+  /// What an error tells its reader to do, in the words of what he uses: "Joint::clear_fault()", or "strainwavectl clear-fault elbow".
+  std::string advice(std::string_view call, std::string_view command, const std::string& joint) const;
 
   /// Waits until `joint` is heard; its view lasts as long as this client. Throws ClientError (no answer) that says what is heard instead.
   const JointView& wait_for_joint(const std::string& joint);

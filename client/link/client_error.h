@@ -27,7 +27,7 @@ class ClientError : public ProgramError {
     std::string joint;
     std::optional<Reason> reason;   ///< why the daemon refused
     std::optional<Fault> fault;     ///< that the joint has
-    std::vector<ClientError> each;  ///< what went wrong with each of several joints
+    std::vector<ClientError> each;  ///< what went wrong with each of several joints; all else is of the first
     std::optional<YieldedTo> yielded_to;
   };
   ClientError(ExitStatus status, const std::string& message, Details details = {})
@@ -68,11 +68,12 @@ class Refused : public ClientError {
   Reason reason() const noexcept { return *details().reason; }
 };
 
-/// The joint has a latched fault.
+/// The joint has a latched fault. `each`: of several joints what stopped each, a Faulted or a Yielded.
 class Faulted : public ClientError {
  public:
-  Faulted(const std::string& message, const std::string& joint, Fault fault)
-      : ClientError(ExitStatus::kRefused, message, {joint, {}, fault, {}, {}}) {}
+  Faulted(const std::string& message, const std::string& joint, Fault fault,
+          std::vector<ClientError> each = {})
+      : ClientError(ExitStatus::kRefused, message, {joint, {}, fault, std::move(each), {}}) {}
   Fault fault() const noexcept { return *details().fault; }
 };
 
@@ -87,11 +88,12 @@ class NotDone : public ClientError {
       : ClientError(ExitStatus::kRefused, message, std::move(details)) {}
 };
 
-/// The joint yielded to a load, which ended its motion; it has no fault, and holds as soon as it rests.
+/// The joint yielded to a load, which ended its motion; it has no fault, and holds as soon as it rests. `each`: of several joints that did.
 class Yielded : public NotDone {
  public:
-  Yielded(const std::string& message, const std::string& joint, const YieldedTo& to)
-      : NotDone(message, Details{joint, {}, {}, {}, to}) {}
+  Yielded(const std::string& message, const std::string& joint, const YieldedTo& to,
+          std::vector<ClientError> each = {})
+      : NotDone(message, Details{joint, {}, {}, std::move(each), to}) {}
   const YieldedTo& to() const noexcept { return *details().yielded_to; }
 };
 

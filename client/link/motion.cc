@@ -42,9 +42,10 @@ std::string motion_ended(const JointView& view, const Motion& motion, std::int64
 class MotionWatch {
  public:
   /// `done`: whether it came to its end.
-  MotionWatch(Client& client, const std::string& joint, Motion motion,
+  MotionWatch(const Client& client, const std::string& joint, Motion motion,
               std::function<bool(const JointView&)> done)
-      : joint_(joint),
+      : client_(client),
+        joint_(joint),
         view_(client.find(joint)),
         motion_(std::move(motion)),
         done_(std::move(done)),
@@ -52,17 +53,11 @@ class MotionWatch {
 
   const JointView& view() const noexcept { return *view_; }
 
-  /// Throws the joint's fault, if it has one.
-  void check_fault() const {
-    if (mode_of(*view_) == Mode::kFaulted) throw faulted(joint_, *view_);
-  }
-  /// Throws that the joint has yielded, or the fault that came of that, once it rests or `timeout_s` is over.
-  void check_yield(Client& client, double timeout_s) {
-    if (!motion_.replaced || !in_force() || !has_yielded(*view_)) return;
-    client.wait_until([&] { return mode_of(*view_) != Mode::kTracking; }, Deadline(timeout_s));
-    check_fault();
-    throw yielded(joint_, "did not " + motion_.purpose, *view_);
-  }
+  bool faulted() const { return mode_of(*view_) == Mode::kFaulted; }
+  /// To a load, in this motion.
+  bool yielded() { return motion_.replaced && in_force() && has_yielded(*view_); }
+  Faulted fault() const { return strainwave::faulted(client_, joint_); }
+  Yielded yield() const { return strainwave::yielded(joint_, "did not " + motion_.purpose, *view_); }
   /// True once it is done. `silence_s`: how long its daemon may say nothing. Throws when it ended otherwise, but for a fault.
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
@@ -84,6 +79,7 @@ class MotionWatch {
     return seen_ || old_states_.passed();
   }
 
+  std::reference_wrapper<const Client> client_;
   std::string joint_;
   const JointView* view_;
   Motion motion_;
@@ -106,6 +102,35 @@ void wait_for_the_others(Client& client, const std::vector<MotionWatch>& motions
       Deadline(kSameCycle_s));
 }
 
+/// Throws what stopped any of them, a fault or a load, and with it what stopped others: once all have come to rest, at most a time-out
+/// later, and where others only stopped with it, a moment after that: who drove into something, too, may show it then.
+void check_stops(Client& client, std::vector<MotionWatch>& motions) {
+  constexpr double kMoment_s = 0.3;
+  const auto stopped = [](MotionWatch& motion) { return motion.faulted() || motion.yielded(); };
+  if (std::none_of(motions.begin(), motions.end(), stopped)) return;
+  const auto tracks = [](const MotionWatch& motion) { return mode_of(motion.view()) == Mode::kTracking; };
+  client.wait_until([&] { return std::none_of(motions.begin(), motions.end(), tracks); },
+                    Deadline(client.options().timeout_s));
+  client.wait_until([&] { return std::all_of(motions.begin(), motions.end(), stopped); },
+                    Deadline(kMoment_s));
+  std::vector<Faulted> faults;
+  std::vector<Yielded> yields;
+  for (MotionWatch& motion : motions) {
+    if (motion.faulted())
+      faults.push_back(motion.fault());
+    else if (motion.yielded())
+      yields.push_back(motion.yield());
+  }
+  std::vector<ClientError> each(faults.begin(), faults.end());
+  each.insert(each.end(), yields.begin(), yields.end());
+  const std::string text = lines_of(each);
+  if (each.size() == 1) each.clear();
+  if (!faults.empty())
+    throw Faulted(text, faults.front().details().joint, faults.front().fault(), std::move(each));
+  if (!yields.empty())
+    throw Yielded(text, yields.front().details().joint, yields.front().to(), std::move(each));
+}
+
 /// Returns once all of them are done. A fault, or a yield, is told before what it made of those that move with the joint.
 /// `look`: see wait_until_arrived().
 void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
@@ -117,8 +142,7 @@ void wait_for_motions(Client& client, std::vector<MotionWatch> motions,
     client.wait_until([&] { return view.messages != seen; }, Deadline(kLook_s));
     wait_for_the_others(client, motions);
     const double timeout_s = client.options().timeout_s;
-    for (const MotionWatch& motion : motions) motion.check_fault();
-    for (MotionWatch& motion : motions) motion.check_yield(client, timeout_s);
+    check_stops(client, motions);
     std::erase_if(motions, [&](MotionWatch& motion) { return motion.look(timeout_s); });
     if (look && !motions.empty()) look();
   }

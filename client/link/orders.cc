@@ -41,10 +41,12 @@ Mode mode_of(const JointView& view) {
   return static_cast<Mode>(view.state.mode);
 }
 
-Faulted faulted(const std::string& joint, const JointView& view) {
-  const auto fault = static_cast<Fault>(view.state.fault);
-  return {fmt::format("{}: faulted ({}: {}); once the cause is gone: strainwavectl clear-fault {}", joint,
-                      view.state.fault, fault_words(fault, view.state.drive_error), joint),
+Faulted faulted(const Client& client, const std::string& joint) {
+  const state_v1& state = client.find(joint)->state;
+  const auto fault = static_cast<Fault>(state.fault);
+  return {fmt::format("{}: faulted ({}: {}); once the cause is gone: {}", joint, state.fault,
+                      fault_words(fault, state.drive_error),
+                      client.advice("Joint::clear_fault()", "clear-fault", joint)),
           joint, fault};
 }
 
@@ -62,6 +64,12 @@ Yielded yielded(const std::string& joint, const std::string& undone, const Joint
                       plain_zero(state.yield_position_rad), now),
           joint,
           {state.yield_load_Nm, state.yield_limit_Nm, state.yield_position_rad}};
+}
+
+std::string lines_of(const std::vector<ClientError>& errors) {
+  std::string text;
+  for (const ClientError& error : errors) text += (text.empty() ? "" : "\n") + std::string(error.what());
+  return text;
 }
 
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
@@ -85,7 +93,7 @@ bool enable_joint(Client& client, const std::string& joint) {
   const JointView& view = *client.find(joint);
   const Deadline old_states(kOldStates_s);
   wait_for_mode(client, joint, [&] {
-    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
+    if (mode_of(view) == Mode::kFaulted) throw faulted(client, joint);
     if (mode_of(view) == Mode::kOff && old_states.passed())
       throw NotDone(joint + ": went back to off while it was starting; see the daemon's log", joint);
     return is_enabled(mode_of(view));
@@ -118,7 +126,7 @@ void send_stop(Client& client, const std::string& joint, Action stop) {
 void wait_until_off(Client& client, const std::string& joint) {
   const JointView& view = client.wait_for_joint(joint);
   wait_for_mode(client, joint, [&] {
-    if (mode_of(view) == Mode::kFaulted) throw faulted(joint, view);
+    if (mode_of(view) == Mode::kFaulted) throw faulted(client, joint);
     return mode_of(view) == Mode::kOff;
   });
 }

@@ -4,6 +4,7 @@
 
 #include <strainwave/command_v1.hpp>
 #include <string>
+#include <vector>
 
 #include "client/link/client.h"
 #include "client/link/client_error.h"
@@ -16,12 +17,15 @@ inline constexpr double kOldStates_s = 0.2;
 
 Mode mode_of(const JointView& view);
 
-/// The joint has a latched fault, in words and as an error.
-Faulted faulted(const std::string& joint, const JointView& view);
+/// The joint, which is heard, has a latched fault, in words and as an error.
+Faulted faulted(const Client& client, const std::string& joint);
 
 /// The joint has yielded to a load since it was last set moving (docs/faults.md, "Contact"); likewise. `undone`: what came of it, in words.
 bool has_yielded(const JointView& view);
 Yielded yielded(const std::string& joint, const std::string& undone, const JointView& view);
+
+/// What went wrong with each of several joints, a line for each.
+std::string lines_of(const std::vector<ClientError>& errors);
 
 /// Throws Refused with the reason unless `answer` accepts what `what` names.
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,

@@ -63,6 +63,7 @@ CLI::Option* add_positive(CLI::App& command, const std::string& name, double& va
 
 void add_common_options(CLI::App& app, Invocation& invocation) {
   invocation.options.all_prefixes = true;
+  invocation.options.names_commands = true;
   app.add_option("--lcm-url", invocation.lcm_url, "the LCM network")
       ->envname("LCM_DEFAULT_URL")
       ->capture_default_str()

@@ -62,11 +62,7 @@ void add_joints(Json& json, const std::string& joint, const std::vector<std::str
     json["joints"] = named;
 }
 
-Json json_of(ExitStatus status, const std::string& text, const ClientError::Details& details,
-             const FailedCommand& command) {
-  Json json{{"error", kind_of(status, details)}, {"exit_status", static_cast<int>(status)}};
-  if (!command.command.empty()) json["command"] = command.command;
-  add_joints(json, details.joint, command.joints);
+void add_details(Json& json, const ClientError::Details& details) {
   if (details.reason) {
     json["reason"] = static_cast<int>(*details.reason);
     json["reason_text"] = to_text(*details.reason);
@@ -80,7 +76,19 @@ Json json_of(ExitStatus status, const std::string& text, const ClientError::Deta
     json["yield_limit_Nm"] = details.yielded_to->limit_Nm;
     json["yield_position_rad"] = details.yielded_to->position_rad;
   }
-  if (details.each.empty()) add_allowed(json, text);
+}
+
+Json json_of(ExitStatus status, const std::string& text, const ClientError::Details& details,
+             const FailedCommand& command) {
+  Json json{{"error", kind_of(status, details)}, {"exit_status", static_cast<int>(status)}};
+  if (!command.command.empty()) json["command"] = command.command;
+  if (details.each.empty()) {
+    add_joints(json, details.joint, command.joints);
+    add_details(json, details);
+    add_allowed(json, text);
+  } else {
+    add_joints(json, "", command.joints);
+  }
   for (const ClientError& one : details.each)
     json["failures"].push_back(
         json_of(one.status(), printable_lines(one.what()), one.details(), {command.command, {}}));

@@ -21,12 +21,14 @@ namespace strainwave {
 
 namespace {
 
+constexpr std::size_t kTerminalColumns = 80;
+
 constexpr std::array kNotices{
     Notice::kTorqueLimited, Notice::kTemperatureClamped, Notice::kFallbackGains, Notice::kSetpointExpired,
     Notice::kReadingMissed, Notice::kSpeedLimited,       Notice::kNotHomed,      Notice::kAtLimitSwitch,
     Notice::kPlainLaw,      Notice::kOffStream,          Notice::kPositionLate,  Notice::kOffTarget,
     Notice::kLoadHigh,      Notice::kOtherInertia,       Notice::kPathPaused,    Notice::kPathEnds,
-    Notice::kYielded};
+    Notice::kYielded,       Notice::kSamplesMissing};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
@@ -50,6 +52,15 @@ std::string meaning(std::string_view field, const state_v1& state) {
     return fmt::format("{}", fmt::join(texts, ", "));
   }
   return "";
+}
+
+/// `notes` in lines below a joint's.
+std::string indented(const std::string& notes) {
+  constexpr std::size_t kIndent = 2;
+  std::string text;
+  for (const std::string& line : wrapped(notes, kTerminalColumns - kIndent, notes.size()))
+    text += "\n" + std::string(kIndent, ' ') + line;
+  return text;
 }
 
 }  // namespace
@@ -113,20 +124,28 @@ std::string temperature_text(double temperature_C) {
   return std::isnan(temperature_C) ? "-" : fmt::format("{:+.1f}", without_negative_zero(temperature_C, 1));
 }
 
-std::string state_header() {
-  return fmt::format("{:<12} {:<9} {:>13} {:>14} {:>10} {:>9} {:>13}  {:<16}  {}", "joint", "mode",
-                     "setpoint_rad", "position_rad", "error_rad", "torque_Nm", "temperature_C", "gains",
-                     "notes");
+std::size_t name_columns(const std::vector<JointName>& names) {
+  std::size_t columns = 12;  // of a usual name
+  for (const JointName& name : names) columns = std::max(columns, display_name(name, names).size());
+  return columns;
 }
 
-std::string state_row(const std::string& joint, const JointView& view, double age_s) {
+std::string state_header(std::size_t name_columns) {
+  return fmt::format("{:<{}} {:<9} {:>12} {:>12} {:>9} {:>9} {:>6}", "joint", name_columns, "mode",
+                     "setpoint_rad", "position_rad", "error_rad", "torque_Nm", "temp_C");
+}
+
+std::string state_row(const std::string& joint, std::size_t name_columns, const JointView& view,
+                      double age_s) {
   const state_v1& state = view.state;
-  return fmt::format(
-      "{:<12} {:<9} {:>+13.6f} {:>+14.6f} {:>+10.1e} {:>+9.3f} {:>13}  {:<16}  {}", joint,
+  std::string row = fmt::format(
+      "{:<{}} {:<9} {:>+12.6f} {:>+12.6f} {:>+9.1e} {:>+9.3f} {:>6}", joint, name_columns,
       to_text(static_cast<Mode>(state.mode)), without_negative_zero(state.setpoint_position_rad, 6),
       without_negative_zero(state.joint_position_rad, 6), tracking_error_rad(view),
-      without_negative_zero(state.torque_commanded_Nm, 3), temperature_text(state.temperature_used_C),
-      to_text(static_cast<GainsInUse>(state.gains_in_use)), state_notes(view, age_s));
+      without_negative_zero(state.torque_commanded_Nm, 3), temperature_text(state.temperature_used_C));
+  const std::string notes = state_notes(view, age_s);
+  if (!notes.empty()) row += indented(notes);
+  return row;
 }
 
 std::string state_notes(const JointView& view, double age_s) {

@@ -33,11 +33,16 @@ double without_negative_zero(double value, int decimals) noexcept;
 /// "+21.5", or "-" as long as no temperature is known: temperature_status tells why.
 std::string temperature_text(double temperature_C);
 
-/// Column titles of state_row().
-std::string state_header();
+/// Of a column in which the names of all of them stand.
+std::size_t name_columns(const std::vector<JointName>& names);
 
-/// One joint in one line: what is wanted, what is, and why not. `age_s`: since the state was received.
-std::string state_row(const std::string& joint, const JointView& view, double age_s);
+/// Column titles of state_row().
+std::string state_header(std::size_t name_columns);
+
+/// One joint in one line of a terminal of 80 columns: what is wanted, what is; and its notes, if it has any, in lines below it.
+/// `age_s`: since the state was received.
+std::string state_row(const std::string& joint, std::size_t name_columns, const JointView& view,
+                      double age_s);
 
 /// What an operator should know beyond the numbers: fault, limits in force, silence, two daemons; empty when
 /// all is well.

@@ -44,7 +44,7 @@ void draw_daemon(const WatchedDaemon& daemon, Screen& screen, int row) {
       fmt::format("{}: {}{} at {:g} ms", daemon.prefix,
                   silent ? fmt::format("SILENT for {:.0f} s, ", daemon.age_s) : "",
                   timing.real_time == 1 ? "real time" : "not real time", 1e3 * timing.period_s),
-      fmt::format("{} overruns", timing.overruns), fmt::format("{} refused", refused),
+      counted(timing.overruns, "overrun"), fmt::format("{} refused", refused),
       fmt::format("wake-up {:.0f} us", static_cast<double>(timing.wakeup_latency_max_ns) * 1e-3),
       fmt::format("execution {:.0f} us", static_cast<double>(timing.execution_time_max_ns) * 1e-3)};
   screen.put_fitting(row, 0, fitting(parts, ", ", screen.columns()), silent ? Style::kAlarm : Style::kPlain);

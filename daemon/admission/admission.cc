@@ -77,7 +77,8 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
     return refuse(requester, Reason::kWrongSession,
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is " + std::to_string(session_id_) +
-                      " (session_id on the STATE channel): send again");
+                      " (session_id on the STATE channel): it was started anew since; see what the joint "
+                      "does, then give the order anew");
   if (auto verdict = check_fresh(message, envelope.challenge, requester)) return verdict;
   if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
   return envelope.needs_joint ? check_owner(requester) : std::nullopt;

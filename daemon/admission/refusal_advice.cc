@@ -23,8 +23,8 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
   const std::string limit = bound_text(reply.limit);
   if (is_of_path(kind)) {
     if (reply.reason == Reason::kWrongMode)
-      text << ": " << reply.value << " of the path's " << reply.limit
-           << " joints have their part of it: send the others (PATH), then resume";
+      text << ": the path has the parts of " << reply.value << " of its " << reply.limit
+           << " joints: send the others (PATH), then resume";
     else
       text << ": the path begins " << value << " rad from where "
            << (kind == OrderKind::kLoadPath ? "it" : "one of its joints") << " is to be, at most " << limit
@@ -120,7 +120,7 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
              ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
              "give it anew";
     case Reason::kNotHomed:
-      return mode + ", and its position is not known: strainwavectl home first";
+      return mode + ", and its position is not known: home it first";
     case Reason::kAtLimitSwitch:
       return mode + " at a limit switch: only a move away from it is possible";
     case Reason::kNoHoming:

@@ -248,6 +248,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   if (const auto path = ordered_.path(); path && path->paused) notice(Notice::kPathPaused);
   if (ordered_.ends_path()) notice(Notice::kPathEnds);
   if (yield_) notice(Notice::kYielded);
+  if (ordered_.streamed() && controller_.ran_out_of_samples()) notice(Notice::kSamplesMissing);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad =

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "drivers/can/can_bus.h"
 
 namespace strainwave {
@@ -155,8 +156,8 @@ void CanBus::tell_losses() {
   if (dropped + lost + errors == losses_told_ || now_ns - losses_told_ns_ < kTellEvery_ns) return;
   losses_told_ = dropped + lost + errors;
   losses_told_ns_ = now_ns;
-  say({config_.interface_name + ": since the start " + std::to_string(dropped) + " frames were not sent, " +
-       std::to_string(lost) + " were lost on the way in, " + std::to_string(errors) + " error frames came"});
+  say({config_.interface_name + ": since the start " + counted(dropped, "frame") + " not sent, " +
+       std::to_string(lost) + " lost on the way in, " + counted(errors, "error frame")});
 }
 
 }  // namespace strainwave

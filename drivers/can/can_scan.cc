@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/printable.h"
 #include "drivers/can/can_interface.h"
 #include "drivers/can/can_socket.h"
 #include "drivers/can/canopen/sdo_client.h"
@@ -54,7 +55,7 @@ void read_temperatures(SdoClient& client, ScannedNode& node) {
       if (value.size() > 4) continue;
       std::string line = to_text(known.entry) + " (" + known.who + "): raw " +
                          std::to_string(little_endian(value.data(), value.size())) + ", " +
-                         std::to_string(value.size()) + " bytes";
+                         counted(value.size(), "byte");
       node.temperatures.push_back(std::move(line));
     } catch (const canopen::SdoError& error) {
       if (!error.no_such_entry()) throw;

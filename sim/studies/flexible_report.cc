@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "base/printable.h"
 #include "sim/studies/statistics.h"
 
 namespace strainwave {
@@ -154,7 +155,7 @@ TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector
 TextTable flexible_summary(const std::string& title, const std::vector<FlexibleRow>& rows,
                            const std::vector<Contender>& contenders) {
   TextTable table;
-  table.title = title + ", " + std::to_string(rows.size()) + " cells";
+  table.title = title + ", " + counted(rows.size(), "cell");
   table.header = {"controller",
                   "link over limit, mean",
                   "95 %",

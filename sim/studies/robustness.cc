@@ -7,6 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/parallel.h"
+#include "base/printable.h"
 #include "sim/studies/link_limit.h"
 #include "sim/studies/statistics.h"
 #include "sim/studies/time_optimal.h"
@@ -130,7 +131,7 @@ TextTable robustness_table(const std::vector<RobustnessDraw>& draws,
 TextTable robustness_summary(const std::vector<RobustnessDraw>& draws,
                              const std::vector<Contender>& contenders) {
   TextTable table;
-  table.title = "Over " + std::to_string(draws.size()) + " joints";
+  table.title = "Over " + counted(draws.size(), "joint");
   table.header = {"controller",
                   "PI2/limit median",
                   "95 %",

@@ -4,6 +4,8 @@
 
 #include <chrono>
 
+#include "base/printable.h"
+
 namespace strainwave {
 
 namespace {
@@ -69,7 +71,7 @@ void ViewerConnection::report_drops() {
   if (queue_.dropped() == reported_drops_) return;
   reported_drops_ = queue_.dropped();
   say(status(StatusLevel::kWarning,
-             fmt::format("{} messages were dropped: this connection is too slow", reported_drops_),
+             counted(reported_drops_, "message") + " had to be dropped: this connection is too slow",
              "dropped"));
 }
 

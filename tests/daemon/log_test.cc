@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -52,6 +53,34 @@ TEST(Log, TakesOneLineFromWhateverSomebodySends) {
 TEST(Log, KeepsWhatPeopleWriteAsItIs) {
   const std::string text = logged([] { spdlog::info("elbow: 5 \u00b0C, \u00fcber [0, 1]: {}", 0.5); });
   EXPECT_EQ(text, "<6>elbow: 5 \u00b0C, \u00fcber [0, 1]: 0.5\n");
+}
+
+TEST(Log, TellsHowManyLinesNobodyTook) {
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(pipe[1], STDERR_FILENO);
+  start_logging();
+  std::string text(std::size_t{1} << 20U, '\0');
+  const auto told_after_losing = [&](int lines) {
+    ::fcntl(pipe[1], F_SETFL, O_NONBLOCK);
+    while (::write(pipe[1], text.data(), 4096) > 0) {
+    }
+    ::fcntl(pipe[1], F_SETFL, 0);
+    for (int i = 0; i < lines; ++i) spdlog::info("lost");
+    (void)!::read(pipe[0], text.data(), text.size());
+    spdlog::info("read");
+    spdlog::default_logger()->flush();
+    return text.substr(
+        0, static_cast<std::size_t>(std::max<ssize_t>(0, ::read(pipe[0], text.data(), text.size()))));
+  };
+  const std::string one = told_after_losing(1);
+  const std::string two = told_after_losing(2);
+  ::dup2(before, STDERR_FILENO);
+  start_logging();
+  for (const int file : {before, pipe[0], pipe[1]}) ::close(file);
+  EXPECT_NE(one.find(": 1 line of this log got lost"), std::string::npos) << one;
+  EXPECT_NE(two.find(": 2 lines of this log got lost"), std::string::npos) << two;
 }
 
 TEST(LoopLog, NamesTheLoadThatAJointYieldedToWhatIsAllowedAndWhere) {

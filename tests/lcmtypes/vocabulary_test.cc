@@ -68,7 +68,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {8192, Notice::kOtherInertia, "inertia not as told"},
                                      {16384, Notice::kPathPaused, "path paused"},
                                      {32768, Notice::kPathEnds, "path ends early"},
-                                     {65536, Notice::kYielded, "yielded to a load"}};
+                                     {65536, Notice::kYielded, "yielded to a load"},
+                                     {131072, Notice::kSamplesMissing, "samples missing"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},

@@ -110,7 +110,7 @@ class Conversation:
             if answer is None:
                 raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after "
                                f"{most_transmissions(len(message.encode()))} transmissions: {self._why_no_answer()} Whether the order was carried "
-                               "out is not known: look at the state")
+                               "out is not known: see Joint.state")
             if answer.accepted == 1:
                 return
             if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):

@@ -11,7 +11,12 @@ def shown(value):
 
 
 class StrainwaveError(Exception):
-    """Any of the following."""
+    """Any of the following.
+
+    each: of several joints the error of each that was stopped; all else of this one is of the first. Of one joint it is empty.
+    """
+
+    each = ()
 
 
 class InvalidInput(StrainwaveError, ValueError):
@@ -38,7 +43,7 @@ class Faulted(StrainwaveError):
     """The joint has a latched fault. fault: Fault; `words`: its text, with the cause where that is known."""
 
     def __init__(self, joint, fault, words=""):
-        super().__init__(f"{joint}: faulted ({int(fault)}: {words or fault.text}); once the cause is gone: clear_fault()")
+        super().__init__(f"{joint}: faulted ({int(fault)}: {words or fault.text}); once the cause is gone: Joint.clear_fault()")
         self.joint, self.fault = joint, fault
 
 

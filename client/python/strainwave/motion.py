@@ -12,6 +12,7 @@ LONGEST_PATH_S = 3600.0  # kLongestPath_s of the daemon
 _LOOK_S = 0.01
 _SAME_CYCLE_S = 0.05  # between the states of a cycle
 _STAY_S = 0.1
+_MOMENT_S = 0.3
 
 
 def degrees_hint(position_rad):
@@ -111,19 +112,14 @@ class MotionWatch:
         self._old_states_end_s = now_s() + OLD_STATES_S
         self._seen = False
 
-    def check_fault(self):
-        """Raises Faulted."""
-        if self.conversation.state.mode == Mode.FAULTED:
-            raise faulted(self.conversation)
-
-    def check_yield(self):
-        """Raises Yielded, or the Faulted that came of it, once the joint rests or the conversation's patience ends."""
-        conversation = self.conversation
-        if self._replaced is None or not self._in_force(conversation.state) or not has_yielded(conversation.state):
-            return
-        conversation.network.wait_until(lambda: conversation.state.mode != Mode.TRACKING, conversation.timeout_s)
-        self.check_fault()
-        raise yielded(conversation, f"did not {self._purpose}")
+    def stop(self):
+        """The Faulted of a joint that is, or the Yielded of one that has in this motion; else None."""
+        state = self.conversation.state
+        if state.mode == Mode.FAULTED:
+            return faulted(self.conversation)
+        if self._replaced is not None and self._in_force(state) and has_yielded(state):
+            return yielded(self.conversation, f"did not {self._purpose}")
+        return None
 
     def _in_force(self, state):
         # Whether the state is of this motion, or of what came after it.
@@ -146,6 +142,27 @@ class MotionWatch:
         return self._done(state)
 
 
+def _stops(motions):
+    stops = [stop for motion in motions if (stop := motion.stop()) is not None]
+    return sorted(stops, key=lambda stop: not isinstance(stop, Faulted))
+
+
+def _check_stops(motions):
+    # What stopped any of them is told with what stopped others: once all have come to rest, or the first one's patience ends; and where
+    # others only stopped with it, a moment after that: who drove into something, too, may show it then.
+    if not _stops(motions):
+        return
+    first = motions[0].conversation
+    first.network.wait_until(lambda: all(motion.conversation.state.mode != Mode.TRACKING for motion in motions), first.timeout_s)
+    first.network.wait_until(lambda: len(_stops(motions)) == len(motions), _MOMENT_S)
+    each = _stops(motions)
+    if len(each) == 1:
+        raise each[0]
+    for error in _stops(motions)[:1]:
+        error.each, error.args = tuple(each), ("\n".join(map(str, each)),)
+        raise error
+
+
 def wait_for_motions(motions, look=lambda: None):
     """Returns once all of them are done. Raises Faulted or Yielded of one of them before it asks why those that move with it ended.
     look() is called again and again meanwhile, and may raise.
@@ -157,10 +174,7 @@ def wait_for_motions(motions, look=lambda: None):
         first.network.wait_until(lambda: first.messages != seen, _LOOK_S)
         # States of one cycle come one after the other.
         first.network.wait_until(lambda: all(motion.conversation.state.cycle >= first.state.cycle for motion in under_way), _SAME_CYCLE_S)
-        for motion in under_way:
-            motion.check_fault()
-        for motion in under_way:
-            motion.check_yield()
+        _check_stops(under_way)
         under_way = [motion for motion in under_way if not motion.look()]
         if under_way:
             look()

@@ -9,6 +9,7 @@ from .setpoint_v2 import setpoint_v2
 from .vocabulary import Mode, Reason
 
 FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
+_ANOTHER_ONE = "this stream is over; Joint.stream() makes another one"
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
 
@@ -57,6 +58,7 @@ class Stream:
         self._last_t = None
         self._last_cycle = None  # of the last sample that was sent; None: the stream has not begun, or is over
         self._first_cycle = 0  # of the sample that it began with
+        self._session_id = 0  # of the daemon that it began with
         self._over = False  # closed, or ended by somebody
 
     def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None, *, torque_Nm=0.0, load_inertia_kgm2=0.0):
@@ -67,7 +69,9 @@ class Stream:
         is over. Raises Refused, Faulted, Yielded, NotDone (also when the stream is over), NoAnswer, InvalidInput.
         """
         if self._over:  # not begun anew by the next sample: somebody may have ended it for a reason
-            raise NotDone(f"{self._joint.name}: this stream is over; Joint.stream() makes another one")
+            raise NotDone(f"{self._joint.name}: {_ANOTHER_ONE}")
+        if self._last_cycle is not None:
+            self._check_restart()
         t = self._checked("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
         most_Nm = self._joint.limits.torque_limit_Nm
@@ -97,7 +101,8 @@ class Stream:
         network, conversation = self._conversation.network, self._conversation
         try:
             self._check_refusals()
-            if not network.wait_until(lambda: conversation.state.cycle >= self._last_cycle, self._ahead_s + conversation.timeout_s):
+            if not network.wait_until(lambda: self._restarted() or conversation.state.cycle >= self._last_cycle,
+                                      self._ahead_s + conversation.timeout_s):
                 raise conversation.fell_silent("fell silent before the stream's end")
             self._check_refusals()
         finally:
@@ -156,6 +161,7 @@ class Stream:
 
         self._conversation.request("SETPOINT", message, f"the first setpoint of the stream, {message.position_rad} rad,", prepare)
         self._last_cycle = self._first_cycle = message.at_cycle
+        self._session_id = self._conversation.state.session_id
         return True
 
     def _now_cycle(self):
@@ -165,7 +171,7 @@ class Stream:
     def _wait_until_due(self, cycle):
         wait_s = (cycle - self._now_cycle()) * self._period_s - self._ahead_s
         # A refusal needs no waiting for the time that it is too late for.
-        self._conversation.network.wait_until(lambda: self._conversation.has_refusals, max(0.0, wait_s))
+        self._conversation.network.wait_until(lambda: self._conversation.has_refusals or self._restarted(), max(0.0, wait_s))
 
     # A sample that quotes an old state is refused. After a while in which this program stood still, those that came meanwhile go first.
     def _wait_for_new_states(self, cycle):
@@ -179,22 +185,25 @@ class Stream:
         while (refusal := self._conversation.take_refusal()) is not None:
             reason, text, overtaken = refusal
             if reason != Reason.TOO_OLD and not overtaken:
-                if reason in (Reason.FAULTED, Reason.STREAM_ENDED):
+                if reason in (Reason.FAULTED, Reason.STREAM_ENDED, Reason.WRONG_SESSION):
                     self._check_joint()
-                if reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
+                ends = reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED, Reason.WRONG_SESSION)
+                if ends:
                     self._lose()
-                raise Refused(self._joint.name, "a setpoint of the stream", reason, text)
+                raise Refused(self._joint.name, "a setpoint of the stream", reason, text, _ANOTHER_ONE if ends else "")
             self.late += 1
 
     # A refusal may be here before the state that says why.
     def _check_joint(self):
         conversation = self._conversation
         seen = conversation.messages
-        conversation.network.wait_until(lambda: conversation.state.mode == Mode.FAULTED or conversation.messages > seen + 1, OLD_STATES_S)
+        conversation.network.wait_until(
+            lambda: conversation.state.mode == Mode.FAULTED or self._restarted() or conversation.messages > seen + 1, OLD_STATES_S)
         self._check_state(conversation.state.cycle)
 
     # Before `from_cycle` a yield may be one from before the stream.
     def _check_state(self, from_cycle):
+        self._check_restart()
         state = self._conversation.state
         if state.mode == Mode.FAULTED:
             self._lose()
@@ -202,6 +211,16 @@ class Stream:
         if has_yielded(state) and state.cycle >= from_cycle:
             self._lose()
             raise yielded(self._conversation, "did not follow the stream to its end")
+
+    # Each daemon counts its own cycles: the samples' times are none of the new one's.
+    def _restarted(self):
+        return self._conversation.state.session_id != self._session_id
+
+    def _check_restart(self):
+        if self._restarted():
+            self._lose()
+            raise NotDone(f"{self._joint.name}: did not follow the stream to its end: the daemon was restarted, and the joint is "
+                          f"{Mode(self._conversation.state.mode)}; enable it, and go on with a new stream: Joint.stream()")
 
     # Whoever, or whatever, ended it has the joint.
     def _lose(self):

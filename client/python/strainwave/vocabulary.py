@@ -168,6 +168,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     PATH_PAUSED = 1 << 14
     PATH_ENDS = 1 << 15
     YIELDED = 1 << 16
+    SAMPLES_MISSING = 1 << 17
 
     @property
     def texts(self):
@@ -199,6 +200,7 @@ _NOTICE_TEXTS = {
     Notice.PATH_PAUSED: "path paused",
     Notice.PATH_ENDS: "path ends early",
     Notice.YIELDED: "yielded to a load",
+    Notice.SAMPLES_MISSING: "samples missing",
 }
 
 

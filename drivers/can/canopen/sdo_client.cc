@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "base/printable.h"
 #include "drivers/can/hexadecimal.h"
 
 namespace strainwave::canopen {
@@ -123,8 +124,7 @@ std::uint64_t SdoClient::upload_number(Entry entry, std::size_t bytes) {
   const bool padded = value.size() == 4 && bytes < 4;
   if (value.size() != bytes && !padded)
     throw SdoError(who_ + ": node " + std::to_string(node_) + ": reading " + to_text(entry) + ": " +
-                       std::to_string(value.size()) + " bytes came, " + std::to_string(bytes) +
-                       " were expected",
+                       counted(value.size(), "byte") + " came in place of " + std::to_string(bytes),
                    static_cast<std::uint32_t>(SdoAbort::kLengthMismatch));
   return little_endian(value.data(), bytes);
 }

@@ -4,6 +4,7 @@
 
 #include "base/durations.h"
 #include "base/input_error.h"
+#include "base/printable.h"
 #include "drivers/can/cia402/cia402_setup.h"
 
 namespace strainwave::cia402 {
@@ -40,8 +41,8 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
           if (frame.id != pdo->cob_id(config.node_id) || pdo->objects.empty()) continue;
           if (frame.size != pdo->bytes())
             throw InputError(who + "TPDO" + std::to_string(pdo->number) + " has " +
-                             std::to_string(frame.size) + " bytes instead of the " +
-                             std::to_string(pdo->bytes()) + " that were mapped");
+                             counted(frame.size, "byte") + " instead of the " + std::to_string(pdo->bytes()) +
+                             " of its mapping");
           *seen = true;
         }
       }

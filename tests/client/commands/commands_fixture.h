@@ -34,7 +34,7 @@ class CommandsTest : public ::testing::Test {
 
   Connection connection{"memq://"};
   FakeDaemon daemon{connection, "SW", "elbow"};
-  Client client{connection, {"SW", 0.3}};
+  Client client{connection, {.prefix = "SW", .timeout_s = 0.3, .names_commands = true}};
   std::ostringstream stream;
   Output output{stream, false};
   std::string message;

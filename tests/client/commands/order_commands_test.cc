@@ -97,7 +97,7 @@ TEST_F(CommandsTest, EnableReportsAFaultDuringTheStart) {
   daemon.modes_after_answer = {Mode::kStarting, Mode::kFaulted};
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kRefused);
   EXPECT_TRUE(message_has("drive did not enable in time")) << message;
-  EXPECT_TRUE(message_has("clear-fault elbow")) << message;
+  EXPECT_TRUE(message_has("; once the cause is gone: strainwavectl clear-fault elbow")) << message;
 }
 
 TEST_F(CommandsTest, EnableThatNeverEndsIsNoSuccess) {

@@ -76,6 +76,8 @@ TEST_F(JointTest, TellsOfAFaultByItsNumber) {
     FAIL() << "did not fault";
   } catch (const Faulted& error) {
     EXPECT_EQ(error.fault(), Fault::kOverload);
+    EXPECT_STREQ(error.what(),
+                 "elbow: faulted (24: load too large); once the cause is gone: Joint::clear_fault()");
   }
 }
 

@@ -59,6 +59,21 @@ TEST_F(ClientTest, RepeatsWhatANetworkCutsIntoPacketsOftenerAndSaysHowOften) {
   EXPECT_EQ(daemon.heard().size(), 18U);
 }
 
+TEST_F(ClientTest, SaysWhereToLookWhenNothingAnswersInTheWordsOfItsUser) {
+  daemon.publish_state();
+  daemon.drop = 100;
+  EXPECT_TRUE(failure("elbow").ends_with("is not known: see Joint::state()")) << failure("elbow");
+  Client command_line{connection, {.prefix = "SW", .timeout_s = kShort_s, .names_commands = true}};
+  daemon.publish_state();
+  try {
+    (void)command_line.request("elbow", channel_kind::kSetpoint, setpoint_v2{});
+    ADD_FAILURE() << "nothing answered";
+  } catch (const NoAnswer& error) {
+    EXPECT_TRUE(std::string(error.what()).ends_with("is not known: see strainwavectl status elbow"))
+        << error.what();
+  }
+}
+
 TEST_F(ClientTest, SaysThatTheDaemonSpeaksAnotherVersion) {
   std::vector<std::uint8_t> older = encode(state_v1{});
   ++older[3];  // of the type's fingerprint

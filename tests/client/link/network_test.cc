@@ -45,6 +45,18 @@ TEST(ClientOverMulticast, GetsOrdersDoneAndShowsTheirEffect) {
   EXPECT_NE(status.out.find("\"target_position_rad\": -0.125"), std::string::npos) << status.out;
 }
 
+TEST(ClientOverMulticast, NamesTheCommandThatClearsAFault) {
+  const std::string url = own_url();
+  RunningDaemon daemon(url);
+  daemon.daemon().after_answer = [&] {
+    daemon.daemon().state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+  };
+  const Result moved = run(url, {"move", "elbow", "0.5", "--wait"});
+  EXPECT_EQ(moved.status, ExitStatus::kRefused);
+  EXPECT_NE(moved.err.find("; once the cause is gone: strainwavectl clear-fault elbow\n"), std::string::npos)
+      << moved.err;
+}
+
 TEST(ClientOverMulticast, RecordsWhatItReceives) {
   const std::string url = own_url();
   const RunningDaemon daemon(url);

@@ -26,6 +26,8 @@ class RunningDaemon {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
+  /// Says nothing any more, but hears.
+  void fall_silent() noexcept { silent_ = true; }
   FakeDaemon& daemon() noexcept {
     return daemon_;
   }  ///< to be set up before the first order, to be looked at after stop()
@@ -34,8 +36,11 @@ class RunningDaemon {
  private:
   void run() {
     while (!stop_) {
+      if (silent_) daemon_.drop = 1;
       while (connection_.handle(1)) {
+        if (silent_) daemon_.drop = 1;
       }
+      if (silent_) continue;
       daemon_.publish_state();
       cycle_ = daemon_.state.cycle;
       if (cycle_ % kLimitsEvery == 1) daemon_.publish_limits();
@@ -47,6 +52,7 @@ class RunningDaemon {
   Connection connection_;
   FakeDaemon daemon_;
   std::atomic<bool> stop_{false};
+  std::atomic<bool> silent_{false};
   std::atomic<std::int64_t> cycle_{0};
   std::thread thread_;
 };

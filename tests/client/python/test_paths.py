@@ -105,12 +105,35 @@ class Paths(PlayedOrders):
             self.publish_state(Mode.TRACKING, cycle=5, target_position_rad=0.3)
             time.sleep(0.005)
             self.publish_state(Mode.HOLDING, joint="wrist", joint_position_rad=0.2871, **YIELDED)
+            self.publish_state(Mode.HOLDING, notices=0)
 
         later = threading.Timer(0.05, give_way)
         later.start()
         self.addCleanup(later.join)
         with self.assertRaisesRegex(Yielded, "^wrist: did not arrive at 0.75 rad: it yielded to a load of 13.1 N.m"):
             path.wait()
+
+    def test_tell_of_each_joint_that_was_stopped_a_fault_first(self):
+        wrist = Joint("wrist", key="", timeout_s=30)
+        path = Path({self.elbow: self.KNOTS, wrist: self.KNOTS})
+        for ends, words, kind in ((dict(mode=Mode.HOLDING), r"^elbow: did not arrive at 0.75 rad: it yielded .*\nwrist: did not arrive .*: it yielded", Yielded),
+                                  (dict(mode=Mode.FAULTED, fault=24), r"^wrist: faulted .24: .*; once the cause is gone: Joint.clear_fault..\nelbow: did not arrive", Faulted)):
+            self.publish_state(Mode.TRACKING, target_position_rad=0.75, notices=0, fault=0, cycle=1)
+            self.publish_state(Mode.TRACKING, joint="wrist")
+
+            def give_way():
+                self.publish_state(Mode.HOLDING, cycle=5, target_position_rad=0.3, **YIELDED)
+                self.publish_state(Mode.HOLDING, joint="wrist", notices=0)
+                time.sleep(0.02)
+                self.publish_state(joint="wrist", **(YIELDED | ends))
+
+            later = threading.Timer(0.05, give_way)
+            later.start()
+            self.addCleanup(later.join)
+            with self.subTest(kind), self.assertRaisesRegex(kind, words) as caught:
+                path.wait()
+            self.assertEqual({error.joint for error in caught.exception.each}, {"elbow", "wrist"})
+            self.assertEqual(caught.exception.each[0].each, ())
 
     def test_return_when_all_joints_are_there(self):
         wrist = Joint("wrist", key="", timeout_s=30)

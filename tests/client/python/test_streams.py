@@ -115,7 +115,7 @@ class Streams(PlayedOrders):
         self.assertEqual(self.orders()[-1].challenge, 23)
 
     def test_that_have_ended_raise_with_the_next_sample(self):
-        for reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED):
+        for reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED, Reason.WRONG_SESSION):
             with self.subTest(reason):
                 def daemon(*entry):
                     order = published(*entry)
@@ -126,7 +126,7 @@ class Streams(PlayedOrders):
                 stream = self.stream(ahead_s=0.9)
                 stream.put(0, 0.1)
                 stream.put(0.01, 0.1)
-                with self.assertRaises(Refused) as caught:
+                with self.assertRaisesRegex(Refused, "; this stream is over; Joint.stream.. makes another one$") as caught:
                     stream.put(0.02, 0.1)
                 self.assertIs(caught.exception.reason, reason)
                 with self.assertRaisesRegex(NotDone, "this stream is over"):
@@ -150,6 +150,46 @@ class Streams(PlayedOrders):
         stream.put(0, 0.1)
         stream.put(0.01, 0.1)
         return stream
+
+    def test_that_a_restart_of_the_daemon_ended_say_so_and_what_to_do(self):
+        words = ("^elbow: did not follow the stream to its end: the daemon was restarted, and the joint is off; enable it, "
+                 "and go on with a new stream: Joint.stream..$")
+        for reason in (Reason.WRONG_SESSION, Reason.STREAM_ENDED):
+            def daemon(channel, message):
+                order = published(channel, message)
+                self.answer(order, order.begins_stream, reason if not order.begins_stream else Reason.ACCEPTED)
+                if not order.begins_stream:
+                    later = threading.Timer(0.02, self.publish_state, [Mode.OFF], dict(session_id=12))
+                    later.start()
+                    self.addCleanup(later.join)
+
+            self.state.session_id = 11
+            self.network.published.clear()
+            self.network.daemon = daemon
+            with self.subTest(reason):
+                with self.assertRaisesRegex(NotDone, words), self.stream(ahead_s=0.9) as stream:
+                    for t in (0, 0.01, 0.02):
+                        stream.put(t, 0.1)
+                with self.assertRaisesRegex(NotDone, "this stream is over"):
+                    stream.put(0.03, 0.1)
+                self.assertEqual([channel for channel, _ in self.network.published], [SETPOINT] * 2, "the joint is off: there is nothing to hold")
+
+    def test_wait_for_no_cycle_that_a_restarted_daemon_is_far_from(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        for end in (lambda stream: stream.put(0.01, 0.1), lambda stream: stream.close()):
+            self.state.session_id = 11
+            stream = self.stream(ahead_s=0.9)
+            stream.put(0, 0.1)
+            later = threading.Timer(0.05, self.publish_state, [Mode.OFF], dict(session_id=12, cycle=0))
+            self.publish_state(Mode.TRACKING, cycle=1001)
+            later.start()
+            self.addCleanup(later.join)
+            self.network.deliver("LIMITS", self.limits)
+            begin = time.monotonic()
+            with self.assertRaisesRegex(NotDone, "the daemon was restarted"):
+                end(stream)
+                stream.put(0.5, 0.1)
+            self.assertLess(time.monotonic() - begin, 20)
 
     def test_that_a_fault_ended_raise_it_and_are_over(self):
         stream = self.stream_ended(Reason.FAULTED, Mode.FAULTED, fault=14)

@@ -69,6 +69,21 @@ TEST(FailureJson, HasTheLoadThatAJointYieldedToWhatWasAllowedAndWhere) {
   EXPECT_FALSE(json.contains("reason") || json.contains("fault") || json.contains("allowed"));
 }
 
+TEST(FailureJson, OfSeveralJointsThatWereStoppedHasEach) {
+  const std::vector<ClientError> each{Faulted("elbow: faulted", "elbow", Fault::kOverload),
+                                      Yielded("wrist: yielded", "wrist", {-13.1042, 12.0, 0.3011})};
+  const auto json = json_of(Faulted("elbow: faulted\nwrist: yielded", "elbow", Fault::kOverload, each),
+                            {"move", {"elbow", "wrist", "hand"}});
+  EXPECT_EQ(json.at("error"), "faulted");
+  EXPECT_EQ(json.at("joints"), nlohmann::json({"elbow", "wrist", "hand"}));
+  EXPECT_FALSE(json.contains("joint") || json.contains("fault"));
+  ASSERT_EQ(json.at("failures").size(), 2U);
+  EXPECT_EQ(json.at("failures")[0].at("joint"), "elbow");
+  EXPECT_EQ(json.at("failures")[0].at("fault"), 24);
+  EXPECT_EQ(json.at("failures")[1].at("joint"), "wrist");
+  EXPECT_EQ(json.at("failures")[1].at("yield_load_Nm"), -13.1042);
+}
+
 TEST(FailureJson, NamesWhatWentWrongByTheExitStatus) {
   EXPECT_EQ(json_of(InvalidInput("x")).at("error"), "wrong input");
   EXPECT_EQ(json_of(NoAnswer("x")).at("error"), "no answer");

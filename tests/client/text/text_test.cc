@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 #include "client/link/client_error.h"
 #include "lcmtypes/vocabulary.h"
@@ -75,9 +76,8 @@ TEST(StateRow, ShowsWhatIsWantedWhatIsAndTheDifference) {
   view.state.torque_commanded_Nm = -3.25;
   view.state.temperature_used_C = -10.0;
   view.state.gains_in_use = 1;
-  const std::string row = state_row("elbow", view, 0.0);
-  for (const char* part :
-       {"elbow", "holding", "+0.100000", "+0.100002", "-2.0e-06", "-3.250", "-10.0", "scheduled"}) {
+  const std::string row = state_row("elbow", 12, view, 0.0);
+  for (const char* part : {"elbow", "holding", "+0.100000", "+0.100002", "-2.0e-06", "-3.250", "-10.0"}) {
     EXPECT_NE(row.find(part), std::string::npos) << part << " in " << row;
   }
 }
@@ -90,7 +90,7 @@ TEST(StateRow, ShowsNoNegativeZero) {
   view.state.torque_applied_Nm = -0.0;
   view.state.temperature_used_C = -0.04;
   view.state.target_position_rad = -0.0;
-  const std::string row = state_row("elbow", view, 0.0);
+  const std::string row = state_row("elbow", 12, view, 0.0);
   EXPECT_EQ(row.find("-0.0"), std::string::npos) << row;
   const std::string details =
       state_details("elbow", view, 0.0);  // digit for digit, but for the sign of nothing
@@ -98,7 +98,7 @@ TEST(StateRow, ShowsNoNegativeZero) {
   EXPECT_NE(details.find("-0.0004"), std::string::npos) << details;
   view.state = healthy().state;
   view.state.setpoint_position_rad = -0.0;
-  EXPECT_NE(state_row("elbow", view, 0.0).find("+0.0e+00"), std::string::npos);
+  EXPECT_NE(state_row("elbow", 12, view, 0.0).find("+0.0e+00"), std::string::npos);
 }
 
 TEST(NegativeZero, IsPlainAndAllElseIsKept) {
@@ -115,19 +115,42 @@ TEST(StateRow, ShowsNoNumberForATemperatureThatWasNeverSeen) {
   JointView view = healthy();
   view.state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
   view.state.temperature_status = static_cast<std::int32_t>(TemperatureStatus::kNeverSeen);
-  const std::string row = state_row("elbow", view, 0.0);
+  const std::string row = state_row("elbow", 12, view, 0.0);
   EXPECT_EQ(row.find("nan"), std::string::npos) << row;
-  EXPECT_NE(row.find("  -  none"), std::string::npos) << row;
-  EXPECT_NE(row.find("temperature never seen"), std::string::npos) << row;
+  EXPECT_NE(row.find("   -\n  temperature never seen"), std::string::npos) << row;
   const std::string details = state_details("elbow", view, 0.0);
   EXPECT_NE(details.find("nan (no plausible value yet)"), std::string::npos) << details;
 }
 
 TEST(StateRow, StandsUnderItsHeader) {
-  const std::string header = state_header();
-  const std::string row = state_row("elbow", healthy(), 0.0);
-  EXPECT_EQ(header.find("gains"), row.find("none"));
+  const std::string header = state_header(12);
+  const std::string row = state_row("elbow", 12, healthy(), 0.0);
   EXPECT_EQ(header.find("mode"), row.find("holding"));
+  EXPECT_EQ(header.size(), row.size());
+}
+
+TEST(StateRow, FitsIntoATerminalOf80ColumnsWithItsNotesBelow) {
+  JointView view = healthy();
+  view.state.mode = static_cast<std::int32_t>(Mode::kReleasing);
+  view.state.setpoint_position_rad = -123.456789;
+  view.state.joint_position_rad = 3.14159265;
+  view.state.torque_commanded_Nm = -123.456;
+  view.state.temperature_used_C = -10.25;
+  view.state.fault = static_cast<std::int32_t>(Fault::kGroup);
+  view.state.notices = (1 << 18) - 1;
+  const std::size_t columns = name_columns({{"SW", "elbow"}, {"SW", "shoulder_pitch_3"}});
+  std::istringstream lines(state_header(columns) + "\n" + state_row("shoulder_pitch_3", columns, view, 2.5));
+  std::string line, text;
+  for (int i = 0; std::getline(lines, line); ++i) {
+    EXPECT_LE(line.size(), 80U) << line;
+    if (i < 2) {
+      EXPECT_EQ(line.size(), 16U + 63U) << line;
+      continue;
+    }
+    EXPECT_TRUE(line.starts_with("  ")) << line;
+    text += line.substr(1);
+  }
+  EXPECT_EQ(text, " " + state_notes(view, 2.5)) << "nothing of the notes is lost";
 }
 
 TEST(StateNotes, AreEmptyWhenAllIsWell) {

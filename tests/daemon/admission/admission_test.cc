@@ -179,7 +179,11 @@ TEST_F(AdmissionTest, DiscardsOtherPrefixesUnknownJointsAndKinds) {
 TEST_F(AdmissionTest, RefusesAnotherSession) {
   setpoint_v2 message = setpoint(0.5);
   message.session_id = kSession + 1;
-  EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kWrongSession);
+  const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
+  EXPECT_EQ(verdict.reason, Reason::kWrongSession);
+  EXPECT_TRUE(
+      verdict.text.ends_with("it was started anew since; see what the joint does, then give the order anew"))
+      << verdict.text;
 }
 
 TEST_F(AdmissionTest, RepeatsAResentOrderAndRefusesAnOlderOne) {

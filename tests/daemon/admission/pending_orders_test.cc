@@ -113,6 +113,8 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
                    "which ended this stream", "begin a new one once it holds"});
   expect_mentions(refusal(OrderKind::kUseTable, {0, Reason::kOutOfRange, Mode::kHolding, 8.0, 12.5}),
                   {"the table's torque_limit_Nm", "may carry 8 N.m", "12.5 N.m", "at least"});
+  expect_mentions(refusal(OrderKind::kResumePath, {0, Reason::kWrongMode, Mode::kHolding, 1.0, 2.0}),
+                  {"the path has the parts of 1 of its 2 joints: send the others"});
 }
 
 TEST_F(PendingOrdersTest, ThatDoNothingInTheModeThatTheyMetSayWhatDoes) {

@@ -350,6 +350,47 @@ TEST(JointLoopStreaming, RefuseASampleForACycleThatIsOverOrFarAway) {
   EXPECT_EQ(bench.last_reply().limit, 1.0);
 }
 
+TEST(JointLoopStreaming, TellThatSamplesAreMissingFromTheStopOnUntilOneComesOrTheyExpire) {
+  JointBench bench({demo_joint()});
+  bench.bring_to_hold(0);
+  const auto told = [&] { return bench.has_notice(0, Notice::kSamplesMissing); };
+  const auto send = [&](std::int64_t period) {
+    Order order = sample({.derivatives = 1}, bench.cycle() + 1, period);
+    order.valid_for_s = 1.0;
+    return bench.order(0, order);
+  };
+  for (int k = 0; k < 20; ++k) {
+    ASSERT_EQ(send(10 * k), Reason::kAccepted);
+    bench.run(0.009);
+    EXPECT_FALSE(told()) << k;
+  }
+  const std::int64_t missing = bench.step_until(told, 1000);
+  EXPECT_GT(missing, 40) << "it is bridged first";
+  EXPECT_LT(missing, 200) << "it stops then, and tells so while it does";
+  EXPECT_GT(bench.state(0).setpoint_velocity_rad_s, 0.5);
+  bench.run(0.5);
+  EXPECT_TRUE(told()) << "as long as it rests";
+  EXPECT_EQ(bench.mode(0), Mode::kTracking);
+  ASSERT_EQ(send(900), Reason::kAccepted);
+  EXPECT_FALSE(told()) << "it goes on";
+  ASSERT_GT(bench.step_until(told, 1000), 0);
+  ASSERT_GT(bench.step_until([&] { return !told(); }, 2000), 0);
+  EXPECT_TRUE(bench.has_notice(0, Notice::kSetpointExpired)) << "which takes its place";
+  ASSERT_EQ(bench.move(0, 0.1), Reason::kAccepted);
+  bench.step();
+  EXPECT_FALSE(told()) << "a move needs no samples";
+}
+
+TEST(JointLoopStreaming, ThatEndAtRestMissNoSamples) {
+  JointBench bench({demo_joint()});
+  bench.bring_to_hold(0);
+  for (int k = 0; k < 20; ++k) {
+    ASSERT_EQ(bench.move(0, 0.001 * std::min(k, 15), 1.0, k == 0), Reason::kAccepted);
+    bench.run(0.009);
+  }
+  EXPECT_EQ(bench.step_until([&] { return bench.has_notice(0, Notice::kSamplesMissing); }, 900), -1);
+}
+
 TEST(JointLoopStreaming, AreForgottenByTheNextEnable) {
   const auto shows_expiry = [](JointBench& bench) {
     return (bench.state(0).notices & static_cast<std::int32_t>(Notice::kSetpointExpired)) != 0;

@@ -102,7 +102,8 @@ TEST_F(StateRecordTest, ShowsAYieldAsLongAsTheJointIsToTellOfIt) {
 }
 
 TEST_F(StateRecordTest, TellsTheFlightRecorderOfEveryNotice) {
-  for (std::uint32_t notice = 1; notice <= static_cast<std::uint32_t>(Notice::kYielded); notice <<= 1U) {
+  for (std::uint32_t notice = 1; notice <= static_cast<std::uint32_t>(Notice::kSamplesMissing);
+       notice <<= 1U) {
     record_.state.notices = static_cast<std::int32_t>(notice);
     EXPECT_EQ(flight_sample(record_, time_, DriveState::kEnabled, true).notices, notice);
   }

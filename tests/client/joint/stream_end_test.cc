@@ -1,0 +1,234 @@
+// How a stream ends: by its close, by an exception, by what became of the joint or of its daemon.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v2.hpp>
+
+#include "tests/client/joint/stream_fixture.h"
+
+namespace strainwave {
+namespace {
+
+using testing::StreamTest;
+
+TEST_F(StreamTest, EndsInAHoldOnceItsLastSamplesTimeHasCome) {
+  {
+    auto stream = joint.stream();
+    stream.put(0.0, 0.1);
+    stream.put(0.2, 0.1);
+  }
+  const std::int64_t end = daemon.cycle();
+  const auto setpoints = heard<setpoint_v2>();
+  const auto commands = heard<command_v1>();
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
+  EXPECT_GE(end, setpoints.back().at_cycle);
+}
+
+TEST_F(StreamTest, OfAJointThatHasFallenSilentIsClosedByAHoldThatIsSentOnce) {
+  {
+    Joint impatient{"elbow", {.key = "", .lcm_url = own_url(), .timeout_s = 0.5}};
+    auto stream = impatient.stream();
+    stream.put(0.0, 0.1);
+    daemon.fall_silent();
+    try {
+      stream.close();
+      ADD_FAILURE() << "something answered";
+    } catch (const NoAnswer& error) {
+      EXPECT_TRUE(
+          std::string(error.what()).starts_with("elbow: the stop was sent 4 times, and nothing answered: "))
+          << error.what();
+      EXPECT_NE(std::string(error.what()).find("its state stopped coming"), std::string::npos)
+          << error.what();
+    }
+    EXPECT_NO_THROW(stream.close()) << "it is";
+  }
+  const auto commands = heard<command_v1>();
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
+}
+
+TEST_F(StreamTest, WhoseCloseFindsARefusalHoldsAndThenTellsIt) {
+  daemon.daemon().after_answer = [this] {
+    daemon.daemon().reason = daemon.daemon().heard().size() == 1 ? Reason::kOutOfRange : Reason::kAccepted;
+  };
+  auto stream = joint.stream({.ahead_s = 0.9});
+  stream.put(0.0, 0.1);
+  stream.put(0.01, 0.1);
+  EXPECT_THROW(stream.close(), Refused);
+  const auto commands = heard<command_v1>();
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
+}
+
+TEST_F(StreamTest, HoldsAtOnceAfterAnException) {
+  struct Trouble {};
+  try {
+    auto stream = joint.stream({.ahead_s = 0.9});
+    stream.put(0.0, 0.1);
+    stream.put(0.5, 0.1);
+    throw Trouble{};
+  } catch (const Trouble&) {
+  }
+  const auto setpoints = heard<setpoint_v2>();
+  const auto commands = heard<command_v1>();
+  ASSERT_EQ(commands.size(), 1U);
+  EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
+  EXPECT_LT(daemon.cycle(), setpoints.back().at_cycle);
+}
+
+TEST_F(StreamTest, HoldsAfterARefusal) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kOutOfRange; };
+  const auto ride = [this] {
+    auto stream = joint.stream({.ahead_s = 0.9});
+    for (int i = 0; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+  };
+  EXPECT_THROW(ride(), Refused);
+  const auto commands = heard<command_v1>();
+  ASSERT_FALSE(commands.empty());
+  EXPECT_EQ(commands.back().action, static_cast<std::int32_t>(Action::kHold));
+}
+
+// A played daemon for each reason: samples of the first stream are still on their way when it has ended.
+class EndedStreamTest : public StreamTest, public ::testing::WithParamInterface<Reason> {};
+
+TEST_P(EndedStreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = GetParam(); };
+  auto stream = joint.stream();
+  stream.put(0.0, 0.1);
+  try {
+    for (int i = 1; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+    FAIL() << "went on";
+  } catch (const Refused& error) {
+    EXPECT_EQ(error.reason(), GetParam());
+    EXPECT_TRUE(
+        std::string(error.what()).ends_with("; this stream is over; Joint::stream() makes another one"))
+        << error.what();
+  }
+  EXPECT_THROW(stream.put(20.0, 0.1), NotDone) << "over";
+}
+INSTANTIATE_TEST_SUITE_P(ForEachReason, EndedStreamTest,
+                         ::testing::Values(Reason::kStreamEnded, Reason::kSuperseded, Reason::kWrongSession));
+
+// A played daemon that stays silent about its joint, and refuses what comes, until the joint has come to its end.
+class StoppedStreamTest : public StreamTest {
+ protected:
+  Stream begun() {
+    auto stream = joint.stream({.ahead_s = 0.9, .valid_for_s = 10.0});
+    stream.put(0.0, 0.1);
+    return stream;
+  }
+  /// What the put that finds it out throws.
+  template <typename Error>
+  void expect_over(Stream& stream, const std::function<void(const Error&)>& look) {
+    double t_s = 0.0;
+    try {
+      while (t_s < 10.0) stream.put(t_s += 0.01, 0.1);
+      FAIL() << "went on";
+    } catch (const Error& error) {
+      look(error);
+    }
+    EXPECT_THROW(stream.put(20.0, 0.1), NotDone) << "over";
+    for (const command_v1& command : heard<command_v1>()) ADD_FAILURE() << command.action << " was sent";
+  }
+};
+
+TEST_F(StoppedStreamTest, ThrowsTheFaultThatEndedIt) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] {
+    if (played.heard().size() > 1) played.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+    played.reason = Reason::kFaulted;
+    played.state.fault = static_cast<std::int32_t>(Fault::kFollowingError);
+  };
+  auto stream = begun();
+  expect_over<Faulted>(stream,
+                       [](const Faulted& error) { EXPECT_EQ(error.fault(), Fault::kFollowingError); });
+}
+
+// The new daemon counts its cycles from 0: those of the samples would never come.
+TEST_F(StoppedStreamTest, ThrowsThatTheDaemonWasRestartedAndWhatToDo) {
+  auto& played = daemon.daemon();
+  played.state.cycle = 1'000'000'000;
+  played.after_answer = [&] {
+    played.reason = Reason::kWrongSession;
+    if (played.heard().size() < 2) return;
+    played.state.session_id = 78;
+    played.state.cycle = 0;
+    played.state.mode = static_cast<std::int32_t>(Mode::kOff);
+  };
+  auto stream = begun();
+  expect_over<NotDone>(stream, [](const NotDone& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "elbow: did not follow the stream to its end: the daemon was restarted, and the joint is off; "
+        "enable it, and go on with a new stream: Joint::stream()");
+  });
+}
+
+TEST_F(StoppedStreamTest, ThrowsTheFaultThoughNoRefusalCame) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] {
+    if (played.heard().size() > 1) played.state.mode = static_cast<std::int32_t>(Mode::kFaulted);
+  };
+  auto stream = begun();
+  expect_over<Faulted>(stream, [](const Faulted&) {});
+}
+
+TEST_F(StoppedStreamTest, IsNotOverForALoadThatMayBeOfBefore) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] { played.show_yield(); };
+  auto stream = begun();
+  EXPECT_TRUE(stream.put(0.001, 0.1));
+  EXPECT_TRUE(stream.put(0.002, 0.1));
+  expect_over<Yielded>(stream, [](const Yielded&) {});
+}
+
+TEST_F(StoppedStreamTest, ThrowsTheRefusalOfAFaultThatSomebodyHasCleared) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kFaulted; };
+  auto stream = begun();
+  try {
+    for (int i = 1; i < 1000; ++i) stream.put(0.01 * i, 0.1);
+    FAIL() << "went on";
+  } catch (const Refused& error) {
+    EXPECT_EQ(error.reason(), Reason::kFaulted);
+  }
+}
+
+TEST_F(StoppedStreamTest, ThrowsTheLoadThatTheJointYieldedTo) {
+  auto& played = daemon.daemon();
+  played.after_answer = [&] {
+    if (played.heard().size() > 1) played.show_yield();
+    played.reason = Reason::kStreamEnded;
+  };
+  auto stream = begun();
+  expect_over<Yielded>(stream, [](const Yielded& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "elbow: did not follow the stream to its end: it yielded to a load of 13.1 N.m (load_Nm allows "
+        "12) at 0.3011 rad; it holds at 0.1 rad");
+    EXPECT_EQ(error.to().load_Nm, -13.1042);
+    EXPECT_EQ(error.to().position_rad, 0.3011);
+  });
+}
+
+TEST_F(StreamTest, IsNotBegunAnewByASampleAfterItsEnd) {
+  daemon.daemon().after_answer = [this] { daemon.daemon().reason = Reason::kStreamEnded; };
+  auto ended = joint.stream({.ahead_s = 0.9});
+  ended.put(0.0, 0.1);
+  double t_s = 0.0;
+  EXPECT_THROW(while (t_s < 10.0) ended.put(t_s += 0.01, 0.1), Refused);
+  daemon.daemon().after_answer = nullptr;
+  daemon.daemon().reason = Reason::kAccepted;
+  EXPECT_THROW(ended.put(t_s + 0.5, 0.1), NotDone) << "somebody else has ended it";
+  auto closed = joint.stream({.ahead_s = 0.9});
+  closed.put(0.0, 0.2);
+  closed.close();
+  EXPECT_THROW(closed.put(0.5, 0.2), NotDone);
+  int begun = 0;
+  for (const setpoint_v2& setpoint : heard<setpoint_v2>()) begun += setpoint.begins_stream;
+  EXPECT_EQ(begun, 2);
+}
+
+}  // namespace
+}  // namespace strainwave

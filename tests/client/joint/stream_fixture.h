@@ -1,0 +1,33 @@
+// A joint of the library and the daemon of three lines that hears its streams.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "client/joint/joint.h"
+#include "lcmtypes/wire.h"
+#include "tests/client/link/running_daemon.h"
+
+namespace strainwave::testing {
+
+class StreamTest : public ::testing::Test {
+ protected:
+  /// What was heard, without repetitions, once the daemon is silent.
+  template <typename Message>
+  std::vector<Message> heard() {
+    daemon.stop();
+    std::vector<Message> messages;
+    for (const FakeDaemon::Heard& order : daemon.daemon().heard()) {
+      const auto message = decode_exactly<Message>(order.bytes);
+      if (message && (messages.empty() || messages.back().sequence != message->sequence))
+        messages.push_back(*message);
+    }
+    return messages;
+  }
+
+  RunningDaemon daemon{own_url()};
+  Joint joint{"elbow", {.key = "", .lcm_url = own_url(), .timeout_s = 20.0}};
+};
+
+}  // namespace strainwave::testing
