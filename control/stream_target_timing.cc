@@ -173,6 +173,11 @@ void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
   clock_in(sample, knot.sent + sender_.offset());
   knot.clocked = arrival_;
   weigh_rhythm(knot);
+  // Nobody sends a sample before its time.
+  if (in_rhythm_ && seconds(knot.clocked - knot.sent - sender_.offset()) > kJitter_s) {
+    in_rhythm_ = false;
+    out_of_rhythm_ = 0.0;
+  }
   const auto at = [&](const Knot& one) { return in_rhythm_ ? on_grid(one) : one.sent + sender_.offset(); };
   knot.at = at(knot);
   for (std::size_t i = 0; i < past_count_; ++i)

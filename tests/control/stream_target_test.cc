@@ -574,6 +574,55 @@ TEST(StreamTarget, UsesNoneOfTheVelocitiesOfAStreamInWhichMostAreWrong) {
       }
 }
 
+// Where samples have times of their own, velocities that are a little wrong would be accelerations, to and fro, from sample to sample: the more,
+// the faster they come.
+TEST(StreamTarget, UsesNoVelocitiesThatAreALittleWrongWherePositionsTell) {
+  struct Mistake {
+    const char* name;
+    std::function<double(double t_s, double interval_s)> told_rad_s;
+  };
+  const auto true_rad_s = [](double t_s) { return sine(t_s, 1).velocity_rad_s; };
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const std::vector<Mistake> mistakes = {
+      {"none", [&](double t_s, double) { return true_rad_s(t_s); }},
+      {"0.5 % too little", [&](double t_s, double) { return 0.995 * true_rad_s(t_s); }},
+      {"2 % too much", [&](double t_s, double) { return 1.02 * true_rad_s(t_s); }},
+      {"5 % too little", [&](double t_s, double) { return 0.95 * true_rad_s(t_s); }},
+      {"20 % too much", [&](double t_s, double) { return 1.2 * true_rad_s(t_s); }},
+      {"20 ms late", [&](double t_s, double) { return true_rad_s(t_s - 0.02); }},
+      {"0.3 s late", [&](double t_s, double) { return true_rad_s(t_s - 0.3); }},
+      {"backward differences",
+       [&](double t_s, double interval_s) {
+         return (sine(t_s, 0).position_rad - sine(t_s - interval_s, 0).position_rad) / interval_s;
+       }},
+      {"noise", [&](double t_s, double) { return true_rad_s(t_s) + 0.05 * normal(random); }}};
+  for (const Mistake& mistake : mistakes)
+    for (const int rate_Hz : {20, 50, 100, 200, 500, 1000}) {
+      Following following;
+      following.begin(0.0);
+      const int every = 1000 / rate_Hz;
+      double hardest_rad_s2 = 0.0, farthest_rad = 0.0;
+      for (int k = 0; k < 6000; ++k) {
+        if (k % every == 0) {
+          const double t_s = (k + 60) * kPeriod_s;
+          StreamSample sample = sine(t_s, 1);
+          sample.velocity_rad_s = mistake.told_rad_s(t_s, kPeriod_s * every);
+          sample.in_periods = 60;
+          following.take(sample);
+        }
+        const Reference reference = following.step();
+        if (k < 500) continue;
+        hardest_rad_s2 = std::max(hardest_rad_s2, std::abs(reference.acceleration_rad_s2));
+        farthest_rad = std::max(farthest_rad, std::abs(reference.position_rad - sine(k * kPeriod_s, 0).position_rad));
+      }
+      std::printf("%s at %d Hz: %.1f %.2f\n", mistake.name, rate_Hz, hardest_rad_s2, 1e3*farthest_rad);
+      EXPECT_LT(hardest_rad_s2, 1.5 * kAmplitude_rad * kOmega_rad_s * kOmega_rad_s)
+          << mistake.name << " at " << rate_Hz << " Hz";
+      EXPECT_LT(farthest_rad, 0.5e-3) << mistake.name << " at " << rate_Hz << " Hz";
+    }
+}
+
 // Near what the joint can just do, and with a few samples a swing, who follows is always late: it must not chase the sine away.
 TEST(StreamTarget, StaysWithTheSamplesOfASineThatItCannotFollow) {
   constexpr MotionLimits limits{4.0, 30.0, 30.0};
