@@ -230,14 +230,14 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
 }
 
 // A count, where the joint turns round and breaks away, shifts feedback and disturbance alike, by newton metres, and the turn of the motion turns
-// what is estimated of friction: more steps than the motion asks for. What the plan itself needs of the model has none of it. A correction at rest
-// begins with the law's push, which is no answer to a reading, and is over before one could be eased.
+// what is estimated of friction: more steps than the motion asks for. What the plan itself needs of the model has none of it, and what pushes a
+// joint at rest is no answer to a reading: a motion that begins amid a push would have it on top of its own friction.
 void JointController::ease_answer(ControllerOutput& output, int elapsed_periods) noexcept {
   if (!config_.rigid) return;
   const bool planned = phase_ == MotionPhase::kTracking && torque_is_planned();
   const double by_model_Nm = planned ? planned_torque_Nm({}) : 0.0;
-  if (!planned || !streamed() || corrects_ || fallen_back())
-    return answer_.jump_to(output.torque_Nm - by_model_Nm);
+  if (!planned && observing()) return answer_.jump_to(state_.now().disturbance.load_Nm);
+  if (!planned || !streamed() || fallen_back()) return answer_.jump_to(output.torque_Nm - by_model_Nm);
   const double least_Nm = kLeastAnswer * torque_limit_Nm_;
   answer_.follow(output.feedback_torque_Nm + output.feedforward_torque_Nm - by_model_Nm, least_Nm,
                  kAnswersTwice * least_Nm, elapsed_periods);

@@ -92,6 +92,48 @@ TEST(RestingPath, IsLeftBySlowBreakAwayWhateverTheFriction) {
   }
 }
 
+/// In 0.4 s, by one knot half-way.
+KnotPath between(double from_rad, double to_rad) {
+  KnotPath path;
+  path.knots[0] = {0.0, from_rad, 0.0};
+  path.knots[1] = {0.2, 0.5 * (from_rad + to_rad), 1.5 / 0.4 * (to_rad - from_rad)};
+  path.knots[2] = {0.4, to_rad, 0.0};
+  path.count = 3;
+  return path;
+}
+
+/// How far the joint is from its setpoint at most on a path back that begins so many periods after the one there has ended.
+double farthest_back_rad(int gap, double temperature_C, double friction) {
+  BenchJoint joint = demo_joint_with_friction(friction);
+  joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  begin(bench, between(0.0, 0.02));
+  bench.run(0.05);
+  EXPECT_GT(bench.step_until([&] { return bench.mode(0) == Mode::kHolding; }, 1000), 0);
+  for (int k = 0; k < gap; ++k) bench.step();
+  begin(bench, between(0.02, 0.0));
+  double farthest_rad = 0.0, last_rad = bench.state(0).setpoint_position_rad;
+  for (int k = 0; k < 400; ++k) {
+    bench.step();
+    const double at_rad = bench.drive(0).simulated().plant().state().position_rad;
+    farthest_rad = std::max(farthest_rad, std::abs(at_rad - last_rad));
+    last_rad = bench.state(0).setpoint_position_rad;
+  }
+  return farthest_rad;
+}
+
+// Where it landed just then, the push to the last counts was taken for an answer to a reading: up to 1.5 mrad off, of one gap in 25.
+TEST(RestingPath, IsLeftAmidALandingAsFromRest) {
+  double farthest_rad = 0.0;
+  for (const double friction : {0.8, 1.0, 1.2})
+    for (const double temperature_C : {-8.0, 5.0, 25.0})
+      for (int gap = 0; gap < 150; gap += 3)
+        farthest_rad = std::max(farthest_rad, farthest_back_rad(gap, temperature_C, friction));
+  std::printf("after gaps: %.2f mrad off at most\n", 1e3 * farthest_rad);
+  EXPECT_LT(farthest_rad, 0.4e-3);
+}
+
 /// How a joint comes back to where its path rests, and stays there.
 struct Return {
   int starts = 0;  ///< of its setpoint

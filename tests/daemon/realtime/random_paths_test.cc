@@ -198,7 +198,7 @@ TEST_F(RandomPaths, AreFollowedByRigidJoints) {
     follow_all(Kind::kRigid, bounds);
 }
 
-// Likewise 2, 3 and 8 rides, up to 0.72 mrad; the mean that keeps the jerk takes 0.06 of them from the setpoint.
+// Likewise 1, 3 and 8 rides, up to 0.64 mrad; the mean that keeps the jerk takes 0.06 of them from the setpoint.
 TEST_F(RandomPaths, AreFollowedByJointsWithAJerkLimit) {
   for (const Bounds& bounds : {Bounds{1.0, 0.1e-3, 0.85e-3, 0.95}, Bounds{0.8, 0.1e-3, 0.85e-3, 0.95},
                                Bounds{1.2, 0.1e-3, 0.85e-3, 0.9}})
