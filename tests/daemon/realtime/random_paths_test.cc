@@ -21,6 +21,8 @@ constexpr double kJerk_rad_s3 = 6000.0;
 /// What moderate paths need, with what a joint that breaks away, or lands, gets besides; of the 34 that the drive has. A spring has no landings.
 constexpr double kMostTorque_Nm = 23.0;
 constexpr double kMostTorqueOnSpring_Nm = 12.0;
+/// The limit of a weak joint.
+constexpr double kWeak_Nm = 12.0;
 /// Limits are kept but for rounding.
 constexpr double kKept = 1.0 + 1e-6;
 /// As far as a joint is to be from its path at most, at moderate speed.
@@ -34,7 +36,7 @@ constexpr double kToRest_s = 0.2;
 /// That a setpoint, of which a state tells, is later than its path goes on: half of a jerk limit's mean.
 constexpr int kLagPeriods = 6;
 
-enum class Kind { kRigid, kJerkLimited, kSpring };
+enum class Kind { kRigid, kWeak, kJerkLimited, kSpring };
 
 /// What must hold of joints of one kind with so many times the table's friction; what 144 rides, 12 rounds, showed stands by the tests.
 struct Bounds {
@@ -50,6 +52,7 @@ BenchJoint joint_of(Kind kind, double friction, double temperature_C, std::uint6
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
   joint.drive.seed = seed;
   joint.loop.controller.motion = kMotion;
+  if (kind == Kind::kWeak) joint.loop.controller.torque_limit_Nm = kWeak_Nm;
   if (kind == Kind::kJerkLimited) joint.loop.controller.jerk_limit_rad_s3 = kJerk_rad_s3;
   // What the daemon takes for too large a load where nobody says it.
   joint.loop.limits.load = {};
@@ -105,8 +108,10 @@ void expect_within_limits(Kind kind, bool paused, const RideRecord& record) {
   const int none_of = static_cast<int>(Notice::kLoadHigh) | static_cast<int>(Notice::kYielded) |
                       static_cast<int>(Notice::kOffStream);
   EXPECT_EQ(record.notices & none_of, 0);
-  EXPECT_LE(record.torque_Nm.value, kind == Kind::kSpring ? kMostTorqueOnSpring_Nm : kMostTorque_Nm)
-      << record.torque_Nm.text();
+  const double most_Nm = kind == Kind::kSpring ? kMostTorqueOnSpring_Nm
+                         : kind == Kind::kWeak ? kWeak_Nm
+                                               : kMostTorque_Nm;
+  EXPECT_LE(record.torque_Nm.value, most_Nm) << record.torque_Nm.text();
   EXPECT_LE(record.speed_rad_s.value, record.path_speed_rad_s.value * (kind == Kind::kSpring ? 1.1 : 1.01))
       << record.speed_rad_s.text();
   // What a link on a spring gives its motor to do besides is more than the link's.
@@ -198,7 +203,14 @@ TEST_F(RandomPaths, AreFollowedByRigidJoints) {
     follow_all(Kind::kRigid, bounds);
 }
 
-// Likewise 1, 3 and 8 rides, up to 0.64 mrad; the mean that keeps the jerk takes 0.06 of them from the setpoint.
+// What is fed forward, and what answers to readings, changed by shares of the joint's own limit: of 144 rides with 0.8 of the friction 20 were
+// beyond 0.5 mrad (2.5), with 1.2 of it 21.
+TEST_F(RandomPaths, AreFollowedByWeakJointsAsByStrongOnes) {
+  for (const Bounds& bounds : {Bounds{0.8, 1e-6, 0.75e-3, 0.95}, Bounds{1.2, 1e-6, 0.75e-3, 0.9}})
+    follow_all(Kind::kWeak, bounds);
+}
+
+// As many as strong rigid ones: 1, 3 and 8 rides, up to 0.64 mrad; the mean that keeps the jerk takes 0.06 of them from the setpoint.
 TEST_F(RandomPaths, AreFollowedByJointsWithAJerkLimit) {
   for (const Bounds& bounds : {Bounds{1.0, 0.1e-3, 0.85e-3, 0.95}, Bounds{0.8, 0.1e-3, 0.85e-3, 0.95},
                                Bounds{1.2, 0.1e-3, 0.85e-3, 0.9}})
