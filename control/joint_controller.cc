@@ -158,6 +158,7 @@ void JointController::start(double position_rad, double velocity_rad_s,
   hold_torque_Nm_ = holding_torque_Nm.value_or(gravity_Nm);
   handover_.reset();
   reference_rest_s_ = 0.0;
+  corrects_ = false;
   follows_ = Follows::kTarget;
   told_load_ = {};
   shown_load_Nm_ = state_.now().disturbance.load_Nm;
@@ -170,6 +171,7 @@ void JointController::limit_speed(double speed_limit_rad_s) noexcept {
 
 void JointController::new_target() noexcept {
   link_share_ = 1.0;
+  corrects_ = false;
   attempts_.new_target();
   enter(MotionPhase::kTracking);
 }
@@ -235,7 +237,8 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   result.joint_velocity_rad_s = state_.then().velocity_rad_s;
   result.gains_in_use = law_.gains_in_use();
   result.at_target = plan_.rests() && !(linked() && link_motion_->moves());
-  result.off_stream = streamed() && std::abs(plan_.target_rad() - plan_.position_rad()) > kOnStream_rad;
+  result.off_stream =
+      streamed() && !corrects_ && std::abs(plan_.target_rad() - plan_.position_rad()) > kOnStream_rad;
   result.phase = phase_;
   result.estimate = state_.now();
   result.load_Nm = shown_load_Nm_;

@@ -60,7 +60,7 @@ struct JointStep {
   double joint_velocity_rad_s = 0.0;  ///< measured or estimated, as the feedback used it
   GainsInUse gains_in_use = GainsInUse::kNone;
   bool at_target = false;  ///< the reference has ended on the target
-  /// The reference is not where the stream is: the limits do not let it, or not yet.
+  /// The reference is not where the stream is: the limits do not let it, or not yet. Not while a joint corrects its place at rest.
   bool off_stream = false;
   MotionPhase phase = MotionPhase::kTracking;
   JointEstimate estimate;  ///< of this sample
@@ -254,6 +254,7 @@ class JointController {
   double shown_load_Nm_ = 0.0;   ///< JointStep's
   Yielding yielding_;
   double reference_rest_s_ = 0.0;  ///< since when it rests, while tracking
+  bool corrects_ = false;          ///< a plan has begun anew since the target came to rest
   int replans_ = 0;                ///< since start()
   int away_periods_ = 0;           ///< that a resting joint has been off its target
   bool stands_ = false;            ///< as it was found by start(): it has left its count for nothing yet

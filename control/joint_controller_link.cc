@@ -54,6 +54,7 @@ bool JointController::correct_link(double reading_rad) noexcept {
   if (!corrections_.begins(reading_rad, rest_position_rad() - reading_rad, state_.still_periods()))
     return false;
   ++replans_;
+  corrects_ = true;
   law_.reference_jumps();
   const double from_rad = link_motion_->reset(reading_rad);
   plan_.go_on_from(from_rad, 0.0);

@@ -123,6 +123,7 @@ void JointController::advance_reference(int elapsed_periods) noexcept {
       plan_.go_on_from(state_.then().position_rad,
                        std::clamp(state_.then().velocity_rad_s, -fastest, fastest));
       ++replans_;
+      corrects_ = true;
       const int side = state_.then().position_rad > plan_.target_rad() ? 1 : -1;
       signs_.turned_back = new_plans_.begin(streamed() ? 0 : side);
     }

@@ -27,7 +27,7 @@ constexpr double kLeastSwing_rad = 4e-4;
 // Share of the torque limit that the feedback may answer with while a motion lasts, where spring, damping and load are not quite as
 // told. A joint that chatters uses more of it.
 constexpr double kSpringDoubt = 0.2;
-// Share of the torque limit by which what a stream feeds forward against friction and load changes each period, however small the change.
+// Share of the table's torque limit by which what a stream feeds forward against friction and load changes each period, however small the change.
 constexpr double kLeastChange = 0.006;
 // The same on a path, which is known to its end: it waits for no sample that could tell of a load.
 constexpr double kLeastChangeOnPath = 0.003;
@@ -166,7 +166,7 @@ void JointController::follow_disturbance(int elapsed_periods) noexcept {
     return disturbance_.jump_to(estimated);
   const double count_Nm = state_.model().inertia_kgm2 * count_rad() / (config_.period_s * config_.period_s);
   const double least = follows_ == Follows::kStreamOnTime ? kLeastChange : kLeastChangeOnPath;
-  disturbance_.follow(estimated, least * torque_limit_Nm_, count_Nm, elapsed_periods);
+  disturbance_.follow(estimated, least * table_limit_Nm_, count_Nm, elapsed_periods);
 }
 
 double JointController::planned_friction_Nm(const JointDisturbance& disturbance) const noexcept {
@@ -230,13 +230,15 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
 }
 
 // A count, where the joint turns round and breaks away, shifts feedback and disturbance alike, by newton metres, and the turn of the motion turns
-// what is estimated of friction: more steps than the motion asks for. What the plan itself needs of the model has none of it.
+// what is estimated of friction: more steps than the motion asks for. What the plan itself needs of the model has none of it, and what pushes a
+// joint at rest is no answer to a reading: a motion that begins amid a push would have it on top of its own friction.
 void JointController::ease_answer(ControllerOutput& output, int elapsed_periods) noexcept {
   if (!config_.rigid) return;
   const bool planned = phase_ == MotionPhase::kTracking && torque_is_planned();
   const double by_model_Nm = planned ? planned_torque_Nm({}) : 0.0;
+  if (!planned && observing()) return answer_.jump_to(state_.now().disturbance.load_Nm);
   if (!planned || !streamed() || fallen_back()) return answer_.jump_to(output.torque_Nm - by_model_Nm);
-  const double least_Nm = kLeastAnswer * torque_limit_Nm_;
+  const double least_Nm = kLeastAnswer * table_limit_Nm_;
   answer_.follow(output.feedback_torque_Nm + output.feedforward_torque_Nm - by_model_Nm, least_Nm,
                  kAnswersTwice * least_Nm, elapsed_periods);
   const double wanted_Nm = by_model_Nm + answer_.value_Nm();

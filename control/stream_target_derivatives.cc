@@ -66,8 +66,8 @@ bool StreamTarget::is_inexact(const Knot& knot) const noexcept {
   if (!knot.stamped || past_count_ < 2 || !past_[0].stamped || !past_[1].stamped) return false;
   const Knot &last = past_[0], &first = past_[1];
   const double newer_s = seconds(knot.at - last.at), older_s = seconds(last.at - first.at);
-  const double off_rad_s = 0.5 * (knot.sent_rad_s + last.sent_rad_s) -
-                           (knot.position_rad - last.position_rad) / newer_s;
+  const double off_rad_s =
+      0.5 * (knot.sent_rad_s + last.sent_rad_s) - (knot.position_rad - last.position_rad) / newer_s;
   const double jerk_rad_s3 = change_of_rate((knot.sent_rad_s - last.sent_rad_s) / newer_s, newer_s,
                                             (last.sent_rad_s - first.sent_rad_s) / older_s, older_s);
   return std::abs(off_rad_s) > kExact_rad_s2 * newer_s + std::abs(jerk_rad_s3) * newer_s * newer_s / 6.0;

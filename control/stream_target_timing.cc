@@ -174,7 +174,8 @@ void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
   knot.clocked = arrival_;
   weigh_rhythm(knot);
   // Nobody sends a sample before its time.
-  if (in_rhythm_ && seconds(knot.clocked - knot.sent - sender_.offset()) > kJitter_s) {
+  if (in_rhythm_ &&
+      knot.clocked - knot.sent - sender_.offset() > std::max(kOutOfTurn * interval_, kJitter_s / period_s_)) {
     in_rhythm_ = false;
     out_of_rhythm_ = 0.0;
   }

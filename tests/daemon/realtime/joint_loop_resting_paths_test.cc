@@ -24,6 +24,13 @@ KnotPath turning(double rest_s, double later_s, double scale) {
   return path;
 }
 
+void begin(JointBench& bench, const KnotPath& path) {
+  const auto slot = bench.joint(0).path_slots().hand_over({7, 1, path});
+  EXPECT_EQ(bench.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
+            Reason::kAccepted);
+  EXPECT_EQ(bench.order(0, OrderKind::kResumePath), Reason::kAccepted);
+}
+
 /// How far the joint is from its setpoint at most, about the turn.
 double farthest_rad(double rest_s, double later_s, double scale, double temperature_C,
                     double friction = 1.0) {
@@ -31,10 +38,7 @@ double farthest_rad(double rest_s, double later_s, double scale, double temperat
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
   JointBench bench({joint});
   bench.bring_to_hold(0);
-  const auto slot = bench.joint(0).path_slots().hand_over({7, 1, turning(rest_s, later_s, scale)});
-  EXPECT_EQ(bench.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
-            Reason::kAccepted);
-  EXPECT_EQ(bench.order(0, OrderKind::kResumePath), Reason::kAccepted);
+  begin(bench, turning(rest_s, later_s, scale));
   double farthest_rad = 0.0, last_rad = 0.0;
   for (int k = 1; k < 1700; ++k) {
     bench.step();
@@ -86,6 +90,123 @@ TEST(RestingPath, IsLeftBySlowBreakAwayWhateverTheFriction) {
     EXPECT_LT(farthest, 0.4e-3);
     EXPECT_LT(sum_rad, 0.12e-3 * rides);
   }
+}
+
+/// In 0.4 s, by one knot half-way.
+KnotPath between(double from_rad, double to_rad) {
+  KnotPath path;
+  path.knots[0] = {0.0, from_rad, 0.0};
+  path.knots[1] = {0.2, 0.5 * (from_rad + to_rad), 1.5 / 0.4 * (to_rad - from_rad)};
+  path.knots[2] = {0.4, to_rad, 0.0};
+  path.count = 3;
+  return path;
+}
+
+/// How far the joint is from its setpoint at most on a path back that begins so many periods after the one there has ended.
+double farthest_back_rad(int gap, double temperature_C, double friction) {
+  BenchJoint joint = demo_joint_with_friction(friction);
+  joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  begin(bench, between(0.0, 0.02));
+  bench.run(0.05);
+  EXPECT_GT(bench.step_until([&] { return bench.mode(0) == Mode::kHolding; }, 1000), 0);
+  for (int k = 0; k < gap; ++k) bench.step();
+  begin(bench, between(0.02, 0.0));
+  double farthest_rad = 0.0, last_rad = bench.state(0).setpoint_position_rad;
+  for (int k = 0; k < 400; ++k) {
+    bench.step();
+    const double at_rad = bench.drive(0).simulated().plant().state().position_rad;
+    farthest_rad = std::max(farthest_rad, std::abs(at_rad - last_rad));
+    last_rad = bench.state(0).setpoint_position_rad;
+  }
+  return farthest_rad;
+}
+
+// Where it landed just then, the push to the last counts was taken for an answer to a reading: up to 1.5 mrad off, of one gap in 25.
+TEST(RestingPath, IsLeftAmidALandingAsFromRest) {
+  double farthest_rad = 0.0;
+  for (const double friction : {0.8, 1.0, 1.2})
+    for (const double temperature_C : {-8.0, 5.0, 25.0})
+      for (int gap = 0; gap < 150; gap += 3)
+        farthest_rad = std::max(farthest_rad, farthest_back_rad(gap, temperature_C, friction));
+  std::printf("after gaps: %.2f mrad off at most\n", 1e3 * farthest_rad);
+  EXPECT_LT(farthest_rad, 0.4e-3);
+}
+
+/// How a joint comes back to where its path rests, and stays there.
+struct Return {
+  int starts = 0;  ///< of its setpoint
+  bool off_stream = false;
+  double left_rad = 0.0;  ///< 0.65 s after the push
+};
+
+Return pushed_while_it_rests(double push_Nm, double later_s, double temperature_C, double friction) {
+  BenchJoint joint = demo_joint_with_friction(friction);
+  joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+  JointBench bench({joint});
+  bench.bring_to_hold(0);
+  const KnotPath path = turning(1.0, later_s, 1.0);
+  begin(bench, path);
+  bench.run(0.8);
+  bench.drive(0).simulated().set_load_torque_Nm(push_Nm);
+  bench.run(0.01);
+  bench.drive(0).simulated().set_load_torque_Nm(0.0);
+  const double place_rad = path.knots[2].position_rad;
+  Return back;
+  bool moved = false;
+  for (int k = 0; k < 650; ++k) {
+    bench.step();
+    const bool moves = std::abs(bench.state(0).setpoint_position_rad - place_rad) > 1e-9;
+    back.starts += moves && !moved ? 1 : 0;
+    moved = moves;
+    back.off_stream = back.off_stream || bench.has_notice(0, Notice::kOffStream);
+  }
+  EXPECT_EQ(bench.mode(0), Mode::kTracking);
+  back.left_rad = std::abs(bench.drive(0).simulated().plant().state().position_rad - place_rad);
+  return back;
+}
+
+// Each of its own ways back began with the law's push, taken for an answer to a reading, on top of the way's own friction: to and fro by 0.4 mrad,
+// 11 times and more. And it was said to be off a stream that asks for nothing.
+TEST(RestingPath, IsComeBackToByAJointThatIsPushed) {
+  double farthest_rad = 0.0;
+  int most = 0;
+  for (const double friction : {0.8, 1.0, 1.2})
+    for (const double temperature_C : {-8.0, 5.0, 25.0})
+      for (const double push_Nm : {5.0, 8.0, 12.0})
+        for (int i = 0; i < 4; ++i) {
+          const Return back = pushed_while_it_rests(push_Nm, 0.00237 * i, temperature_C, friction);
+          farthest_rad = std::max(farthest_rad, back.left_rad);
+          most = std::max(most, back.starts);
+          EXPECT_FALSE(back.off_stream) << push_Nm << " N.m at " << temperature_C << " degC";
+        }
+  std::printf("pushed: back within %.4f mrad by %d ways at most\n", 1e3 * farthest_rad, most);
+  EXPECT_LT(farthest_rad, 0.03e-3);
+  EXPECT_LE(most, 6);
+}
+
+// A motor that sticks a little off goes to its place by a motion of its own, after the path; most paths of springs ended with the notice.
+TEST(RestingPath, HasNoOneOffItWhoCorrectsWhereASpringRests) {
+  int corrected = 0;
+  for (const double temperature_C : {-8.0, 5.0, 25.0, 38.0})
+    for (const double scale : {1.0, 5.0}) {
+      BenchJoint joint = flexible_joint();
+      joint.drive.ambient = TemperatureProfile::constant(temperature_C);
+      JointBench bench({joint});
+      bench.bring_to_hold(0, flexible_table());
+      const KnotPath path = turning(0.3, 0.0, scale);
+      begin(bench, path);
+      bool began = false;
+      for (int k = 0; k < 2000; ++k) {
+        bench.step();
+        EXPECT_FALSE(bench.has_notice(0, Notice::kOffStream)) << temperature_C << " degC, " << k << " ms";
+        began = began || (bench.mode(0) == Mode::kHolding &&
+                          std::abs(bench.state(0).setpoint_position_rad - path.last().position_rad) > 1e-9);
+      }
+      corrected += began ? 1 : 0;
+    }
+  EXPECT_GT(corrected, 0);
 }
 
 }  // namespace

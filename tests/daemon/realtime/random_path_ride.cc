@@ -16,6 +16,8 @@ constexpr std::int64_t kSession = 4711;
 constexpr std::int64_t kChallenge = 815;
 constexpr double kPeriod_s = 0.001;
 constexpr int kAfter = 500;  // cycles
+/// From rest to the full rate of a path's time and back takes 0.1 s, and what accelerations besides leave of it.
+constexpr double kBackAtFullRate_s = 0.25;
 /// What rounding leaves of a velocity that is 0.
 constexpr double kStands_rad_s = 1e-13;
 
@@ -96,7 +98,8 @@ double RandomPathRide::moves_rad() {
   return farthest_rad;
 }
 
-void RandomPathRide::look(const DrawnPath& path, int cycle, bool paused, RideRecord& record) {
+void RandomPathRide::look(const DrawnPath& path, int cycle, bool full_rate, RideRecord& record) {
+  bool all_say_paused = true;
   for (std::size_t i = 0; i < configs_.size(); ++i) {
     const state_v1& state = bench_.state(i);
     Journey& journey = record.journeys[i];
@@ -115,25 +118,32 @@ void RandomPathRide::look(const DrawnPath& path, int cycle, bool paused, RideRec
       const LinkModel& link = *configs_[i].loop.controller.link;
       setpoint_rad += link.link_inertia_kgm2 * point.acceleration_rad_s2 / link.spring.stiffness_1_Nm_rad;
     }
-    if (on_path) record.setpoint_off_rad.see(std::abs(state.setpoint_position_rad - setpoint_rad), here);
+    const bool goes_on = on_path && path_time_s > last.path_time_s;
+    if (i == 0 && on_path && path_time_s > 0.0 && !goes_on) ++record.rested;
+    all_say_paused = all_say_paused && bench_.has_notice(i, Notice::kPathPaused);
+    if (goes_on) record.setpoint_off_rad.see(std::abs(state.setpoint_position_rad - setpoint_rad), here);
     // By the delay of its torque a joint is a period behind its setpoint; a motor before a spring is told where it is read now.
     const bool linked = configs_[i].loop.controller.link.has_value();
     const DrawnPoint before = evaluate(path.parts[i], linked ? path_time_s : last.path_time_s);
     const JointPlant& plant = bench_.drive(i).simulated().plant();
     record.off_rad.see(std::abs(plant.link_state().position_rad - before.position_rad), here);
-    if (on_path && !record.was_paused && !paused && path_time_s > 0.0)
+    if (on_path && full_rate && path_time_s > 0.0)
       record.time_off_s.see(std::abs(path_time_s - last.path_time_s - kPeriod_s), here);
     record.time_apart_s.see(std::abs(path_time_s - last_[0].path_time_s) * (i == 0 ? 0.0 : 1.0), here);
-    record.speed_rad_s.see(std::abs(state.setpoint_velocity_rad_s), here);
     const double acceleration_rad_s2 = (state.setpoint_velocity_rad_s - last.velocity_rad_s) / kPeriod_s;
-    if (on_path) record.acceleration_rad_s2.see(std::abs(acceleration_rad_s2), here);
-    if (on_path)
-      record.jerk_rad_s3.see(std::abs(acceleration_rad_s2 - last.acceleration_rad_s2) / kPeriod_s, here);
+    const double jerk_rad_s3 = (acceleration_rad_s2 - last.acceleration_rad_s2) / kPeriod_s;
+    if (goes_on) {
+      record.speed_rad_s.see(std::abs(state.setpoint_velocity_rad_s), here);
+      record.acceleration_rad_s2.see(std::abs(acceleration_rad_s2), here);
+      record.jerk_rad_s3.see(std::abs(jerk_rad_s3), here);
+    }
+    record.path_speed_rad_s.see(std::abs(point.velocity_rad_s), here);
     record.torque_Nm.see(std::abs(bench_.drive(i).command().torque_Nm), here);
     record.notices |= state.notices;
     if (bench_.fault(i) != Fault::kNone) record.fault = bench_.fault(i);
     last = {path_time_s, state.setpoint_position_rad, state.setpoint_velocity_rad_s, acceleration_rad_s2};
   }
+  record.said_paused += all_say_paused ? 1 : 0;
 }
 
 RideRecord RandomPathRide::ride(const DrawnPath& path, const std::optional<Pause>& pause) {
@@ -141,21 +151,21 @@ RideRecord RandomPathRide::ride(const DrawnPath& path, const std::optional<Pause
   record.journeys.resize(configs_.size());
   last_.assign(configs_.size(), {});
   const int most = 2000 + static_cast<int>(1e3 * (path.duration_s() + (pause ? pause->for_s : 0.0)));
+  const auto cycle_at = [](double time_s) {
+    return std::max(1, static_cast<int>(std::lround(1e3 * time_s)));
+  };
   int left = kAfter;
   int cycle = 1;
   for (; cycle < most && left > 0; ++cycle) {
-    const double now_s = cycle * kPeriod_s;
-    bool paused = record.was_paused;
-    if (pause && !paused && now_s >= pause->at_s) {
+    if (pause && cycle == cycle_at(pause->at_s))
       bench_.order(configs_.size() - 1, OrderKind::kPausePath);
-      paused = true;
-    } else if (pause && std::abs(now_s - pause->at_s - pause->for_s) < 0.5 * kPeriod_s) {
+    else if (pause && cycle == cycle_at(pause->at_s + pause->for_s))
       bench_.order(0, OrderKind::kResumePath);
-    } else {
+    else
       bench_.step();
-    }
-    record.was_paused = paused;
-    look(path, cycle, paused, record);
+    const bool slowed = pause && cycle >= cycle_at(pause->at_s) &&
+                        cycle < cycle_at(pause->at_s + pause->for_s + kBackAtFullRate_s);
+    look(path, cycle, !slowed, record);
     bool any_tracks = false;
     for (std::size_t i = 0; i < configs_.size(); ++i) any_tracks |= bench_.mode(i) == Mode::kTracking;
     if (!any_tracks && cycle > 10) --left;

@@ -34,19 +34,23 @@ struct Journey {
 /// What was seen of all joints together.
 struct RideRecord {
   std::vector<Journey> journeys;
-  Farthest setpoint_off_rad;     ///< from the path at the time that the state says, while it says one
-  Farthest off_rad;              ///< the joint itself, its link on a spring, from there
-  Farthest time_off_s;           ///< of the path's time in a state from the clock, while nobody paused
-  Farthest time_apart_s;         ///< ... from that of the first joint in the same cycle
-  Farthest speed_rad_s;          ///< of the setpoint
-  Farthest acceleration_rad_s2;  ///< of the setpoint, while it is on the path
-  Farthest jerk_rad_s3;          ///< likewise
-  Farthest torque_Nm;            ///< that the drive was told
-  Farthest left_rad;             ///< from the path's end, half a second after it
-  int notices = 0;               ///< all that were seen
+  // While the path's time goes on: where that rests a joint may correct its place.
+  Farthest setpoint_off_rad;  ///< from the path at the time that the state says
+  Farthest speed_rad_s;       ///< of the setpoint; so the next two
+  Farthest acceleration_rad_s2;
+  Farthest jerk_rad_s3;
+  // Always.
+  Farthest off_rad;           ///< the joint itself, its link on a spring, from the path then
+  Farthest time_off_s;        ///< of the path's time in a state from the clock, but for pauses
+  Farthest time_apart_s;      ///< ... from that of the first joint in the same cycle
+  Farthest path_speed_rad_s;  ///< of the path, at its full rate
+  Farthest torque_Nm;         ///< that the drive was told
+  Farthest left_rad;          ///< from the path's end, half a second after it
+  int notices = 0;            ///< all that were seen
+  int rested = 0;             ///< cycles in which its time rested, on the path
+  int said_paused = 0;        ///< cycles in which all joints said so
   Fault fault = Fault::kNone;
   bool arrived = false;
-  bool was_paused = false;
 };
 
 /// A pause at a time of the path, and for how long.
@@ -70,7 +74,7 @@ class RandomPathRide {
   RideRecord ride(const DrawnPath& path, const std::optional<Pause>& pause);
 
  private:
-  void look(const DrawnPath& path, int cycle, bool paused, RideRecord& record);
+  void look(const DrawnPath& path, int cycle, bool full_rate, RideRecord& record);
 
   std::vector<BenchJoint> configs_;
   JointBench bench_;

@@ -18,15 +18,25 @@ namespace {
 constexpr MotionLimits kMotion{4.0, 30.0, 30.0};  // config/demo.toml
 constexpr DrawnWithin kModerate{kMotion.velocity_rad_s / 3.0, kMotion.acceleration_rad_s2 / 2.0, 4.0};
 constexpr double kJerk_rad_s3 = 6000.0;
+/// What moderate paths need, with what a joint that breaks away, or lands, gets besides; of the 34 that the drive has. A spring has no landings.
+constexpr double kMostTorque_Nm = 23.0;
+constexpr double kMostTorqueOnSpring_Nm = 12.0;
+/// The limit of a weak joint.
+constexpr double kWeak_Nm = 12.0;
 /// Limits are kept but for rounding.
 constexpr double kKept = 1.0 + 1e-6;
 /// As far as a joint is to be from its path at most, at moderate speed.
 constexpr double kFarOff_rad = 0.5e-3;
-/// How far from the path a plan may begin anew, and on what share of the rides.
-constexpr double kAnew_rad = 2.5e-3;
-constexpr double kMostAnew = 0.1;
+/// Half a second after its end: half a count of a joint that lands, and what a spring leaves.
+constexpr double kLeft_rad = 1e-5;
+constexpr double kLeftOnSpring_rad = 6e-5;
+constexpr double kPause_s = 0.4;
+/// For coming to rest, and for going on, along the path.
+constexpr double kToRest_s = 0.2;
+/// That a setpoint, of which a state tells, is later than its path goes on: half of a jerk limit's mean.
+constexpr int kLagPeriods = 6;
 
-enum class Kind { kRigid, kJerkLimited, kSpring };
+enum class Kind { kRigid, kWeak, kJerkLimited, kSpring };
 
 /// What must hold of joints of one kind with so many times the table's friction; what 144 rides, 12 rounds, showed stands by the tests.
 struct Bounds {
@@ -42,6 +52,7 @@ BenchJoint joint_of(Kind kind, double friction, double temperature_C, std::uint6
   joint.drive.ambient = TemperatureProfile::constant(temperature_C);
   joint.drive.seed = seed;
   joint.loop.controller.motion = kMotion;
+  if (kind == Kind::kWeak) joint.loop.controller.torque_limit_Nm = kWeak_Nm;
   if (kind == Kind::kJerkLimited) joint.loop.controller.jerk_limit_rad_s3 = kJerk_rad_s3;
   // What the daemon takes for too large a load where nobody says it.
   joint.loop.limits.load = {};
@@ -92,31 +103,42 @@ void expect_no_skew(const RideRecord& record) {
   EXPECT_EQ(record.time_apart_s.value, 0.0) << record.time_apart_s.text();
 }
 
-/// A rigid joint that friction has thrown off its plan gets a new one from where it is, and says so.
-bool began_anew(Kind kind, const RideRecord& record) {
-  return kind != Kind::kSpring && (record.notices & static_cast<int>(Notice::kOffStream)) != 0;
-}
-
-void expect_within_limits(Kind kind, const RideRecord& record) {
+void expect_within_limits(Kind kind, bool paused, const RideRecord& record) {
   EXPECT_EQ(record.fault, Fault::kNone);
-  const int overload = static_cast<int>(Notice::kLoadHigh) | static_cast<int>(Notice::kYielded);
-  EXPECT_EQ(record.notices & overload, 0);
-  EXPECT_LE(record.torque_Nm.value, kReferencePeakTorque_Nm) << record.torque_Nm.text();
-  EXPECT_LE(record.speed_rad_s.value, kMotion.velocity_rad_s * kKept) << record.speed_rad_s.text();
-  // What a link on a spring gives its motor to do besides is more than the link's; a new plan is a step of the setpoint.
-  if (kind == Kind::kSpring || began_anew(kind, record)) return;
-  EXPECT_LE(record.acceleration_rad_s2.value, kMotion.acceleration_rad_s2 * kKept)
-      << record.acceleration_rad_s2.text();
+  const int none_of = static_cast<int>(Notice::kLoadHigh) | static_cast<int>(Notice::kYielded) |
+                      static_cast<int>(Notice::kOffStream);
+  EXPECT_EQ(record.notices & none_of, 0);
+  const double most_Nm = kind == Kind::kSpring ? kMostTorqueOnSpring_Nm
+                         : kind == Kind::kWeak ? kWeak_Nm
+                                               : kMostTorque_Nm;
+  EXPECT_LE(record.torque_Nm.value, most_Nm) << record.torque_Nm.text();
+  EXPECT_LE(record.speed_rad_s.value, record.path_speed_rad_s.value * (kind == Kind::kSpring ? 1.1 : 1.01))
+      << record.speed_rad_s.text();
+  // What a link on a spring gives its motor to do besides is more than the link's.
+  if (kind == Kind::kSpring) return;
+  // A path that comes to rest on the way, or goes on, takes more than it takes by itself.
+  const double most_rad_s2 = paused ? kMotion.acceleration_rad_s2 : kModerate.acceleration_rad_s2;
+  EXPECT_LE(record.acceleration_rad_s2.value, most_rad_s2 * kKept) << record.acceleration_rad_s2.text();
   if (kind != Kind::kJerkLimited) return;
   EXPECT_LE(record.jerk_rad_s3.value, kJerk_rad_s3 * kKept) << record.jerk_rad_s3.text();
+}
+
+/// The path's time rests while somebody has paused it, and only then, and all joints say so until it is resumed.
+void expect_pause(const RideRecord& record, const std::optional<Pause>& pause, double duration_s) {
+  EXPECT_LE(record.said_paused, record.rested);
+  EXPECT_GE(record.said_paused, record.rested - kLagPeriods);
+  if (!pause) {
+    EXPECT_EQ(record.rested, 0);
+  } else if (pause->at_s < duration_s - kToRest_s) {
+    EXPECT_GE(record.rested, static_cast<int>(1e3 * (kPause_s - kToRest_s)));
+  }
 }
 
 class RandomPaths : public ::testing::Test {
  protected:
   void follow_all(Kind kind, const Bounds& bounds) {
     std::vector<double> off_rad;
-    setpoint_off_rad_ = 0.0;
-    anew_ = 0;
+    setpoint_off_rad_ = torque_Nm_ = 0.0;
     for (int round = 0; round < rounds(); ++round)
       for (const double temperature_C : {-8.0, 5.0, 25.0, 38.0})
         for (const std::size_t joints : {1U, 2U, 6U})
@@ -127,11 +149,10 @@ class RandomPaths : public ::testing::Test {
     const auto count = static_cast<double>(off_rad.size());
     std::printf(
         "friction %.1f of the table's: %.2f mrad off at most, %.2f in the median, %.0f of %.0f within 0.5; "
-        "setpoints %.4f, %d anew\n",
+        "setpoints %.4f; at most %.1f N.m\n",
         bounds.friction, 1e3 * off_rad.back(), 1e3 * off_rad[off_rad.size() / 2], within, count,
-        1e3 * setpoint_off_rad_, anew_);
+        1e3 * setpoint_off_rad_, torque_Nm_);
     EXPECT_GE(within, bounds.share_within * count);
-    EXPECT_LE(anew_, kMostAnew * count);
   }
 
  private:
@@ -152,28 +173,29 @@ class RandomPaths : public ::testing::Test {
     is_refused_before_anything_moves(random, path, round % 2 == 1, ride);
     std::optional<Pause> pause;
     if (round % 3 == 2)
-      pause = Pause{std::uniform_real_distribution<double>(0.0, path.duration_s())(random), 0.4};
+      pause = Pause{std::uniform_real_distribution<double>(0.0, path.duration_s())(random), kPause_s};
     const RideRecord record = ride.ride(path, pause);
     EXPECT_TRUE(record.arrived);
     expect_no_skew(record);
-    expect_within_limits(kind, record);
+    expect_within_limits(kind, pause.has_value(), record);
+    expect_pause(record, pause, path.duration_s());
     EXPECT_LT(record.time_off_s.value, 1e-9) << record.time_off_s.text();
-    const bool anew = began_anew(kind, record);
-    anew_ += anew ? 1 : 0;
-    EXPECT_LT(record.setpoint_off_rad.value, anew ? kAnew_rad : bounds.setpoint_off_rad)
-        << record.setpoint_off_rad.text();
+    EXPECT_LT(record.setpoint_off_rad.value, bounds.setpoint_off_rad) << record.setpoint_off_rad.text();
+    EXPECT_LT(record.left_rad.value, kind == Kind::kSpring ? kLeftOnSpring_rad : kLeft_rad)
+        << record.left_rad.text();
     EXPECT_LT(record.off_rad.value, bounds.off_rad) << record.off_rad.text();
     if (record.off_rad.value > kFarOff_rad)
       std::printf("%s, %s: off by %s\n", name, path.kind.c_str(), record.off_rad.text().c_str());
-    if (!anew) setpoint_off_rad_ = std::max(setpoint_off_rad_, record.setpoint_off_rad.value);
+    setpoint_off_rad_ = std::max(setpoint_off_rad_, record.setpoint_off_rad.value);
+    torque_Nm_ = std::max(torque_Nm_, record.torque_Nm.value);
     return record.off_rad.value;
   }
 
-  double setpoint_off_rad_ = 0.0;  ///< at most, of rides on which no plan began anew
-  int anew_ = 0;                   ///< the other rides
+  double setpoint_off_rad_ = 0.0;  ///< at most
+  double torque_Nm_ = 0.0;         ///< at most
 };
 
-// A rigid joint is off most where it breaks away and turns. Of 144 rides at the table's friction 2 were beyond 0.5 mrad (0.62), with 0.8 of it 2
+// A rigid joint is off most where it breaks away and turns. Of 144 rides at the table's friction 1 was beyond 0.5 mrad (0.62), with 0.8 of it 2
 // (0.59), with 1.2 of it 5 (0.63).
 TEST_F(RandomPaths, AreFollowedByRigidJoints) {
   for (const Bounds& bounds :
@@ -181,7 +203,14 @@ TEST_F(RandomPaths, AreFollowedByRigidJoints) {
     follow_all(Kind::kRigid, bounds);
 }
 
-// Likewise 2, 3 and 8 rides, up to 0.72 mrad; the mean that keeps the jerk takes 0.06 of them from the setpoint.
+// What is fed forward, and what answers to readings, changed by shares of the joint's own limit: of 144 rides with 0.8 of the friction 20 were
+// beyond 0.5 mrad (2.5), with 1.2 of it 21.
+TEST_F(RandomPaths, AreFollowedByWeakJointsAsByStrongOnes) {
+  for (const Bounds& bounds : {Bounds{0.8, 1e-6, 0.75e-3, 0.95}, Bounds{1.2, 1e-6, 0.75e-3, 0.9}})
+    follow_all(Kind::kWeak, bounds);
+}
+
+// As many as strong rigid ones: 1, 3 and 8 rides, up to 0.64 mrad; the mean that keeps the jerk takes 0.06 of them from the setpoint.
 TEST_F(RandomPaths, AreFollowedByJointsWithAJerkLimit) {
   for (const Bounds& bounds : {Bounds{1.0, 0.1e-3, 0.95e-3, 0.95}, Bounds{0.8, 0.1e-3, 0.95e-3, 0.9},
                                Bounds{1.2, 0.1e-3, 0.95e-3, 0.9}})
@@ -191,8 +220,8 @@ TEST_F(RandomPaths, AreFollowedByJointsWithAJerkLimit) {
 // The link is nowhere more than 0.3 mrad off at the table's friction; up to 1.1 with 0.8 of it, 1.3 with 1.2, more than 0.5 in most rides. The
 // setpoint is the motor's.
 TEST_F(RandomPaths, AreFollowedByLinksOnASpring) {
-  for (const Bounds& bounds : {Bounds{1.0, 0.2e-3, kFarOff_rad, 1.0}, Bounds{0.8, 1.2e-3, 1.4e-3, 0.25},
-                               Bounds{1.2, 1.2e-3, 1.6e-3, 0.1}})
+  for (const Bounds& bounds : {Bounds{1.0, 0.2e-3, kFarOff_rad, 1.0}, Bounds{0.8, 0.2e-3, 1.4e-3, 0.25},
+                               Bounds{1.2, 0.2e-3, 1.6e-3, 0.1}})
     follow_all(Kind::kSpring, bounds);
 }
 
