@@ -15,9 +15,9 @@
 //                       polynomial through up to five samples, of which each more says no more that is new than half of what one of
 //                       the two before it did, and has helped of late (control/node_weights.h): what a sample's time is off would grow twentyfold where
 //                       one is lost. Where more have not helped, by the least squares of fourteen if these have (control/motion_fit.h)
-//   contradiction       a velocity that is not that of the positions is not used, and none where most are not; the positions are. Likewise an
-//                       acceleration that is farther than the limit from that of the velocities. What is carried forward is no farther
-//                       from the line through the last two samples than that could take it: A t (t + T) / 2, T between the two
+//   contradiction       a velocity that is not that of the positions is not used, and none where most are not; the positions are. Where samples are
+//                       stamped, each shows it. Likewise an acceleration farther than the limit from that of the velocities. What is carried
+//                       forward is no farther from the line through the last two samples than that could take it: A t (t + T) / 2, T between them
 //   withdrawn           of samples of their own times the newest order counts: it takes the place of all that are for later
 //   load                along a straight line from knot to knot; without a sample's time it is there an interval after the sample. After
 //                       the last it stays
@@ -32,8 +32,7 @@
 //                       their speed V takes since the last of them is led to rest there until it could and the target is back:
 //                         V (now - t) + V max(T / 2, 10 ms) + max(V^2, w (2 v - w)) / 2A,  w the target's speed
 //                       where the motion was carried on and has not caught up yet, V is no less than what it was carried on with, and `now` the
-//                       end of catching up
-//                       What is always late, near the limits, would else be driven farther with each swing
+//                       end of catching up. What is always late, near the limits, would else be driven farther with each swing
 //   out of reach        a knot that needs more than twice the limit of speed, or positions that need more than twice
 //                       that of acceleration, are a new place, not a motion: the target is there, at rest, and
 //                       whoever follows goes there as fast as the joint may

@@ -35,6 +35,10 @@ constexpr double kClear = 0.25;
 constexpr double kDoubtOfWay = 0.3;
 constexpr double kDoubtOfSpeeding = 0.2;
 constexpr double kDoubtOfSpeedingWithJerk = 0.1;
+// Those that come so shortly after each other, in intervals, were held up.
+constexpr double kAtOnce = 0.1;
+// Share of the difference by which a sender that has become faster is followed with each sample.
+constexpr double kFaster = 0.15;
 // A sample that lies by so much of the way to the next off the motion to that, and not an interval before, came late.
 constexpr double kClearOfWay = 0.2;
 // Rhythm and sending are told apart by some sixty samples, so many more for one than for the other, and by none that is nearer than this to the
@@ -250,6 +254,10 @@ void StreamTarget::clock_in(const StreamSample& sample, double came) noexcept {
     counted_lost_ = held_up_ = 0;
     return;
   }
+  // The rhythm is ahead of the samples by more than an interval, while they come one after the other and not, as after a hold-up, at once.
+  if (counted_lost_ == 0 && gap < -std::max(interval_, kJitter_s / period_s_) &&
+      since_last > std::max(1.5, kAtOnce * interval_))
+    interval_ += kFaster * std::min(0.0, since_last - interval_);
   const double n = arrivals_;
   const double intervals = intervals_in(gap, sample);
   if (intervals == 0.0) return;

@@ -617,7 +617,6 @@ TEST(StreamTarget, UsesNoVelocitiesThatAreALittleWrongWherePositionsTell) {
         farthest_rad =
             std::max(farthest_rad, std::abs(reference.position_rad - sine(k * kPeriod_s, 0).position_rad));
       }
-      std::printf("%s at %d Hz: %.1f %.2f\n", mistake.name, rate_Hz, hardest_rad_s2, 1e3 * farthest_rad);
       EXPECT_LT(hardest_rad_s2, 1.5 * kAmplitude_rad * kOmega_rad_s * kOmega_rad_s)
           << mistake.name << " at " << rate_Hz << " Hz";
       EXPECT_LT(farthest_rad, 0.5e-3) << mistake.name << " at " << rate_Hz << " Hz";
