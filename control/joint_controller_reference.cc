@@ -57,7 +57,9 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
   }
   follows_ = on_time == OnTime::kJoint ? Follows::kStreamOnTime : Follows::kStreamLater;
   sample_position_rad_ = sample.position_rad;
-  stream_.take(sample,
+  StreamSample taken = sample;
+  taken.computed_here = on_time == OnTime::kPlan;
+  stream_.take(taken,
                {motion_.velocity_rad_s, std::min(motion_.acceleration_rad_s2, motion_.deceleration_rad_s2)});
 }
 

@@ -22,6 +22,8 @@ struct StreamSample {
   std::int64_t in_periods = 0;
   ToldLoad load{};
   std::int64_t sent_us = 0;  ///< when it was sent, on the sender's clock; 0: not told
+  /// Its derivatives are those of its positions, whatever the samples around it show.
+  bool computed_here = false;
 };
 
 /// Target of a period: at its begin and at its end.

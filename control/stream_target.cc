@@ -96,7 +96,7 @@ void StreamTarget::take(const StreamSample& sent, const Reach& reach) noexcept {
   knot.sent_ahead = knot.at - present() - lead_;
   knot.load = sample.load;
   knot.sent_rad_s = sample.velocity_rad_s;
-  if (sample.derivatives > 0 && !believes(knot, before)) sample.derivatives = 0;
+  if (sample.derivatives > 0 && !sample.computed_here && !believes(knot, before)) sample.derivatives = 0;
   if (sample.derivatives == 2) {
     const double mean_rad_s2 = last != nullptr ? (knot.velocity_rad_s - last->velocity_rad_s) / mean_s_ : 0.0;
     if (std::abs(knot.acceleration_rad_s2 - mean_rad_s2) > reach_.acceleration_rad_s2) sample.derivatives = 1;

@@ -216,7 +216,6 @@ class StreamTarget {
   double expected_interval() const noexcept;
   bool slow() const noexcept { return seconds(expected_interval()) > kSlow_s; }
   bool believes(const Knot& knot, const Before& before) noexcept;
-  bool is_inexact(const Knot& knot) const noexcept;
   void time(const StreamSample& sample, Knot& knot) noexcept;
   void make_room() noexcept;
   void reconsider(const StreamSample& sample) noexcept;

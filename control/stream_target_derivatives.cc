@@ -18,10 +18,11 @@ constexpr double kLittleNew = 0.5;
 constexpr double kDoubtOfLimit = 0.02;
 constexpr double kDoubtOfItself = 0.5;
 constexpr double kDoubtOfAcceleration = 2.0;
-// What agrees makes up for a contradiction so many times slower; of so much doubt on none is believed, and of more than so long a time it is not
-// gathered.
-constexpr int kDoubt = 2;
-constexpr int kDoubted = 4;
+// What contradicts, and what is a little off, as where an acceleration steps, is so many times what agrees; of so much doubt on none is believed, and
+// of more than so long a time it is not gathered.
+constexpr int kContradiction = 4;
+constexpr int kLittleOff = 2;
+constexpr int kDoubted = 8;
 constexpr double kMostDoubted_s = 2.0;
 // Where times are exact, what a velocity is off would be an acceleration, to and fro, of six times this from sample to sample, rad/s^2.
 constexpr double kExact_rad_s2 = 0.25;
@@ -29,6 +30,28 @@ constexpr double kExact_rad_s2 = 0.25;
 /// Of three values that lie on a parabola, by the mean rates of the newer and the older interval.
 double change_of_rate(double newer, double newer_s, double older, double older_s) noexcept {
   return 2.0 * (newer - older) / (newer_s + older_s);
+}
+
+struct ToldMotion {
+  double at_s = 0.0;
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+};
+struct Exactness {
+  bool tells = false;
+  double off_rad_s = 0.0;
+  double doubt_rad_s = 0.0;
+  double mean_rad_s = 0.0;
+};
+/// Of samples with times of their own: how far the mean of the last two velocities is from the one between their positions, and how far it may be
+/// where a steady jerk explains that, T^2 / 12 of it.
+Exactness exactness_of(const ToldMotion& newest, const ToldMotion& last, const ToldMotion& first) noexcept {
+  const double newer_s = newest.at_s - last.at_s, older_s = last.at_s - first.at_s;
+  const double mean_rad_s = (newest.position_rad - last.position_rad) / newer_s;
+  const double jerk_rad_s3 = change_of_rate((newest.velocity_rad_s - last.velocity_rad_s) / newer_s, newer_s,
+                                            (last.velocity_rad_s - first.velocity_rad_s) / older_s, older_s);
+  return {true, std::abs(0.5 * (newest.velocity_rad_s + last.velocity_rad_s) - mean_rad_s),
+          kExact_rad_s2 * newer_s + std::abs(jerk_rad_s3) * newer_s * newer_s / 6.0, std::abs(mean_rad_s)};
 }
 
 }  // namespace
@@ -50,27 +73,24 @@ bool StreamTarget::believes(const Knot& knot, const Before& before) noexcept {
   const double changed_rad_s = acceleration_rad_s2 * mean_s_;
   const double between_rad_s = 0.5 * (knot.sent_rad_s + last->sent_rad_s);
   const bool contradicts = std::abs(knot.velocity_rad_s - mean_rad_s_) > doubt_rad_s + changed_rad_s ||
-                           std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s ||
-                           is_inexact(knot);
-  // Where none at all would contradict as well, this one agrees.
-  if (contradicts)
-    doubted_ = std::min(doubted_ + kDoubt, static_cast<int>(kMostDoubted_s / seconds(expected_interval())));
-  else if (std::abs(mean_rad_s_) > doubt_rad_s + changed_rad_s)
+                           std::abs(between_rad_s - mean_rad_s_) > doubt_rad_s + 0.5 * changed_rad_s;
+  Exactness exactness;
+  if (knot.stamped && past_count_ >= 2 && past_[0].stamped && past_[1].stamped) {
+    const auto told = [this](const Knot& one) {
+      return ToldMotion{seconds(one.at), one.position_rad, one.sent_rad_s};
+    };
+    exactness = exactness_of(told(knot), told(past_[0]), told(past_[1]));
+  }
+  const bool little_off = exactness.tells && exactness.off_rad_s > exactness.doubt_rad_s;
+  // Where none at all would contradict, or be off, as well, this one agrees.
+  const bool agrees = exactness.tells ? exactness.mean_rad_s > exactness.doubt_rad_s
+                                      : std::abs(mean_rad_s_) > doubt_rad_s + changed_rad_s;
+  if (contradicts || little_off)
+    doubted_ = std::min(doubted_ + (contradicts ? kContradiction : kLittleOff),
+                        static_cast<int>(kMostDoubted_s / seconds(expected_interval())));
+  else if (agrees)
     doubted_ = std::max(doubted_ - 1, 0);
   return !contradicts && doubted_ < kDoubted;
-}
-
-// Whether the mean of the last two velocities is not the one between their positions, by more than a steady jerk explains: T^2 / 12 of it. Samples
-// with times of their own alone tell that.
-bool StreamTarget::is_inexact(const Knot& knot) const noexcept {
-  if (!knot.stamped || past_count_ < 2 || !past_[0].stamped || !past_[1].stamped) return false;
-  const Knot &last = past_[0], &first = past_[1];
-  const double newer_s = seconds(knot.at - last.at), older_s = seconds(last.at - first.at);
-  const double off_rad_s =
-      0.5 * (knot.sent_rad_s + last.sent_rad_s) - (knot.position_rad - last.position_rad) / newer_s;
-  const double jerk_rad_s3 = change_of_rate((knot.sent_rad_s - last.sent_rad_s) / newer_s, newer_s,
-                                            (last.sent_rad_s - first.sent_rad_s) / older_s, older_s);
-  return std::abs(off_rad_s) > kExact_rad_s2 * newer_s + std::abs(jerk_rad_s3) * newer_s * newer_s / 6.0;
 }
 
 void StreamTarget::estimate_derivatives(const StreamSample& sample, const Before& before,
