@@ -26,7 +26,7 @@ TEST_F(DaemonHoming, MustComeFirstAndMakesPositionsTrue) {
   ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kHolding)) << daemon.log();
   const Answer refused = client.move("elbow", 0.3);
   EXPECT_EQ(refused.reason, Reason::kNotHomed);
-  EXPECT_NE(refused.text.find("strainwavectl home"), std::string::npos) << refused.text;
+  EXPECT_NE(refused.text.find("home it first"), std::string::npos) << refused.text;
 
   ASSERT_TRUE(client.command("elbow", Action::kHome).accepted);
   ASSERT_TRUE(client.wait_for_mode("elbow", Mode::kHoming)) << daemon.log();
