@@ -56,7 +56,7 @@ class IndexHoming(unittest.TestCase):
         self.assertFalse(self.homed())
         status, text = ctl('move', JOINT, '0.6')
         self.assertNotEqual(status, 0)
-        self.assertIn('strainwavectl home', text)
+        self.assertIn('home it first', text)
 
     def test_the_index_is_where_the_configuration_says_and_a_restart_forgets_it(self):
         must('enable', JOINT)
