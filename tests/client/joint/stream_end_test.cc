@@ -1,6 +1,7 @@
 // How a stream ends: by its close, by an exception, by what became of the joint or of its daemon.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
@@ -149,7 +150,9 @@ TEST_F(StoppedStreamTest, ThrowsTheFaultThatEndedIt) {
 // The new daemon counts its cycles from 0: those of the samples would never come.
 TEST_F(StoppedStreamTest, ThrowsThatTheDaemonWasRestartedAndWhatToDo) {
   auto& played = daemon.daemon();
-  played.state.cycle = 1'000'000'000;
+  // Until the joint knows: a state of before would make every sample late.
+  constexpr std::int64_t kCycle = 1'000'000'000;
+  while (joint.state().cycle < kCycle) played.state.cycle = kCycle;
   played.after_answer = [&] {
     played.reason = Reason::kWrongSession;
     if (played.heard().size() < 2) return;
