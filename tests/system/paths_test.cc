@@ -120,7 +120,8 @@ TEST_F(DaemonPaths, AreRefusedByJointKnotAndLimitBeforeAnythingMoves) {
   }
   const Answer incomplete = client_.command("elbow", Action::kResume);
   EXPECT_FALSE(incomplete.accepted);
-  EXPECT_NE(incomplete.text.find("the path has the parts of 5 of its 6 joints"), std::string::npos) << incomplete.text;
+  EXPECT_NE(incomplete.text.find("the path has the parts of 5 of its 6 joints"), std::string::npos)
+      << incomplete.text;
   client_.pump(milliseconds(100));
   for (const std::string& name : kNames)
     for (const state_v1& state : client_.history(name)) ASSERT_EQ(state.setpoint_velocity_rad_s, 0.0) << name;
