@@ -217,6 +217,7 @@ class StreamTarget {
   bool slow() const noexcept { return seconds(expected_interval()) > kSlow_s; }
   bool believes(const Knot& knot, const Before& before) noexcept;
   void time(const StreamSample& sample, Knot& knot) noexcept;
+  bool runs_ahead(double gap) const noexcept;
   void make_room() noexcept;
   void reconsider(const StreamSample& sample) noexcept;
   Knot last_in_rhythm() const noexcept;

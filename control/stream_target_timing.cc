@@ -47,14 +47,23 @@ constexpr double kWeighed = 64.0;
 constexpr double kClearRhythm = 6.0;
 constexpr double kSameTimes_rad = 2e-5;
 
+/// Periods by which one that comes earlier is not the next.
+double out_of_turn(double interval, double period_s) noexcept {
+  return std::max(kOutOfTurn * interval, kJitter_s / period_s);
+}
+
 }  // namespace
+
+// Whether the rhythm says that a sample, `gap` periods after it, was for later than it came.
+bool StreamTarget::runs_ahead(double gap) const noexcept {
+  return counted_lost_ == 0 && gap < -std::max(interval_, out_of_turn(interval_, period_s_));
+}
 
 // Samples that were lost on the way leave whole intervals out; those that were held up do not. Where a sample lies tells which it is: it
 // is the one that its motion brings nearest. Where that does not tell, they are lost until they come after all.
 double StreamTarget::intervals_in(double gap, const StreamSample& sample) noexcept {
-  const double out_of_turn = std::max(kOutOfTurn * interval_, kJitter_s / period_s_);
   // Of those that nothing was counted lost before none can be for later than it comes.
-  if (gap < (counted_lost_ > 0 ? interval_ - out_of_turn : -std::max(interval_, out_of_turn))) {
+  if (counted_lost_ > 0 ? gap < interval_ - out_of_turn(interval_, period_s_) : runs_ahead(gap)) {
     // The same again is a double.
     if (past_count_ > 0 && sample.position_rad == past_[0].position_rad) return 0.0;
     counted_lost_ = std::max(counted_lost_ - 1, 0);
@@ -178,8 +187,7 @@ void StreamTarget::time(const StreamSample& sample, Knot& knot) noexcept {
   knot.clocked = arrival_;
   weigh_rhythm(knot);
   // Nobody sends a sample before its time.
-  if (in_rhythm_ &&
-      knot.clocked - knot.sent - sender_.offset() > std::max(kOutOfTurn * interval_, kJitter_s / period_s_)) {
+  if (in_rhythm_ && knot.clocked - knot.sent - sender_.offset() > out_of_turn(interval_, period_s_)) {
     in_rhythm_ = false;
     out_of_rhythm_ = 0.0;
   }
@@ -255,8 +263,7 @@ void StreamTarget::clock_in(const StreamSample& sample, double came) noexcept {
     return;
   }
   // The rhythm is ahead of the samples by more than an interval, while they come one after the other and not, as after a hold-up, at once.
-  if (counted_lost_ == 0 && gap < -std::max(interval_, kJitter_s / period_s_) &&
-      since_last > std::max(1.5, kAtOnce * interval_))
+  if (runs_ahead(gap) && since_last > std::max(1.5, kAtOnce * interval_))
     interval_ += kFaster * std::min(0.0, since_last - interval_);
   const double n = arrivals_;
   const double intervals = intervals_in(gap, sample);
