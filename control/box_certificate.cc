@@ -118,25 +118,23 @@ std::optional<std::string> find_outside_box(const GainTable& table, const LinkMo
                                             int delay_periods) {
   const CertifiedBox& box = table.box;
   if (box.rigid())
-    return "the table is of a rigid joint: a joint that is told of its spring takes one that is certified on "
+    return "the table is of a rigid joint: a flexible joint takes one that is certified on "
            "it, from "
            "strainwave-design gains --gear --motor-inertia_kgm2 --load-inertia_kgm2 --delay";
   const TorsionSpring& spring = link.spring;
   const auto [least, most] =
       std::minmax({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
   if (!is_same_number(link.motor_inertia_kgm2, box.motor_inertia_kgm2))
-    return outside("the motor's inertia (joint.inertia_kgm2 less joint.control.load_inertia_kgm2)",
-                   text_of({link.motor_inertia_kgm2, link.motor_inertia_kgm2}),
+    return outside("joint.motor_inertia_kgm2", text_of({link.motor_inertia_kgm2, link.motor_inertia_kgm2}),
                    text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2");
   if (!box.link_inertia_kgm2.holds(link.link_inertia_kgm2))
-    return outside("joint.control.load_inertia_kgm2",
-                   text_of({link.link_inertia_kgm2, link.link_inertia_kgm2}),
+    return outside("joint.load_inertia_kgm2", text_of({link.link_inertia_kgm2, link.link_inertia_kgm2}),
                    text_of(box.link_inertia_kgm2) + " kg m2");
   if (!holds(box.stiffness_Nm_rad, {least, most}))
-    return outside("the stiffness of joint.control.gear", text_of({least, most}),
+    return outside("the stiffness of joint.gear", text_of({least, most}),
                    text_of(box.stiffness_Nm_rad) + " N m/rad");
   if (link.damping_Nms_rad > 0.0 && !box.damping_Nms_rad.holds(link.damping_Nms_rad))
-    return outside("joint.control.damping_Nms_rad", text_of({link.damping_Nms_rad, link.damping_Nms_rad}),
+    return outside("joint.damping_Nms_rad", text_of({link.damping_Nms_rad, link.damping_Nms_rad}),
                    text_of(box.damping_Nms_rad) + " N m s/rad");
   if (delay_periods < box.least_delay || delay_periods > box.most_delay)
     return outside("delay_periods", std::to_string(delay_periods),

@@ -34,7 +34,7 @@ BoxReport certify_box(const GainTable& table);
 /// The joints of `cell`, with the box's motor, damping and rules.
 SpringBox spring_box(const GainTable& table, const BoxCell& cell);
 
-/// Which quantity of a joint that is told of its spring is outside the table's box, its value and what is allowed, or nothing.
+/// Which quantity of a flexible joint is outside the table's box, its value and what is allowed, or nothing.
 std::optional<std::string> find_outside_box(const GainTable& table, const LinkModel& link, int delay_periods);
 
 /// The box in words, without its cells.

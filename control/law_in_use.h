@@ -6,7 +6,7 @@
 //   softer            gains and the integral's share of the torque: F' = F / 4; until begin_anew(), whatever table comes
 //   a count makes     by its position                           resolution max_i |F_i1|
 //                     and as velocity from reading to reading   resolution max_i (|F_i1| + |F_i2| / T) (1 + n)
-//   a lead n          the table's, where the joint is told of its spring; it begins anew after interrupt()
+//   a lead n          the table's, where the joint is flexible; it begins anew after interrupt()
 #pragma once
 
 #include <optional>

@@ -289,7 +289,7 @@ std::string_view configuration_key(Fault fault) noexcept {
     case Fault::kTemperatureLost:
       return "joint.temperature.on_loss";
     case Fault::kChatter:
-      return "joint.control.rigid";
+      return "joint.model";
     case Fault::kNone:
     case Fault::kWriteRefused:
     case Fault::kDriveFault:
@@ -324,7 +324,7 @@ std::string_view configuration_key(Notice notice) noexcept {
     case Notice::kAtLimitSwitch:
       return "";
     case Notice::kPlainLaw:
-      return "joint.control.rigid";
+      return "joint.model";
     case Notice::kOffStream:
       return "joint.limits";
     case Notice::kPositionLate:
@@ -334,7 +334,7 @@ std::string_view configuration_key(Notice notice) noexcept {
     case Notice::kLoadHigh:
       return "joint.limits.load_notice_Nm";
     case Notice::kOtherInertia:
-      return "joint.inertia_kgm2";
+      return "joint.model";
     case Notice::kPathPaused:
     case Notice::kPathEnds:
       return "";

@@ -58,7 +58,7 @@ WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const
   return worst;
 }
 
-// On a joint that is told of its spring.
+// On a flexible joint.
 TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint) {
   const WorstCorner worst = worst_on_spring(
       table, *joint.link,
@@ -68,9 +68,10 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
   text << std::setprecision(5) << "the link swings up under these gains: eigenvalue " << worst.radius
        << " a period, below 1 is allowed, at " << describe(worst.plant)
        << ", delay_periods = " << joint.delay_periods
-       << "; design softer ones with strainwave-design gains --gear " << joint.plant.gear.view()
-       << " --motor-inertia_kgm2 " << worst.plant.motor_inertia_kgm2 << " --load-inertia_kgm2 "
-       << worst.plant.link_inertia_kgm2 << " --delay " << joint.delay_periods;
+       << "; design softer ones with strainwave-design gains --gear "
+       << (joint.plant.gear.view().empty() ? "NAME" : joint.plant.gear.view()) << " --motor-inertia_kgm2 "
+       << worst.plant.motor_inertia_kgm2 << " --load-inertia_kgm2 " << worst.plant.link_inertia_kgm2
+       << " --delay " << joint.delay_periods;
   if (joint.link->damping_Nms_rad > 0.0) text << " --damping_Nms_rad " << joint.link->damping_Nms_rad;
   return {Reason::kTableNotCertified, text.str()};
 }

@@ -27,7 +27,7 @@ struct ExpectedJoint {
 };
 
 /// Judges `table` for a joint that is `expected`. The certificates are recomputed here, never taken on trust: that of the one inertia, and
-/// where the table carries a box that of every joint with a spring in it. A joint that is told of its spring must be in the box, by its
+/// where the table carries a box that of every joint with a spring in it. A flexible joint must be in the box, by its
 /// damping only where it is told of that, and is refused, too, where its link swings up: with that damping, or the least of any joint's.
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& expected);
 

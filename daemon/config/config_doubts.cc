@@ -121,7 +121,10 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
       doubt << (holds_Nm > needed_Nm ? ", and hardly any is left to move" : ": the joint does not move there")
             << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would do";
     });
-  const double inertia_kgm2 = table.plant.inertia_kgm2;
+  // A table with a box is designed for its heaviest link.
+  const double inertia_kgm2 = controller.link
+                                  ? controller.link->motor_inertia_kgm2 + controller.link->link_inertia_kgm2
+                                  : table.plant.inertia_kgm2;
   if (controller.motion.acceleration_rad_s2 * inertia_kgm2 > holds_Nm)
     note([&](std::ostream& doubt) {
       doubt << "gives " << inertia_kgm2 << " kg m2 at most " << holds_Nm / inertia_kgm2

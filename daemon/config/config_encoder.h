@@ -1,6 +1,4 @@
-// On which side of the gear's spring a drive's encoder sits. Gains for the motor's side are unstable with the spring between torque and
-// encoder, so an encoder of the link is refused of every joint that is neither declared rigid nor told of its spring, whose table must
-// then be for the link's side. Not real-time.
+// On which side of the gear's spring a drive's encoder sits. A rigid joint has no sides. Not real-time.
 #pragma once
 
 #include <optional>
@@ -11,13 +9,14 @@
 
 namespace strainwave {
 
-/// Reads encoder_side, "motor" or "link", of a joint whose control keys have been read; required unless `truth` says what it is when
-/// it is not given. Throws InputError.
+/// Reads encoder_side, "motor" or "link", of a flexible joint whose model has been read; required unless `truth` says what it is when
+/// it is not given. Throws InputError, also where a rigid joint has the key.
 void read_encoder_side(TomlSection& section, JointControllerConfig& controller,
                        std::optional<EncoderSide> truth = std::nullopt);
 
-/// Of an ODrive, which says how often its encoder turns in a turn of the joint: so often as the motor. Throws InputError.
+/// Of an ODrive, which says how often its encoder turns in a turn of the joint: of a flexible joint so often as the motor, since it is
+/// read as the motor's. Throws InputError.
 void require_motor_encoder(const TomlSection& section, double encoder_turns_per_joint_turn, double gear_ratio,
-                           bool rigid);
+                           bool flexible);
 
 }  // namespace strainwave

@@ -6,8 +6,8 @@
 #include "daemon/config/config_doubts.h"
 #include "daemon/config/config_gpio.h"
 #include "daemon/config/config_homing.h"
-#include "daemon/config/config_link.h"
 #include "daemon/config/config_load.h"
+#include "daemon/config/config_model.h"
 #include "daemon/config/config_simulated.h"
 #include "daemon/config/config_thermometer.h"
 #include "lcmtypes/calm_speed.h"
@@ -77,44 +77,19 @@ void read_timeouts(TomlSection section, JointLoopConfig& loop) {
   section.refuse_unknown_keys();
 }
 
-// A tenth of a millisecond from the earliest to the latest is what an operating system and a bus make of an instant. A simulated joint
-// lives by the clock as well, so it is sampled as unevenly as the loop wakes.
-constexpr double kSamplingDeviation_s = 3e-5;
-
-void read_features(TomlSection section, PlantIdentity& plant, JointLoopConfig& loop) {
+void read_control(TomlSection section, JointLoopConfig& loop) {
   JointControllerConfig& controller = loop.controller;
-  controller.use_shaping = section.boolean_or("shaping", controller.use_shaping);
-  controller.use_rest = section.boolean_or("rest", controller.use_rest);
-  controller.rigid = section.boolean_or("rigid", controller.rigid);
-  controller.use_observer = section.boolean_or("observer", controller.rigid);
-  if (controller.use_observer && !controller.rigid)
-    section.fail("observer", "true is allowed only with rigid = true: its model is one inertia");
-  const bool can_land = controller.rigid && controller.use_observer && controller.use_rest;
-  controller.use_landing = section.boolean_or("landing", can_land);
-  if (controller.use_landing && !can_land)
-    section.fail("landing", "true is allowed only with rigid = true, observer = true and rest = true");
-  controller.encoder_deviation_counts =
-      section.number_or("encoder_deviation_counts", controller.encoder_deviation_counts, {1e-3, 10.0});
-  controller.sampling_deviation_s =
-      section.number_or("sampling_deviation_s", kSamplingDeviation_s, {0.0, 1e-3});
-  if (section.has("current_loop_s")) {
-    controller.current_loop_s = section.number("current_loop_s", {0.0, kLongestCurrentLoop_s});
-    if (!controller.use_observer)
-      section.fail("current_loop_s", "it is allowed only with observer = true: nothing else reckons with it");
-  }
   const double torque_limit_Nm = controller.torque_limit_Nm;
   loop.initial_load_Nm =
       section.number_or("initial_load_Nm", loop.initial_load_Nm, {-torque_limit_Nm, torque_limit_Nm});
   controller.stream_bridge_s = section.number_or("stream_bridge_s", controller.stream_bridge_s, {0.0, 0.2});
-  if (controller.jerk_limit_rad_s3 && !controller.use_shaping)
-    section.fail("shaping", "true is needed for joint.limits.jerk_limit_rad_s3: steps have no jerk limit");
   controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
-  read_link(section, plant, controller);
+  read_gravity(section, controller);
   section.refuse_unknown_keys();
 }
 
 // The name under which tables are made for the joint.
-FixedString<32> read_model(TomlSection& section) {
+FixedString<32> read_joint_model(TomlSection& section) {
   const std::string model = section.text("joint_model");
   const bool printable = std::all_of(model.begin(), model.end(), [](char c) { return c >= ' ' && c <= '~'; });
   FixedString<32> kept(model);
@@ -137,9 +112,9 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
                        CanConfig& can) {
   JointConfig joint;
   joint.name = read_name(section, "name", "");
-  joint.plant.joint_model = read_model(section);
-  joint.plant.inertia_kgm2 = section.number("inertia_kgm2", kPositive);
+  joint.plant.joint_model = read_joint_model(section);
   joint.plant.gear_ratio = section.number("gear_ratio", {1e-3, 1e5});
+  read_model(section, joint.plant, joint.loop.controller);
   joint.plant.period_s = period_s;
   joint.loop.controller.period_s = period_s;
   if (section.has("table")) {
@@ -155,7 +130,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
     section.fail("on_fault", "\"group\" needs joint.group as well");
   read_timeouts(section.section_or_empty("supervision"), joint.loop);
   joint.driver = section.choice("driver", {"simulated", "can", "gpio"});
-  read_features(section.section_or_empty("control"), joint.plant, joint.loop);
+  read_control(section.section_or_empty("control"), joint.loop);
   if (section.has("thermometer"))
     joint.thermometer = read_thermometer(section.section("thermometer"), folder);
   if (joint.thermometer && joint.driver == "simulated")

@@ -32,7 +32,7 @@ odrive::WatchdogEndpoints read_watchdog(TomlSection section) {
 void read_units(TomlSection& section, const JointConfig& joint, odrive::UnitConfig& units) {
   units.encoder_turns_per_joint_turn = section.number("encoder_turns_per_joint_turn", {1e-3, 1e6});
   require_motor_encoder(section, units.encoder_turns_per_joint_turn, joint.plant.gear_ratio,
-                        joint.loop.controller.rigid);
+                        joint.loop.controller.link.has_value());
   units.direction = section.choice_or("direction", "same", {"same", "reversed"}) == "same" ? 1 : -1;
   units.position_offset_rad = section.number_or("position_offset_rad", 0.0, {-1e3, 1e3});
   doubt_angle(section, "position_offset_rad", units.position_offset_rad);

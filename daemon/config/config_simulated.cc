@@ -47,9 +47,6 @@ void read_what_is_told(TomlSection& section, const JointPlantConfig& plant, Join
                                       ", where joint.simulated.drive.delay_periods is larger");
   controller.delay_periods =
       static_cast<int>(section.integer_or("delay_periods", delay_periods, 0, kMaxControlDelay));
-  const double current_loop_s = plant.effects.drive.current_loop_s;
-  if (controller.use_observer && current_loop_s > 0.0 && !controller.current_loop_s)
-    controller.current_loop_s = std::min(current_loop_s, kLongestCurrentLoop_s);
 }
 
 std::vector<std::string> injectable_faults() {
@@ -74,6 +71,19 @@ std::vector<Injection> read_faults(TomlSection& section) {
     faults.push_back(injection);
   }
   return faults;
+}
+
+// What the configuration says of the joint is true of the simulated one, as far as [joint.simulated] does not say otherwise.
+void begin_with_model(const JointConfig& joint, JointPlantConfig& plant) {
+  plant.joint.inertia_kgm2 = joint.plant.inertia_kgm2;
+  const std::optional<LinkModel>& link = joint.loop.controller.link;
+  if (!link) return;
+  plant.joint.inertia_kgm2 = link->motor_inertia_kgm2;
+  Transmission transmission;
+  transmission.link_inertia_kgm2 = link->link_inertia_kgm2;
+  transmission.spring = link->spring;
+  transmission.damping_Nms_rad = link->damping_Nms_rad;
+  plant.effects.transmission = transmission;
 }
 
 // Switches and index; what the joint has none of stays away.
@@ -119,10 +129,12 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, const 
   const bool exact_sensing = section.choice_or("sensing", "encoder", {"encoder", "ideal"}) == "ideal";
   SimulatedActuatorConfig config = simulated_reference_joint(exact_sensing);
   config.plant.period_s = period_s;
-  const bool flexible = section.has("link");
+  begin_with_model(joint, config.plant);
+  // A link that the joint's model does not have: then the model's inertia is not the motor's.
+  const bool another = section.has("link") && !joint.loop.controller.link;
   config.plant.joint.inertia_kgm2 =
-      flexible ? section.number("inertia_kgm2", {1e-6, 1e4})
-               : section.number_or("inertia_kgm2", joint.plant.inertia_kgm2, {1e-6, 1e4});
+      another ? section.number("inertia_kgm2", {1e-6, 1e4})
+              : section.number_or("inertia_kgm2", config.plant.joint.inertia_kgm2, {1e-6, 1e4});
   config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
   read_simulated_effects(section, joint.plant.gear_ratio, config);
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});

@@ -213,7 +213,7 @@ TEST(BoxCertificate, HoldsJointsUpToItsEdgesAndNamesWhatIsOutside) {
   for (const double without :
        {0.99 * table.box.damping_Nms_rad.from, 1.01 * table.box.damping_Nms_rad.to, 1e-6}) {
     damped.damping_Nms_rad = without;
-    names(damped, delay, "joint.control.damping_Nms_rad");
+    names(damped, delay, "joint.damping_Nms_rad");
   }
   GainTable rigid = table;
   rigid.box = {};

@@ -149,13 +149,13 @@ unsigned_orders = "allow"
 [[joint]]
 name = "elbow"
 joint_model = "rhs17-6006"
+model = "rigid"
 inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "simulated"
 limits = { position_min_rad = -3.2, position_max_rad = 3.2, speed_limit_rad_s = 6, acceleration_rad_s2 = 150, move_speed_share = 1, following_error_rad = 0.1, torque_limit_Nm = 34)" +
          // A joint that lives by the time runs on while the loop of a host that is not real-time stands.
          (in_virtual_time() ? "" : ", overspeed_rad_s = 100") + R"( }
-control = { rigid = true }
 )" + attended(joint_extra);
 }
 

@@ -18,12 +18,11 @@ using std::chrono::milliseconds;
 constexpr double kCounted_rad = 40e-6;  // two counts of the motor's encoder
 constexpr int kSamples = 2000;
 
-/// A link on the gear of size 17 with a fine encoder of its own: the same tables in a plant file and under [joint.simulated].
-std::string joint_with_a_link(const std::string& prefix, double link_kgm2, double damping_Nms_rad) {
-  const auto table = [&](const char* name) { return "[" + prefix + name + "]\n"; };
-  return table("link") + "inertia_kgm2 = " + std::to_string(link_kgm2) + "\n" + table("spring") +
-         "damping_Nms_rad = " + std::to_string(damping_Nms_rad) + "\n" + table("link_encoder") +
-         "counts_per_joint_revolution = 1e8\n";
+/// A link on the gear of size 17 with a fine encoder of its own: a plant file.
+std::string plant_with_a_link(double link_kgm2, double damping_Nms_rad) {
+  return "gear = \"csf-17-50\"\n[link]\ninertia_kgm2 = " + std::to_string(link_kgm2) +
+         "\n[spring]\ndamping_Nms_rad = " + std::to_string(damping_Nms_rad) +
+         "\n[link_encoder]\ncounts_per_joint_revolution = 1e8\n";
 }
 
 /// What is compared: of the link, and of the torque.
@@ -46,18 +45,16 @@ class DaemonOnASpring : public DaemonTest {
     if (!in_virtual_time()) GTEST_SKIP() << "for the virtual machine: ctest -L vm";
   }
 
-  /// A daemon that says every cycle; `control`, `limits` and `drive` are lines of those sections of its joint.
-  static std::string configured(double inertia_kgm2, const std::string& limits, const std::string& control,
+  /// A daemon that says every cycle; `model` are lines of its joint, `limits` and `drive` of those sections.
+  static std::string configured(const std::string& model, const std::string& limits,
                                 const std::string& drive) {
     return "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = "
            "\"allow\"\n"
            "[[joint]]\nname = \"elbow\"\njoint_model = \"rhs17-6006\"\ngear_ratio = 50\ndriver = "
-           "\"simulated\"\n"
-           "inertia_kgm2 = " +
-           std::to_string(inertia_kgm2) +
-           "\n[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\ntorque_limit_Nm = 34\n" +
-           limits + "[joint.control]\n" + control +
-           "[joint.simulated]\nambient_temperature_C = \"constant:20\"\ntemperature_noise_C = 0\n" + drive;
+           "\"simulated\"\n" +
+           model + "[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\ntorque_limit_Nm = 34\n" +
+           limits + "[joint.simulated]\nambient_temperature_C = \"constant:20\"\ntemperature_noise_C = 0\n" +
+           drive;
   }
 
   void enable(const std::string& configuration, const GainTable& table) {
@@ -97,19 +94,16 @@ class DaemonOnASpring : public DaemonTest {
 
 class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
  protected:
-  /// `told`: both controllers are told of gear, load and damping, and take a table that is certified on them.
-  void expect_the_same(bool told) {
-    const GainTable table = read_gain_table(programs_folder() / (told ? "csf-17-50.json" : "c4.json"));
+  void expect_the_same() {
+    const GainTable table = read_gain_table(programs_folder() / "csf-17-50.json");
     const double link_kgm2 = table.plant.inertia_kgm2 - 0.089;
-    const double damping_Nms_rad = told ? 1.0 : 1.5;
-    const JointPlantConfig plant = plant_from_toml(
-        "gear = \"csf-17-50\"\n" + joint_with_a_link("", link_kgm2, damping_Nms_rad), "plant");
+    const double damping_Nms_rad = 1.0;
+    const JointPlantConfig plant = plant_from_toml(plant_with_a_link(link_kgm2, damping_Nms_rad), "plant");
     ExtendedFeatures features = daemon_defaults();
-    features.link = told;
-    const std::string control =
-        told ? "gear = \"csf-17-50\"\nload_inertia_kgm2 = " + std::to_string(link_kgm2) +
-                   "\ndamping_Nms_rad = " + std::to_string(damping_Nms_rad) + "\n"
-             : "";
+    features.link = true;
+    const std::string model =
+        "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = " +
+        std::to_string(link_kgm2) + "\ndamping_Nms_rad = " + std::to_string(damping_Nms_rad) + "\n";
     for (const double step_rad : {0.01, 0.1, 1.0}) {
       ClosedLoopConfig config;
       config.plant = plant;
@@ -121,13 +115,11 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
            run_closed_loop(config, *extended_contender("daemon", table, features).make(plant)).trace)
         study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
 
-      enable(configured(table.plant.inertia_kgm2,
+      enable(configured(model,
                         "speed_limit_rad_s = 1000\nmove_speed_share = 1\noverspeed_rad_s = "
                         "1000\nacceleration_rad_s2 = 1e6\n"
                         "following_error_rad = 10\n",
-                        control,
-                        "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" +
-                            joint_with_a_link("joint.simulated.", link_kgm2, damping_Nms_rad)),
+                        "[joint.simulated.link_encoder]\ncounts_per_joint_revolution = 1e8\n"),
              table);
       if (HasFatalFailure()) return;
       Figures daemon;
@@ -135,10 +127,10 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
         daemon.add(state.link_position_rad, state.torque_commanded_Nm, step_rad);
 
       std::printf(
-          "%g rad%s: PI2 of the link %.5g, study %.5g; overshoot %.4g, study %.4g mrad; peak %.5g, study "
+          "%g rad: PI2 of the link %.5g, study %.5g; overshoot %.4g, study %.4g mrad; peak %.5g, study "
           "%.5g N.m\n",
-          step_rad, told ? ", told" : "", daemon.link_pi2, study.link_pi2, 1e3 * daemon.overshoot_rad,
-          1e3 * study.overshoot_rad, daemon.peak_Nm, study.peak_Nm);
+          step_rad, daemon.link_pi2, study.link_pi2, 1e3 * daemon.overshoot_rad, 1e3 * study.overshoot_rad,
+          daemon.peak_Nm, study.peak_Nm);
       EXPECT_NEAR(daemon.link_pi2 / study.link_pi2, 1.0, 0.01) << step_rad;
       EXPECT_NEAR(daemon.overshoot_rad, study.overshoot_rad, 0.01 * study.overshoot_rad + 20e-6) << step_rad;
       EXPECT_NEAR(daemon.peak_Nm / study.peak_Nm, 1.0, 0.01) << step_rad;
@@ -146,18 +138,15 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
   }
 };
 
-TEST_F(DaemonOnASpringAsTheStudy, MovesTheLinkWithinOnePerCentByDefault) {
-  expect_the_same(false);
-}
-
-TEST_F(DaemonOnASpringAsTheStudy, MovesTheLinkWithinOnePerCentToldOfGearAndLoad) {
-  expect_the_same(true);
+TEST_F(DaemonOnASpringAsTheStudy, MovesTheLinkWithinOnePerCent) {
+  expect_the_same();
 }
 
 /// What table or configuration say that the joint is not.
 struct Mistake {
   const char* what;
   const char* table;  ///< its file
+  std::string model;  ///< keys of the joint
   std::string drive;  ///< keys of [joint.simulated] and its tables
 };
 
@@ -197,43 +186,44 @@ class DaemonInTheWrong : public DaemonOnASpring {
 
   void expect_quiet_after_half_a_second(const Mistake& mistake) {
     const GainTable table = read_gain_table(programs_folder() / mistake.table);
-    for (const bool rigid : {false, true})
-      for (const double step_rad : {0.01, 1.0}) {
-        const std::string what = std::string(mistake.what) + (rigid ? ", declared rigid" : "");
-        enable(configured(table.plant.inertia_kgm2,
-                          "speed_limit_rad_s = 5\nmove_speed_share = 1\nacceleration_rad_s2 = "
-                          "60\nfollowing_error_rad = 10\n"
-                          "overspeed_rad_s = 1000\n",
-                          rigid ? "rigid = true\n" : "", mistake.drive),
-               table);
-        if (HasFatalFailure()) return;
-        expect_quiet(client_->history("elbow"), what + ", held");
-        if (client_->state("elbow")->mode == static_cast<std::int32_t>(Mode::kFaulted)) continue;
-        const std::vector<state_v1> states = states_of_a_move(step_rad, 3000);
-        expect_quiet(states, what + ", moved by " + std::to_string(step_rad) + " rad");
-        EXPECT_TRUE(
-            std::any_of(states.begin(), states.end(),
-                        [](const state_v1& state) { return std::abs(state.torque_commanded_Nm) > 1.0; }))
-            << what << ": it was not moved at all";
-      }
+    for (const double step_rad : {0.01, 1.0}) {
+      enable(configured(mistake.model,
+                        "speed_limit_rad_s = 5\nmove_speed_share = 1\nacceleration_rad_s2 = "
+                        "60\nfollowing_error_rad = 10\n"
+                        "overspeed_rad_s = 1000\n",
+                        mistake.drive),
+             table);
+      if (HasFatalFailure()) return;
+      const std::string what = mistake.what;
+      expect_quiet(client_->history("elbow"), what + ", held");
+      if (client_->state("elbow")->mode == static_cast<std::int32_t>(Mode::kFaulted)) continue;
+      const std::vector<state_v1> states = states_of_a_move(step_rad, 3000);
+      expect_quiet(states, what + ", moved by " + std::to_string(step_rad) + " rad");
+      EXPECT_TRUE(
+          std::any_of(states.begin(), states.end(),
+                      [](const state_v1& state) { return std::abs(state.torque_commanded_Nm) > 1.0; }))
+          << what << ": it was not moved at all";
+    }
   }
 };
 
 TEST_F(DaemonInTheWrong, EndsReversalsWithinHalfASecondWhenTheTableIsForTenTimesTheInertia) {
-  expect_quiet_after_half_a_second({"inertia x 10", "c4.json", "inertia_kgm2 = 0.1089\n"});
+  expect_quiet_after_half_a_second(
+      {"inertia x 10", "c4.json", "model = \"rigid\"\ninertia_kgm2 = 1.089\n", "inertia_kgm2 = 0.1089\n"});
 }
 
 TEST_F(DaemonInTheWrong, EndsReversalsWithinHalfASecondWhenTheDelayIsTwoAndItIsToldOne) {
   expect_quiet_after_half_a_second({"delay 2 for 1", "rhs17-6006.json",
+                                    "model = \"rigid\"\ninertia_kgm2 = 0.089\n",
                                     "delay_periods = 1\n[joint.simulated.drive]\ndelay_periods = 2\n"});
 }
 
 TEST_F(DaemonInTheWrong, EndsReversalsWithinHalfASecondWhenTheEncoderIsTheLinksAndItIsToldTheMotors) {
-  expect_quiet_after_half_a_second({"encoder on the link", "c4.json",
-                                    "encoder_side = \"motor\"\ngear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n"
-                                    "[joint.simulated.link]\ninertia_kgm2 = 0.089\n[joint.simulated.spring]\n"
-                                    "damping_Nms_rad = 1.0\n[joint.simulated.link_encoder]\n"
-                                    "counts_per_joint_revolution = 320000\nfeedback = true\n"});
+  expect_quiet_after_half_a_second(
+      {"encoder on the link", "c4.json",
+       "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.089\n",
+       "encoder_side = \"motor\"\n[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n"
+       "[joint.simulated.link_encoder]\ncounts_per_joint_revolution = 320000\nfeedback = true\n"});
 }
 
 }  // namespace

@@ -51,16 +51,13 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
         "[joint.limits]\nposition_min_rad = -3.2\nposition_max_rad = 3.2\nspeed_limit_rad_s = 6\n"
         "acceleration_rad_s2 = 150\nfollowing_error_rad = 0.1\ntorque_limit_Nm = 34\n";
     const std::string spring =
-        "[joint.control]\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.089\n[joint.simulated]\n"
-        "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n[joint.simulated.link]\ninertia_kgm2 = 0.089\n"
-        "[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n";
+        "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.089\n";
     return "[daemon]\nreal_time = \"enforce\"\nstate_rate_Hz = 1000\n[security]\nunsigned_orders = "
            "\"allow\"\n"
            "[[joint]]\nname = \"elbow\"\njoint_model = \"rhs17-6006\"\ngear_ratio = 50\ndriver = "
-           "\"simulated\"\n"
-           "inertia_kgm2 = " +
-           std::to_string(inertia_kgm2) + "\n" + limits +
-           (flexible ? spring : std::string("[joint.control]\nrigid = true\n"));
+           "\"simulated\"\n" +
+           (flexible ? spring + limits + "[joint.simulated.spring]\ndamping_Nms_rad = 1.0\n"
+                     : "model = \"rigid\"\ninertia_kgm2 = " + std::to_string(inertia_kgm2) + "\n" + limits);
   }
 
   /// A sample every `every` cycles, of which the network loses, doubles and reorders a tenth each and has gaps of 30 ms if it is `bad`.

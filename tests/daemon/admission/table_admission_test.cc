@@ -194,8 +194,8 @@ TEST_F(TableAdmissionOnASpring, RefusesAJointThatIsToldOfADampingOutsideTheBox) 
   for (const double allowed_Nms_rad : {0.0, 0.8, 1.2})
     EXPECT_EQ(judge_damped(allowed_Nms_rad, 0.1, 1).reason, Reason::kAccepted) << allowed_Nms_rad;
   expect_outside(judge_damped(0.5, 0.1, 1),
-                 "joint.control.damping_Nms_rad = 0.5: the table is certified for 0.8..1.2 N m s/rad");
-  expect_outside(judge_damped(1.21, 0.1, 1), "joint.control.damping_Nms_rad = 1.21");
+                 "joint.damping_Nms_rad = 0.5: the table is certified for 0.8..1.2 N m s/rad");
+  expect_outside(judge_damped(1.21, 0.1, 1), "joint.damping_Nms_rad = 1.21");
 }
 
 // With half of its lead the table drives the swing of a light link that is hardly damped.

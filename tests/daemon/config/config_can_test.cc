@@ -113,19 +113,18 @@ TEST_F(CanConfigTest, TakesOneTemperaturePerJoint) {
   EXPECT_TRUE(read(text).joints[0].thermometer.has_value());
 }
 
-TEST_F(CanConfigTest, RefusesAnEncoderBehindASpringThatTheJointIsNotToldOf) {
+TEST_F(CanConfigTest, WantsTheEncodersSideOfAFlexibleJointAndRefusesItOfARigidOne) {
   expect_mentions(error_after("epos4.toml", "encoder_side = \"motor\"", ""),
                   {"joint[0].can.encoder_side", "required"});
-  expect_mentions(error_after("elmo.toml", "encoder_side = \"motor\"", "encoder_side = \"link\""),
-                  {"joint[0].can.encoder_side = \"link\"", "\"motor\"", "joint.control.rigid",
-                   "joint.control.gear", "gains --encoder-side link"});
-  const std::string text =
+  const std::string on_the_link =
       replaced(example("epos4.toml"), "encoder_side = \"motor\"", "encoder_side = \"link\"");
-  EXPECT_NO_THROW(read(replaced(text, "[joint.can]", "[joint.control]\nrigid = true\n\n[joint.can]")));
-  const std::string gear = "[joint.control]\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.05\n\n[joint.can]";
-  const JointConfig told = read(replaced(text, "[joint.can]", gear)).joints[0];
-  EXPECT_EQ(told.loop.controller.encoder_side, EncoderSide::kLink);
-  EXPECT_TRUE(told.loop.controller.link.has_value());
+  EXPECT_EQ(read(on_the_link).joints[0].loop.controller.encoder_side, EncoderSide::kLink);
+  std::string rigid = example("epos4.toml");
+  const std::size_t model = rigid.find("model = \"flexible\"");
+  rigid.replace(model, rigid.find("driver = ") - model, "model = \"rigid\"\ninertia_kgm2 = 0.089\n");
+  expect_mentions(error_of(rigid),
+                  {"joint[0].can.encoder_side = \"motor\"", "joint.model = \"flexible\"", "no sides"});
+  EXPECT_NO_THROW(read(replaced(rigid, "encoder_side = \"motor\"", "")));
 }
 
 TEST_F(CanConfigTest, LetsOneDriveMakeTheSyncWhenTheBusSaysSo) {

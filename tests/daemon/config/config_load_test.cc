@@ -7,10 +7,16 @@ namespace {
 
 class LoadConfigTest : public ConfigFileTest {
  protected:
-  /// The demo's joint with other limits and, in place of rigid = true, other control keys.
-  static std::string joint_with(const std::string& limits, const std::string& control = "rigid = true") {
+  /// The demo's joint with other limits and control keys.
+  static std::string joint_with(const std::string& limits, const std::string& control = "") {
     return replaced(replaced(example("demo.toml"), "acceleration_rad_s2 = 30 ", limits + "\n#"),
-                    "rigid = true ", control + "\n#");
+                    "[joint.simulated]", "[joint.control]\n" + control + "\n[joint.simulated]");
+  }
+  /// Likewise, flexible, motor and load together of the same inertia.
+  static std::string flexible_with(const std::string& limits, const std::string& control) {
+    return replaced(replaced(joint_with(limits, control), "inertia_kgm2 = 0.089",
+                             "motor_inertia_kgm2 = 0.049\nload_inertia_kgm2 = 0.04\ngear = \"csf-17-50\""),
+                    "\"rigid\"", "\"flexible\"");
   }
   LoadLimits limits_of(const std::string& text) {
     const JointLoopConfig loop = read(text).joints.front().loop;
@@ -34,24 +40,21 @@ TEST_F(LoadConfigTest, CountsTheHarderOfAccelerationAndDeceleration) {
 TEST_F(LoadConfigTest, IsHalfToFourFifthsOfWhatGravityLeaves) {
   EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 30")).load_Nm, 0.8 * 34.0, 1e-12);
   EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 1000")).load_Nm, 0.5 * 34.0, 1e-12);
-  const std::string weight = "rigid = false\ngravity_Nm = 4\ngravity_zero_rad = 0";
-  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 30", weight)).load_Nm, 0.8 * 30.0, 1e-12);
-  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150", weight)).load_Nm, 30.0 - 13.35, 1e-12);
-  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 1000", weight)).load_Nm, 0.5 * 30.0, 1e-12);
+  const std::string weight = "gravity_Nm = 4\ngravity_zero_rad = 0";
+  EXPECT_NEAR(limits_of(flexible_with("acceleration_rad_s2 = 30", weight)).load_Nm, 0.8 * 30.0, 1e-12);
+  EXPECT_NEAR(limits_of(flexible_with("acceleration_rad_s2 = 150", weight)).load_Nm, 30.0 - 13.35, 1e-12);
+  EXPECT_NEAR(limits_of(flexible_with("acceleration_rad_s2 = 1000", weight)).load_Nm, 0.5 * 30.0, 1e-12);
 }
 
 TEST_F(LoadConfigTest, IsATenthOfTheTorqueLimitWhereTheWeightTakesAllOfIt) {
-  EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 30",
-                                   "rigid = false\ngravity_Nm = 34\ngravity_zero_rad = 0"))
-                  .load_Nm,
-              3.4, 1e-12);
+  EXPECT_NEAR(
+      limits_of(flexible_with("acceleration_rad_s2 = 30", "gravity_Nm = 34\ngravity_zero_rad = 0")).load_Nm,
+      3.4, 1e-12);
 }
 
 TEST_F(LoadConfigTest, IsAQuarterAboveWhatTheJointIsToldToCarryOrToPressWith) {
   for (const char* carried : {"initial_load_Nm = 20", "initial_load_Nm = -20"})
-    EXPECT_NEAR(
-        limits_of(joint_with("acceleration_rad_s2 = 150", std::string("rigid = true\n") + carried)).load_Nm,
-        25.0, 1e-12);
+    EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150", carried)).load_Nm, 25.0, 1e-12);
   const std::string homing = "\n[joint.homing]\nto = \"positive_stop\"\nstop_torque_Nm = 24\n";
   EXPECT_NEAR(limits_of(joint_with("acceleration_rad_s2 = 150") + homing).load_Nm, 30.0, 1e-12);
 }

@@ -46,7 +46,7 @@ TEST_F(OdriveConfigTest, RefusesAnEncoderThatDoesNotTurnWithTheMotor) {
   const std::string message =
       error_after("encoder_turns_per_joint_turn = 50", "encoder_turns_per_joint_turn = 1");
   for (const char* part :
-       {"encoder_turns_per_joint_turn = 1", "joint.gear_ratio = 50", "joint.control.rigid"})
+       {"encoder_turns_per_joint_turn = 1", "joint.gear_ratio = 50", "joint.model = \"flexible\""})
     EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 

@@ -6,13 +6,27 @@ namespace {
 
 class SimulatedConfigTest : public ConfigFileTest {
  protected:
-  /// The demo's joint on a gear, not declared rigid, with further lines after [joint.simulated]'s own keys.
-  static std::string joint_with(const std::string& lines, const std::string& keys = "") {
-    return replaced(example("demo.toml"), "rigid = true", "rigid = false") + "\ngear = \"csf-17-50\"\n" +
-           "inertia_kgm2 = 0.089\n" + keys + lines;
+  /// The demo's joint with these keys of [joint.simulated], and tables below it: one inertia.
+  static std::string rigid_with(const std::string& tables, const std::string& keys = "") {
+    return example("demo.toml") + keys + tables;
+  }
+  /// Likewise of a flexible joint.
+  static std::string flexible_with(const std::string& tables, const std::string& keys = "") {
+    return replaced(replaced(rigid_with(tables, keys), "inertia_kgm2 = 0.089",
+                             "motor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.1\ngear = \"csf-17-50\"\n"
+                             "damping_Nms_rad = 0.8"),
+                    "\"rigid\"", "\"flexible\"");
+  }
+  /// A rigid joint in front of a link that its model does not have.
+  static std::string joint_with(const std::string& tables, const std::string& keys = "") {
+    return rigid_with(tables, "gear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n" + keys);
   }
   static std::string link(const std::string& lines) {
     return "[joint.simulated.link]\ninertia_kgm2 = 0.1\n" + lines;
+  }
+  const JointPlantConfig& plant(const std::string& text) {
+    config_ = read(text);
+    return std::get<SimulatedDrive>(config_.joints.front().drive).actuator.plant;
   }
   const JointControllerConfig& controller(const std::string& text) {
     config_ = read(text);
@@ -32,19 +46,30 @@ TEST_F(SimulatedConfigTest, TellsTheControllerWhatIsTrueOfTheDriveUnlessToldOthe
                   {"joint[0].simulated.delay_periods", "0 to 8"});
 }
 
-TEST_F(SimulatedConfigTest, TellsTheObserverOfTheCurrentLoopUnlessItIsToldOtherwise) {
-  const std::string lag = "[joint.simulated.drive]\ncurrent_loop_s = 4e-4\n";
-  const std::string rigid = example("demo.toml");
-  EXPECT_FALSE(controller(rigid).current_loop_s);
-  EXPECT_EQ(controller(rigid + lag).current_loop_s, 4e-4);
-  EXPECT_EQ(
-      controller(replaced(rigid, "rigid = true", "rigid = true\ncurrent_loop_s = 1e-4") + lag).current_loop_s,
-      1e-4);
-  EXPECT_FALSE(controller(joint_with(link(lag))).current_loop_s) << "there is no observer";
-  expect_mentions(error_of(replaced(rigid, "rigid = true", "rigid = false\ncurrent_loop_s = 1e-4")),
-                  {"joint[0].control.current_loop_s", "observer = true"});
-  expect_mentions(error_of(replaced(rigid, "rigid = true", "rigid = true\ncurrent_loop_s = 0.5")),
-                  {"joint[0].control.current_loop_s = 0.5", "0.005"});
+TEST_F(SimulatedConfigTest, IsTheJointsOwnModelWhereNothingElseIsSaid) {
+  const JointPlantConfig rigid = plant(rigid_with(""));
+  EXPECT_FALSE(rigid.effects.transmission.has_value());
+  EXPECT_EQ(rigid.joint.inertia_kgm2, 0.089);
+  const JointPlantConfig flexible = plant(flexible_with(""));
+  ASSERT_TRUE(flexible.effects.transmission.has_value());
+  EXPECT_EQ(flexible.joint.inertia_kgm2, 0.089) << "the motor's alone";
+  EXPECT_EQ(flexible.effects.transmission->link_inertia_kgm2, 0.1);
+  EXPECT_EQ(flexible.effects.transmission->spring.stiffness_3_Nm_rad, 13000.0);
+  EXPECT_EQ(flexible.effects.transmission->damping_Nms_rad, 0.8);
+}
+
+TEST_F(SimulatedConfigTest, DiffersFromAFlexibleJointsModelOnlyInWhatIsSaid) {
+  const JointPlantConfig other = plant(
+      flexible_with("[joint.simulated.link]\ninertia_kgm2 = 0.2\n[joint.simulated.spring]\nscale = 0.5\n"));
+  EXPECT_EQ(other.joint.inertia_kgm2, 0.089);
+  EXPECT_EQ(other.effects.transmission->link_inertia_kgm2, 0.2);
+  EXPECT_EQ(other.effects.transmission->spring.stiffness_1_Nm_rad, 4050.0);
+  EXPECT_EQ(other.effects.transmission->damping_Nms_rad, 0.8);
+  EXPECT_EQ(config_.joints.front().loop.controller.link->link_inertia_kgm2, 0.1)
+      << "what the controller knows";
+  EXPECT_EQ(plant(flexible_with("", "inertia_kgm2 = 0.05\n")).joint.inertia_kgm2, 0.05);
+  expect_mentions(error_of(rigid_with(link(""), "gear = \"csf-17-50\"\n")),
+                  {"joint[0].simulated.inertia_kgm2", "required"});
 }
 
 TEST_F(SimulatedConfigTest, RefusesToBeginBeyondThePositionLimits) {
@@ -59,16 +84,18 @@ TEST_F(SimulatedConfigTest, RefusesToBeginBeyondThePositionLimits) {
   EXPECT_NO_THROW(read(beginning_at("90", "incremental = true\n"))) << "where it is it says after homing";
 }
 
-TEST_F(SimulatedConfigTest, RefusesAnEncoderOfTheLinkWithGainsForTheMotorsSide) {
-  EXPECT_NO_THROW(read(joint_with(link(kEncoder)))) << "a second one beside the motor's";
-  const std::string fed_back = link(std::string(kEncoder) + "feedback = true\n");
-  expect_mentions(error_of(joint_with(fed_back)),
-                  {"joint[0].simulated.encoder_side", "\"motor\"", "rigid = true"});
-  expect_mentions(error_of(joint_with(fed_back, "encoder_side = \"link\"\n")),
-                  {"joint[0].simulated.encoder_side = \"link\"", "\"motor\"", "rigid = true"});
-  EXPECT_NO_THROW(read(joint_with(fed_back, "encoder_side = \"motor\"\n")))
+TEST_F(SimulatedConfigTest, TakesTheEncodersSideFromTheDriveUnlessAFlexibleJointSaysAnother) {
+  const std::string fed_back = std::string(kEncoder) + "feedback = true\n";
+  EXPECT_EQ(controller(flexible_with(kEncoder)).encoder_side, EncoderSide::kMotor)
+      << "a second one beside it";
+  EXPECT_EQ(controller(flexible_with(fed_back)).encoder_side, EncoderSide::kLink);
+  EXPECT_EQ(controller(flexible_with(fed_back, "encoder_side = \"motor\"\n")).encoder_side,
+            EncoderSide::kMotor)
       << "said wrongly, to see what it does";
-  EXPECT_NO_THROW(read(replaced(joint_with(fed_back), "rigid = false", "rigid = true")));
+  EXPECT_EQ(controller(joint_with(link(fed_back))).encoder_side, EncoderSide::kMotor)
+      << "a rigid joint has none";
+  expect_mentions(error_of(joint_with(link(fed_back), "encoder_side = \"motor\"\n")),
+                  {"joint[0].simulated.encoder_side = \"motor\"", "joint.model = \"flexible\""});
 }
 
 TEST_F(SimulatedConfigTest, RefusesALinkEncoderWithoutItsResolution) {
@@ -122,10 +149,8 @@ TEST_F(SimulatedConfigTest, TakesLoadsOverTime) {
 TEST_F(SimulatedConfigTest, FindsTheFilesOfProfilesBesideItselfWhereverItIsReadFrom) {
   std::ofstream(folder_ / "warm.csv") << "time_s,ambient_temperature_C\n0,31\n";
   std::ofstream(folder_ / "load.csv") << "time_s,load_torque_Nm\n0,7\n";
-  const std::string text =
-      replaced(joint_with("", "load_torque_Nm = \"hold:load.csv\"\n"), "rigid = false", "rigid = true");
-  const std::string profiled = replaced(replaced(text, "\"steps:-10,5,2,11\"", "\"csv:warm.csv\""),
-                                        "\ngear = \"csf-17-50\"\ninertia_kgm2 = 0.089\n", "\n");
+  const std::string profiled = replaced(rigid_with("", "load_torque_Nm = \"hold:load.csv\"\n"),
+                                        "\"steps:-10,5,2,11\"", "\"csv:warm.csv\"");
   ASSERT_NE(std::filesystem::current_path(), folder_);
   const DaemonConfig config = read(profiled);
   const SimulatedActuatorConfig& drive = std::get<SimulatedDrive>(config.joints.front().drive).actuator;

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <string>
 
+#include "control/gain_table_json.h"
+#include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
 #include "tests/daemon/config/config_file_test.h"
 #include "tests/support/example_keys.h"
@@ -20,6 +22,7 @@ unsigned_orders = "allow"
 [[joint]]
 name = "elbow"
 joint_model = "rhs17-6006"
+model = "rigid"
 inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "simulated"
@@ -103,8 +106,6 @@ TEST_F(ConfigTest, MovesAtAQuarterOfTheSpeedLimitUnlessToldAndHasNoJerkLimitByIt
   EXPECT_EQ(read(limits("jerk_limit_rad_s3 = 5000")).joints[0].loop.controller.jerk_limit_rad_s3, 5000.0);
   expect_mentions(error_of(limits("move_speed_share = 1.1")), {"move_speed_share = 1.1", "1"});
   expect_mentions(error_of(limits("jerk_limit_rad_s3 = 0")), {"jerk_limit_rad_s3 = 0"});
-  expect_mentions(error_of(limits("jerk_limit_rad_s3 = 5000\n[joint.control]\nshaping = false")),
-                  {"control.shaping = false", "jerk_limit_rad_s3"});
 }
 
 TEST_F(ConfigTest, SaysWhenALoadIsHighAndHowTheJointYields) {
@@ -126,16 +127,6 @@ TEST_F(ConfigTest, AllowsNoStallLimitWithinWhichNoPeriodCanBeMissed) {
       read(replaced(kSound, "period_s = 0.001", "period_s = 0.02\nstate_rate_Hz = 40")).loop.overruns.stall_s,
       0.04)
       << "by default at least two periods";
-}
-
-TEST_F(ConfigTest, GivesAnObserverOnlyToAJointThatIsDeclaredRigid) {
-  EXPECT_TRUE(read(example("demo.toml")).joints[0].loop.controller.use_observer);
-  const std::string flexible = replaced(example("demo.toml"), "rigid = true", "rigid = false");
-  EXPECT_FALSE(read(flexible).joints[0].loop.controller.use_observer);
-  EXPECT_FALSE(read(flexible).joints[0].loop.controller.use_landing);
-  const std::string error = error_of(replaced(flexible, "rigid = false", "observer = true"));
-  for (const char* part : {"control.observer", "rigid = true"})
-    EXPECT_NE(error.find(part), std::string::npos) << error;
 }
 
 TEST_F(ConfigTest, RefusesTwoJointsOfTheSameName) {
@@ -184,15 +175,23 @@ TEST_F(ConfigTest, RefusesAGatewayUserWhoIsNoneOrRoot) {
                   {"daemon.gateway_user", "without privileges"});
 }
 
-TEST_F(ConfigTest, EveryShippedExampleIsSound) {
+TEST_F(ConfigTest, EveryShippedExampleIsSoundAndTakesTheTableThatItNames) {
   int found = 0;
   for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/config")) {
     if (entry.path().extension() != ".toml") continue;
     // A copy, beside which the keys lie that a real joint needs.
     std::filesystem::copy_file(entry.path(), folder_ / entry.path().filename());
     testing::write_authorized_keys(folder_);
-    EXPECT_NO_THROW(read_config(folder_ / entry.path().filename())) << entry.path();
+    const DaemonConfig config = read_config(folder_ / entry.path().filename());
     ++found;
+    for (const JointConfig& joint : config.joints) {
+      if (joint.table.empty()) continue;
+      // The package has the source tree's folder data/tables.
+      const std::string named = joint.table;
+      const std::string file = STRAINWAVE_SOURCE_DIR + named.substr(named.find("/data/tables/"));
+      const TableVerdict verdict = judge_table(read_gain_table(file), expected_joint(joint));
+      EXPECT_EQ(verdict.reason, Reason::kAccepted) << entry.path() << ": " << verdict.text;
+    }
   }
   EXPECT_GT(found, 0);
 }

@@ -17,7 +17,8 @@ class RecorderConfigTest : public ConfigFileTest {
   static std::string joint(const std::string& name, const std::string& keys = "",
                            const std::string& tables = "") {
     return "[[joint]]\nname = \"" + name +
-           "\"\njoint_model = \"rhs17-6006\"\ninertia_kgm2 = 0.089\ngear_ratio = 50\ndriver = \"simulated\"\n"
+           "\"\njoint_model = \"rhs17-6006\"\nmodel = \"rigid\"\ninertia_kgm2 = 0.089\ngear_ratio = "
+           "50\ndriver = \"simulated\"\n"
            "limits = { position_min_rad = -3, position_max_rad = 3, speed_limit_rad_s = 6, "
            "acceleration_rad_s2 = "
            "150, "

@@ -72,7 +72,7 @@ joint_model = "rhs17-6006"
 inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "simulated"
-
+model = "rigid"
 [joint.limits]
 position_min_rad = -3.2
 position_max_rad = 3.2
@@ -112,7 +112,24 @@ const std::vector<ConfigCase> kConfigCases{
      "folowing_error_rad",
      {"following_error_rad is missing", "line 20 has folowing_error_rad"}},
     {"driver =", "drivers =", {"joint[0].driver is missing", "line 13 has drivers"}},
-    {"joint_model", "model", {"joint[0].joint_model is missing: the key is required"}},
+    {"joint_model", "joint_modl", {"joint[0].joint_model is missing: the key is required"}},
+    // What the joint is.
+    {"model = \"rigid\"\n",
+     "",
+     {":8: joint[0].model is missing", "model = \"flexible\", gear = ", "mass times lever squared",
+      "model = \"rigid\", inertia_kgm2 = "}},
+    {"model = \"rigid\"",
+     "model = \"stiff\"",
+     {":14: joint[0].model = \"stiff\"", "\"flexible\", \"rigid\""}},
+    {"inertia_kgm2 = 0.089\ngear_ratio = 50\ndriver = \"simulated\"\nmodel = \"rigid\"",
+     "gear_ratio = 50\ndriver = \"simulated\"\nmodel = \"flexible\"",
+     {":8: joint[0].gear is missing", "motor_inertia_kgm2 = ", "load_inertia_kgm2 = "}},
+    {"model = \"rigid\"",
+     "model = \"flexible\"",
+     {":11: joint[0].inertia_kgm2 = 0.089", "model = \"rigid\""}},
+    {"model = \"rigid\"",
+     "model = \"rigid\"\ngear = \"csf-17-50\"",
+     {":15: joint[0].gear = \"csf-17-50\"", "model = \"flexible\""}},
     {"name = \"elbow\"\n", "", {":8: joint[0].name is missing: the key is required"}},
     {"unsigned_orders",
      "unsigned_order",
@@ -432,6 +449,22 @@ TEST_F(WrongInput, AnAccelerationThatNoTorqueAffordsIsDoubtedWithWhatIsAfforded)
             std::string::npos)
       << with("1000");
   EXPECT_EQ(with("381").find("warning"), std::string::npos) << with("381");
+}
+
+// Its table is for links of up to 0.3 kg m2, its own is 0.1: 34 N.m are 179.9 rad/s2.
+TEST_F(WrongInput, AnAccelerationOfAFlexibleJointIsDoubtedByItsOwnInertias) {
+  std::filesystem::copy(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json", table_);
+  const auto with = [&](const std::string& acceleration_rad_s2) {
+    std::string text = kSound;
+    text.replace(text.find("acceleration_rad_s2 = "), 22,
+                 "acceleration_rad_s2 = " + acceleration_rad_s2 + " # ");
+    text.replace(text.find("inertia_kgm2 = 0.089"), 20, "motor_inertia_kgm2 = 0.089");
+    write(file_, text, "model = \"rigid\"\n",
+          "model = \"flexible\"\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1\ntable = \"t.json\"\n");
+    return check().said;
+  };
+  EXPECT_NE(with("181").find("gives 0.189 kg m2 at most 179.9 rad/s2"), std::string::npos) << with("181");
+  EXPECT_EQ(with("179").find("warning"), std::string::npos) << with("179");
 }
 
 TEST_F(WrongInput, AConfigurationThatOthersMayWriteIsRefusedOrOfASimulatedJointDoubted) {

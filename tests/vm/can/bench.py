@@ -20,9 +20,6 @@ FAULTS = {name: number for number, name in enumerate(
 MODES = {name: number for number, name in enumerate(['off', 'starting', 'holding', 'tracking', 'stopping', 'faulted'])}
 
 LIMITS = '''
-[joint.control]
-rigid = true
-
 [joint.limits]
 position_min_rad = -3.2
 position_max_rad = 3.2
@@ -41,7 +38,6 @@ node_id = {node_id}
 protocol = "cia402"
 encoder = "absolute"
 counts_per_output_revolution = 320000
-encoder_side = "motor"
 rated_torque_unit = "mNm"
 torque_side = "motor"
 {can}
@@ -157,6 +153,7 @@ def joint_toml(name=JOINT, node_id=3, driver='can', section=CIA402, can=''):
 [[joint]]
 name = "{name}"
 joint_model = "rhs17-6006"
+model = "rigid"
 inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "{driver}"

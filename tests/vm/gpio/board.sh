@@ -83,13 +83,11 @@ authorized_keys = "authorized_keys"
 [[joint]]
 name = "elbow"
 joint_model = "rhs17-6006"
+model = "rigid"
 inertia_kgm2 = 0.089
 gear_ratio = 50
 driver = "gpio"
 table = "rhs17-6006.json"
-[joint.control]
-rigid = true
-
 [joint.limits]
 position_min_rad = -0.6
 position_max_rad = 0.6

@@ -1,0 +1,18 @@
+// joint.model and what belongs to it: "flexible", motor and link with the gear's spring between them, or "rigid", one inertia. And the
+// link's weight, which stands in [joint.control]. Not real-time.
+#pragma once
+
+#include "base/toml_section.h"
+#include "control/gain_table.h"
+#include "control/joint_controller.h"
+
+namespace strainwave {
+
+/// Reads the model of a [[joint]] whose gear ratio is in `plant`, and sets what the controller uses of its parts for such a joint.
+/// `plant` gets the gear's name and the inertia of motor and link together, kg m2. Throws InputError.
+void read_model(TomlSection& joint, PlantIdentity& plant, JointControllerConfig& controller);
+
+/// Reads gravity_Nm and gravity_zero_rad of the [joint.control] of a joint whose model and torque limit have been read. Throws InputError.
+void read_gravity(TomlSection& control, JointControllerConfig& controller);
+
+}  // namespace strainwave
