@@ -74,7 +74,7 @@ std::optional<std::string> complaint_about_load(const setpoint_v2& setpoint, con
          << " is allowed (joint.limits.torque_limit_Nm)";
   else if (setpoint.load_inertia_kgm2 < 0.0 || setpoint.load_inertia_kgm2 > (1.0 + kAtBound) * heaviest_kgm2)
     text << "load_inertia_kgm2 = " << beyond_text(setpoint.load_inertia_kgm2, heaviest_kgm2) << ": from 0 to "
-         << bound_text(heaviest_kgm2) << " is allowed (" << kHeaviestLoad << " times joint.inertia_kgm2)";
+         << bound_text(heaviest_kgm2) << " is allowed (" << kHeaviestLoad << " times the joint's inertia)";
   else
     return std::nullopt;
   return text.str();

@@ -200,7 +200,7 @@ TEST(BoxCertificate, HoldsJointsUpToItsEdgesAndNamesWhatIsOutside) {
   };
   names(joint_with(1.01 * link.to), delay, "load_inertia_kgm2");
   names(joint_with(0.99 * link.from), delay, "load_inertia_kgm2");
-  names(joint_with(link.to, 0.0899), delay, "motor's inertia");
+  names(joint_with(link.to, 0.0899), delay, "joint.motor_inertia_kgm2");
   names(joint_with(link.to), kMaxBoxDelay + 1, "delay_periods");
   LinkModel stiff = joint_with(link.to);
   stiff.spring = stiff.spring.scaled(1.01);

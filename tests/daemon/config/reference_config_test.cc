@@ -61,8 +61,6 @@ TEST(ReferenceConfiguration, NamesEveryKeyThatIsReadAndNoOther) {
   std::set<std::string> in_code = keys_in_code();
   for (const char* driver : {"simulated", "can", "gpio"})
     in_code.insert(driver);  // a driver's section is named after it
-  in_code.insert(
-      "gear");  // of the effects that a simulated joint shares with plant files (sim/joint/effects_file.cc)
   EXPECT_GT(in_code.size(), 40U);
   EXPECT_EQ(in_code, keys_in_reference());
 }

@@ -15,7 +15,7 @@ namespace {
 const std::vector<std::pair<const char*, const char*>> kSaid = {
     {"PID", "PID of the source"},
     {"C4", "scheduled controller alone (C4)"},
-    {"daemon", "the daemon's controller, as it is by default"},
+    {"daemon", "the daemon's controller without a model of the spring"},
     {"daemon told of its spring", "the daemon's controller told of its spring"},
     {"declared rigid", "the daemon's with every part on, as for a rigid joint"}};
 

@@ -190,7 +190,7 @@ void expect_behaviour(const std::string& name, const std::string& overshoot_afte
 }
 
 TEST(FlexibleStudy, FindsTheFallbacksOvershootsAndSlowSwingsThatThePagesTellOf) {
-  expect_behaviour("daemon", "largest overshoot of the default's link is ", "an oscillation (default ");
+  expect_behaviour("daemon", "largest overshoot without the model is ", "an oscillation (without the model ");
   expect_behaviour("daemon told of its spring", "at the four steps (told of its spring ",
                    ", told of its spring ");
   expect_behaviour("PID", "", "come to rest: in ");
