@@ -28,6 +28,9 @@ struct VelocityMemberships {
   double high_center_rad_s = 1.0;
   double high_width_rad_s = 1.0;
 
+  /// The Stribeck curve that these memberships stand for: half of the width of "zero", squared in the exponent. With Zhao's memberships
+  /// (2006, section 3) that is the catalogue's Stribeck velocity, 20 RPM of the motor.
+  constexpr StribeckShape stribeck() const noexcept { return {0.5 * zero_width_rad_s, 2.0}; }
   /// alpha_0; see ZeroVelocityWeight, which the loop keeps prepared.
   double zero_weight(double velocity_rad_s) const noexcept;
 };

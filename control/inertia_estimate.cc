@@ -85,7 +85,7 @@ void InertiaEstimate::step(const Sample& sample, const JointModel& model) noexce
   moving_ = way == 0 || way != way_ ? 0 : moving_ + 1;
   way_ = way;
   if (moving_ < span_ + window_) return;
-  learn(model.friction_scale_Nm);
+  learn(model.friction.static_Nm);
   // The next window begins with the mean that this one ended with.
   moving_ = span_;
 }

@@ -8,8 +8,7 @@
 // lies back counting less. Of w, I and R the means over 4 ms are taken, which makes the velocity of so many counts one, and the
 // equation stays exact. T is 20 ms, about a swing of the gear's spring (catalogue: 12 to 36 ms), so that motor and link count as one. Only windows in which the joint
 // moves one way all the time tell anything: stiction balances whatever there is. At first k is 1 and c is 0, as far as friction is known;
-// what J was told is not used. velocity_observer.h estimates an inertia, too, and controls with it, but by a model of one mass, of rigid
-// joints alone; this one only shows, and joints that are told of their spring have no other.
+// what the configuration says of J is not used.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +16,7 @@
 #include <optional>
 
 #include "control/joint_model.h"
-#include "control/state_estimator.h"
+#include "control/joint_measurement.h"
 
 namespace strainwave {
 

@@ -1,12 +1,9 @@
-// A table's law as it is in use: scheduled gains while the temperature is known, temperature-free ones otherwise, and both softer where the
-// certified ones shake the joint. Real-time safe. Joint side, SI.
+// A table's law as it is in use: scheduled gains while the temperature is known, temperature-free ones otherwise. Real-time safe. Joint side, SI.
 //
-//   change of gains   the integral is chosen so that the next torque is what the gains before it would have given:
+//   change of gains   bumpless transfer: the integral is chosen so that the next torque is what the gains before it would have given
 //                       u'(x, integral') = u(x, integral)
-//   softer            gains and the integral's share of the torque: F' = F / 4; until begin_anew(), whatever table comes
-//   a count makes     by its position                           resolution max_i |F_i1|
-//                     and as velocity from reading to reading   resolution max_i (|F_i1| + |F_i2| / T) (1 + n)
-//   a lead n          the table's, where the joint is flexible; it begins anew after interrupt()
+//   a count makes     resolution max_i (|F_i1| + |F_i2| share / T) (1 + n)
+//   a lead n          the table's, on a joint with a spring; it begins anew after interrupt()
 #pragma once
 
 #include <optional>
@@ -18,14 +15,14 @@ namespace strainwave {
 
 class LawInUse {
  public:
-  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as StateEstimatorConfig has it. On a joint that is
-  /// `told_of_spring` the law has its table's lead.
+  /// `period_s` > 0; `encoder_resolution_rad` >= 0; `velocity_share` in (0, 1] as JointReading has it. `on_spring`: the law has its
+  /// table's lead.
   LawInUse(double period_s, double encoder_resolution_rad, double velocity_share = 1.0,
-           bool told_of_spring = false) noexcept
+           bool on_spring = false) noexcept
       : period_s_(period_s),
         encoder_resolution_rad_(encoder_resolution_rad),
         velocity_share_(velocity_share),
-        told_of_spring_(told_of_spring) {}
+        on_spring_(on_spring) {}
 
   /// Takes a table that has passed find_defect().
   void load(const GainTable& table) noexcept;
@@ -33,9 +30,8 @@ class LawInUse {
   /// Nothing is remembered but table and temperature, and the gains are the table's.
   void begin_anew() noexcept;
   /// By the temperature of this period; friction stays that of the last that was known.
-  void choose_gains(const std::optional<double>& temperature_C) noexcept;
-  void soften() noexcept { set_soft(true); }
-  bool soft() const noexcept { return soft_; }
+  /// True: the weights of the temperature rules have changed.
+  bool choose_gains(const std::optional<double>& temperature_C) noexcept;
 
   /// One period. The first after a change of gains goes on from the torque of those before it.
   ControllerOutput step(const ControllerInput& input) noexcept;
@@ -49,19 +45,15 @@ class LawInUse {
     active().interrupt();
     if (outgoing_) outgoing_->interrupt();
   }
-  void forget_integral() noexcept { active().reset(); }
   /// What the integral holds of a joint at rest.
   double integral_torque_Nm() const noexcept { return active().integral_torque_Nm(); }
 
   GainsInUse gains_in_use() const noexcept { return gains_in_use_; }
-  const FrictionParameters& friction() const noexcept { return primary_.friction(); }
   const TemperatureWeights& temperature_weights() const noexcept { return primary_.temperature_weights(); }
   /// alpha_0 at rest.
   double zero_velocity_weight() const noexcept { return zero_velocity_weight_; }
   /// What a count makes, >= 0.
-  double count_torque_Nm(bool smooth_velocity) const noexcept {
-    return smooth_velocity ? position_count_Nm_ : reading_count_Nm_;
-  }
+  double count_torque_Nm() const noexcept { return count_torque_Nm_; }
 
  private:
   const ScheduledController& active() const noexcept {
@@ -71,23 +63,20 @@ class LawInUse {
     return gains_in_use_ == GainsInUse::kFallback ? fallback_ : primary_;
   }
   void keep_outgoing() noexcept;
-  void set_soft(bool soft) noexcept;
 
   double period_s_;
   double encoder_resolution_rad_;
   double velocity_share_;
-  bool told_of_spring_;
+  bool on_spring_;
   ScheduledController primary_;
   ScheduledController fallback_;
   std::optional<ScheduledController>
       outgoing_;                         ///< what was active before the gains changed, until the next torque
   std::optional<double> temperature_C_;  ///< the last that was known
   GainsInUse gains_in_use_ = GainsInUse::kNone;
-  double position_count_Nm_ = 0.0;
-  double reading_count_Nm_ = 0.0;
+  double count_torque_Nm_ = 0.0;
   double zero_velocity_weight_ = 1.0;
   bool loaded_ = false;
-  bool soft_ = false;
 };
 
 }  // namespace strainwave

@@ -6,6 +6,8 @@
 //   ts     = spring(thm - thl) + D (wm - wl)
 #pragma once
 
+#include <limits>
+
 #include "control/gravity_load.h"
 #include "control/torsion_spring.h"
 
@@ -26,10 +28,17 @@ struct LinkGains {
 
 struct LinkModel {
   double motor_inertia_kgm2 = 0.0;  ///< Jm > 0
-  double link_inertia_kgm2 = 0.0;   ///< Jl > 0
+  double link_inertia_kgm2 = 0.0;   ///< Jl > 0; 0: rigid
   TorsionSpring spring;
   double damping_Nms_rad = 0.0;  ///< D >= 0
   GravityLoad gravity;
+
+  /// Motor and link are one, of the inertias' sum: no gear between them.
+  static LinkModel rigid_joint(double inertia_kgm2) noexcept {
+    return {inertia_kgm2, 0.0, TorsionSpring::linear(std::numeric_limits<double>::infinity()), 0.0, {}};
+  }
+  bool rigid() const noexcept { return link_inertia_kgm2 == 0.0; }
+  double inertia_kgm2() const noexcept { return motor_inertia_kgm2 + link_inertia_kgm2; }
 
   /// A period of `period_s` under `torque_Nm`.
   struct Period {

@@ -11,28 +11,28 @@ constexpr double kLeastAccelerating = 0.02;
 }  // namespace
 
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
-                              const JointDisturbance& disturbance, double torque_limit_Nm, double reserve,
-                              double speed_rad_s, double period_s) noexcept {
+                              double load_Nm, double torque_limit_Nm, double reserve, double speed_rad_s,
+                              double period_s) noexcept {
   const double usable = 1.0 - reserve;
   const double limit_Nm = usable * std::min(torque_limit_Nm, motor.peak_torque_Nm);
   const double supply_Nm = usable * motor.stall_torque_Nm - motor.torque_per_speed_Nms_rad * speed_rad_s;
-  const double coulomb_Nm = std::max(0.0, model.friction.coulomb_Nm + disturbance.friction_offset_Nm);
-  const double load_Nm = std::abs(disturbance.load_Nm);
+  const double coulomb_Nm = model.friction.coulomb_Nm;
+  const double against_Nm = std::abs(load_Nm);
   const double viscous_Nm = model.friction.viscous_Nms_rad * speed_rad_s;
 
   // The losses grow with the speed over the period, so the acceleration is solved for.
   const double damping =
       model.friction.viscous_Nms_rad + (supply_Nm < limit_Nm ? motor.torque_per_speed_Nms_rad : 0.0);
-  const double driving_Nm = std::min(limit_Nm, supply_Nm) - coulomb_Nm - viscous_Nm - load_Nm;
+  const double driving_Nm = std::min(limit_Nm, supply_Nm) - coulomb_Nm - viscous_Nm - against_Nm;
   const double acceleration = driving_Nm / (model.inertia_kgm2 + period_s * damping);
   // Viscous friction helps as well, but not until the end.
-  const double deceleration = (limit_Nm + coulomb_Nm - load_Nm) / model.inertia_kgm2;
+  const double deceleration = (limit_Nm + coulomb_Nm - against_Nm) / model.inertia_kgm2;
 
   // Where losses take all of the torque, less the reserve, the reference stops accelerating, trickle or not: it does not run ahead of the
   // joint, and what brakes it brakes the joint.
   const double least_Nm = kLeastAccelerating * limit_Nm;
   const auto fastest = [&](double torque_Nm, double loss_Nms_rad) {
-    return std::max(least_Nm, torque_Nm - coulomb_Nm - load_Nm) / loss_Nms_rad;
+    return std::max(least_Nm, torque_Nm - coulomb_Nm - against_Nm) / loss_Nms_rad;
   };
   const double velocity = std::min(fastest(limit_Nm, model.friction.viscous_Nms_rad),
                                    fastest(usable * motor.stall_torque_Nm,

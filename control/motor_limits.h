@@ -63,7 +63,7 @@ struct MotorLimits {
 /// down and helps deceleration, the load may do either and counts against both. Never more than `motion`,
 /// never less than a trickle.
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
-                              const JointDisturbance& disturbance, double torque_limit_Nm, double reserve,
-                              double speed_rad_s, double period_s) noexcept;
+                              double load_Nm, double torque_limit_Nm, double reserve, double speed_rad_s,
+                              double period_s) noexcept;
 
 }  // namespace strainwave

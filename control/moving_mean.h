@@ -26,9 +26,9 @@ struct MotionPoint {
 
 class MovingMean {
  public:
-  /// `periods` in 1..kMaxMeanPeriods, `period_s` > 0.
+  /// `periods` in 0..kMaxMeanPeriods, 0: the motion itself; `period_s` > 0.
   MovingMean(int periods, double period_s) noexcept : periods_(periods), period_s_(period_s) {
-    assert(periods >= 1 && periods <= kMaxMeanPeriods);
+    assert(periods >= 0 && periods <= kMaxMeanPeriods);
   }
 
   /// It has moved at this velocity for as long as it remembers, and is there now.
@@ -45,6 +45,7 @@ class MovingMean {
   MotionPoint step(const MotionPoint& sample) noexcept {
     newest_ = (newest_ + 1) % samples_.size();
     samples_[newest_] = sample;
+    if (periods_ == 0) return {sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2, 0.0};
     // Relative to the newest position: a motion that has ended leaves no rounding.
     double sum_rad = 0.0;
     for (int i = 0; i < periods_; ++i) {

@@ -123,16 +123,6 @@ ControllerOutput ScheduledController::step(const ControllerInput& input) noexcep
   return {torque_Nm, feedback_Nm, terms.feedforward_Nm, terms.zero_weight, saturated_};
 }
 
-void ScheduledController::soften(double share) noexcept {
-  zero_velocity_gain_ *= share;
-  high_velocity_gain_ *= share;
-  rules_.bottomRows<3>() *= share;
-  const double fast_rad_s = slow_rad_s_ - integral_rad_s_;
-  integral_rad_s_ /= share;
-  slow_rad_s_ = integral_rad_s_ + fast_rad_s;
-  interrupt();
-}
-
 void ScheduledController::reset() noexcept {
   integral_rad_s_ = 0.0;
   slow_rad_s_ = 0.0;

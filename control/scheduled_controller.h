@@ -86,8 +86,6 @@ class ScheduledController {
   void reset() noexcept;
   /// Until the next sample x jumps, or another torque is applied.
   void interrupt() noexcept { last_law_Nm_.reset(); }
-  /// From now on the gains are `share` > 0 times what they were; what the integral holds is the same torque.
-  void soften(double share) noexcept;
 
   /// Chooses the integral so that step(input) would give `torque_Nm` (unless it saturates): the change-over
   /// from another controller, which had `last_law_Nm` one period ago, makes no torque step. Without an integrator the lead alone goes on.

@@ -103,8 +103,6 @@ std::string_view to_text(Notice notice) noexcept {
       return "not homed";
     case Notice::kAtLimitSwitch:
       return "at a limit switch";
-    case Notice::kPlainLaw:
-      return "chatter, plain control law";
     case Notice::kOffStream:
       return "off the stream";
     case Notice::kPositionLate:
@@ -323,8 +321,6 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.homing.required";
     case Notice::kAtLimitSwitch:
       return "";
-    case Notice::kPlainLaw:
-      return "joint.model";
     case Notice::kOffStream:
       return "joint.limits";
     case Notice::kPositionLate:

@@ -63,7 +63,6 @@ enum class Notice : std::int32_t {
   kSpeedLimited = 1 << 5,
   kNotHomed = 1 << 6,
   kAtLimitSwitch = 1 << 7,
-  kPlainLaw = 1 << 8,
   kOffStream = 1 << 9,
   kPositionLate = 1 << 10,
   kOffTarget = 1 << 11,

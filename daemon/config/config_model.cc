@@ -14,11 +14,8 @@ namespace {
 
 // Of link to motor: a link this light follows its motor as one inertia does, and a motor this light its link.
 constexpr double kLargestRatio = 1e3;
-// Of critical damping: so far the planned motion allows for it (tests/control/link_motion_test.cc); gears have a tenth of it.
+// Of critical damping: so far the planned motion allows for it (tests/control/motor_plan_test.cc); gears have a tenth of it.
 constexpr double kMostDamping = 0.5;
-// A tenth of a millisecond from the earliest to the latest is what an operating system and a bus make of an instant. A simulated joint
-// lives by the clock as well, so it is sampled as unevenly as the loop wakes.
-constexpr double kSamplingDeviation_s = 3e-5;
 
 constexpr const char* kGearLine =
     "gear = \"csf-17-50\" (its catalogue name; or stiffness_Nm_rad = K1 of the gear's data sheet)";
@@ -110,22 +107,14 @@ void read_rigid(TomlSection& joint, PlantIdentity& plant) {
   plant.inertia_kgm2 = joint.number("inertia_kgm2", kPositive);
 }
 
-// Which parts of the controller a model uses.
-void choose_parts(const std::optional<LinkModel>& link, JointControllerConfig& controller) {
-  controller.link = link;
-  controller.rigid = controller.use_observer = controller.use_landing = !link;
-  controller.sampling_deviation_s = kSamplingDeviation_s;
-}
-
 }  // namespace
 
 void read_model(TomlSection& joint, PlantIdentity& plant, JointControllerConfig& controller) {
   require_model(joint);
   if (joint.choice("model", {"flexible", "rigid"}) == "flexible") {
-    choose_parts(read_flexible(joint, plant), controller);
+    controller.link = read_flexible(joint, plant);
   } else {
     read_rigid(joint, plant);
-    choose_parts(std::nullopt, controller);
   }
 }
 
@@ -136,10 +125,6 @@ void read_gravity(TomlSection& control, JointControllerConfig& controller) {
       control.fail("gravity_zero_rad", "it is allowed only with gravity_Nm");
     return;
   }
-  if (!controller.link)
-    control.fail(
-        "gravity_Nm",
-        "it is allowed only with model = \"flexible\": of a rigid joint the observer finds the load");
   controller.gravity.torque_Nm = control.number("gravity_Nm", {0.0, controller.torque_limit_Nm});
   controller.gravity.zero_rad = control.number("gravity_zero_rad", {-kTurn_rad, kTurn_rad});
 }

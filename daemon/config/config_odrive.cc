@@ -68,7 +68,6 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
   const double counts = section.number("encoder_counts_per_joint_turn", {1.0, 1e10});
   controller.encoder_resolution_rad = kTurn_rad / counts;
   // Both read the edges of an encoder that is sampled with the loop. This one has its own clock, and its own velocity.
-  controller.use_observer = controller.use_landing = false;
   controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
   TomlSection motor = section.section("motor");
   controller.motor =

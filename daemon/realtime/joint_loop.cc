@@ -72,7 +72,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   notices_ = 0;
-  controller_.begin_period(time.elapsed_periods);
+  begin_period(time);
   take_orders(time);
   read_drive(time);
   check_reading(time);
@@ -84,6 +84,14 @@ void JointLoop::step(const CycleTime& time) noexcept {
   advance_mode(time);
   command_drive(time);
   tell(time);
+}
+
+// After a gap in which the loop did not run the controller brings the joint to rest: what it followed is over.
+void JointLoop::begin_period(const CycleTime& time) noexcept {
+  if (time.elapsed_periods > kMaxElapsedPeriods)
+    ordered_.end();
+  else
+    controller_.begin_period(static_cast<int>(time.elapsed_periods));
 }
 
 void JointLoop::read_drive(const CycleTime& time) noexcept {
@@ -248,11 +256,11 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   if (const auto path = ordered_.path(); path && path->paused) notice(Notice::kPathPaused);
   if (ordered_.ends_path()) notice(Notice::kPathEnds);
   if (yield_) notice(Notice::kYielded);
-  if (ordered_.streamed() && controller_.ran_out_of_samples()) notice(Notice::kSamplesMissing);
+  if (ordered_.streamed() && controller_.trajectory().ran_out_of_samples()) notice(Notice::kSamplesMissing);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad =
-      on_path() ? zero_.to_drive_rad(path_->path.last().position_rad) : controller_.target_rad();
+      on_path() ? zero_.to_drive_rad(path_->path.last().position_rad) : controller_.trajectory().target_rad();
   cycle.joint_velocity_rad_s = measured_velocity_rad_s();
   if (mode_.controlled()) cycle.inertia_kgm2 = inertia_.inertia_kgm2();
   cycle.table_id = table_ != nullptr ? table_->id : 0;

@@ -83,14 +83,12 @@ class JointLoop {
   Ruling may_begin(const LoadedPath& path) const noexcept;
   void begin_path(const CycleTime& time) noexcept;
   /// How much later than it is told the joint is where it is told to be on a path.
-  double path_lead_s() const noexcept { return controller_.plan_lead_s(); }
+  double path_lead_s() const noexcept { return controller_.lead_s(); }
   /// The same of its setpoint, which a state shows as it was when the period began.
-  double path_setpoint_lag_s() const noexcept { return controller_.reference_lag_s(); }
+  double path_setpoint_lag_s() const noexcept { return controller_.lead_s(); }
   /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
   void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
   void note_path(const OrderedTarget::PathProgress& progress) noexcept { ordered_.note(progress); }
-  /// Where its setpoint, by path_lead_s() ahead, goes on from in this period.
-  PathPoint goes_on_from() const noexcept;
   /// From begin_path() until end_path(), or until something else took the joint off it.
   bool on_path() const noexcept { return ordered_.on_path(); }
   /// It comes to rest along it: told until it is off it.
@@ -116,6 +114,7 @@ class JointLoop {
     std::optional<double> position_rad;
   };
   // The steps of a period, in their order.
+  void begin_period(const CycleTime& time) noexcept;
   void take_orders(const CycleTime& time) noexcept;
   void read_drive(const CycleTime& time) noexcept;
   void check_reading(const CycleTime& time) noexcept;

@@ -26,7 +26,7 @@ Ruling JointLoop::may_begin(const LoadedPath& path) const noexcept {
   if (mode_.is(Mode::kTracking)) return Reason::kMoving;
   if (!mode_.is(Mode::kHolding)) return Reason::kWrongMode;
   const double begins_rad = zero_.to_drive_rad(path.path.knots[0].position_rad);
-  const double off_rad = std::abs(begins_rad - controller_.target_rad());
+  const double off_rad = std::abs(begins_rad - controller_.trajectory().target_rad());
   if (!(off_rad <= kBeginsWithin_rad)) return {Reason::kOutOfRange, off_rad, kBeginsWithin_rad};
   return Reason::kAccepted;
 }
@@ -46,10 +46,6 @@ void JointLoop::follow_path(const PathPoint& point, std::int64_t in_periods, boo
   sample.derivatives = 2;
   sample.in_periods = in_periods;
   controller_.follow(sample, begins, 0.0, reachable_range(), OnTime::kPlan);
-}
-
-PathPoint JointLoop::goes_on_from() const noexcept {
-  return {zero_.to_joint_rad(controller_.plan_position_rad()), controller_.plan_velocity_rad_s(), 0.0};
 }
 
 // The setpoint rests, or will where its limits kept it from resting by now.

@@ -34,7 +34,6 @@ bool JointLoop::shows_other_inertia() const noexcept {
 
 void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
   if (motion_.output.saturated) notice(Notice::kTorqueLimited);
-  if (motion_.monitor != MonitorState::kWatching) notice(Notice::kPlainLaw);
   if (motion_.off_stream) notice(Notice::kOffStream);
   if (shows_other_inertia()) notice(Notice::kOtherInertia);
   const FuzzyFriction& friction = table_->table.friction;
@@ -58,7 +57,7 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
     return raise_fault(Fault::kPositionLimit, time);
   if (!mode_.is(Mode::kHoming) && into_limit_switch(motion_.reference.velocity_rad_s))
     return raise_fault(Fault::kLimitSwitch, time);
-  if (motion_.monitor == MonitorState::kFaultDue) return raise_fault(Fault::kChatter, time);
+  if (motion_.oscillates) return raise_fault(Fault::kChatter, time);
   // What it is yielding to pushes on as fast as it may be pushed.
   if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
     return raise_fault(controller_.yields() ? Fault::kOverload : Fault::kSpeedLimit, time);
@@ -85,7 +84,7 @@ void JointLoop::stop_overloaded(const CycleTime& time) noexcept {
   (void)events_.push({index_, time.cycle, mode(), mode(), Fault::kNone, 0, yield_});
   ordered_.end();
   drop_path();
-  controller_.yield(motion_watch_.usual_load_Nm(), motion_watch_.loads().notice_Nm);
+  controller_.yield(motion_watch_.usual_load_Nm());
 }
 
 }  // namespace strainwave

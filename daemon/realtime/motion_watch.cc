@@ -7,9 +7,6 @@ namespace strainwave {
 
 namespace {
 
-/// A motion that falls behind is planned anew a few times, when friction or load turn out otherwise than thought.
-constexpr int kReplans = 50;
-constexpr std::int64_t kReplanWindow_ns = 1'000'000'000;
 /// Spans in which a push is looked at: a joint that turns round under it stands for less.
 constexpr double kSpan_s = 0.02;
 /// Of the time in which a joint is not pushed in vain: pushed so for ever, for a tenth of the time, it has a third of its torque limit in the
@@ -38,18 +35,15 @@ void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept
   yielded_ns_.reset();
   high_load_ = false;
   in_place_ns_ = now_ns;
-  replans_since_ns_ = now_ns;
-  replans_before_ = 0;
 }
 
 Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std::int64_t now_ns) noexcept {
   // Each looks every period, whatever the others find.
   const bool stands = blocked(motion, joint_position_rad, now_ns);
-  const bool restless = planned_too_often(motion.replans, now_ns);
   const bool heavy = overloaded(motion, now_ns);
   if (std::abs(motion.ordered_reference.position_rad - joint_position_rad) > config_.following_error_rad)
     return Fault::kFollowingError;
-  if (stands || restless) return Fault::kBlocked;
+  if (stands) return Fault::kBlocked;
   return heavy ? Fault::kOverload : Fault::kNone;
 }
 
@@ -88,15 +82,6 @@ bool MotionWatch::blocked(const JointStep& motion, double joint_position_rad, st
 bool MotionWatch::off_target(bool holding, double distance_rad, std::int64_t now_ns) noexcept {
   if (!holding || std::abs(distance_rad) <= config_.rest_tolerance_rad) in_place_ns_ = now_ns;
   return seconds(now_ns - in_place_ns_) >= kOffTarget_s;
-}
-
-bool MotionWatch::planned_too_often(int replans, std::int64_t now_ns) noexcept {
-  if (replans - replans_before_ > kReplans) return true;
-  if (now_ns - replans_since_ns_ >= kReplanWindow_ns) {
-    replans_since_ns_ = now_ns;
-    replans_before_ = replans;
-  }
-  return false;
 }
 
 bool MotionWatch::has_just_yielded(std::int64_t now_ns) const noexcept {

@@ -5,7 +5,6 @@
 //   blocked      torque at its limit in vain: the joint neither gets on in its direction, by
 //                progress_rad_s, nor is braked by it; for blocked_s in all, of which a tenth of the
 //                time that it was otherwise is forgotten                                             -> kBlocked
-//   replanned    more than kReplans new plans within a second                                        -> kBlocked
 //   load         |load that shows| > load_Nm for overload_s, or a joint yields for 0.5 s             -> kOverload
 //   high load    |load that shows| > notice_Nm                                                       no fault, a notice
 //   off target   |place to hold - position| > rest_tolerance_rad for kOffTarget_s                    no fault, a notice
@@ -54,7 +53,6 @@ class MotionWatch {
   bool pushed_in_vain(double direction, double moved_rad) const noexcept;
   void begin_span(double joint_position_rad, std::int64_t now_ns) noexcept;
   double span_s() const noexcept;
-  bool planned_too_often(int replans, std::int64_t now_ns) noexcept;
   bool overloaded(const JointStep& motion, std::int64_t now_ns) noexcept;
 
   MotionWatchConfig config_;
@@ -72,8 +70,6 @@ class MotionWatch {
   double usual_load_Nm_ = 0.0;
   bool high_load_ = false;
   std::int64_t in_place_ns_ = 0;  ///< when the joint was last where it is to hold, or not holding
-  std::int64_t replans_since_ns_ = 0;
-  int replans_before_ = 0;
 };
 
 }  // namespace strainwave

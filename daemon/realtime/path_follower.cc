@@ -20,8 +20,7 @@ PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, d
     : joints_(joints),
       period_s_(period_s),
       members_(joints.size()),
-      travels_(joints.size()),
-      stray_(joints.size()) {
+      travels_(joints.size()) {
   for (const auto& joint : joints_) joint->follow_paths_of(*this);
 }
 
@@ -114,16 +113,9 @@ void PathFollower::wait_for_the_slowest(std::size_t travel) noexcept {
 void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   Travel& travel = travels_[index];
   const bool begins = travel.phase == Phase::kBeginning;
-  // Where the joints are is known after this period.
-  if (time.elapsed_periods > kMaxElapsedPeriods) {
-    if (!begins) travel.away_periods += time.elapsed_periods;
-    return;
-  }
+  if (time.elapsed_periods > kMaxElapsedPeriods) return stop_each(index);
   if (begins && !begin_all(index, time)) return free(index);
   if (!release_lost(index)) return stop_each(index);
-  const bool anew = return_to_path(index) || begins;
-  const double elapsed_s = static_cast<double>(time.elapsed_periods) * period_s_;
-  travel.back_s = std::max(0.0, travel.back_s - elapsed_s);
   for (std::int64_t period = 0; period < time.elapsed_periods; ++period) {
     travel.clock.advance(period_s_, travel.clock.steady() ? PathClock::kMostRoom : room(index));
     travel.times.note(travel.clock.now());
@@ -132,7 +124,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   for_each_member(index, [&](JointLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint on = in_path_time(member.reader.at(joint.path()->path, now.time_s), now);
-    joint.follow_path(on + member.back.step(elapsed_s), time.elapsed_periods, anew);
+    joint.follow_path(on, time.elapsed_periods, begins);
     // Of the setpoint that the same state shows: where the joint is told to be now its reference is a period later, or more.
     const double later_periods = 1.0 + joint.path_setpoint_lag_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
@@ -148,7 +140,6 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
 // Of one that ends early all joints are on it until all rest: what is to stop with them waits for that.
 bool PathFollower::is_over(std::size_t index) noexcept {
   const Travel& travel = travels_[index];
-  if (travel.back_s > 0.0) return false;
   const PathTime last = travel.times.ago(travel.most_behind_periods);
   const bool arrived = last.time_s >= travel.duration_s;
   if (travel.phase != Phase::kEnding) return arrived;

@@ -13,9 +13,7 @@
 // Where the path is just using what deceleration there is, resting along it waits. Joints that are to end, and do not rest along the path in
 // twice the time that they need on their own, stop on their own.
 //
-// After a stall of the loop over which nobody knows what a joint did (more than kMaxElapsedPeriods) each goes on from where it is. The path's time
-// waits for that, and goes on from where the path is nearest to all of them (control/path_return.h); what each is off it then goes away in a fifth of
-// a second or more.
+// After a gap of more than kMaxElapsedPeriods in which the loop did not run each joint comes to rest on its own, and the path is over.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +23,6 @@
 #include <vector>
 
 #include "control/path_clock.h"
-#include "control/path_return.h"
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/orders.h"
 
@@ -60,15 +57,12 @@ class PathFollower {
     double most_behind_periods = 0.0;  ///< of its members
     double duration_s = 0.0;
     std::int64_t rest_cycles = 0;   ///< left for coming to rest along the path, while it ends
-    std::int64_t away_periods = 0;  ///< that the loop was, and nobody has found the path since
-    double back_s = 0.0;            ///< left for coming back to it
   };
   /// A joint's place on it.
   struct Member {
     std::size_t travel = kNoTravel;
     PathReader reader;
     double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
-    WayBack back;
   };
   template <typename Act>
   void for_each_member(std::size_t travel, const Act& act) noexcept {
@@ -79,8 +73,6 @@ class PathFollower {
   bool begin_all(std::size_t travel, const CycleTime& time) noexcept;
   void wait_for_the_slowest(std::size_t travel) noexcept;
   void advance(std::size_t travel, const CycleTime& time) noexcept;
-  bool return_to_path(std::size_t travel) noexcept;
-  void find_path(std::size_t travel) noexcept;
   bool release_lost(std::size_t travel) noexcept;
   bool is_over(std::size_t travel) noexcept;
   void stop_each(std::size_t travel) noexcept;
@@ -92,7 +84,6 @@ class PathFollower {
   double period_s_;
   std::vector<Member> members_;  ///< by joint
   std::vector<Travel> travels_;  ///< by the joint that was told to begin
-  std::vector<StrayJoint> stray_;
 };
 
 }  // namespace strainwave

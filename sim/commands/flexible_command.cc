@@ -45,7 +45,7 @@ std::size_t number_of(const std::string& name, const std::vector<Contender>& con
 /// The daemon's controller told of its spring beside what a user would take instead, on the grid alone.
 void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::vector<Contender> contenders = flexible_contenders(gains, false);
-  const std::size_t told = number_of("daemon told of its spring", contenders);
+  const std::size_t told = number_of("daemon", contenders);
   contenders = {contenders[told]};
   for (Contender& peer : peer_contenders()) contenders.push_back(std::move(peer));
   const auto grid = run_part("grid", flexible_grid(), contenders);
@@ -61,7 +61,7 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
 /// The daemon's controller told of its spring, and told wrongly, on the grid and on joints drawn at random.
 void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
   const std::vector<Contender> contenders = flexible_contenders(gains, false);
-  const Contender& told = contenders[number_of("daemon told of its spring", contenders)];
+  const Contender& told = contenders[number_of("daemon", contenders)];
   for (const auto& cells : {wrongly_told_grid(), wrongly_told_joints(options.joints, options.seed)})
     std::cout << wrongly_told_summary(run_wrongly_told(cells, told)).markdown() << '\n';
 }
@@ -75,21 +75,18 @@ void run(const FlexibleOptions& options) {
   make_folder(out);
   if (options.peers) return run_peers(gains, out);
   const std::vector<Contender> contenders = flexible_contenders(gains, options.full);
-  std::vector<Contender> first_contenders = contenders;
-  first_contenders.push_back(unwatched_contender(gains));
   const std::size_t daemon = number_of("daemon", contenders);
   const auto begin = std::chrono::steady_clock::now();
 
   const auto grid = run_part("grid", flexible_grid(), contenders);
-  const auto first = run_part("first grid", first_grid(), first_contenders);
+  const auto first = run_part("first grid", first_grid(), contenders);
   std::vector<TextTable> tables = {
       flexible_summary("The grid", grid, contenders),
       oscillation_table("The grid: oscillating cells", grid, contenders),
       price_table(grid, contenders, daemon),
-      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, first_contenders),
-      lasting_oscillations(first_grid(), first_contenders.back(), {1.5, 2.0, 2.5, 3.0, 4.0, 8.0})};
+      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, contenders)};
   write_text_file(out / "grid.csv", flexible_cells(grid, contenders).csv());
-  write_text_file(out / "first-grid.csv", flexible_cells(first, first_contenders).csv());
+  write_text_file(out / "first-grid.csv", flexible_cells(first, contenders).csv());
   write_text_file(out / "price.csv", price_cells(grid, contenders, daemon).csv());
   if (options.full) {
     const auto effects = run_part("effects", effect_grid(), contenders);
@@ -123,10 +120,10 @@ void add_flexible_command(CLI::App& program, CommandBody& chosen) {
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->add_flag("--full", options->full, "every contender, each further effect, and joints at random");
   command->add_flag("--peers", options->peers,
-                    "the daemon told of its spring against servo cascades, disturbance observer and LQG, on "
+                    "the daemon against servo cascades, disturbance observer and LQG, on "
                     "the grid alone");
   command->add_flag("--wrong", options->wrong,
-                    "the daemon told of its spring, and told load, stiffness, friction or delay wrongly; "
+                    "the daemon, and told load, stiffness, friction or delay wrongly; "
                     "prints, writes nothing");
   command->add_option("--joints", options->joints, "number of random joints, with --full or --wrong")
       ->check(CLI::Range(1, 100000))

@@ -50,18 +50,12 @@ Contender contender_of_kind(const std::string& kind, const GainTable& table) {
   if (kind == "pid") return pid_contender();
   if (kind == "plain") return plain_contender(name, table);
   if (kind == "extended") return extended_contender(name + "+", table);
-  if (kind == "told") {
-    ExtendedFeatures features = daemon_defaults();
-    features.link = true;
-    features.gravity = true;
-    return extended_contender(name + "+ told", table, features);
-  }
   if (kind == "fallback") {
     GainTable fallback = table;
     fallback.primary = table.fallback;
     return plain_contender(std::string(table.fallback.controller.view()), fallback);
   }
-  throw InputError("--controller", "controller", kind, "must be extended, told, plain, fallback or pid");
+  throw InputError("--controller", "controller", kind, "must be extended, plain, fallback or pid");
 }
 
 }  // namespace strainwave

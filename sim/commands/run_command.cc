@@ -115,11 +115,8 @@ void print_arrival(const std::vector<TracePoint>& link, bool flexible) {
 }
 
 void print_monitor(const ClosedLoopResult& result) {
-  if (result.fallen_back_s)
-    std::cout << "the joint chattered: the monitor fell back to the plain law at "
-              << number(*result.fallen_back_s) << " s\n";
   if (result.switched_off_s)
-    std::cout << "it went on: the monitor switched the joint off at " << number(*result.switched_off_s)
+    std::cout << "the joint oscillated: the controller switched it off at " << number(*result.switched_off_s)
               << " s\n";
 }
 

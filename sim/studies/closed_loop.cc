@@ -145,11 +145,8 @@ ClosedLoopResult run_closed_loop(const ClosedLoopConfig& config, LoopController&
   result.trace.reserve(sample_count(config));
   result.diverged = !simulate(config, controller, [&](const TracePoint& point) {
     result.trace.push_back(point);
-    const MonitorState monitor = controller.monitor();
-    if (monitor != MonitorState::kWatching && !result.fallen_back_s) result.fallen_back_s = point.time_s;
-    if (monitor == MonitorState::kFaultDue && !result.switched_off_s) result.switched_off_s = point.time_s;
+    if (controller.switched_off() && !result.switched_off_s) result.switched_off_s = point.time_s;
   });
-  result.monitor = controller.monitor();
   result.statistics = evaluate(result.trace, config.plant.period_s);
   if (result.diverged)
     result.statistics.pi1_rad2 = result.statistics.pi2 = std::numeric_limits<double>::infinity();

@@ -11,7 +11,6 @@
 #include <optional>
 #include <vector>
 
-#include "control/chatter_monitor.h"
 #include "sim/joint/joint_plant.h"
 #include "sim/joint/temperature_profile.h"
 
@@ -38,8 +37,8 @@ class LoopController {
   virtual double torque_Nm(const LoopSample& sample) noexcept = 0;
   /// Forgets everything; called before each run.
   virtual void reset() noexcept = 0;
-  /// Whether it found itself chattering since reset(), and what became of it; what has no monitor watches for ever.
-  virtual MonitorState monitor() const noexcept { return MonitorState::kWatching; }
+  /// Whether it found the joint oscillating since reset(), and gives no torque any more.
+  virtual bool switched_off() const noexcept { return false; }
 };
 
 struct ClosedLoopConfig {
@@ -74,9 +73,7 @@ struct LoopStatistics {
 struct ClosedLoopResult {
   LoopStatistics statistics;
   std::vector<TracePoint> trace;                   ///< every sample
-  MonitorState monitor = MonitorState::kWatching;  ///< of the controller, at the end
-  std::optional<double> fallen_back_s;             ///< when the monitor took over
-  std::optional<double> switched_off_s;            ///< when it gave up
+  std::optional<double> switched_off_s;            ///< when the controller found the joint oscillating
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 

@@ -32,7 +32,7 @@ double torque_limit_Nm(const JointPlantConfig& plant, const GainTable& table) {
 }  // namespace
 
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
-                                      const ExtendedFeatures& features) {
+                                      const MotionLimits& motion) {
   JointControllerConfig config;
   config.period_s = plant.period_s;
   config.encoder_resolution_rad = plant.encoder.resolution_rad();
@@ -43,21 +43,15 @@ JointControllerConfig extended_config(const JointPlantConfig& plant, const GainT
   config.torque_limit_Nm = table.torque_limit_Nm;
   config.motor = plant.motor;
   config.motor.peak_torque_Nm = config.torque_limit_Nm;
-  config.motion = features.motion;
-  config.use_observer = features.observer;
-  config.use_shaping = features.shaping;
-  config.use_rest = features.rest;
-  config.rigid = features.rigid;
-  if (features.link && plant.effects.transmission) {
+  config.motion = motion;
+  if (plant.effects.transmission) {
     const Transmission& gear = *plant.effects.transmission;
     config.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
     if (!table.box.rigid()) config.encoder_side = table.box.encoder_side;
     if (config.encoder_side == EncoderSide::kLink)
       config.encoder_resolution_rad = plant.link_encoder.resolution_rad();
   }
-  if (features.gravity) config.gravity = plant.effects.gravity;
-  config.use_monitor = features.monitor;
-  config.use_landing = features.rigid && features.observer && features.rest;
+  config.gravity = plant.effects.gravity;
   return config;
 }
 
@@ -79,22 +73,14 @@ Contender plain_contender(const std::string& name, const GainTable& table) {
 }
 
 Contender extended_contender(const std::string& name, const GainTable& table,
-                             const ExtendedFeatures& features) {
-  return {name, [table, features](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
+                             const MotionLimits& motion) {
+  return {name, [table, motion](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
             require_period(table, plant);
             GainTable limited = table;
             limited.torque_limit_Nm = torque_limit_Nm(plant, table);
-            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, features),
+            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, motion),
                                                             limited);
           }};
-}
-
-Contender extended_contender(const std::string& name, const GainTable& table) {
-  return {
-      name, [name, table](const JointPlantConfig& plant) {
-        const bool spring = plant.effects.transmission.has_value();
-        return extended_contender(name, table, spring ? daemon_defaults() : ExtendedFeatures{}).make(plant);
-      }};
 }
 
 Contender pid_contender() {
@@ -111,18 +97,18 @@ ExtendedLoopController::ExtendedLoopController(const JointControllerConfig& conf
 
 double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
   if (!started_) controller_.start(sample.joint_position_rad);
-  if (!started_ || controller_.target_rad() != sample.setpoint_position_rad)
+  if (!started_ || controller_.trajectory().target_rad() != sample.setpoint_position_rad)
     controller_.set_target(sample.setpoint_position_rad);
   started_ = true;
   const JointStep step = controller_.step(measurement_of(sample, sample.temperature_C));
-  monitor_ = step.monitor;
-  return monitor_ == MonitorState::kFaultDue ? 0.0 : step.output.torque_Nm;
+  off_ = off_ || step.oscillates;
+  return off_ ? 0.0 : step.output.torque_Nm;
 }
 
 void ExtendedLoopController::reset() noexcept {
   controller_ = JointController(config_);
   controller_.load(table_);
-  monitor_ = MonitorState::kWatching;
+  off_ = false;
   started_ = false;
 }
 

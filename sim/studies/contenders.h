@@ -1,5 +1,5 @@
 // Who takes part in a comparison: the source's PID, the plain table controllers C1..C4, and C4 as the daemon
-// runs it (observer, reference shaping, rest). Offline.
+// runs it. Offline.
 #pragma once
 
 #include <filesystem>
@@ -28,55 +28,33 @@ Contender plain_contender(const std::string& name, const GainTable& table);
 /// Faster than the joint can ever be: what the motor can do is then the only limit of the reference.
 inline constexpr MotionLimits kNoMotionLimits{1e3, 1e6, 1e6};
 
-/// Which features of control/joint_controller.h are on. As it stands here: every one, for the rigid joint of the source.
-struct ExtendedFeatures {
-  bool observer = true;
-  bool shaping = true;
-  bool rest = true;
-  bool rigid = true;     ///< declared so: landing, where there is an observer and rest, and new plans
-  bool link = false;     ///< told of the plant's link and spring; only without rigid
-  bool gravity = false;  ///< told of the plant's gravity; only without observer
-  bool monitor = true;
-  MotionLimits motion = kNoMotionLimits;
-};
-
-/// Of a joint that is not declared rigid: without observer, landing and new plans.
-constexpr ExtendedFeatures daemon_defaults() {
-  ExtendedFeatures features;
-  features.rigid = false;
-  features.observer = false;
-  return features;
-}
-
-/// How the daemon would configure its controller for the plant; the torque limit is the table's.
+/// How the daemon would configure its controller for the plant, with its link, spring and gravity; the torque limit is the table's.
 JointControllerConfig extended_config(const JointPlantConfig& plant, const GainTable& table,
-                                      const ExtendedFeatures& features);
+                                      const MotionLimits& motion = kNoMotionLimits);
 
 /// The plant with the friction that `table` declares at `temperature_C` in the place of its own: what is left to be wrong is not friction.
 JointPlantConfig with_declared_friction(JointPlantConfig plant, const GainTable& table, double temperature_C);
 
 /// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,
-                             const ExtendedFeatures& features);
-/// The same as it would be configured for the plant: every part on a rigid one, the daemon's defaults on a spring.
-Contender extended_contender(const std::string& name, const GainTable& table);
+                             const MotionLimits& motion = kNoMotionLimits);
 
 Contender pid_contender();
 
-/// Runs the daemon's joint controller in the simulated loop; as in the daemon, a joint that goes on chattering is
+/// Runs the daemon's joint controller in the simulated loop; as in the daemon, a joint that oscillates is
 /// switched off. torque_Nm() is real-time safe.
 class ExtendedLoopController final : public LoopController {
  public:
   ExtendedLoopController(const JointControllerConfig& config, const GainTable& table) noexcept;
   double torque_Nm(const LoopSample& sample) noexcept override;
   void reset() noexcept override;
-  MonitorState monitor() const noexcept override { return monitor_; }
+  bool switched_off() const noexcept override { return off_; }
 
  private:
   JointControllerConfig config_;
   GainTable table_;
   JointController controller_;
-  MonitorState monitor_ = MonitorState::kWatching;  ///< of the last step
+  bool off_ = false;
   bool started_ = false;
 };
 

@@ -90,7 +90,7 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     responses.panels.push_back(response);
   }
   Figure map{"flexible_map",
-             "Where the joint oscillates at rest, or the monitor took over, over its free-free frequency. "
+             "Where the joint oscillates at rest, or the controller switched it off, over its free-free frequency. "
              "Each step has a band; "
              "in it temperature rises from -10 to 45 °C, and for each temperature damping from 1 to 10 %.",
              2,
@@ -99,22 +99,19 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     Panel where = panel(contenders[c].name, "free-free frequency (Hz)", "step (rad)", true);
     where.y_range = {3e-4, 3.0};
     Points quiet;
-    Points fallen;
     Points off;
     Points loud;
     for (const FlexibleRow& row : rows) {
       const FlexibleResult& result = row.results[c];
-      Points& kind = result.oscillates                             ? loud
-                     : result.monitor == MonitorState::kFaultDue   ? off
-                     : result.monitor == MonitorState::kFallenBack ? fallen
-                                                                   : quiet;
+      Points& kind = result.oscillates     ? loud
+                     : result.switched_off ? off
+                                           : quiet;
       kind.emplace_back(free_free_Hz(row.cell), map_height(row.cell));
     }
     const auto add = [&](const char* name, const Points& points, int colour) {
       if (!points.empty()) where.series.push_back({name, points, Mark::kPoints, colour, false});
     };
     add("quiet", quiet, 7);
-    add("fallen back", fallen, 2);
     add("switched off", off, 6);
     add("oscillating", loud, 5);
     map.panels.push_back(where);

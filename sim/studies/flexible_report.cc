@@ -22,18 +22,6 @@ std::vector<double> values_of(const std::vector<FlexibleRow>& rows, std::size_t 
   return values;
 }
 
-const char* monitor_word(MonitorState state) {
-  switch (state) {
-    case MonitorState::kWatching:
-      return "watches";
-    case MonitorState::kFallenBack:
-      return "fallen back";
-    case MonitorState::kFaultDue:
-      return "switched off";
-  }
-  return "";
-}
-
 }  // namespace
 
 TextTable price_table(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
@@ -130,7 +118,7 @@ TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector
                   "rest_sign_changes_per_s",
                   "rest_swing_rad",
                   "oscillates",
-                  "monitor",
+                  "switched_off",
                   "diverged"};
   for (const FlexibleRow& row : rows)
     for (std::size_t c = 0; c < contenders.size(); ++c) {
@@ -145,7 +133,7 @@ TextTable flexible_cells(const std::vector<FlexibleRow>& rows, const std::vector
                                  r.rest_rms_Nm, r.rest_sign_changes_per_s, r.rest_swing_rad})
         fields.push_back(number(value, 6));
       fields.emplace_back(r.oscillates ? "yes" : "no");
-      fields.emplace_back(monitor_word(r.monitor));
+      fields.emplace_back(r.switched_off ? "yes" : "no");
       fields.emplace_back(r.diverged ? "yes" : "no");
       table.rows.push_back(fields);
     }
@@ -166,7 +154,6 @@ TextTable flexible_summary(const std::string& title, const std::vector<FlexibleR
                   "worst overshoot (mrad)",
                   "peak torque at rest (N.m), 95 %",
                   "oscillating",
-                  "fallen back",
                   "switched off",
                   "diverged"};
   for (std::size_t c = 0; c < contenders.size(); ++c) {
@@ -185,8 +172,7 @@ TextTable flexible_summary(const std::string& title, const std::vector<FlexibleR
          count([](const FlexibleResult& r) { return r.settling_time_s >= 0.0; }),
          number(percentile(overshoot, 1.0), 3), number(percentile(rest, 0.95), 3),
          count([](const FlexibleResult& r) { return r.oscillates; }),
-         count([](const FlexibleResult& r) { return r.monitor == MonitorState::kFallenBack; }),
-         count([](const FlexibleResult& r) { return r.monitor == MonitorState::kFaultDue; }),
+         count([](const FlexibleResult& r) { return r.switched_off; }),
          count([](const FlexibleResult& r) { return r.diverged; })});
   }
   return table;

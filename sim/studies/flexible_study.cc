@@ -100,7 +100,7 @@ void add_rest(const std::vector<TracePoint>& trace, double step_rad, double peri
 FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, const Limit& limit) {
   FlexibleResult result;
   result.diverged = run.diverged;
-  result.monitor = run.monitor;
+  result.switched_off = run.switched_off_s.has_value();
   SideSums link;
   SideSums motor;
   const double direction = sign(cell.step_rad);
@@ -127,18 +127,10 @@ FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, cons
   return result;
 }
 
-/// Every part on, as the first version was judged: its acceleration limited.
-ExtendedFeatures every_part() {
-  ExtendedFeatures features;
-  features.motion = {6.0, 60.0, 60.0};
-  return features;
-}
-
-Contender daemon_contender(const std::string& name, const FlexibleTables& tables,
-                           const ExtendedFeatures& features) {
-  return {name, [name, family = tables.c4, features](const JointPlantConfig& plant) {
+Contender daemon_contender(const FlexibleTables& tables) {
+  return {"daemon", [family = tables.c4](const JointPlantConfig& plant) {
             const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
-            return extended_contender(name, table, features).make(plant);
+            return extended_contender("daemon", table).make(plant);
           }};
 }
 
@@ -168,25 +160,9 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
                        return make(name, FlexibleTables::nearest(family, total_inertia(plant))).make(plant);
                      }};
   };
-  const auto daemon = [&](const std::string& name, const ExtendedFeatures& features) {
-    return daemon_contender(name, tables, features);
-  };
-  const ExtendedFeatures standard = daemon_defaults();
-  ExtendedFeatures told = standard;
-  told.link = true;
-  told.gravity = true;
   std::vector<Contender> contenders = {pid_contender(), plain("C4", tables.c4, &plain_contender),
-                                       daemon("daemon", standard), daemon("daemon told of its spring", told)};
-  const auto switched = [&](const std::string& name, bool ExtendedFeatures::*part, bool on) {
-    ExtendedFeatures features = standard;
-    features.*part = on;
-    contenders.push_back(daemon(name, features));
-  };
-  contenders.push_back(daemon("declared rigid", every_part()));
+                                       daemon_contender(tables)};
   if (!all) return contenders;
-  switched("observer on", &ExtendedFeatures::observer, true);
-  switched("shaping off", &ExtendedFeatures::shaping, false);
-  switched("rest off", &ExtendedFeatures::rest, false);
   contenders.push_back(plain("C1", tables.c1, &plain_contender));
   contenders.push_back(plain("C2", tables.c2, &plain_contender));
   contenders.push_back(plain("C3", tables.c4, [](const std::string& name, const GainTable& table) {
@@ -195,12 +171,6 @@ std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool al
     return plain_contender(name, fallback);
   }));
   return contenders;
-}
-
-Contender unwatched_contender(const FlexibleTables& tables) {
-  ExtendedFeatures features = every_part();
-  features.monitor = false;
-  return daemon_contender("declared rigid without monitor", tables, features);
 }
 
 ClosedLoopResult run_cell(const FlexibleCell& cell, const Contender& contender) {

@@ -25,8 +25,7 @@ struct FlexibleResult {
   double rest_swing_rad = 0.0;  ///< of the link, from peak to peak over the last quarter
   bool oscillates =
       false;  ///< swings at rest by more than kOscillation_rad under a torque that keeps changing sign
-  MonitorState monitor =
-      MonitorState::kWatching;  ///< fallen back, or switched off, which ends every oscillation
+  bool switched_off = false;  ///< by the controller, which ends every oscillation
   bool diverged = false;
 };
 
@@ -43,12 +42,8 @@ struct FlexibleTables {
 /// Reads total-*/c1.json, c2.json and c4.json of `directory`. Throws InputError.
 FlexibleTables read_flexible_tables(const std::filesystem::path& directory);
 
-/// PID, plain C4, and the daemon's controller as configured by default; with `all` also plain C1 to C3 and the daemon's with each
-/// part switched.
+/// PID, plain C4, and the daemon's controller; with `all` also plain C1 to C3.
 std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all);
-
-/// The daemon's with every part on, as on a joint that is declared rigid, and no monitor: what that prevents.
-Contender unwatched_contender(const FlexibleTables& tables);
 
 struct FlexibleRow {
   FlexibleCell cell;

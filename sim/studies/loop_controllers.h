@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "control/scheduled_controller.h"
-#include "control/state_estimator.h"
+#include "control/joint_measurement.h"
 #include "sim/studies/closed_loop.h"
 
 namespace strainwave {

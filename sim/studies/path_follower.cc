@@ -21,7 +21,7 @@ StreamedController::StreamedController(const JointControllerConfig& config, cons
 
 void StreamedController::send(double time_s) noexcept {
   const int ahead =
-      kInterval + static_cast<int>(std::ceil(controller_.stream_lead_s() / config_.period_s - kRounding));
+      kInterval + static_cast<int>(std::ceil(controller_.lead_s() / config_.period_s - kRounding));
   const Reference then = path_.at(time_s + ahead * config_.period_s);
   controller_.follow({then.position_rad, then.velocity_rad_s, then.acceleration_rad_s2, 2, ahead},
                      periods_ == 0, 0.0, {});
@@ -33,14 +33,14 @@ double StreamedController::torque_Nm(const LoopSample& sample) noexcept {
   ++periods_;
   const JointStep step =
       controller_.step(measurement_of(sample, told_.fixed_C.value_or(sample.temperature_C + told_.shift_C)));
-  monitor_ = step.monitor;
-  return monitor_ == MonitorState::kFaultDue ? 0.0 : step.output.torque_Nm;
+  off_ = off_ || step.oscillates;
+  return off_ ? 0.0 : step.output.torque_Nm;
 }
 
 void StreamedController::reset() noexcept {
   controller_ = JointController(config_);
   controller_.load(table_);
-  monitor_ = MonitorState::kWatching;
+  off_ = false;
   periods_ = 0;
 }
 

@@ -13,7 +13,7 @@
 namespace strainwave {
 
 /// The daemon's controller under a stream of the path: samples for every tenth period, with velocity and acceleration, one interval
-/// ahead of what the controller needs (JointController::stream_lead_s()).
+/// ahead of what the controller needs (JointController::lead_s()).
 class StreamedController final : public LoopController {
  public:
   /// What it is told of the temperature: the sensor's plus `shift_C`, always the same, or nothing.
@@ -25,7 +25,7 @@ class StreamedController final : public LoopController {
                      const Told& told) noexcept;
   double torque_Nm(const LoopSample& sample) noexcept override;
   void reset() noexcept override;
-  MonitorState monitor() const noexcept override { return monitor_; }
+  bool switched_off() const noexcept override { return off_; }
 
  private:
   void send(double time_s) noexcept;
@@ -35,7 +35,7 @@ class StreamedController final : public LoopController {
   SmoothPath path_;
   Told told_;
   JointController controller_;
-  MonitorState monitor_ = MonitorState::kWatching;
+  bool off_ = false;
   long periods_ = 0;
 };
 

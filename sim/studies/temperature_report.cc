@@ -15,7 +15,6 @@ namespace {
 
 constexpr const char* kUncompensated = "none";
 constexpr const char* kRightSensor = "right";
-constexpr double kStribeckShare = 0.5;  // of the width of "zero velocity": control/joint_model.h
 
 using Key = std::string TemperatureRow::*;
 
@@ -118,11 +117,11 @@ double rms_over_none(const std::vector<TemperatureRow>& rows, const std::string&
 TextTable temperature_rows(const std::vector<TemperatureRow>& rows) {
   TextTable table;
   table.header = {"way",           "sensor",         "motion",     "temperature_C",
-                  "rms_error_rad", "peak_error_rad", "fallen_back"};
+                  "rms_error_rad", "peak_error_rad", "switched_off"};
   for (const TemperatureRow& row : rows)
     table.rows.push_back({row.way, row.sensor, row.motion, number(row.temperature_C, 9),
                           number(row.error.rms_rad, 6), number(row.error.peak_rad, 6),
-                          row.monitor == MonitorState::kWatching ? "no" : "yes"});
+                          row.switched_off ? "yes" : "no"});
   return table;
 }
 
@@ -180,7 +179,7 @@ TextTable friction_table(const GainTable& gains, const JointPlantConfig& plant) 
   }
   ScheduledController law(gains.primary, gains.friction, gains.plant);
   JointModel model;
-  model.stribeck = {kStribeckShare * gains.friction.velocity.zero_width_rad_s, 2.0};
+  model.stribeck = gains.friction.velocity.stribeck();
   for (const double temperature_C : kStudyTemperatures_C) {
     law.set_temperature(temperature_C);
     model.friction = law.friction();

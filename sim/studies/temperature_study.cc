@@ -39,11 +39,9 @@ GainTable without_friction(GainTable table) {
 FrictionWay product_way(const std::string& name, const GainTable& table,
                         const StreamedController::Told& told) {
   return {name, [table, told](const JointPlantConfig& plant, const SmoothPath& path, double shift_C) {
-            ExtendedFeatures features = daemon_defaults();
-            features.link = true;
             StreamedController::Told now = told;
             now.shift_C += shift_C;
-            return std::make_unique<StreamedController>(extended_config(plant, table, features), table, path,
+            return std::make_unique<StreamedController>(extended_config(plant, table), table, path,
                                                         now);
           }};
 }
@@ -92,7 +90,7 @@ std::vector<TemperatureRow> run_jobs(const std::vector<Job>& jobs,
     const PathRun run =
         run_path(plant_at(job.temperature_C), *job.way, path, *job.sensor, job.temperature_C, {path.end_s()});
     rows[i] = {job.way->name,     job.sensor->name,      job.motion->name,
-               job.temperature_C, run.stretches.front(), run.monitor};
+               job.temperature_C, run.stretches.front(), run.switched_off};
   });
   return rows;
 }
@@ -161,7 +159,7 @@ PathRun run_path(const JointPlantConfig& plant, const FrictionWay& way, const Sm
   if (!stable) throw InputError("temperature: the loop is unstable (" + way.name + ")");
   for (std::size_t i = 0; i < counts.size(); ++i)
     run.stretches[i].rms_rad = std::sqrt(run.stretches[i].rms_rad / static_cast<double>(counts[i]));
-  run.monitor = controller->monitor();
+  run.switched_off = controller->switched_off();
   return run;
 }
 

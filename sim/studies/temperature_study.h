@@ -25,7 +25,7 @@ struct FrictionWay {
 
 /// "none": the law without integral and friction; "integral alone": with integral, what the product is without any friction; "fixed":
 /// friction of 30 degC; "disturbance observer"; "scheduled" by temperature, without integral; "scheduled and integral": as the
-/// product is. All but the disturbance observer are the daemon's controller told of its spring, which differ in nothing else.
+/// product is. All but the disturbance observer are the daemon's controller, which differ in nothing else.
 std::vector<FrictionWay> friction_ways(const FlexibleTables& tables);
 
 /// The table of the last of them.
@@ -59,7 +59,7 @@ struct PathError {
 
 struct PathRun {
   std::vector<PathError> stretches;                ///< one per stretch that was asked for
-  MonitorState monitor = MonitorState::kWatching;  ///< at the end
+  bool switched_off = false;
 };
 
 /// Runs `way` on `path` from rest in surroundings of `temperature_C`; the path's time is cut at `ends_s`, ascending. Throws InputError
@@ -71,7 +71,7 @@ struct TemperatureRow {
   std::string way, sensor, motion;
   double temperature_C = 0.0;
   PathError error;
-  MonitorState monitor = MonitorState::kWatching;
+  bool switched_off = false;
 };
 
 /// Every way at every temperature with the right sensor, and `sensors` besides with the last way.

@@ -36,15 +36,11 @@ std::vector<std::string> summary_row(const std::string& wrong, const std::vector
     rest_errors.push_back(1e3 * row.result.rest_error_rad);
     overshoots.push_back(1e3 * row.result.overshoot_rad);
   }
-  const auto monitored = [&](MonitorState state) {
-    return count(rows, [state](const WronglyToldRow& row) { return row.result.monitor == state; });
-  };
   fields.push_back(number(percentile(overshoots, 0.5), 2) + ", " + number(percentile(overshoots, 1.0), 2));
   fields.push_back(
       count(rows, [](const WronglyToldRow& row) { return row.result.rest_error_rad > kCountedError_rad; }));
   fields.push_back(number(percentile(rest_errors, 1.0), 2));
-  fields.push_back(monitored(MonitorState::kFallenBack));
-  fields.push_back(monitored(MonitorState::kFaultDue));
+  fields.push_back(count(rows, [](const WronglyToldRow& row) { return row.result.switched_off; }));
   fields.push_back(count(rows, [](const WronglyToldRow& row) { return row.result.oscillates; }));
   return fields;
 }
@@ -83,7 +79,6 @@ TextTable wrongly_told_summary(const std::vector<WronglyToldRow>& rows) {
                   "overshoot (mrad): median, worst",
                   "off by more than 40 urad",
                   "worst (mrad)",
-                  "fallen back",
                   "switched off",
                   "oscillating"};
   for (const std::string& wrong : wrongs) {

@@ -60,7 +60,6 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {32, Notice::kSpeedLimited, "speed limited"},
                                      {64, Notice::kNotHomed, "not homed"},
                                      {128, Notice::kAtLimitSwitch, "at a limit switch"},
-                                     {256, Notice::kPlainLaw, "chatter, plain control law"},
                                      {512, Notice::kOffStream, "off the stream"},
                                      {1024, Notice::kPositionLate, "position late"},
                                      {2048, Notice::kOffTarget, "off target"},

@@ -103,7 +103,7 @@ TEST(JointMetrics, NameFaultAndNoticesWhileTheyLast) {
   Fleet fleet;
   state_v1 state{};
   state.fault = static_cast<std::int32_t>(Fault::kFollowingError);
-  state.notices = static_cast<std::int32_t>(Notice::kPlainLaw) |
+  state.notices = static_cast<std::int32_t>(Notice::kOffStream) |
                   static_cast<std::int32_t>(Notice::kTorqueLimited) | (1 << 30) | (1 << 29);
   fleet.take(kElbow, state, kNow_s);
   const std::string page = page_of(fleet);
@@ -111,7 +111,7 @@ TEST(JointMetrics, NameFaultAndNoticesWhileTheyLast) {
             1.0);
   EXPECT_EQ(
       sample(page,
-             R"(strainwave_joint_notice{prefix="SW",joint="elbow",notice="chatter, plain control law"})"),
+             R"(strainwave_joint_notice{prefix="SW",joint="elbow",notice="off the stream"})"),
       1.0);
   EXPECT_EQ(sample(page, R"(strainwave_joint_notice{prefix="SW",joint="elbow",notice="torque limited"})"),
             1.0);
@@ -188,7 +188,7 @@ std::set<std::string> shown_names() {
   state.mode = static_cast<std::int32_t>(Mode::kTracking);
   state.setpoint_velocity_rad_s = 1.0;
   state.fault = 1;
-  state.notices = static_cast<std::int32_t>(Notice::kPlainLaw);
+  state.notices = static_cast<std::int32_t>(Notice::kOffStream);
   timing_v1 timing{};
   timing.position_delay_max_ns = 1;
   fleet.take(kElbow, state, kNow_s);

@@ -159,7 +159,6 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     SPEED_LIMITED = 1 << 5
     NOT_HOMED = 1 << 6
     AT_LIMIT_SWITCH = 1 << 7
-    PLAIN_LAW = 1 << 8
     OFF_STREAM = 1 << 9
     POSITION_LATE = 1 << 10
     OFF_TARGET = 1 << 11
@@ -191,7 +190,6 @@ _NOTICE_TEXTS = {
     Notice.SPEED_LIMITED: "speed limited",
     Notice.NOT_HOMED: "not homed",
     Notice.AT_LIMIT_SWITCH: "at a limit switch",
-    Notice.PLAIN_LAW: "chatter, plain control law",
     Notice.OFF_STREAM: "off the stream",
     Notice.POSITION_LATE: "position late",
     Notice.OFF_TARGET: "off target",

@@ -1,4 +1,4 @@
-#include "control/link_motion.h"
+#include "control/trajectory/motor_plan.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,20 +9,17 @@ namespace strainwave {
 
 namespace {
 
-// Two means of one period at least: else the acceleration steps.
+// Two means of one period at least on a spring: else the acceleration steps.
 constexpr int kLeastSpread = 2;
 // The model has lost the motion where it is farther off than this share of the wind-up that the torque limit makes; it then gives way
 // by this share a period.
 constexpr double kLostShare = 0.25;
 constexpr double kYield = 0.1;
-// So often from one of the torque's limits to the other, with less than so many periods within them, it swings itself up.
-constexpr int kSwings = 3;
-constexpr int kCalmPeriods = 20;
-constexpr int kMostSwings = 10;
 
-// sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits.
-double spread_periods(const LinkMotionConfig& c) noexcept {
+// sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits; nothing without a spring.
+double swing_periods(const MotorPlannerConfig& c) noexcept {
   const LinkModel& joint = c.joint;
+  if (joint.rigid()) return 0.0;
   const double transmitted_Nm =
       c.torque_limit_Nm * joint.link_inertia_kgm2 / (joint.motor_inertia_kgm2 + joint.link_inertia_kgm2);
   const double stiffness = joint.spring.secant_Nm_rad(0.5 * transmitted_Nm);
@@ -31,8 +28,17 @@ double spread_periods(const LinkMotionConfig& c) noexcept {
   return std::sqrt(8.0) / swing_rad_s / c.period_s;
 }
 
-int whole_spread(const LinkMotionConfig& config) noexcept {
-  return std::clamp(static_cast<int>(std::lround(spread_periods(config))), kLeastSpread, 2 * kMaxMeanPeriods);
+double hardest_rad_s2(const MotionLimits& limits) noexcept {
+  return std::max(limits.acceleration_rad_s2, limits.deceleration_rad_s2);
+}
+
+int whole_spread(const MotorPlannerConfig& c) noexcept {
+  const int least = c.joint.rigid() ? 0 : kLeastSpread;
+  const int swing = std::clamp(static_cast<int>(std::lround(swing_periods(c))), least, 2 * kMaxMeanPeriods);
+  if (!c.jerk_limit_rad_s3) return swing;
+  const double jerk_periods =
+      4.0 * hardest_rad_s2(MotorPlanner::possible_limits(c)) / *c.jerk_limit_rad_s3 / c.period_s;
+  return std::clamp(static_cast<int>(std::ceil(jerk_periods)), swing, 2 * kMaxMeanPeriods);
 }
 
 }  // namespace
@@ -62,23 +68,31 @@ double SmoothWindUp::compliance_rad_Nm(double torque_Nm) const noexcept {
   return far_rad_Nm_ + extra_rad_Nm_ / (1.0 + scaled * scaled);
 }
 
-bool LinkMotion::possible(const LinkMotionConfig& config) noexcept {
-  return spread_periods(config) <= 2 * kMaxMeanPeriods;
+bool MotorPlanner::possible(const MotorPlannerConfig& config) noexcept {
+  return swing_periods(config) <= 2 * kMaxMeanPeriods;
 }
 
-LinkMotion::LinkMotion(const LinkMotionConfig& config) noexcept
+MotionLimits MotorPlanner::possible_limits(const MotorPlannerConfig& config) noexcept {
+  MotionLimits limits = config.motion;
+  if (!config.jerk_limit_rad_s3) return limits;
+  const double most_rad_s2 = 0.25 * *config.jerk_limit_rad_s3 * 2 * kMaxMeanPeriods * config.period_s;
+  limits.acceleration_rad_s2 = std::min(limits.acceleration_rad_s2, most_rad_s2);
+  limits.deceleration_rad_s2 = std::min(limits.deceleration_rad_s2, most_rad_s2);
+  return limits;
+}
+
+MotorPlanner::MotorPlanner(const MotorPlannerConfig& config) noexcept
     : config_(config),
       wind_up_(config.joint.spring),
-      gains_(config.joint.regulate(config.torque_limit_Nm, config.period_s)),
+      gains_(config.joint.rigid() ? LinkGains{} : config.joint.regulate(config.torque_limit_Nm, config.period_s)),
       spread_periods_(whole_spread(config)),
       first_(spread_periods_ / 2, config.period_s),
-      second_(spread_periods_ - spread_periods_ / 2, config.period_s),
-      lost_rad_(kLostShare * config.joint.spring.angle_rad(config.torque_limit_Nm)) {
-  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxLinkDelay);
+      second_(spread_periods_ - spread_periods_ / 2, config.period_s) {
+  assert(config.delay_periods >= 0 && config.delay_periods <= kMaxPlanDelay / 2);
   reset(0.0);
 }
 
-double LinkMotion::reset(double motor_position_rad, double velocity_rad_s) noexcept {
+double MotorPlanner::reset(double motor_position_rad, double velocity_rad_s) noexcept {
   // Gravity hardly changes over the wind-up that it makes: each round leaves a thousandth of the last one's error.
   double position_rad = motor_position_rad;
   for (int round = 0; round < 3; ++round) position_rad -= motor_rest_rad(position_rad) - motor_position_rad;
@@ -93,13 +107,12 @@ double LinkMotion::reset(double motor_position_rad, double velocity_rad_s) noexc
   }
   wanted_ = flat({position_rad, velocity_rad_s, 0.0, 0.0}, 0.0);
   jerk_rad_s3_ = 0.0;
-  exhausted_ = side_ = swings_ = calm_periods_ = 0;
   next_ = wanted_;
   rest_periods_ = velocity_rad_s == 0.0 ? config_.delay_periods + 1 : 0;
   return planned_rad;
 }
 
-LinkState LinkMotion::flat(const MotionPoint& link, double snap_rad_s4) const noexcept {
+LinkState MotorPlanner::flat(const MotionPoint& link, double snap_rad_s4) const noexcept {
   const LinkModel& joint = config_.joint;
   const double held_Nm = joint.gravity.at(link.position_rad);
   const double slope_Nm_rad = joint.gravity.slope_at(link.position_rad);
@@ -117,7 +130,7 @@ LinkState LinkMotion::flat(const MotionPoint& link, double snap_rad_s4) const no
 
 // The model's period, in which the motion wants `wanted_Nm`, and at its end to be at `wanted_end`: what is off there without a regulator,
 // of the last period and of this one.
-void LinkMotion::follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
+void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
                         double taken_Nm) noexcept {
   const double asked_Nm =
       std::clamp(wanted_Nm, -config_.torque_limit_Nm - taken_Nm, config_.torque_limit_Nm - taken_Nm);
@@ -125,36 +138,23 @@ void LinkMotion::follow(double wanted_Nm, const LinkState& wanted_end, const Tor
   const double back_Nm = regulated_torque_Nm(gains_, wanted_end, alone_end);
   torque_Nm_ = std::clamp(wanted_Nm + back_Nm, std::min(possible.min_Nm, asked_Nm),
                           std::max(possible.max_Nm, asked_Nm));
-  const double missing_Nm = wanted_Nm + back_Nm - torque_Nm_;
-  exhausted_ = missing_Nm == 0.0 ? 0 : missing_Nm > 0.0 ? 1 : -1;
-  count_swings();
+  exhausted_ = wanted_Nm + back_Nm != torque_Nm_;
   const LinkModel::Period period = config_.joint.advance(states_.front(), torque_Nm_, config_.period_s);
   next_ = period.end;
   middle_velocity_rad_s_ = period.middle_velocity_rad_s;
 }
 
-// A regulator that has no torque left can swing a spring up for ever. What the torque cannot do is given up: the model gives way to the
-// motion, where it has lost it, wherever nothing but the regulator asks for torque, and the more, the more often the regulator has had no
-// torque left on the one side and on the other.
-void LinkMotion::yield(bool ended) noexcept {
+// A regulator that has no torque left can swing a spring up for ever: the model then gives way to the motion where it has lost it, and
+// wherever nothing but the regulator asks for torque.
+void MotorPlanner::yield(bool ended) noexcept {
   const LinkState off = moved(wanted_, next_, -1.0);
   const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
-  const bool swings = swings_ >= kSwings;
-  if (exhausted_ == 0 || (!ended && !swings && farthest_rad < lost_rad_)) return;
-  next_ = moved(next_, off, swings ? kYield * swings_ : kYield);
-}
-
-// From one side to the other within half a swing of the softest spring and a bit; by what takes longer, the motion itself needs both.
-void LinkMotion::count_swings() noexcept {
-  calm_periods_ = exhausted_ == 0 ? std::min(calm_periods_ + 1, kCalmPeriods) : 0;
-  if (calm_periods_ >= kCalmPeriods) swings_ = side_ = 0;
-  if (exhausted_ == 0) return;
-  if (side_ * exhausted_ < 0) swings_ = std::min(swings_ + 1, kMostSwings);
-  side_ = exhausted_;
+  const double lost_rad = kLostShare * config_.joint.spring.angle_rad(config_.torque_limit_Nm);
+  if (exhausted_ && (ended || farthest_rad >= lost_rad)) next_ = moved(next_, off, kYield);
 }
 
 // The motion has ended: once the model is where that was, it stands still.
-void LinkMotion::settle() noexcept {
+void MotorPlanner::settle() noexcept {
   const double slow_rad_s = 0.5 * config_.tolerance_rad / config_.period_s;
   const bool there =
       std::abs(next_.link_position_rad - wanted_.link_position_rad) < config_.tolerance_rad &&
@@ -163,7 +163,7 @@ void LinkMotion::settle() noexcept {
   if (there) next_ = wanted_;
 }
 
-MotorPlan LinkMotion::plan() noexcept {
+MotorPlan MotorPlanner::plan() noexcept {
   const double h = config_.period_s;
   const LinkState& begin = states_.front();
   const auto delay = static_cast<std::size_t>(config_.delay_periods);
@@ -177,12 +177,12 @@ MotorPlan LinkMotion::plan() noexcept {
   plan.acting_acceleration_rad_s2 = (next_.motor_velocity_rad_s - begin.motor_velocity_rad_s) / h;
   const bool rests = begin.motor_velocity_rad_s == 0.0 && next_.motor_velocity_rad_s == 0.0 &&
                      next_.motor_position_rad == begin.motor_position_rad;
-  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxLinkDelay + 1) : 0;
+  rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxPlanDelay + 1) : 0;
   return plan;
 }
 
 // The planned motion's end of the period that begins now is known, and with it the joint's.
-MotorPlan LinkMotion::step(const Reference& planned, const TorqueRange& possible, double taken_Nm) noexcept {
+MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possible, double taken_Nm) noexcept {
   const double h = config_.period_s;
   const LinkModel& joint = config_.joint;
   const MotionPoint end{

@@ -1,26 +1,28 @@
-// What the motor must do so that the link behind the gear's spring arrives, and nothing swings: turns the planned motion of a
-// rigid joint into one of the link, and that into the motor's position and torque. Real-time safe, step() included; the constructor
-// is not: it solves for a regulator. Joint side, SI.
+// What the motor must do so that the link arrives and nothing swings: turns a planned motion, accelerations in steps, into one of the link,
+// and that into position and torque of the motor. Real-time safe, step() included; the constructor is not: it solves
+// for a regulator. Joint side, SI.
 //
-// The planned motion, accelerations in steps, passes through two moving means (control/moving_mean.h) that together last tau. The
-// link's jerk is then continuous, and the link's position is a flat output of the joint:
-//   ts  = Jl thl'' + load(thl)                               the torque that the gear transmits
+// The planned motion passes through two moving means (control/moving_mean.h) that together last tau. The link's jerk is then
+// bounded and continuous, and the link's position is a flat output of the joint:
+//   ts  = Jl thl'' + gravity(thl)                            the torque that the gear transmits
 //   thm = thl + wind-up(ts - D wind-up'),    wind-up' = C (ts' - D C ts''),    C: compliance
-//   Tm  = Jm thm'' + Jl thl'' + load(thl)
+//   Tm  = Jm thm'' + Jl thl'' + gravity(thl)
 //
 // Held over whole periods, and through slopes that change, that torque does not quite make that motion: some tens of microradians, as
-// much as a joint at rest may be off. So a model of the joint (control/link_model.h) makes the motion along with it, regulated
-// towards it without delay or noise, within the torque that there is: by where each period would end without that. What the model does, a joint that is as it was told does
-// as well: its torque is the plan, and where its motor is, is the reference.
+// much as a joint at rest may be off. A model of the joint (control/link_model.h) therefore makes the motion along with it, regulated towards
+// it without delay or noise, within the torque that there is. The model's torque is the plan, and its motor is the reference.
 //
 // tau: half-way through a step A of the acceleration the wind-up takes Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl) besides half of
 // the step; both together are the step itself at
 //   tau = sqrt(8) / w,   w^2 = K (1/Jm + 1/Jl)
 // A shorter tau asks for more torque than the planned motion does, a longer one only takes longer. It is 0.45 periods of the free
-// swing; a zero-vibration shaper takes 0.5, a box without residual vibration 1.
+// swing. A jerk limit j asks for tau >= 4 A / j: two means of tau / 2 keep |jerk| <= 2 A / (tau / 2).
+//
+// A rigid joint is the same without wind-up: tau is what the jerk limit asks for, and the model is exact.
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "control/link_model.h"
 #include "control/moving_mean.h"
@@ -28,16 +30,18 @@
 
 namespace strainwave {
 
-/// The largest delay of LinkMotion::step(), in periods.
-inline constexpr int kMaxLinkDelay = 8;
+/// The largest delay of MotorPlanner::step(), late readings included, in periods.
+inline constexpr int kMaxPlanDelay = 16;
 
-struct LinkMotionConfig {
+struct MotorPlannerConfig {
   double period_s = 0.001;  ///< > 0
   LinkModel joint;
   double torque_limit_Nm = 0.0;  ///< > 0, of the motor
-  int delay_periods = 0;         ///< between a torque's computation and its effect, 0..kMaxLinkDelay
+  int delay_periods = 0;         ///< between a torque's computation and its effect, 0..kMaxControlDelay
   /// A motor that is nearer to its place than this is there: half a count.
   double tolerance_rad = 1e-5;
+  MotionLimits motion;                      ///< of what is planned
+  std::optional<double> jerk_limit_rad_s3;  ///< > 0
 };
 
 /// What the motor can give over a period, friction and what else the plan does not know already taken off.
@@ -48,15 +52,15 @@ struct TorqueRange {
 
 /// One period.
 struct MotorPlan {
-  /// Where the motor should be read now, and its mean velocity over the last period.
+  // Where motor and link should be read now:
   double position_rad = 0.0;
-  double velocity_rad_s = 0.0;
+  double velocity_rad_s = 0.0;  ///< mean over the last period
   double link_position_rad = 0.0;
   // Of the period over which the torque of now will act:
   double torque_Nm = 0.0;                           ///< of motor, link and gravity, without friction
   std::array<double, 3> acting_velocities_rad_s{};  ///< the motor's at its begin, middle and end
   double acting_acceleration_rad_s2 = 0.0;          ///< mean of the motor's
-  double wanted_acceleration_rad_s2 = 0.0;  ///< mean of the link's, by the motion that it follows alone
+  double wanted_acceleration_rad_s2 = 0.0;          ///< mean of the link's
 };
 
 /// The wind-up as a smooth function of the torque: the first slope's compliance at zero, the last one's far out, and there the
@@ -73,13 +77,18 @@ class SmoothWindUp {
   double width_Nm_;
 };
 
-class LinkMotion {
+class MotorPlanner {
  public:
   /// Not real-time safe.
-  explicit LinkMotion(const LinkMotionConfig& config) noexcept;
+  explicit MotorPlanner(const MotorPlannerConfig& config) noexcept;
 
   /// Whether the spring is stiff enough for the joint's period and slow enough for its memory: tau within the moving means.
-  static bool possible(const LinkMotionConfig& config) noexcept;
+  static bool possible(const MotorPlannerConfig& config) noexcept;
+  /// `motion` with accelerations under which the means are long enough for the jerk limit: at most jerk * longest tau / 4.
+  static MotionLimits possible_limits(const MotorPlannerConfig& config) noexcept;
+
+  /// A rigid joint's inertia, > 0.
+  void set_rigid_inertia(double inertia_kgm2) noexcept { config_.joint.motor_inertia_kgm2 = inertia_kgm2; }
 
   /// The motor is there, and moves as the link does. Where the planned motion, which is ahead, must go on from.
   double reset(double motor_position_rad, double velocity_rad_s = 0.0) noexcept;
@@ -90,42 +99,42 @@ class LinkMotion {
 
   /// Whether anything is still to be done: the last plan, or what of it has not acted yet.
   bool moves() const noexcept { return rest_periods_ <= config_.delay_periods; }
+  /// The plan's motor and link so many periods before now, 0..kMaxControlDelay.
+  LinkState before(int periods) const noexcept {
+    return states_[static_cast<std::size_t>(config_.delay_periods + periods)];
+  }
   /// Where the motor rests while the link does so at `link_position_rad`.
   double motor_rest_rad(double link_position_rad) const noexcept {
     return link_position_rad + config_.joint.spring.angle_rad(config_.joint.gravity.at(link_position_rad));
   }
-  /// By how much the link's motion lasts longer than the planned one.
+  /// tau: by how much the link's motion lasts longer than the planned one.
   double spread_s() const noexcept { return spread_periods_ * config_.period_s; }
 
  private:
+  bool rigid() const noexcept { return config_.joint.rigid(); }
   /// `snap_rad_s4`: of the period that ends there.
   LinkState flat(const MotionPoint& link, double snap_rad_s4) const noexcept;
   void follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
               double taken_Nm) noexcept;
-  void count_swings() noexcept;
   void yield(bool ended) noexcept;
   void settle() noexcept;
   MotorPlan plan() noexcept;
 
-  LinkMotionConfig config_;
+  MotorPlannerConfig config_;
   SmoothWindUp wind_up_;
   LinkGains gains_;
   int spread_periods_;
   MovingMean first_;
   MovingMean second_;
-  double lost_rad_;
   LinkState wanted_;          ///< at the sample to come
   double jerk_rad_s3_ = 0.0;  ///< of the link's motion, there
   LinkState next_;            ///< the model, there
-  std::array<LinkState, kMaxLinkDelay + 2>
+  std::array<LinkState, kMaxPlanDelay + 2>
       states_{};                        ///< the model's, newest first: of now, of the last period ...
   double torque_Nm_ = 0.0;              ///< of this period
   double middle_velocity_rad_s_ = 0.0;  ///< the model's motor, half-way through it
-  int exhausted_ = 0;     ///< the regulator asked for more than there was: on which side, -1 or 1; else 0
-  int side_ = 0;          ///< where it did last
-  int swings_ = 0;        ///< how often in a row it was on the other side than before
-  int calm_periods_ = 0;  ///< since it asked for more than there was
-  int rest_periods_ = 0;  ///< since when the plan has rested
+  bool exhausted_ = false;              ///< the regulator asked for more torque than there was
+  int rest_periods_ = 0;                ///< since when the plan has rested
 };
 
 }  // namespace strainwave

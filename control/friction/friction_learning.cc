@@ -1,0 +1,80 @@
+#include "control/friction/friction_learning.h"
+
+#include <cmath>
+
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+
+// Both per second. The loop of every certified table is stable with their sum up to 40 /s (docs/theory.md, "Learning").
+constexpr double kFrictionRate_1_s = 35.0;
+constexpr double kLoadRate_1_s = 5.0;
+// Feedback counts up to this share of the friction: a collision must not become friction within a few periods.
+constexpr double kCounted = 0.5;
+
+}  // namespace
+
+void FrictionLearning::load(const FuzzyFriction& table) noexcept {
+  table_ = table;
+  blend();
+}
+
+void FrictionLearning::weigh(const TemperatureWeights& weights) noexcept {
+  weights_ = weights;
+  blend();
+}
+
+void FrictionLearning::set(const LearnedFriction& learned) noexcept {
+  for (std::size_t i = 0; i < learned.scale.size(); ++i)
+    learned_.scale[i] = std::clamp(learned.scale[i], kLeastScale, kMostScale);
+  learned_.load_Nm = learned.load_Nm;
+  blend();
+}
+
+void FrictionLearning::blend() noexcept {
+  friction_ = {};
+  table_static_Nm_ = 0.0;
+  double squares = 0.0;
+  const auto count = static_cast<std::size_t>(std::min(weights_.count, table_.rule_count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrictionParameters& rule = table_.rules[i].friction;
+    const double weight = weights_.weight[i];
+    const double scaled = weight * (1.0 + learned_.scale[i]);
+    friction_.static_Nm += scaled * rule.static_Nm;
+    friction_.coulomb_Nm += scaled * rule.coulomb_Nm;
+    friction_.viscous_Nms_rad += scaled * rule.viscous_Nms_rad;
+    table_static_Nm_ += weight * rule.static_Nm;
+    squares += weight * weight;
+  }
+  reciprocal_squares_ = squares > 0.0 ? 1.0 / squares : 0.0;
+}
+
+double FrictionLearning::rule_friction_Nm(std::size_t rule, double stribeck,
+                                          double speed_rad_s) const noexcept {
+  const FrictionParameters& f = table_.rules[rule].friction;
+  return f.coulomb_Nm + stribeck * (f.static_Nm - f.coulomb_Nm) + f.viscous_Nms_rad * speed_rad_s;
+}
+
+void FrictionLearning::learn(double feedback_Nm, double motor_velocity_rad_s, double elapsed_s) noexcept {
+  if (frozen_) return;
+  const double speed_rad_s = std::abs(motor_velocity_rad_s);
+  const double ratio = speed_rad_s / table_.velocity.stribeck().velocity_rad_s;
+  const double stribeck = std::exp(-ratio * ratio);
+  const auto count = static_cast<std::size_t>(std::min(weights_.count, table_.rule_count));
+  double table_Nm = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    table_Nm += weights_.weight[i] * rule_friction_Nm(i, stribeck, speed_rad_s);
+  if (!(table_Nm > 0.0)) return;
+  const double counted_Nm = std::clamp(feedback_Nm, -kCounted * table_Nm, kCounted * table_Nm);
+  learned_.load_Nm += elapsed_s * kLoadRate_1_s * counted_Nm;
+  const double along_Nm = elapsed_s * kFrictionRate_1_s * reciprocal_squares_ * counted_Nm * sign(motor_velocity_rad_s);
+  for (std::size_t i = 0; i < count; ++i)
+    learned_.scale[i] = std::clamp(
+        learned_.scale[i] + along_Nm * weights_.weight[i] / rule_friction_Nm(i, stribeck, speed_rad_s),
+        kLeastScale, kMostScale);
+  blend();
+}
+
+}  // namespace strainwave

@@ -1,0 +1,56 @@
+// The table's friction, corrected by what the feedback had to add while the joint moved. Real-time safe. Joint side, SI.
+//
+//   friction   F(w, T) = sum_i w_i(T) (1 + s_i) F_i(w)          F_i: the Stribeck curve of temperature rule i
+//   learning   s_i'    = rate  w_i u sign(w) / (F_i sum_j w_j^2)
+//              load'   = load_rate  u                           u: feedback torque, w: planned velocity of the motor
+//
+// Together both add (rate + load_rate) u per second to the feed-forward of a motion in one direction: in the loop, learning multiplies the
+// feedback law by (1 + (rate + load_rate) / s). A scale belongs to its temperature rule: what a cold morning has shown is
+// there on the next cold morning. Source: Friedland and Park (1992), adaptive friction compensation, with the table as the prior.
+#pragma once
+
+#include <algorithm>
+
+#include "control/friction/learned_friction.h"
+#include "control/fuzzy_friction.h"
+
+namespace strainwave {
+
+class FrictionLearning {
+ public:
+  /// Takes the rules of a table that has passed find_defect(). What was learned stays.
+  void load(const FuzzyFriction& table) noexcept;
+  /// The joint's temperature as weights of the rules.
+  void weigh(const TemperatureWeights& weights) noexcept;
+
+  /// Friction at the weighed temperature, scales included.
+  const FrictionParameters& friction() const noexcept { return friction_; }
+  double load_Nm() const noexcept { return learned_.load_Nm; }
+  /// What is learned over the table's, at the weighed temperature: of static friction.
+  double factor() const noexcept { return table_static_Nm_ > 0.0 ? friction_.static_Nm / table_static_Nm_ : 1.0; }
+
+  /// A period of motion in which `feedback_Nm` was added at the planned `motor_velocity_rad_s` != 0.
+  void learn(double feedback_Nm, double motor_velocity_rad_s, double elapsed_s) noexcept;
+
+  const LearnedFriction& learned() const noexcept { return learned_; }
+  /// Values outside of the bounds are brought to them.
+  void set(const LearnedFriction& learned) noexcept;
+  void set_load(double load_Nm) noexcept { learned_.load_Nm = load_Nm; }
+  /// While frozen nothing is learned.
+  void freeze(bool frozen) noexcept { frozen_ = frozen; }
+  bool frozen() const noexcept { return frozen_; }
+
+ private:
+  void blend() noexcept;
+  double rule_friction_Nm(std::size_t rule, double stribeck, double speed_rad_s) const noexcept;
+
+  FuzzyFriction table_;
+  TemperatureWeights weights_;
+  double reciprocal_squares_ = 1.0;  ///< 1 / sum w_j^2
+  double table_static_Nm_ = 0.0;     ///< blended without scales
+  FrictionParameters friction_;
+  LearnedFriction learned_;
+  bool frozen_ = false;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,77 @@
+#include "control/trajectory/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+// A load that a stream named fades to 1/e in this time once the stream is over: slower than the feedback takes it over.
+constexpr double kFade_s = 0.5;
+// Farther than this from the stream a reference is off it: a tenth of a count of a fine encoder.
+constexpr double kOnStream_rad = 1e-6;
+
+}  // namespace
+
+void Trajectory::start(double position_rad, double velocity_rad_s) noexcept {
+  shaper_.reset(position_rad, velocity_rad_s);
+  streamed_ = false;
+  load_ = {};
+}
+
+void Trajectory::set_target(double position_rad) noexcept {
+  streamed_ = false;
+  shaper_.set_target(position_rad);
+}
+
+void Trajectory::follow(const StreamSample& sample, bool begins, double lead_periods,
+                        const MotionLimits& reach, const PositionRange& range) noexcept {
+  range_ = range;
+  if (!streamed_ || begins) {
+    const bool resumes = !begins && stream_.ended() && stream_.lead_periods() == lead_periods;
+    if (resumes)
+      stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), load_);
+    else
+      stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_periods, load_);
+  }
+  streamed_ = true;
+  sample_rad_ = sample.position_rad;
+  stream_.take(sample,
+               {reach.velocity_rad_s, std::min(reach.acceleration_rad_s2, reach.deceleration_rad_s2)});
+}
+
+void Trajectory::stop() noexcept {
+  streamed_ = false;
+  shaper_.stop();
+}
+
+void Trajectory::begin_period(int elapsed_periods) noexcept {
+  stream_.leave_out(elapsed_periods - 1);
+}
+
+bool Trajectory::off_stream() const noexcept {
+  return streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
+}
+
+void Trajectory::fade_load() noexcept {
+  const double kept = std::exp(-period_s_ / kFade_s);
+  load_.torque_Nm *= kept;
+  load_.inertia_kgm2 *= kept;
+}
+
+Reference Trajectory::step(const MotionLimits& limits) noexcept {
+  shaper_.set_limits(limits);
+  if (!streamed_) {
+    stream_.wait(1);
+    fade_load();
+    return shaper_.step();
+  }
+  const MovingTarget target = stream_.step();
+  load_ = target.load;
+  const Reference reference = shaper_.follow(target, range_);
+  if (stream_.ended()) stop();
+  return reference;
+}
+
+}  // namespace strainwave
