@@ -98,8 +98,12 @@ class JointController {
   double holding_torque_Nm() const noexcept;
   /// The joint at this temperature, with what was learned and what a stream says of its load.
   JointModel loaded_model() const noexcept;
-  FrictionLearning& friction() noexcept { return friction_; }
-  const FrictionLearning& friction() const noexcept { return friction_; }
+  const LearnedFriction& learned() const noexcept { return friction_.learned(); }
+  /// Takes it over, at rest or at start-up, without a torque step.
+  void set_learned(const LearnedFriction& learned) noexcept { friction_.set(learned); }
+  void freeze_learning(bool frozen) noexcept { friction_.freeze(frozen); }
+  /// Friction at the present temperature over the table's.
+  double friction_factor() const noexcept { return friction_.factor(); }
   const OscillationDetector& oscillation() const noexcept { return oscillation_; }
   /// Weights of the temperature rules in use.
   const TemperatureWeights& temperature_weights() const noexcept { return law_.temperature_weights(); }

@@ -94,8 +94,8 @@ Derived derived_from(const state_v1& state, std::optional<double> period_s) {
            period_s ? tracking_error_rad(state, *period_s) : std::numeric_limits<double>::quiet_NaN()}};
 }
 
-std::size_t used_entries(const state_v1& state, std::string_view field, std::size_t size) {
-  if (field != "temperature_weights") return size;
+// Every array of a state has an entry for each temperature rule.
+std::size_t used_entries(const state_v1& state, std::string_view, std::size_t size) {
   return std::min(size, static_cast<std::size_t>(std::max(state.rule_count, 0)));
 }
 

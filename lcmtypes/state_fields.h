@@ -29,6 +29,13 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("yield_load_Nm", state.yield_load_Nm);
   visit("yield_limit_Nm", state.yield_limit_Nm);
   visit("yield_position_rad", state.yield_position_rad);
+  visit("friction_factor", state.friction_factor);
+  visit("friction_learned_C", state.friction_learned_C);
+  visit("friction_age_s", state.friction_age_s);
+  visit("friction_frozen", state.friction_frozen);
+  visit("friction_rule_C", std::span<const double>(state.friction_rule_C));
+  visit("friction_scales", std::span<const double>(state.friction_scales));
+  visit("learned_load_Nm", state.learned_load_Nm);
 }
 
 }  // namespace strainwave

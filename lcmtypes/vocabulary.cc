@@ -121,6 +121,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "yielded to a load";
     case Notice::kSamplesMissing:
       return "samples missing";
+    case Notice::kFrictionDiffers:
+      return "friction differs from the table";
   }
   return "unknown";
 }
@@ -218,6 +220,12 @@ std::string_view to_text(Action action) noexcept {
       return "pause";
     case Action::kResume:
       return "resume";
+    case Action::kResetLearning:
+      return "reset-learning";
+    case Action::kFreezeLearning:
+      return "freeze-learning";
+    case Action::kResumeLearning:
+      return "resume-learning";
   }
   return "unknown";
 }
@@ -338,6 +346,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.limits.load_Nm";
     case Notice::kSamplesMissing:
       return "joint.control.stream_bridge_s";
+    case Notice::kFrictionDiffers:
+      return "joint.table";
   }
   return "";
 }

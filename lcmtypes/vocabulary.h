@@ -72,6 +72,7 @@ enum class Notice : std::int32_t {
   kPathEnds = 1 << 15,
   kYielded = 1 << 16,
   kSamplesMissing = 1 << 17,
+  kFrictionDiffers = 1 << 18,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).
@@ -122,7 +123,10 @@ enum class Action : std::int32_t {
   kTakeOver = 7,
   kRelease = 8,
   kPause = 9,
-  kResume = 10
+  kResume = 10,
+  kResetLearning = 11,
+  kFreezeLearning = 12,
+  kResumeLearning = 13
 };
 
 /// state_v1.temperature_status

@@ -86,6 +86,14 @@ constexpr std::array kJointMetrics{
                 "Mean feedback torque along the motion, of what moved in the last minute: friction that the "
                 "model lacks.",
                 [](const Joint& j, double now_s) { return j.friction_excess_Nm.mean(now_s); }},
+    JointMetric{"strainwave_joint_friction_factor", MetricType::kGauge,
+                "Learned friction over the table's, at the present temperature.",
+                [](const Joint& j, double) { return Value(j.state.friction_factor); }},
+    JointMetric{"strainwave_joint_friction_age_seconds", MetricType::kGauge,
+                "Time since the joint last learned its friction.",
+                [](const Joint& j, double) {
+                  return j.state.friction_age_s < 0.0 ? std::nullopt : Value(j.state.friction_age_s);
+                }},
 };
 
 /// What is there only while it lasts: a fault, and each notice, by its name.

@@ -23,12 +23,12 @@ namespace {
 
 constexpr std::size_t kTerminalColumns = 80;
 
-constexpr std::array kNotices{Notice::kTorqueLimited,   Notice::kTemperatureClamped, Notice::kFallbackGains,
-                              Notice::kSetpointExpired, Notice::kReadingMissed,      Notice::kSpeedLimited,
-                              Notice::kNotHomed,        Notice::kAtLimitSwitch,      Notice::kOffStream,
-                              Notice::kPositionLate,    Notice::kOffTarget,          Notice::kLoadHigh,
-                              Notice::kOtherInertia,    Notice::kPathPaused,         Notice::kPathEnds,
-                              Notice::kYielded,         Notice::kSamplesMissing};
+constexpr std::array kNotices{
+    Notice::kTorqueLimited,  Notice::kTemperatureClamped, Notice::kFallbackGains, Notice::kSetpointExpired,
+    Notice::kReadingMissed,  Notice::kSpeedLimited,       Notice::kNotHomed,      Notice::kAtLimitSwitch,
+    Notice::kOffStream,      Notice::kPositionLate,       Notice::kOffTarget,     Notice::kLoadHigh,
+    Notice::kOtherInertia,   Notice::kPathPaused,         Notice::kPathEnds,      Notice::kYielded,
+    Notice::kSamplesMissing, Notice::kFrictionDiffers};
 
 bool is_degree_mark(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
@@ -45,9 +45,12 @@ std::string meaning(std::string_view field, const state_v1& state) {
   }
   if (field == "temperature_used_C" && std::isnan(state.temperature_used_C)) return "no plausible value yet";
   if (field == "notices") {
-    std::vector<std::string_view> texts;
+    std::vector<std::string> texts;
     for (const Notice notice : kNotices) {
-      if ((state.notices & static_cast<std::int32_t>(notice)) != 0) texts.push_back(to_text(notice));
+      if ((state.notices & static_cast<std::int32_t>(notice)) == 0) continue;
+      texts.emplace_back(to_text(notice));
+      if (notice == Notice::kFrictionDiffers)
+        texts.back() += fmt::format(" ({:.2f} times)", state.friction_factor);
     }
     return fmt::format("{}", fmt::join(texts, ", "));
   }

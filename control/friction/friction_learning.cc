@@ -35,7 +35,6 @@ void FrictionLearning::set(const LearnedFriction& learned) noexcept {
 
 void FrictionLearning::blend() noexcept {
   friction_ = {};
-  table_static_Nm_ = 0.0;
   double squares = 0.0;
   const auto count = static_cast<std::size_t>(std::min(weights_.count, table_.rule_count));
   for (std::size_t i = 0; i < count; ++i) {
@@ -45,7 +44,6 @@ void FrictionLearning::blend() noexcept {
     friction_.static_Nm += scaled * rule.static_Nm;
     friction_.coulomb_Nm += scaled * rule.coulomb_Nm;
     friction_.viscous_Nms_rad += scaled * rule.viscous_Nms_rad;
-    table_static_Nm_ += weight * rule.static_Nm;
     squares += weight * weight;
   }
   reciprocal_squares_ = squares > 0.0 ? 1.0 / squares : 0.0;

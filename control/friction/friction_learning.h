@@ -26,8 +26,8 @@ class FrictionLearning {
   /// Friction at the weighed temperature, scales included.
   const FrictionParameters& friction() const noexcept { return friction_; }
   double load_Nm() const noexcept { return learned_.load_Nm; }
-  /// What is learned over the table's, at the weighed temperature: of static friction.
-  double factor() const noexcept { return table_static_Nm_ > 0.0 ? friction_.static_Nm / table_static_Nm_ : 1.0; }
+  /// Friction at the weighed temperature over the table's.
+  double factor() const noexcept { return friction_factor(learned_, table_, weights_); }
 
   /// A period of motion in which `feedback_Nm` was added at the planned `motor_velocity_rad_s` != 0.
   void learn(double feedback_Nm, double motor_velocity_rad_s, double elapsed_s) noexcept;
@@ -47,7 +47,6 @@ class FrictionLearning {
   FuzzyFriction table_;
   TemperatureWeights weights_;
   double reciprocal_squares_ = 1.0;  ///< 1 / sum w_j^2
-  double table_static_Nm_ = 0.0;     ///< blended without scales
   FrictionParameters friction_;
   LearnedFriction learned_;
   bool frozen_ = false;

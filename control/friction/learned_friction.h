@@ -1,21 +1,38 @@
-// What a joint has learned of its friction and its load while it moved. Plain data. Joint side, SI.
+// What the control law has learned of a joint's friction and load while it moved. Plain data. Real-time safe. Joint side, SI.
+//
+//   friction of temperature rule i    F_i' = (1 + s_i) F_i           F_i: the table's
+//   factor at a temperature           sum_i w_i (1 + s_i) F_i / sum_i w_i F_i       w_i: weights of the rules
 #pragma once
 
 #include <array>
+#include <cstddef>
 
-#include "control/memberships.h"
+#include "control/fuzzy_friction.h"
 
 namespace strainwave {
 
-/// Bounds of a scale: friction is never taken to be less than a tenth of the table's, nor more than four times it. Measured friction
-/// changes fourfold between -10 and 40 degC (data/friction_parameters.csv), so a joint without a thermometer stays inside.
+/// A scale s_i is in this range: a tenth of the table's friction to four times of it.
 inline constexpr double kLeastScale = -0.9;
 inline constexpr double kMostScale = 3.0;
 
-/// Friction of temperature rule i is (1 + scale[i]) times the table's; scale[i] in [kLeastScale, kMostScale].
 struct LearnedFriction {
-  std::array<double, kMaxTemperatureRules> scale{};
-  double load_Nm = 0.0;  ///< besides gravity; positive opposes positive motor torque
+  std::array<double, kMaxTemperatureRules> scale{};  ///< s_i, in [kLeastScale, kMostScale]
+  double load_Nm = 0.0;  ///< what pushes the joint besides gravity and what it is told
+
+  bool operator==(const LearnedFriction&) const = default;
 };
+
+/// The factor by which friction at the temperature of `weights` differs from the table's; 1 without rules. F_i is Coulomb friction.
+inline double friction_factor(const LearnedFriction& learned, const FuzzyFriction& table,
+                              const TemperatureWeights& weights) noexcept {
+  double learned_Nm = 0.0;
+  double table_Nm = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.count); ++i) {
+    const double rule_Nm = weights.weight[i] * table.rules[i].friction.coulomb_Nm;
+    learned_Nm += (1.0 + learned.scale[i]) * rule_Nm;
+    table_Nm += rule_Nm;
+  }
+  return table_Nm > 0.0 ? learned_Nm / table_Nm : 1.0;
+}
 
 }  // namespace strainwave

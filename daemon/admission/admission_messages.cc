@@ -98,6 +98,12 @@ std::optional<OrderKind> order_of(Action action) {
       return OrderKind::kPausePath;
     case Action::kResume:
       return OrderKind::kResumePath;
+    case Action::kResetLearning:
+      return OrderKind::kResetLearning;
+    case Action::kFreezeLearning:
+      return OrderKind::kFreezeLearning;
+    case Action::kResumeLearning:
+      return OrderKind::kResumeLearning;
     case Action::kTakeOver:
     case Action::kRelease:
       break;  // of admission itself, not of the loop
@@ -184,7 +190,7 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
     return refuse(requester, Reason::kUnknownAction,
                   "action = " + std::to_string(command->action) + ": from " +
                       std::to_string(static_cast<int>(Action::kEnable)) + " to " +
-                      std::to_string(static_cast<int>(Action::kResume)) +
+                      std::to_string(static_cast<int>(Action::kResumeLearning)) +
                       " is allowed, see docs/messages.md");
   if (action == Action::kPause || action == Action::kResume)
     if (auto verdict = check_path_owner(requester)) return std::move(*verdict);

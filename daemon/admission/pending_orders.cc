@@ -150,7 +150,9 @@ bool PendingOrders::prepare_table(Verdict& verdict, std::int64_t& table_id) {
     return false;
   }
   JointLoop& joint = loop_.joint(verdict.requester.joint);
-  if (verdict.table) joint.table_slot(*slot) = {*verdict.table, table_digest(*verdict.table)};
+  if (verdict.table)
+    joint.table_slot(*slot) = {*verdict.table, table_digest(*verdict.table),
+                               friction_rules_digest(verdict.table->friction)};
   table_id = joint.table_slot(*slot).id;
   verdict.order.table_slot = static_cast<std::int32_t>(*slot);
   book.begin(*slot);

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <iomanip>
+#include <span>
 #include <sstream>
 #include <vector>
 
@@ -20,6 +22,14 @@
 namespace strainwave {
 
 namespace {
+
+std::int64_t digest_of(std::span<const std::uint8_t> bytes) {
+  std::array<unsigned char, crypto_generichash_BYTES> hash{};
+  crypto_generichash(hash.data(), hash.size(), bytes.data(), bytes.size(), nullptr, 0);
+  std::int64_t digest = 0;
+  std::memcpy(&digest, hash.data(), sizeof digest);
+  return digest == 0 ? 1 : digest;
+}
 
 constexpr double kTolerance = 1e-9;
 // What the structure of a joint damps at least whose damping nobody knows, of critical damping: without it nothing would be stable to the
@@ -169,12 +179,24 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
 }
 
 std::int64_t table_digest(const GainTable& table) {
-  const auto bytes = encode(to_message(table));
-  std::array<unsigned char, crypto_generichash_BYTES> hash{};
-  crypto_generichash(hash.data(), hash.size(), bytes.data(), bytes.size(), nullptr, 0);
-  std::int64_t digest = 0;
-  std::memcpy(&digest, hash.data(), sizeof digest);
-  return digest == 0 ? 1 : digest;
+  return digest_of(encode(to_message(table)));
+}
+
+std::int64_t friction_rules_digest(const FuzzyFriction& friction) {
+  std::vector<std::uint8_t> bytes;
+  const auto add = [&bytes](double value) {
+    const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof value>>(value);
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(friction.rule_count); ++i) {
+    const TemperatureRule& rule = friction.rules[i];
+    add(rule.center_C);
+    add(rule.width_C);
+    add(rule.friction.static_Nm);
+    add(rule.friction.coulomb_Nm);
+    add(rule.friction.viscous_Nms_rad);
+  }
+  return digest_of(bytes);
 }
 
 }  // namespace strainwave

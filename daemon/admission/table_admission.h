@@ -39,4 +39,7 @@ TableVerdict judge_box(const GainTable& table);
 /// A short name for the table's content, never 0: the same bits give the same number.
 std::int64_t table_digest(const GainTable& table);
 
+/// Of its temperature rules: what a joint learned of its friction belongs to them. Never 0.
+std::int64_t friction_rules_digest(const FuzzyFriction& friction);
+
 }  // namespace strainwave

@@ -17,7 +17,7 @@
 namespace strainwave {
 
 inline constexpr std::size_t kMaxJoints = 64;
-inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303039;  // "SWMEM009"
+inline constexpr std::uint64_t kSharedMemoryMagic = 0x53574d454d303130;  // "SWMEM010"
 
 /// One joint in one cycle, from the real-time thread.
 struct StateRecord {
@@ -25,6 +25,7 @@ struct StateRecord {
   double temperature_measured_C = 0.0;
   double temperature_age_s = -1.0;
   std::int64_t joint_index = 0;
+  std::int64_t friction_rules_id = 0;  ///< digest of the active table's friction rules; 0: none
 };
 
 /// A message in wire form with its channel: an acknowledgement on its way out, or a command on its way in.

@@ -150,6 +150,7 @@ void JointLoop::control(const CycleTime& time) noexcept {
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
   estimate_inertia(measurement);
   motion_ = controller_.step(measurement);
+  if (motion_.learns) friction_.learned_now(measurement.temperature_C, time.now_ns);
   refuse_torque_into_limit_switch();
   if (!std::isfinite(motion_.output.torque_Nm)) raise_fault(Fault::kNotFinite, time);
   note_limits(measurement);
@@ -257,6 +258,8 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   if (ordered_.ends_path()) notice(Notice::kPathEnds);
   if (yield_) notice(Notice::kYielded);
   if (ordered_.streamed() && controller_.trajectory().ran_out_of_samples()) notice(Notice::kSamplesMissing);
+  const double friction_factor = controller_.friction_factor();
+  if (differs_from_table(friction_factor)) notice(Notice::kFrictionDiffers);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
                    zero_, ordered_, temperature_, controller_.temperature_weights()};
   cycle.target_rad =
@@ -264,9 +267,13 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   cycle.joint_velocity_rad_s = measured_velocity_rad_s();
   if (mode_.controlled()) cycle.inertia_kgm2 = inertia_.inertia_kgm2();
   cycle.table_id = table_ != nullptr ? table_->id : 0;
-  cycle.temperature_rules = table_ != nullptr ? table_->table.friction.rule_count : 0;
+  cycle.friction_rules_id = table_ != nullptr ? table_->friction_rules_id : 0;
+  cycle.friction_rules = table_ != nullptr ? &table_->table.friction : nullptr;
   cycle.notices = notices_;
   cycle.yield = yield_;
+  cycle.learned = controller_.learned();
+  cycle.friction_factor = friction_factor;
+  cycle.friction = friction_;
   fill_record(cycle, record_);
   if (recorder_ != nullptr)
     recorder_->write(flight_sample(record_, time, reading().drive_state, watch_.fresh()));

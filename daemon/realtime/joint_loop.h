@@ -14,6 +14,7 @@
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/fault_reach.h"
 #include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/friction_history.h"
 #include "daemon/realtime/homing.h"
 #include "daemon/realtime/joint_loop_config.h"
 #include "daemon/realtime/joint_mode.h"
@@ -39,7 +40,8 @@ class JointLoop {
   static constexpr std::size_t kTableSlots = 3;
   struct TableSlot {
     GainTable table;
-    std::int64_t id = 0;  ///< digest
+    std::int64_t id = 0;                 ///< digest
+    std::int64_t friction_rules_id = 0;  ///< digest of its friction rules
   };
 
   /// `actuator` is owned. The queues are the loop's, shared by all joints, and outlive it.
@@ -55,6 +57,11 @@ class JointLoop {
 
   /// Before the loop runs: who is told of orders that are for all joints of a path. It outlives this object.
   void follow_paths_of(PathFollower& follower) noexcept { follower_ = &follower; }
+  /// Before the loop runs: what an earlier run of the daemon learned, with the rules of the first table.
+  void restore(const LearnedFriction& learned, const FrictionHistory& history) noexcept {
+    controller_.set_learned(learned);
+    friction_ = history;
+  }
   /// Before the loop runs: where every cycle is recorded. It outlives this object.
   void record_into(FlightRecorder& recorder) noexcept { recorder_ = &recorder; }
 
@@ -135,6 +142,8 @@ class JointLoop {
   Ruling obey(const Order& order, const CycleTime& time) noexcept;
   Ruling enable(const CycleTime& time) noexcept;
   Ruling use_table(const TableSlot& slot) noexcept;
+  Ruling reset_learning() noexcept;
+  void forget_learned() noexcept;
   Ruling begin_setpoint(const Order& order, const CycleTime& time) noexcept;
   Ruling stream_ended(std::int64_t stream_id) const noexcept;
   Ruling take_path(const Order& order) noexcept;
@@ -186,6 +195,7 @@ class JointLoop {
   InertiaEstimate inertia_;
   MotionWatch motion_watch_;
   SpeedGauge speed_gauge_;  ///< while nothing is controlled
+  FrictionHistory friction_;
   HeldLoad held_;
   std::optional<Yield> yield_;       ///< since the last order that moved the joint, or cleared a fault
   std::int64_t yielded_stream_ = 0;  ///< which it ended; 0: none

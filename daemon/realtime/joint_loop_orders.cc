@@ -59,6 +59,13 @@ Ruling JointLoop::obey(const Order& order, const CycleTime& time) noexcept {
       return follower_->pause(static_cast<std::size_t>(index_));
     case OrderKind::kResumePath:
       return follower_->resume(static_cast<std::size_t>(index_));
+    case OrderKind::kResetLearning:
+      return reset_learning();
+    case OrderKind::kFreezeLearning:
+    case OrderKind::kResumeLearning:
+      friction_.frozen = order.kind == OrderKind::kFreezeLearning;
+      controller_.freeze_learning(friction_.frozen);
+      return Reason::kAccepted;
     case OrderKind::kEndStream:
       return ordered_.streamed() ? hold() : Reason::kAccepted;
   }
@@ -93,6 +100,8 @@ Ruling JointLoop::use_table(const TableSlot& slot) noexcept {
   if (mode_.controlled() && std::abs(motion_.load_Nm) > loads.load_Nm)
     return {Reason::kOutOfRange, loads.load_Nm, std::abs(motion_.load_Nm)};
   motion_watch_.limit_loads(loads);
+  // Scales belong to the rules with which they were learned.
+  if (table_ != nullptr && table_->friction_rules_id != slot.friction_rules_id) forget_learned();
   controller_.load(table);
   table_ = &slot;
   // A table with a box is for joints of other inertias than the one that it is designed for.
@@ -100,6 +109,18 @@ Ruling JointLoop::use_table(const TableSlot& slot) noexcept {
   watch_.set_joint(link ? link->motor_inertia_kgm2 + link->link_inertia_kgm2 : table.plant.inertia_kgm2,
                    largest_static_friction_Nm(table.friction));
   return Reason::kAccepted;
+}
+
+// Where a table may change, too: what is forgotten makes no torque step at rest.
+Ruling JointLoop::reset_learning() noexcept {
+  if (!at_rest() && !mode_.is(Mode::kHolding)) return Reason::kMoving;
+  forget_learned();
+  return Reason::kAccepted;
+}
+
+void JointLoop::forget_learned() noexcept {
+  controller_.set_learned({});
+  friction_ = {.frozen = friction_.frozen};
 }
 
 Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noexcept {

@@ -22,6 +22,9 @@ enum class OrderKind : std::int32_t {
   kLoadPath,
   kPausePath,
   kResumePath,
+  kResetLearning,
+  kFreezeLearning,
+  kResumeLearning,
   kEndStream  ///< of the owner until now: the joint comes to rest; a move or path goes on
 };
 

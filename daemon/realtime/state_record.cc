@@ -39,6 +39,18 @@ void fill_yield(const std::optional<Yield>& yield, state_v1& state) noexcept {
   state.yield_position_rad = yield ? yield->position_rad : kNone;
 }
 
+void fill_friction(const JointCycle& cycle, state_v1& state) noexcept {
+  state.rule_count = cycle.friction_rules != nullptr ? cycle.friction_rules->rule_count : 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(state.rule_count); ++i)
+    state.friction_rule_C[i] = cycle.friction_rules->rules[i].center_C;
+  state.friction_factor = cycle.friction_factor;
+  state.friction_learned_C = cycle.friction.learned_C;
+  state.friction_age_s = cycle.friction.age_s(cycle.time.now_ns);
+  state.friction_frozen = cycle.friction.frozen ? 1 : 0;
+  std::copy(cycle.learned.scale.begin(), cycle.learned.scale.end(), state.friction_scales);
+  state.learned_load_Nm = cycle.learned.load_Nm;
+}
+
 }  // namespace
 
 void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
@@ -47,10 +59,10 @@ void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
   state.table_id = cycle.table_id;
   fill_motion(cycle, state);
   fill_yield(cycle.yield, state);
+  fill_friction(cycle, state);
   state.temperature_used_C =
       cycle.temperature.known() ? cycle.temperature.used_C() : std::numeric_limits<double>::quiet_NaN();
   std::copy(cycle.weights.weight.begin(), cycle.weights.weight.end(), state.temperature_weights);
-  state.rule_count = cycle.temperature_rules;
   state.temperature_status = static_cast<std::int32_t>(cycle.temperature.status());
   state.mode = static_cast<std::int32_t>(cycle.mode.mode());
   state.fault = static_cast<std::int32_t>(cycle.mode.fault());
@@ -58,6 +70,7 @@ void fill_record(const JointCycle& cycle, StateRecord& record) noexcept {
   state.faults_total = cycle.mode.faults_total();
   // The drive may forget; what it said when the fault came is what explains it.
   state.drive_error = cycle.mode.is(Mode::kFaulted) ? cycle.mode.drive_error() : cycle.reading.drive_error;
+  record.friction_rules_id = cycle.friction_rules_id;
   record.temperature_measured_C = cycle.temperature.measured_C();
   record.temperature_age_s = cycle.temperature.age_s(cycle.time.now_ns);
 }

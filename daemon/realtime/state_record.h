@@ -8,6 +8,7 @@
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/friction_history.h"
 #include "daemon/realtime/joint_mode.h"
 #include "daemon/realtime/joint_zero.h"
 #include "daemon/realtime/ordered_target.h"
@@ -27,13 +28,17 @@ struct JointCycle {
   const OrderedTarget& ordered;
   const TemperatureCheck& temperature;
   const TemperatureWeights& weights;
-  double target_rad = 0.0;             ///< of the controller
-  double joint_velocity_rad_s = 0.0;   ///< measured or estimated, controlled or not
-  std::int64_t table_id = 0;           ///< 0: none
-  std::int32_t temperature_rules = 0;  ///< of the table
+  double target_rad = 0.0;                        ///< of the controller
+  double joint_velocity_rad_s = 0.0;              ///< measured or estimated, controlled or not
+  std::int64_t table_id = 0;                      ///< 0: none
+  std::int64_t friction_rules_id = 0;             ///< likewise
+  const FuzzyFriction* friction_rules = nullptr;  ///< of the table; null: none
   std::int32_t notices = 0;
   std::optional<double> inertia_kgm2{};  ///< as far as motions have shown it
   std::optional<Yield> yield{};          ///< that the joint is to tell of
+  LearnedFriction learned{};
+  double friction_factor = 1.0;  ///< at the present temperature
+  FrictionHistory friction{};
 };
 
 /// Every field but joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).

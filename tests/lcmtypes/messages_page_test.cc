@@ -75,7 +75,7 @@ void expect_numbers(const std::string& title, const std::function<std::string_vi
   std::map<int, std::string> documented;
   for (const Row& row : table_under(title)) documented[std::stoi(row.at(0))] = row.at(1);
   std::map<int, std::string> known;
-  for (int number = 0; number < 200'000; ++number) {
+  for (int number = 0; number < 1 << 20; ++number) {
     if (text_of(number) != "unknown") known[number] = text_of(number);
   }
   EXPECT_FALSE(known.empty());

@@ -68,7 +68,8 @@ constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited
                                      {16384, Notice::kPathPaused, "path paused"},
                                      {32768, Notice::kPathEnds, "path ends early"},
                                      {65536, Notice::kYielded, "yielded to a load"},
-                                     {131072, Notice::kSamplesMissing, "samples missing"}};
+                                     {131072, Notice::kSamplesMissing, "samples missing"},
+                                     {262144, Notice::kFrictionDiffers, "friction differs from the table"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},
@@ -113,7 +114,10 @@ constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {7, Action::kTakeOver, "take-over"},
                                      {8, Action::kRelease, "release"},
                                      {9, Action::kPause, "pause"},
-                                     {10, Action::kResume, "resume"}};
+                                     {10, Action::kResume, "resume"},
+                                     {11, Action::kResetLearning, "reset-learning"},
+                                     {12, Action::kFreezeLearning, "freeze-learning"},
+                                     {13, Action::kResumeLearning, "resume-learning"}};
 
 constexpr Word<TemperatureStatus> kTemperatureStatuses[] = {
     {0, TemperatureStatus::kValid, "valid"},

@@ -28,7 +28,8 @@ class State(_Snapshot):
         self.gains_in_use = GainsInUse(message.gains_in_use)
         self.temperature_status = TemperatureStatus(message.temperature_status)
         # Only as many as the table has rules mean anything.
-        self.temperature_weights = tuple(message.temperature_weights[:max(0, message.rule_count)])
+        for field in ("temperature_weights", "friction_rule_C", "friction_scales"):
+            setattr(self, field, tuple(getattr(message, field)[:max(0, message.rule_count)]))
 
     def fault_words(self):
         """The fault in words; with fault 5, which of its causes it was."""

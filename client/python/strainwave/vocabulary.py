@@ -127,6 +127,9 @@ class Action(_Word):
     RELEASE = 8, "release"
     PAUSE = 9, "pause"
     RESUME = 10, "resume"
+    RESET_LEARNING = 11, "reset-learning"
+    FREEZE_LEARNING = 12, "freeze-learning"
+    RESUME_LEARNING = 13, "resume-learning"
 
 
 class TemperatureStatus(_Word):
@@ -168,6 +171,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     PATH_ENDS = 1 << 15
     YIELDED = 1 << 16
     SAMPLES_MISSING = 1 << 17
+    FRICTION_DIFFERS = 1 << 18
 
     @property
     def texts(self):
@@ -199,6 +203,7 @@ _NOTICE_TEXTS = {
     Notice.PATH_ENDS: "path ends early",
     Notice.YIELDED: "yielded to a load",
     Notice.SAMPLES_MISSING: "samples missing",
+    Notice.FRICTION_DIFFERS: "friction differs from the table",
 }
 
 

@@ -137,7 +137,7 @@ TEST(StateRow, FitsIntoATerminalOf80ColumnsWithItsNotesBelow) {
   view.state.torque_commanded_Nm = -123.456;
   view.state.temperature_used_C = -10.25;
   view.state.fault = static_cast<std::int32_t>(Fault::kGroup);
-  view.state.notices = (1 << 18) - 1;
+  view.state.notices = (1 << 19) - 1;
   const std::size_t columns = name_columns({{"SW", "elbow"}, {"SW", "shoulder_pitch_3"}});
   std::istringstream lines(state_header(columns) + "\n" + state_row("shoulder_pitch_3", columns, view, 2.5));
   std::string line, text;
@@ -170,6 +170,13 @@ TEST(StateNotes, NameFaultLimitsSilenceAndASecondDaemon) {
                            "no message for 2.5 s", "two daemons", "no table"}) {
     EXPECT_NE(notes.find(part), std::string::npos) << part << " in " << notes;
   }
+}
+
+TEST(StateNotes, NameTheFactorWhereFrictionDiffersFromTheTable) {
+  JointView view = healthy();
+  view.state.notices = static_cast<std::int32_t>(Notice::kFrictionDiffers);
+  view.state.friction_factor = 1.625;
+  EXPECT_EQ(state_notes(view, 0.01), "friction differs from the table (1.62 times)");
 }
 
 TEST(StateDetails, NameEveryCodeInWords) {

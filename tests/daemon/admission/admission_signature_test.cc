@@ -84,6 +84,19 @@ TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
   EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
 }
 
+TEST_F(SignedAdmission, LetsAnOperatorResetFreezeAndResumeLearningAndNoStranger) {
+  std::int64_t sequence = 0;
+  for (const auto& [action, kind] : {std::pair{Action::kResetLearning, OrderKind::kResetLearning},
+                                     {Action::kFreezeLearning, OrderKind::kFreezeLearning},
+                                     {Action::kResumeLearning, OrderKind::kResumeLearning}}) {
+    const Verdict verdict = consider(wire(kCommand, command(action, 1, ++sequence), &operator_));
+    EXPECT_EQ(verdict.kind, Verdict::Kind::kOrder);
+    EXPECT_EQ(verdict.order.kind, kind);
+    EXPECT_EQ(consider(wire(kCommand, command(action, 1, ++sequence), &stranger_)).kind,
+              Verdict::Kind::kRefuse);
+  }
+}
+
 TEST_F(SignedAdmission, LetsEverybodyStop) {
   auto stop = command(Action::kDisable, 9, -1);
   stop.session_id = 0;

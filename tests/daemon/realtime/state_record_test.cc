@@ -15,6 +15,8 @@ class StateRecordTest : public ::testing::Test {
     motion_.reference = {0.6, 0.2, 0.0};
     motion_.output.torque_Nm = 4.0;
     zero_.set(0.0, 1.0);
+    rules_.rule_count = 2;
+    rules_.rules[1].center_C = 40.0;
     weights_.weight[0] = 0.25;
     weights_.weight[1] = 0.75;
   }
@@ -27,7 +29,11 @@ class StateRecordTest : public ::testing::Test {
     cycle.target_rad = 0.75;
     cycle.joint_velocity_rad_s = 0.15;
     cycle.table_id = 77;
-    cycle.temperature_rules = 2;
+    cycle.friction_rules_id = 78;
+    cycle.friction_rules = &rules_;
+    cycle.learned = learned_;
+    cycle.friction_factor = 1.25;
+    cycle.friction = friction_;
     cycle.notices = 5;
     cycle.inertia_kgm2 = inertia_kgm2_;
     cycle.yield = yield_;
@@ -42,6 +48,9 @@ class StateRecordTest : public ::testing::Test {
   OrderedTarget ordered_;
   TemperatureCheck temperature_{TemperatureCheckConfig{}};
   TemperatureWeights weights_;
+  FuzzyFriction rules_;
+  LearnedFriction learned_;
+  FrictionHistory friction_;
   std::optional<double> inertia_kgm2_;
   std::optional<Yield> yield_;
   StateRecord record_;
@@ -101,8 +110,25 @@ TEST_F(StateRecordTest, ShowsAYieldAsLongAsTheJointIsToTellOfIt) {
   EXPECT_EQ(filled().yield_position_rad, 0.301);
 }
 
+TEST_F(StateRecordTest, ShowsWhatWasLearnedOfFrictionWhenAndWithWhichRules) {
+  EXPECT_EQ(filled().friction_age_s, -1.0);
+  EXPECT_TRUE(std::isnan(filled().friction_learned_C));
+  learned_.scale[1] = 0.5;
+  learned_.load_Nm = -2.0;
+  friction_ = {.frozen = true, .learned_C = 18.0, .learned_ns = 1'000'000'000};
+  const state_v1& state = filled();
+  EXPECT_EQ(state.friction_factor, 1.25);
+  EXPECT_EQ(state.friction_learned_C, 18.0);
+  EXPECT_DOUBLE_EQ(state.friction_age_s, 2.0);
+  EXPECT_EQ(state.friction_frozen, 1);
+  EXPECT_EQ(state.friction_rule_C[1], 40.0);
+  EXPECT_EQ(state.friction_scales[1], 0.5);
+  EXPECT_EQ(state.learned_load_Nm, -2.0);
+  EXPECT_EQ(record_.friction_rules_id, 78);
+}
+
 TEST_F(StateRecordTest, TellsTheFlightRecorderOfEveryNotice) {
-  for (std::uint32_t notice = 1; notice <= static_cast<std::uint32_t>(Notice::kSamplesMissing);
+  for (std::uint32_t notice = 1; notice <= static_cast<std::uint32_t>(Notice::kFrictionDiffers);
        notice <<= 1U) {
     record_.state.notices = static_cast<std::int32_t>(notice);
     EXPECT_EQ(flight_sample(record_, time_, DriveState::kEnabled, true).notices, notice);

@@ -1,0 +1,33 @@
+// When and at what temperature a joint learned its friction, and when that is worth a notice. Real-time safe.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace strainwave {
+
+struct FrictionHistory {
+  bool frozen = false;
+  double learned_C = std::numeric_limits<double>::quiet_NaN();  ///< temperature at which it last learned
+  std::optional<std::int64_t> learned_ns{};                     ///< when, monotonic; nothing: never
+
+  void learned_now(double temperature_C, std::int64_t now_ns) noexcept {
+    learned_C = temperature_C;
+    learned_ns = now_ns;
+  }
+  /// -1: never.
+  double age_s(std::int64_t now_ns) const noexcept {
+    return learned_ns ? 1e-9 * static_cast<double>(now_ns - *learned_ns) : -1.0;
+  }
+};
+
+/// A factor of 2 must be named while a quarter of it is not learned yet: 2 * 3/4, and the inverse.
+inline constexpr double kMostFrictionFactor = 2.0 * 3.0 / 4.0;
+inline constexpr double kLeastFrictionFactor = 1.0 / kMostFrictionFactor;
+
+constexpr bool differs_from_table(double friction_factor) noexcept {
+  return friction_factor < kLeastFrictionFactor || friction_factor > kMostFrictionFactor;
+}
+
+}  // namespace strainwave
