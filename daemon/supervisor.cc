@@ -86,6 +86,7 @@ Supervisor::Supervisor(const DaemonConfig& config)
       loop_(config.loop, assemble_loop(config), outbound_.states),
       flight_records_(config.recorder, config.loop.period_s, session_id_, recorded_joints(config, loop_),
                       log_flight_records()),
+      friction_(config.state_directory, names_of(config)),
       admission_(config.prefix, session_id_, assemble_admission(config), config.security),
       answers_(config.prefix, session_id_, names_of(config), outbound_.messages),
       orders_(loop_, admission_, answers_),
@@ -121,6 +122,7 @@ void Supervisor::load_initial_tables() {
     for (const std::string& doubt : initial->doubts) spdlog::warn("{}", doubt);
     if (!orders_.load_first_table(i, initial->table))
       throw InputError(joint.table.string() + ": cannot be loaded for joint " + joint.name);
+    friction_.restore(i, initial->table.friction, loop_.joint(i), monotonic_now_ns());
   }
 }
 
@@ -128,6 +130,7 @@ void Supervisor::run() {
   if (config_.gateway_user.uid < 0) hide_memory_from_own_user();
   gateway_.start();  // first: a process started by a real-time one would inherit too much
   flight_records_.start();
+  friction_.start();
   orders_.start();
   log_buses();
   publish_challenge();  // the first state has one
@@ -148,6 +151,7 @@ void Supervisor::run() {
   }
   loop_.close_buses();
   turn(monotonic_now_ns());
+  friction_.finish();
   spdlog::info("stopped: every joint is at rest");
 }
 
@@ -239,6 +243,7 @@ void Supervisor::take_states(std::int64_t now_ns) {
   while (outbound_.states.read(state_cursor_, record, dropped)) {
     latest_[static_cast<std::size_t>(record.joint_index)] = record;
     orders_.observe(record);
+    friction_.observe(record, now_ns);
   }
   if (state_cursor_ == 0 || now_ns < temperature_due_ns_) return;
   temperature_due_ns_ = now_ns + kTemperatureEvery_ns;

@@ -12,6 +12,7 @@
 #include "daemon/admission/pending_orders.h"
 #include "daemon/config/config.h"
 #include "daemon/end_signals.h"
+#include "daemon/friction_keeper.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/gateway/wake_pipe.h"
 #include "daemon/gateway_guard.h"
@@ -60,6 +61,7 @@ class Supervisor {
   EndSignals signals_;
   RealtimeLoop loop_;
   FlightRecordWriter flight_records_;
+  FrictionKeeper friction_;
   Admission admission_;
   Answers answers_;
   PendingOrders orders_;

@@ -46,21 +46,31 @@ LoopConfig read_loop(TomlSection& section) {
   return loop;
 }
 
+// systemd's StateDirectory=, the first if there are several; empty: there is none.
+std::filesystem::path service_state_directory() {
+  const char* state = std::getenv("STATE_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
+  if (state == nullptr) return {};
+  return std::string_view(state).substr(0, std::string_view(state).find(':'));
+}
+
+std::filesystem::path read_state_directory(TomlSection& section, const std::filesystem::path& folder) {
+  if (!section.has("state_directory")) return service_state_directory();
+  const std::filesystem::path directory = folder / section.text("state_directory");
+  doubt_folder(section, "state_directory", directory);
+  return directory;
+}
+
 RecorderConfig read_recorder(TomlSection section, const std::filesystem::path& folder) {
   RecorderConfig recorder;
   recorder.seconds = section.number_or("seconds", recorder.seconds, {0.01, 600.0});
   recorder.post_trigger_s =
       section.number_or("post_trigger_s", std::min(recorder.post_trigger_s, 0.1 * recorder.seconds),
                         {0.0, 0.9 * recorder.seconds});
-  // systemd's StateDirectory=, the first if there are several.
-  const char* state = std::getenv("STATE_DIRECTORY");  // NOLINT(concurrency-mt-unsafe): before any thread
   if (section.has("directory")) {
     recorder.directory = folder / section.text("directory");
     doubt_folder(section, "directory", recorder.directory);
-  } else if (state != nullptr && *state != '\0') {
-    recorder.directory =
-        std::filesystem::path(std::string_view(state).substr(0, std::string_view(state).find(':'))) /
-        "flight-records";
+  } else if (const std::filesystem::path state = service_state_directory(); !state.empty()) {
+    recorder.directory = state / "flight-records";
   }
   recorder.max_files = static_cast<int>(section.integer_or("max_files", recorder.max_files, 1, 100000));
   recorder.max_total_MB = section.number_or("max_total_MB", recorder.max_total_MB, {0.001, 1e6});
@@ -137,6 +147,7 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   config.prefix = read_name(daemon, "prefix", "SW");
   config.lcm_url = read_lcm_url(daemon);
   config.gateway_user = read_gateway_user(daemon);
+  config.state_directory = read_state_directory(daemon, path.parent_path());
   daemon.refuse_unknown_keys();
 
   CanConfig can(root, config.loop.period_s);

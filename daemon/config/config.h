@@ -67,6 +67,7 @@ struct DaemonConfig {
   std::string lcm_url;
   GatewayUser gateway_user;
   std::string gateway_socket;  ///< where the service manager starts gateways; empty: the daemon does
+  std::filesystem::path state_directory;  ///< where learned friction is kept; empty: nowhere
   SecurityPolicy security;
   std::vector<BusConfig> buses;
   std::vector<JointConfig> joints;

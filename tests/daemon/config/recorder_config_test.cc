@@ -54,6 +54,13 @@ TEST_F(RecorderConfigTest, RecordsNothingWithoutADirectory) {
   EXPECT_EQ(read(joint("a")).recorder.directory, "/var/lib/strainwave/flight-records");
 }
 
+TEST_F(RecorderConfigTest, KeepsLearnedFrictionInTheStateDirectoryOfTheFileOrElseOfTheService) {
+  EXPECT_TRUE(read(joint("a")).state_directory.empty());
+  ::setenv("STATE_DIRECTORY", "/var/lib/strainwave:/var/lib/other", 1);
+  EXPECT_EQ(read(joint("a")).state_directory, "/var/lib/strainwave");
+  EXPECT_EQ(read("[daemon]\nstate_directory = \"kept\"\n" + joint("a")).state_directory, folder_ / "kept");
+}
+
 TEST_F(RecorderConfigTest, ReadsTheRecorderWithPathsBesideTheConfiguration) {
   const RecorderConfig recorder =
       read(joint("a") + "[recorder]\ndirectory = \"records\"\nseconds = 2\nmax_files = 7\n").recorder;
