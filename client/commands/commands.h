@@ -147,6 +147,11 @@ void take_over(Client& client, const Output& output, const std::string& joint);
 /// The joint is nobody's.
 void release(Client& client, const Output& output, const std::string& joint);
 
+/// What the joint has learned of its friction: a line for each temperature rule of its table.
+void show_friction(Client& client, const Output& output, const std::string& joint);
+/// Forgets it (kResetLearning), keeps it as it is (kFreezeLearning) or lets the joint learn again (kResumeLearning).
+void order_learning(Client& client, const Output& output, const std::string& joint, Action action);
+
 /// Uses the previous gain table again; an engineer's order, as loading one is.
 void revert_table(Client& client, const Output& output, const std::string& joint);
 

@@ -114,6 +114,21 @@ void Joint::release() {
   order_accepted(link_->client(), name(), Action::kRelease);
 }
 
+void Joint::reset_learning() {
+  const auto held = link_->lock();
+  order_accepted(link_->client(), name(), Action::kResetLearning);
+}
+
+void Joint::freeze_learning() {
+  const auto held = link_->lock();
+  order_accepted(link_->client(), name(), Action::kFreezeLearning);
+}
+
+void Joint::resume_learning() {
+  const auto held = link_->lock();
+  order_accepted(link_->client(), name(), Action::kResumeLearning);
+}
+
 Arrival Joint::move(const MoveOrder& order) {
   const auto held = link_->lock();
   return move_joint(link_->client(), name(), checked(name(), order));

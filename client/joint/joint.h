@@ -69,6 +69,12 @@ class Joint {
   void take_over();
   /// The joint is nobody's, before its lease ends.
   void release();
+  /// Forgets the learned friction and load: the joint takes its table's friction. It must hold or be off.
+  void reset_learning();
+  /// What was learned stays in use and changes no more, until resume_learning() or a restart of the daemon.
+  void freeze_learning();
+  /// The joint learns again.
+  void resume_learning();
 
   /// Returns once the joint is within `tolerance_rad` (1 mrad) of the position and stays there. An exception does not end the motion:
   /// hold() does.

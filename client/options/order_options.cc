@@ -1,4 +1,4 @@
-// enable, disable, move, path, pause, resume, hold, clear-fault, take-over, release, home, load-table, revert-table, inject.
+// enable, disable, move, path, pause, resume, hold, clear-fault, take-over, release, home, load-table, revert-table, friction, inject.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
@@ -150,6 +150,27 @@ void add_load_table(CLI::App& app, Invocation& invocation) {
   });
 }
 
+void add_friction(CLI::App& app, Invocation& invocation) {
+  CLI::App* command =
+      app.add_subcommand("friction", "show what a joint has learned of its friction, or reset or freeze it");
+  auto joint = std::make_shared<std::string>();
+  auto what = std::make_shared<std::string>("show");
+  add_joint(*command, *joint)->required();
+  command->add_option("WHAT", *what, "show, reset (needs a joint that holds or is off), freeze or resume")
+      ->type_name("")
+      ->check(CLI::IsMember({"show", "reset", "freeze", "resume"}))
+      ->capture_default_str();
+  command->callback([&invocation, joint, what] {
+    invocation.command = [joint, what](Client& client, const Output& output) {
+      if (*what == "show") return show_friction(client, output, *joint);
+      order_learning(client, output, *joint,
+                     *what == "reset"    ? Action::kResetLearning
+                     : *what == "freeze" ? Action::kFreezeLearning
+                                         : Action::kResumeLearning);
+    };
+  });
+}
+
 void add_inject(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("inject", "give a simulated drive a fault, for tests (none: end them)");
@@ -190,6 +211,7 @@ void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_order_to_each(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);
   add_order_to_each(app, invocation, "revert-table", "use the previous gain table again", revert_table);
+  add_friction(app, invocation);
   add_inject(app, invocation);
 }
 

@@ -127,6 +127,18 @@ class Joint:
         """The joint is nobody's, before its lease ends."""
         self._order(Action.RELEASE)
 
+    def reset_learning(self):
+        """Forgets the learned friction and load: the joint takes its table's friction. It must hold or be off."""
+        self._order(Action.RESET_LEARNING)
+
+    def freeze_learning(self):
+        """What was learned stays in use and changes no more, until resume_learning() or a restart of the daemon."""
+        self._order(Action.FREEZE_LEARNING)
+
+    def resume_learning(self):
+        """The joint learns again."""
+        self._order(Action.RESUME_LEARNING)
+
     def move(self, position_rad, *, speed_limit_rad_s=0.0, tolerance_rad=1e-3, wait=True) -> Arrival | None:
         """Moves to `position_rad`, no faster than `speed_limit_rad_s` (0: the share of its limit that the joint moves at by itself).
 

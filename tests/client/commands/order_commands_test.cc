@@ -35,6 +35,29 @@ TEST_F(CommandsTest, EachOrderSendsItsOwnAction) {
   EXPECT_EQ(actions, (std::vector<std::int32_t>{1, 3, 4, 5, 6, 2}));
 }
 
+TEST_F(CommandsTest, OrdersAboutLearningSendTheirOwnActions) {
+  daemon.publish_state();
+  for (const Action action : {Action::kResetLearning, Action::kFreezeLearning, Action::kResumeLearning})
+    order_learning(client, output, "elbow", action);
+  std::vector<std::int32_t> actions;
+  for (const auto& heard : daemon.heard()) actions.push_back(decode_exactly<command_v1>(heard.bytes)->action);
+  EXPECT_EQ(actions, (std::vector<std::int32_t>{11, 12, 13}));
+}
+
+TEST_F(CommandsTest, FrictionShowsAFactorForEachRule) {
+  daemon.state.rule_count = 2;
+  daemon.state.friction_factor = 1.6;
+  daemon.state.friction_age_s = 12.0;
+  daemon.state.friction_learned_C = 18.0;
+  daemon.state.friction_rule_C[1] = 45.0;
+  daemon.state.friction_scales[1] = 0.6;
+  daemon.publish_state();
+  show_friction(client, output, "elbow");
+  const std::string text = stream.str();
+  for (const char* part : {"1.60 times", "+18.0 degC, 12 s ago", "0.0   1.00", "45.0   1.60"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+}
+
 TEST_F(CommandsTest, AnInjectionCarriesKindAmountAndDuration) {
   daemon.publish_state();
   inject(client, output, parse_injection("elbow", "sensor_jump", 0.25, 1.5));
