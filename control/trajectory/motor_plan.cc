@@ -132,6 +132,12 @@ LinkState MotorPlanner::flat(const MotionPoint& link, double snap_rad_s4) const 
 // of the last period and of this one.
 void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
                         double taken_Nm) noexcept {
+  if (rigid()) {
+    torque_Nm_ = wanted_Nm;
+    middle_velocity_rad_s_ = 0.5 * (wanted_.motor_velocity_rad_s + wanted_end.motor_velocity_rad_s);
+    next_ = wanted_end;
+    return;
+  }
   const double asked_Nm =
       std::clamp(wanted_Nm, -config_.torque_limit_Nm - taken_Nm, config_.torque_limit_Nm - taken_Nm);
   const LinkState alone_end = config_.joint.advance(states_.front(), wanted_Nm, config_.period_s).end;
