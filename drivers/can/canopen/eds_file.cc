@@ -4,7 +4,8 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <limits>
+#include <set>
+#include <utility>
 
 #include "base/input_error.h"
 #include "base/text_file.h"
@@ -16,7 +17,14 @@ namespace {
 using Section = std::map<std::string, std::string>;
 
 constexpr std::size_t kMaxBytes = 4U << 20U;
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+/// Ctrl-Z, which old editors put behind the last line.
+constexpr char kEndOfFile = '\x1A';
+constexpr std::int64_t kMaxNodeId = 127;
 constexpr std::uint16_t kFirstIndex = 0x1000;
+/// ObjectType (CiA 306-1): arrays and records have others.
+constexpr std::int64_t kVariable = 7;
+constexpr std::int64_t kReal32 = 0x08;
 /// An array that lists no sub-entries of its own has at most so many.
 constexpr std::int64_t kMaxCompact = 254;
 
@@ -44,46 +52,78 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Decimal, 0x hexadecimal, or 0 octal, as the standard has it; with a sign.
+/// Decimal, 0x hexadecimal, or 0 octal, as the standard has it; with a sign. Some files pad decimal numbers: 08 is 8.
 std::optional<std::int64_t> plain_number(std::string_view text) {
-  text = trimmed(text);
-  const bool negative = !text.empty() && text.front() == '-';
+  const bool negative = text.starts_with('-');
   if (negative) text.remove_prefix(1);
-  int base = 10;
-  if (text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X')) {
-    base = 16;
-    text.remove_prefix(2);
-  } else if (text.size() > 1 && text[0] == '0') {
-    base = 8;
-  }
+  const bool hexadecimal = text.starts_with("0x");
+  if (hexadecimal) text.remove_prefix(2);
+  const bool octal = text.starts_with('0') && text.find_first_not_of("01234567") == std::string_view::npos;
   std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number,
+                                            hexadecimal ? 16
+                                            : octal     ? 8
+                                                        : 10);
   if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  const auto value = static_cast<std::int64_t>(number);
-  return negative ? -value : value;
+  return static_cast<std::int64_t>(negative ? 0 - number : number);
 }
 
-/// A number, or one with the node id added: "$NODEID+0x180".
+/// A number, or several that are added: "$NODEID+0x180".
 std::optional<std::int64_t> number_of(std::string_view text, std::uint8_t node_id) {
-  std::int64_t sum = 0;
-  for (std::string_view rest = trimmed(text); !rest.empty();) {
+  const std::string small = lower(text);
+  std::uint64_t sum = 0;
+  std::string_view rest = small;
+  do {
     const std::size_t plus = std::min(rest.find('+'), rest.size());
     const std::string_view term = trimmed(rest.substr(0, plus));
-    const auto number = lower(term) == "$nodeid" ? std::optional<std::int64_t>(node_id) : plain_number(term);
+    const auto number = term == "$nodeid" ? std::optional<std::int64_t>(node_id) : plain_number(term);
     if (!number) return std::nullopt;
-    sum += *number;
+    sum += static_cast<std::uint64_t>(*number);
     rest.remove_prefix(std::min(plus + 1, rest.size()));
-  }
-  return sum;
+  } while (!rest.empty());
+  return static_cast<std::int64_t>(sum);
+}
+
+/// The number of this type that has these bits: 0x8000 is -32768 of a signed one, and -1 is 0xFFFF of an unsigned one. Nothing when the
+/// type is too small.
+std::optional<std::int64_t> fitted(std::int64_t number, std::size_t bytes, bool is_signed) {
+  if (bytes >= sizeof number) return number;
+  const std::int64_t span = std::int64_t{1} << (8 * bytes);
+  if (number < -span / 2 || number >= span) return std::nullopt;
+  if (is_signed) return number >= span / 2 ? number - span : number;
+  return number < 0 ? number + span : number;
+}
+
+/// The section of an object or one of its entries: "1018", "1018sub1", "1018value".
+struct SectionName {
+  std::uint16_t index = 0;
+  std::string_view suffix;
+};
+std::optional<std::uint32_t> hexadecimal(std::string_view text) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+std::optional<SectionName> object_section(std::string_view name) {
+  constexpr std::size_t kDigits = 4;
+  const auto index = hexadecimal(name.substr(0, kDigits));
+  if (name.size() < kDigits || !index || *index < kFirstIndex) return std::nullopt;
+  return SectionName{static_cast<std::uint16_t>(*index), name.substr(kDigits)};
 }
 
 class Reader {
  public:
-  Reader(std::string file, std::uint8_t node_id) : node_id_(node_id) { result_.file = std::move(file); }
+  Reader(std::string file, std::uint8_t node_id) {
+    result_.file = std::move(file);
+    result_.node_id = node_id;
+  }
 
   EdsFile read(std::string_view text) {
     if (text.size() > kMaxBytes)
       throw InputError(result_.file + ": more than 4 MiB is no electronic data sheet");
+    if (text.starts_with(kUtf8Mark)) text.remove_prefix(kUtf8Mark.size());
+    text = text.substr(0, text.find(kEndOfFile));
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       ++line_;
@@ -91,125 +131,121 @@ class Reader {
       text.remove_prefix(std::min(end + 1, text.size()));
     }
     finish_section();
+    for (const auto& [entry, value] : compact_values_)
+      if (const auto found = result_.entries.find(entry); found != result_.entries.end())
+        found->second.value = value_of(found->second, value);
     if (result_.entries.empty())
       throw InputError(result_.file + ": has no objects: it is no electronic data sheet");
     return std::move(result_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(result_.file + ": line " + std::to_string(line_) + ": " + what);
-  }
-
+  // What is neither a section nor a key is left behind by editors: a description's second line, for example.
   void take(std::string_view line) {
-    if (line.empty() || line.front() == ';' || line.front() == '#') return;
-    if (line.front() == '[') {
+    line = trimmed(line.substr(0, line.find(';')));
+    if (line.starts_with('[')) {
       finish_section();
-      if (line.back() != ']') fail("a section's name ends with ]");
-      section_name_ = lower(trimmed(line.substr(1, line.size() - 2)));
+      section_name_ = lower(trimmed(line.substr(1, line.find(']') - 1)));
       section_line_ = line_;
       return;
     }
     const std::size_t equals = line.find('=');
-    if (equals == std::string_view::npos) fail("a section, key=value or ;comment is allowed");
-    if (section_name_.empty()) fail("a key before the first section");
-    const std::string key = lower(trimmed(line.substr(0, equals)));
-    if (!section_.emplace(key, trimmed(line.substr(equals + 1))).second) fail("key " + key + " stands twice");
+    if (equals != std::string_view::npos)
+      section_.emplace(lower(trimmed(line.substr(0, equals))), trimmed(line.substr(equals + 1)));
   }
 
   // [1018] and [1018sub1] are objects; what else there is (file and device information, lists) is not needed.
   void finish_section() {
-    const Section section = std::move(section_);
-    section_.clear();
-    const std::string name = std::move(section_name_);
-    section_name_.clear();
-    const std::size_t sub = name.find("sub");
-    const auto index = hexadecimal(std::string_view(name).substr(0, std::min(sub, name.size())));
-    if (!index || *index < kFirstIndex || *index > 0xFFFF) return;
-    std::optional<std::uint32_t> sub_index = 0;
-    if (sub != std::string::npos) sub_index = hexadecimal(std::string_view(name).substr(sub + 3));
-    if (!sub_index || *sub_index > 0xFF) return;
-    add({static_cast<std::uint16_t>(*index), static_cast<std::uint8_t>(*sub_index)}, section,
-        sub != std::string::npos);
+    const Section section = std::exchange(section_, {});
+    const std::string name = std::exchange(section_name_, {});
+    // The standard's own spelling, and the right one.
+    if (name == "devicecomissioning" || name == "devicecommissioning")
+      if (const auto node = number_of(text_of(section, "nodeid"), 0);
+          node && *node >= 1 && *node <= kMaxNodeId)
+        result_.node_id = static_cast<std::uint8_t>(*node);
+    const auto object = object_section(name);
+    if (!object) return;
+    if (object->suffix.empty()) return add_head(object->index, section);
+    if (object->suffix == "value") return add_compact_values(object->index, section);
+    if (!object->suffix.starts_with("sub")) return;
+    const auto sub_index = hexadecimal(object->suffix.substr(3));
+    if (sub_index && *sub_index <= UINT8_MAX)
+      keep({object->index, static_cast<std::uint8_t>(*sub_index)}, section);
   }
 
-  static std::optional<std::uint32_t> hexadecimal(std::string_view text) {
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
+  static std::string text_of(const Section& section, const char* key) {
+    const auto found = section.find(key);
+    return found == section.end() ? std::string() : found->second;
   }
 
-  void add(Entry entry, const Section& section, bool is_sub_entry) {
-    const auto text = [&](const char* key) {
-      const auto found = section.find(key);
-      return found == section.end() ? std::string() : found->second;
+  // A variable; or the head of a record or array, whose entries have sections of their own, or are all alike.
+  void add_head(std::uint16_t index, const Section& section) {
+    const auto count = number_of(text_of(section, "compactsubobj"), 0).value_or(0);
+    const auto object_type = number_of(text_of(section, "objecttype"), 0).value_or(kVariable);
+    if (count <= 0 && object_type != kVariable) return;
+    const auto keep_unless_there = [&](std::uint8_t sub_index, const Section& its) {
+      if (result_.entries.contains({index, sub_index})) return;
+      keep({index, sub_index}, its);
+      heads_.insert({index, sub_index});
     };
-    if (const std::string compact = text("compactsubobj"); !compact.empty()) {
-      const auto count = plain_number(compact);
-      if (!count || *count < 0 || *count > kMaxCompact) fail_in_section("CompactSubObj", compact);
-      for (std::int64_t i = 0; i <= *count; ++i)
-        keep({entry.index, static_cast<std::uint8_t>(i)}, section, text("datatype"));
-      return;
-    }
-    // The head of a record or array; its sub-entries have sections of their own.
-    if (!is_sub_entry && text("datatype").empty()) return;
-    keep(entry, section, text("datatype"));
+    if (count <= 0) return keep_unless_there(0, section);
+    Section first = section;
+    first["datatype"] = "5";
+    first["defaultvalue"] = std::to_string(count);
+    keep_unless_there(0, first);
+    for (std::int64_t i = 1; i <= std::min(count, kMaxCompact); ++i)
+      keep_unless_there(static_cast<std::uint8_t>(i), section);
   }
 
-  void keep(Entry key, const Section& section, const std::string& type_text) {
-    const auto text = [&](const char* name) {
-      const auto found = section.find(name);
-      return found == section.end() ? std::string() : found->second;
-    };
+  void add_compact_values(std::uint16_t index, const Section& section) {
+    for (const auto& [key, value] : section)
+      if (const auto sub_index = number_of(key, 0); sub_index && *sub_index > 0 && *sub_index <= kMaxCompact)
+        compact_values_[{index, static_cast<std::uint8_t>(*sub_index)}] = value;
+  }
+
+  // An entry's own section counts, wherever the head of its object stands.
+  void keep(Entry key, const Section& section) {
     EdsEntry entry;
-    entry.name = text("parametername");
-    const auto type = plain_number(type_text);
-    if (!type) fail_in_section("DataType", type_text);
+    const auto unclear = [&](const char* what, const std::string& value) {
+      if (entry.unclear.empty())
+        entry.unclear = "line " + std::to_string(section_line_) + ": " + what + " = '" + value + "' is none";
+    };
+    entry.name = text_of(section, "parametername");
+    const std::string type_text = text_of(section, "datatype");
+    const auto type = number_of(type_text, 0);
+    if (!type) unclear("DataType", type_text);
     const auto known = std::find_if(kTypes.begin(), kTypes.end(),
-                                    [&](const Type& candidate) { return candidate.number == *type; });
+                                    [&](const Type& candidate) { return candidate.number == type; });
     if (known != kTypes.end()) {
       entry.bytes = known->bytes;
       entry.is_signed = known->is_signed;
     }
-    set_access(entry, lower(text("accesstype")));
-    entry.mappable = text("pdomapping") == "1";
-    const auto number = [&](const char* name) -> std::optional<std::int64_t> {
-      const std::string value = text(name);
-      if (value.empty() || entry.bytes == 0) return std::nullopt;
-      const auto found = number_of(value, node_id_);
-      if (!found) fail_in_section(name, value);
-      return found;
-    };
+    const std::string access = lower(text_of(section, "accesstype"));
+    entry.readable = access != "wo";
+    entry.writable = access != "ro" && access != "const";
+    if (entry.readable && entry.writable && !access.starts_with("rw")) unclear("AccessType", access);
+    entry.mappable = number_of(text_of(section, "pdomapping"), 0).value_or(0) != 0;
     // A REAL32's default is a decimal fraction, which nothing here needs.
-    const bool is_real = *type == 0x08;
-    if (!is_real) {
-      entry.value = number("defaultvalue");
-      entry.low = number("lowlimit");
-      entry.high = number("highlimit");
+    if (type != kReal32) {
+      const std::string set = text_of(section, "parametervalue");
+      const std::string value = set.empty() ? text_of(section, "defaultvalue") : set;
+      entry.value = value_of(entry, value);
+      if (entry.bytes > 0 && !value.empty() && !entry.value) unclear("its value", value);
+      entry.low = value_of(entry, text_of(section, "lowlimit"));
+      entry.high = value_of(entry, text_of(section, "highlimit"));
     }
-    if (!result_.entries.emplace(key, entry).second)
-      fail_in_section("object", to_text(key) + " stands twice");
+    if (heads_.erase(key) > 0) result_.entries.erase(key);
+    result_.entries.emplace(key, std::move(entry));
   }
 
-  void set_access(EdsEntry& entry, const std::string& access) {
-    if (access == "rw" || access == "rwr" || access == "rww") {
-      entry.writable = true;
-    } else if (access == "wo") {
-      entry.writable = true;
-      entry.readable = false;
-    } else if (access != "ro" && access != "const") {
-      fail_in_section("AccessType", access);
-    }
+  std::optional<std::int64_t> value_of(const EdsEntry& entry, const std::string& text) const {
+    const auto number = entry.bytes == 0 ? std::nullopt : number_of(text, result_.node_id);
+    return number ? fitted(*number, entry.bytes, entry.is_signed) : std::nullopt;
   }
 
-  [[noreturn]] void fail_in_section(const std::string& key, const std::string& value) const {
-    throw InputError(result_.file + ": the section that begins in line " + std::to_string(section_line_) +
-                     ": " + key + " = '" + value + "' is none");
-  }
-
-  std::uint8_t node_id_;
   EdsFile result_;
+  std::set<Entry> heads_;  ///< entries that only the head of their object describes
+  std::map<Entry, std::string> compact_values_;
   Section section_;
   std::string section_name_;
   int line_ = 0;

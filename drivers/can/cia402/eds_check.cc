@@ -28,8 +28,6 @@ enum class Abort : std::uint32_t {
   kPdoLength = 0x06040042,
   kLength = 0x06070010,
   kNoSubIndex = 0x06090011,
-  kTooHigh = 0x06090031,
-  kTooLow = 0x06090032,
 };
 
 constexpr std::uint8_t kUpload = 2;
@@ -67,16 +65,17 @@ class DataSheetDrive final : public CanPort {
   }
   std::int64_t now_ns() override { return now_ns_; }
 
-  const std::vector<std::string>& assumed() const noexcept { return assumed_; }
+  /// What the data sheet could not tell, and what it says against start-up without deciding.
+  const std::vector<std::string>& notes() const noexcept { return notes_; }
 
  private:
   // A data sheet has no values of what the motor decides, and often none of what the drive says of itself.
   void assume_values() {
     const auto assume = [&](Entry entry, std::int64_t value, const char* what) {
       const auto found = values_.find(entry);
-      if (found == values_.end() || found->second != 0) return;
+      if (found == values_.end() || found->second != 0 || value == 0) return;
       found->second = value;
-      assumed_.push_back(to_text(entry) + " has no value in the data sheet, assumed is " + what);
+      note("not checked: " + to_text(entry) + " has no value in the data sheet; taken is " + what);
     };
     const Identity& identity = config_.identity;
     assume({0x1000, 0}, kServoDrive, "a servo drive");
@@ -97,6 +96,18 @@ class DataSheetDrive final : public CanPort {
     if (values_.contains({0x6041, 0})) values_[{0x6041, 0}] = kDisabledAndPowered;
   }
 
+  void note(const std::string& text) {
+    if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
+  }
+
+  /// An entry that start-up reads, writes or maps.
+  const EdsEntry* touch(Entry entry) {
+    const EdsEntry* object = eds_.find(entry);
+    if (object != nullptr && !object->unclear.empty())
+      note("not checked: " + to_text(entry) + " is unclear in the data sheet, " + object->unclear);
+    return object;
+  }
+
   void obey(canopen::NmtCommand command) {
     using canopen::NmtState;
     if (command == canopen::NmtCommand::kResetCommunication)
@@ -111,14 +122,15 @@ class DataSheetDrive final : public CanPort {
     CanFrame frame = request;
     frame.id = cob_id(canopen::CobId::kSdoAnswer, config_.node_id);
     if (specifier == kUpload) {
-      const EdsEntry* object = eds_.find(entry);
+      const EdsEntry* object = touch(entry);
       const Abort refused = object == nullptr  ? missing(entry)
                             : object->readable ? Abort::kNone
                                                : Abort::kWriteOnly;
       if (refused != Abort::kNone) return abort(frame, refused);
-      // Text is not compared with anything: one blank stands for it.
-      const std::size_t bytes = object->bytes == 0 || object->bytes > 4 ? 1 : object->bytes;
-      const std::int64_t value = object->bytes == 0 ? ' ' : values_.at(entry);
+      // Text is not compared with anything: an empty one stands for it. Four bytes hold any number whose type is unclear.
+      const bool is_number = object->bytes > 0 && object->bytes <= 4;
+      const std::size_t bytes = !object->unclear.empty() ? 4 : is_number ? object->bytes : 1;
+      const std::int64_t value = is_number || !object->unclear.empty() ? values_.at(entry) : 0;
       frame.bytes = {};
       frame.bytes[0] = static_cast<std::uint8_t>(0x43U | (4U - bytes) << 2U);
       put_little_endian(&frame.bytes[1], 2, entry.index);
@@ -146,16 +158,17 @@ class DataSheetDrive final : public CanPort {
   }
 
   Abort write(Entry entry, const std::uint8_t* data, std::size_t bytes) {
-    const EdsEntry* object = eds_.find(entry);
+    const EdsEntry* object = touch(entry);
     if (object == nullptr) return missing(entry);
     if (!object->writable) return Abort::kReadOnly;
-    if (bytes != object->bytes) return Abort::kLength;
+    if (!has_size(*object, bytes)) return Abort::kLength;
     const std::uint64_t raw = little_endian(data, bytes);
     const unsigned unused = 64U - 8U * static_cast<unsigned>(bytes);
     const std::int64_t value = object->is_signed ? static_cast<std::int64_t>(raw << unused) >> unused
                                                  : static_cast<std::int64_t>(raw);
-    if (object->high && value > *object->high) return Abort::kTooHigh;
-    if (object->low && value < *object->low) return Abort::kTooLow;
+    if ((object->high && value > *object->high) || (object->low && value < *object->low))
+      note(to_text(entry) + ": start-up writes " + std::to_string(value) +
+           ", which the data sheet's limits do not allow; they are often wrong, the drive decides");
     const bool mapping = (entry.index >= 0x1600 && entry.index < 0x1800) || entry.index >= 0x1A00;
     if (mapping && entry.index < 0x1C00)
       if (const Abort refused = map(entry, raw); refused != Abort::kNone) return refused;
@@ -165,12 +178,16 @@ class DataSheetDrive final : public CanPort {
     return Abort::kNone;
   }
 
-  Abort map(Entry entry, std::uint64_t word) const {
+  static bool has_size(const EdsEntry& object, std::uint64_t bytes) noexcept {
+    return object.bytes == bytes || (object.bytes == 0 && !object.unclear.empty());
+  }
+
+  Abort map(Entry entry, std::uint64_t word) {
     if (entry.sub_index == 0) return word == 0 ? Abort::kNone : count_bits(entry.index, word);
     const EdsEntry* object =
-        eds_.find({static_cast<std::uint16_t>(word >> 16U), static_cast<std::uint8_t>(word >> 8U)});
+        touch({static_cast<std::uint16_t>(word >> 16U), static_cast<std::uint8_t>(word >> 8U)});
     if (object == nullptr) return Abort::kNoObject;
-    return object->mappable && object->bytes * 8 == (word & 0xFFU) ? Abort::kNone : Abort::kNotMappable;
+    return object->mappable && has_size(*object, (word & 0xFFU) / 8) ? Abort::kNone : Abort::kNotMappable;
   }
   Abort count_bits(std::uint16_t index, std::uint64_t count) const {
     std::uint64_t bits = 0;
@@ -186,22 +203,28 @@ class DataSheetDrive final : public CanPort {
   const DriveConfig& config_;
   std::map<Entry, std::int64_t> values_;
   std::deque<CanFrame> queue_;
-  std::vector<std::string> assumed_;
+  std::vector<std::string> notes_;
   std::int64_t now_ns_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const DriveConfig& config) {
-  DataSheetDrive drive(eds, config);
+std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const DriveConfig& wanted) {
+  DriveConfig config = wanted;
+  config.node_id = eds.node_id;
   std::vector<std::string> report;
-  for (const std::string& line : drive.assumed()) report.push_back(config.name + ": " + line);
+  if (config.node_id != wanted.node_id)
+    report.push_back(config.name + ": node_id = " + std::to_string(wanted.node_id) +
+                     ", but the data sheet is of node " + std::to_string(eds.node_id) +
+                     " and checked as such");
+  DataSheetDrive drive(eds, config);
   try {
     canopen::SdoClient client(drive, config.node_id, config.name);
     const Description description = identify_drive(client, config);
     const Found found = set_up_drive(client, config, pdo_layout(config), description);
     if (config.temperature && config.temperature->way == TemperatureObject::Way::kSdo)
       (void)client.upload_number(config.temperature->entry, bytes_of(config.temperature->type));
+    for (const std::string& note : drive.notes()) report.push_back(config.name + ": " + note);
     report.insert(report.end(), found.report.begin(), found.report.end());
   } catch (const InputError& error) {
     throw InputError(eds.file + ": " + error.what());

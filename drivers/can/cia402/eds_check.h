@@ -11,8 +11,8 @@
 
 namespace strainwave::cia402 {
 
-/// What start-up would say, and what was assumed where the data sheet has no value. Throws InputError naming the file, the object
-/// and why start-up would be refused.
+/// What start-up would say, and what could not be checked: values that the data sheet does not have, entries that are unclear in it,
+/// limits that exclude what start-up writes. Throws InputError naming the file, the object and why start-up would be refused.
 std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const DriveConfig& config);
 
 }  // namespace strainwave::cia402

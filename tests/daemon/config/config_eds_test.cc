@@ -21,6 +21,11 @@ class DataSheets : public ConfigFileTest {
   static std::filesystem::path sheet(const std::string& name) {
     return std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "tests/drivers/can/eds" / name;
   }
+  static std::string text_of(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
   /// What start-up would say of the first joint's drive.
   std::string check(const std::string& config, const std::string& eds) {
     std::ostringstream text;
@@ -72,6 +77,45 @@ TEST_F(DataSheets, AnObjectThatCannotBeMappedIsRefusedByItsName) {
   expect_mentions(text, {"refused", "elmo_gold.eds", "22A3h:01"});
 }
 
+TEST_F(DataSheets, AConfiguredDriveIsJudgedByWhatItIsSetTo) {
+  // A DCF of an EPOS4 with node id 7: 6502h, 6076h and the vendor as they were read from the drive.
+  std::string dcf = text_of(sheet("epos4.eds"));
+  for (const auto& [object, value] :
+       {std::pair{"[1018sub1]", "0xFB"}, {"[6502]", "0x3A5"}, {"[6076]", "192000"}})
+    dcf = replaced(dcf, std::string(object) + "\n", std::string(object) + "\nParameterValue=" + value + "\n");
+  std::ofstream(folder_ / "set.dcf") << "[DeviceComissioning]\nNodeID=7\n\n" << dcf;
+  const auto check_with = [&](const std::string& config) { return check(config, folder_ / "set.dcf"); };
+  const std::string right = check_with(example("epos4.toml"));
+  EXPECT_EQ(right.find("refused"), std::string::npos) << right;
+  expect_mentions(right, {"node_id = 1, but the data sheet is of node 7", "node 7, "});
+  for (const char* known : {"6502h:00 has no value", "6076h:00 has no value", "1018h:01 has no value"})
+    EXPECT_EQ(right.find(known), std::string::npos) << right;
+  expect_mentions(check_with(replaced(example("epos4.toml"), "\"uNm\"", "\"mNm\"")),
+                  {"refused", "\"uNm\"", "would agree"});
+  expect_mentions(check_with(replaced(example("epos4.toml"), "0x000000FB", "0x9A")),
+                  {"refused", "vendor_id"});
+}
+
+TEST_F(DataSheets, WhatTheyDoNotSayIsListedAsNotChecked) {
+  const std::string text = check(example("epos4.toml"), "epos4.eds");
+  expect_mentions(text, {"not checked: 6075h:00 has no value", "not checked: 6076h:00 has no value"});
+}
+
+TEST_F(DataSheets, ALimitThatExcludesWhatStartUpWritesIsNamedAndRefusesNothing) {
+  expect_mentions(check(example("elmo.toml"), "elmo_gold.eds"),
+                  {"1016h:01: start-up writes", "the data sheet's limits do not allow", "would accept"});
+}
+
+TEST_F(DataSheets, WhatIsUnclearMattersOnlyWhereStartUpLooks) {
+  const std::string eds = text_of(sheet("epos4.eds"));
+  std::ofstream(folder_ / "drive.eds") << replaced(eds, "[6064]\n", "[6064]\nAccessType=perhaps\n")
+                                       << "\n[2099]\nDataType=long\nAccessType=ro\n";
+  const std::string text = check(example("epos4.toml"), folder_ / "drive.eds");
+  EXPECT_EQ(text.find("refused"), std::string::npos) << text;
+  EXPECT_EQ(text.find("2099h"), std::string::npos) << text;
+  expect_mentions(text, {"not checked: 6064h:00 is unclear", "AccessType = 'perhaps'"});
+}
+
 TEST_F(DataSheets, AnotherVendorsDriveIsRefused) {
   expect_mentions(check(example("epos4.toml"), "elmo_gold.eds"), {"refused", "vendor_id", "0000009Ah"});
 }
@@ -109,11 +153,9 @@ TEST_F(DataSheets, HomingByTheEncodersIndexNeedsAllOfTheTouchProbe) {
   const std::string by_index =
       replaced(replaced(example("epos4.toml"), "to = \"negative_limit\"", "to = \"index\""),
                "negative_limit = true", "index = \"encoder\"\nnegative_limit = true");
-  std::ifstream file(sheet("epos4.eds"));
-  std::ostringstream epos4;
-  epos4 << file.rdbuf();
+  const std::string epos4 = text_of(sheet("epos4.eds"));
   const auto check_with = [&](const std::string& objects) {
-    std::ofstream(folder_ / "drive.eds") << epos4.str() << third_pdo(epos4.str()) << objects;
+    std::ofstream(folder_ / "drive.eds") << epos4 << third_pdo(epos4) << objects;
     return check(by_index, folder_ / "drive.eds");
   };
   const std::string whole = check_with(touch_probe());

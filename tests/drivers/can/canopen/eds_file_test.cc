@@ -42,28 +42,100 @@ TEST(EdsFile, TellsTypeAccessMappingValueAndLimitsOfEveryEntry) {
   EXPECT_FALSE(eds.has_index(0x1017));
 }
 
-TEST(EdsFile, RefusesWhatItDoesNotUnderstandAndSaysWhere) {
-  const auto error_of = [](const std::string& text) {
+const std::string kTorque = "[6071]\nParameterName=Torque\nDataType=0x0003\nAccessType=rww\n";
+
+TEST(EdsFile, ReadsEveryFormOfANumberThatVendorsUse) {
+  const auto value_of = [](const std::string& text, const char* type) {
+    const EdsFile eds =
+        parse("[2000]\nDataType=" + std::string(type) + "\nAccessType=rw\nDefaultValue=" + text);
+    return eds.find({0x2000, 0})->value;
+  };
+  constexpr const char* kInt16 = "0x0003";
+  constexpr const char* kUint32 = "0x7";
+  EXPECT_EQ(value_of("0x8000", kInt16), -32768) << "two's complement";
+  EXPECT_EQ(value_of("0xFFFF", kInt16), -1);
+  EXPECT_EQ(value_of("-0x10", kInt16), -16);
+  EXPECT_EQ(value_of("-1", kUint32), 0xFFFFFFFF);
+  EXPECT_EQ(value_of("0X1f", kUint32), 31);
+  EXPECT_EQ(value_of("010", kUint32), 8) << "octal";
+  EXPECT_EQ(value_of("08", kUint32), 8) << "padded";
+  EXPECT_EQ(value_of("0x180 + $NodeId", kUint32), 0x185);
+  EXPECT_EQ(value_of("12 ; as shipped", kUint32), 12);
+  EXPECT_EQ(value_of("0x10000", kInt16), std::nullopt) << "does not fit";
+  EXPECT_EQ(value_of("-0x8000000000000000", "0x15"), INT64_MIN);
+  EXPECT_EQ(value_of("five", kUint32), std::nullopt);
+  EXPECT_EQ(value_of("", kUint32), std::nullopt);
+}
+
+TEST(EdsFile, ReadsWhatEditorsLeaveInAFile) {
+  const std::string marked = "\xEF\xBB\xBF[6071] ; torque\r\n" + kTorque.substr(7) + "PDOMapping=0x1\r\n";
+  for (const std::string& text :
+       {marked + "\x1A", marked + "\x1Agarbage=[", marked + "Description of two\n lines\n[FileInfo\na=1\n"}) {
+    const EdsFile eds = parse(text);
+    ASSERT_NE(eds.find({0x6071, 0}), nullptr) << text;
+    EXPECT_TRUE(eds.find({0x6071, 0})->mappable) << text;
+    EXPECT_EQ(eds.find({0x6071, 0})->unclear, "") << text;
+  }
+}
+
+TEST(EdsFile, OfAConfiguredDriveHasWhatItIsSetTo) {
+  const EdsFile dcf = parse(
+      std::string("[DeviceComissioning]\nNodeID=0x0C\n") + kTorque +
+      "DefaultValue=1\nParameterValue=0xFFFE\n[1400sub1]\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID\n");
+  EXPECT_EQ(dcf.find({0x6071, 0})->value, -2);
+  EXPECT_EQ(dcf.node_id, 12);
+  EXPECT_EQ(dcf.find({0x1400, 1})->value, 12);
+  EXPECT_EQ(parse(kTorque).node_id, 5);
+}
+
+TEST(EdsFile, TakesTheHeadOfARecordForNoEntryOfIt) {
+  for (const char* type : {"0x8", "0x9"}) {
+    const std::string head =
+        std::string("[1018]\nObjectType=") + type + "\nDataType=0x8\nAccessType=ro\nSubNumber=2\n";
+    const EdsFile eds = parse(head + "[1018sub0]\nDataType=5\nAccessType=ro\nDefaultValue=1\n");
+    EXPECT_EQ(eds.find({0x1018, 0})->bytes, 1U);
+    EXPECT_EQ(eds.find({0x1018, 0})->unclear, "");
+    EXPECT_TRUE(parse(head + kTorque).find({0x1018, 0}) == nullptr) << "without entries of its own";
+  }
+}
+
+TEST(EdsFile, HasTheEntriesOfACompactArrayTheirValuesAndThoseDescribedBesides) {
+  const EdsFile eds = parse(
+      "[1600sub2]\nDataType=7\nAccessType=ro\n"
+      "[1600]\nObjectType=8\nDataType=7\nAccessType=rw\nCompactSubObj=4\n"
+      "[1600Value]\nNrOfEntries=2\n1=0x60400010\n3=0x60710010\n");
+  EXPECT_EQ(eds.find({0x1600, 0})->value, 4);
+  EXPECT_EQ(eds.find({0x1600, 0})->bytes, 1U);
+  EXPECT_EQ(eds.find({0x1600, 1})->value, 0x60400010);
+  EXPECT_TRUE(eds.find({0x1600, 1})->writable);
+  EXPECT_FALSE(eds.find({0x1600, 2})->writable) << "its own section counts";
+  EXPECT_EQ(eds.find({0x1600, 3})->value, 0x60710010);
+  EXPECT_NE(eds.find({0x1600, 4}), nullptr);
+  EXPECT_EQ(eds.find({0x1600, 5}), nullptr);
+}
+
+TEST(EdsFile, NotesWhatIsUnclearWithTheEntryAndItsLine) {
+  for (const auto& [text, part] :
+       {std::pair<std::string, std::string>{"DataType=long\nAccessType=ro\n", "line 6: DataType = 'long'"},
+        {"DataType=0x4\nAccessType=maybe\n", "AccessType = 'maybe'"},
+        {"DataType=0x4\n", "AccessType = ''"},
+        {"DataType=0x4\nAccessType=ro\nDefaultValue=five\n", "its value = 'five'"}}) {
+    const EdsFile eds = parse(kTorque + "\n[6064]\n" + text);
+    EXPECT_NE(eds.find({0x6064, 0})->unclear.find(part), std::string::npos)
+        << part << " in: " << eds.find({0x6064, 0})->unclear;
+    EXPECT_EQ(eds.find({0x6071, 0})->unclear, "");
+  }
+}
+
+TEST(EdsFile, WithoutObjectsIsRefused) {
+  for (const char* text : {"[FileInfo]\nFileName=x\n", "", "a=1\n", "[10]\nDataType=7\n"}) {
     try {
       (void)parse(text);
+      ADD_FAILURE() << "accepted: " << text;
     } catch (const InputError& error) {
-      return std::string(error.what());
+      EXPECT_NE(std::string(error.what()).find("x.eds: has no objects"), std::string::npos) << error.what();
     }
-    return std::string("accepted");
-  };
-  const std::string head = kSheet;
-  for (const auto& [text, part] :
-       {std::pair<std::string, std::string>{head + "nonsense\n", "line 42"},
-        {"a=1\n" + head, "before the first section"},
-        {head + "[6064\n", "ends with ]"},
-        {head + "[6064]\nDataType=long\nAccessType=ro\n", "DataType = 'long'"},
-        {head + "[6064]\nDataType=0x4\nAccessType=maybe\n", "AccessType = 'maybe'"},
-        {head + "[6064]\nDataType=0x4\nAccessType=ro\nDefaultValue=five\n", "'five'"},
-        {head + "[6064]\nDataType=0x4\nDataType=0x4\n", "stands twice"},
-        {head + "[1000]\nDataType=0x7\nAccessType=ro\n", "1000h:00 stands twice"},
-        {"[FileInfo]\nFileName=x\n", "no objects"},
-        {"", "no objects"}})
-    EXPECT_NE(error_of(text).find(part), std::string::npos) << part << " in: " << error_of(text);
+  }
 }
 
 }  // namespace
