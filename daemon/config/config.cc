@@ -150,7 +150,7 @@ DaemonConfig read_config(const std::filesystem::path& path) {
   config.state_directory = read_state_directory(daemon, path.parent_path());
   daemon.refuse_unknown_keys();
 
-  CanConfig can(root, config.loop.period_s);
+  CanConfig can(root, config.loop.period_s, config.loop.overruns.stall_s);
   std::vector<TomlSection> joints = root.sections("joint");
   if (joints.size() > kMaxJoints)
     root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");

@@ -122,7 +122,8 @@ void read_supervision(TomlSection& section, cia402::DriveConfig& drive) {
 
 }  // namespace
 
-CanConfig::CanConfig(TomlSection& root, double period_s) : period_s_(period_s) {
+CanConfig::CanConfig(TomlSection& root, double period_s, double stall_s)
+    : period_s_(period_s), stall_s_(stall_s) {
   if (!root.has("can_bus")) return;
   for (TomlSection& section : root.sections("can_bus")) {
     Bus bus{section.text("name"), section, {}, false, {}, {}, false};
@@ -204,6 +205,8 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   bus.has_sync_drive = bus.has_sync_drive || drive.produces_sync;
   drive.our_heartbeat_timeout_s = section.number_or(
       "our_heartbeat_timeout_s", 3.0 * bus.config.heartbeat_period_s, {bus.config.heartbeat_period_s, 60.0});
+  // A longer absence of the loop is a fault. The entry holds milliseconds, at most 65535.
+  drive.command_deadline_s = std::clamp(std::ceil(stall_s_ * 1e3) * 1e-3, 1e-3, 65.0);
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
   read_encoder_side(section, joint.loop.controller);

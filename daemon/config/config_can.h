@@ -14,8 +14,8 @@ namespace strainwave {
 /// The buses of a configuration file and the drives on them.
 class CanConfig {
  public:
-  /// Reads every [[can_bus]]; there may be none. Throws InputError.
-  CanConfig(TomlSection& root, double period_s);
+  /// Reads every [[can_bus]]; there may be none. Drives miss their orders after `stall_s`. Throws InputError.
+  CanConfig(TomlSection& root, double period_s, double stall_s);
 
   /// Reads [joint.can]: puts the drive on its bus, and sets what depends on the driver. Returns what the joint can be homed
   /// by. Throws InputError.
@@ -39,6 +39,7 @@ class CanConfig {
   HomingInputs read_cia402(TomlSection& section, Bus& bus, int node_id, JointConfig& joint);
 
   double period_s_;
+  double stall_s_;
   std::vector<Bus> buses_;
 };
 

@@ -69,6 +69,8 @@ class CanBus final : public Fieldbus, private CanTransmitter {
   ~CanBus() override;
 
   std::unique_ptr<Actuator> make_actuator(std::size_t slot) override;
+  /// Lines for take_messages().
+  void say(const std::vector<std::string>& lines);
   std::vector<std::string> take_messages() override;
   void close() override;
   void begin_cycle(std::int64_t now_ns) noexcept override;
@@ -94,7 +96,6 @@ class CanBus final : public Fieldbus, private CanTransmitter {
 
   void set_up_nodes(const CanPortFactory& open);
   void open_loop_port(const CanPortFactory& open);
-  void say(const std::vector<std::string>& lines);
   void tell_losses();
 
   bool send(const CanFrame& frame) noexcept override;

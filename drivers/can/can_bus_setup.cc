@@ -1,7 +1,9 @@
 // The part of can_bus.h that runs outside the loop.
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "base/durations.h"
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "drivers/can/can_bus.h"
@@ -12,6 +14,34 @@ namespace {
 
 constexpr std::chrono::milliseconds kServeEvery{20};
 constexpr std::int64_t kTellEvery_ns = 10'000'000'000;
+
+/// Sends our heartbeat while it waits.
+class HeartbeatPort final : public CanPort {
+ public:
+  HeartbeatPort(CanPort& port, const CanBusConfig& config) : port_(port), config_(config) {}
+
+  SendResult send(const CanFrame& frame) noexcept override { return port_.send(frame); }
+  ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept override { return port_.receive(frames); }
+  std::uint32_t overflows() const noexcept override { return port_.overflows(); }
+  std::int64_t now_ns() override { return port_.now_ns(); }
+  bool wait(std::int64_t timeout_ns) override {
+    if (config_.heartbeat_period_s <= 0.0) return port_.wait(timeout_ns);
+    const std::int64_t end_ns = now_ns() + timeout_ns;
+    while (now_ns() < end_ns) {
+      if (now_ns() >= due_ns_) {
+        due_ns_ = now_ns() + nanoseconds(config_.heartbeat_period_s);
+        (void)send(canopen::heartbeat_frame(config_.our_node_id, canopen::NmtState::kOperational));
+      }
+      if (port_.wait(std::min(end_ns, due_ns_) - now_ns())) return true;
+    }
+    return false;
+  }
+
+ private:
+  CanPort& port_;
+  const CanBusConfig& config_;
+  std::int64_t due_ns_ = 0;
+};
 
 }  // namespace
 
@@ -71,8 +101,11 @@ CanBus::~CanBus() {
 void CanBus::close() {
   if (std::exchange(closed_, true)) return;
   ending_.store(true, std::memory_order_release);
+  for (const auto& node : nodes_) node->end_operation(*port_);
   if (background_.joinable()) background_.join();
-  for (const auto& node : nodes_) node->shut_down(*setup_port_);
+  // Drives whose answers take long must not miss our heartbeat before they have been told that it ends.
+  HeartbeatPort port(*setup_port_, config_);
+  for (const auto& node : nodes_) node->shut_down(port);
 }
 
 // All nodes, so that one run tells everything that is wrong.
@@ -95,7 +128,10 @@ void CanBus::set_up_nodes(const CanPortFactory& open) {
     for (const auto& node : nodes_) attempt([&] { say(node->verify(*port)); });
   }
   if (failures.empty()) return;
-  for (const auto& node : nodes_) node->shut_down(*setup_port_);
+  for (const auto& node : nodes_) {
+    node->end_operation(*setup_port_);
+    node->shut_down(*setup_port_);
+  }
   throw InputError(failures);
 }
 

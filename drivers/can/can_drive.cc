@@ -32,11 +32,13 @@ std::vector<std::unique_ptr<CanNode>> make_nodes(const std::vector<CanDrive>& dr
 
 std::unique_ptr<Fieldbus> open_can_bus(const CanBusConfig& config, const std::vector<CanDrive>& drives) {
   const int frames = static_cast<int>(drives.size()) + 1 + kSpareFrames;
-  require_can_interface(config.interface_name, inspect_can_interface(config.interface_name), config.bit_rate,
-                        frames);
-  return std::make_unique<CanBus>(config, make_nodes(drives), [config](const CanPortOptions& options) {
+  const std::vector<std::string> notes = require_can_interface(
+      config.interface_name, inspect_can_interface(config.interface_name), config.bit_rate, frames);
+  auto bus = std::make_unique<CanBus>(config, make_nodes(drives), [config](const CanPortOptions& options) {
     return std::make_unique<CanSocket>(config.interface_name, options);
   });
+  bus->say(notes);
+  return bus;
 }
 
 }  // namespace strainwave

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <functional>
@@ -23,6 +24,8 @@ namespace strainwave {
 
 namespace {
 
+/// Resynchronization bears about 1 % between two nodes (ISO 11898-1): a node's half of it.
+constexpr double kRateTolerance = 0.005;
 /// NLA_TYPE_MASK, which is negative as an int.
 constexpr std::uint16_t kTypeMask = 0x3FFF;
 
@@ -115,8 +118,8 @@ CanInterface inspect_can_interface(const std::string& name) {
   return interface;
 }
 
-void require_can_interface(const std::string& name, const CanInterface& interface, std::uint32_t bit_rate,
-                           int frames_per_cycle) {
+std::vector<std::string> require_can_interface(const std::string& name, const CanInterface& interface,
+                                               std::uint32_t bit_rate, int frames_per_cycle) {
   const std::string link_set = "`ip link set " + name + " ";
   if (!interface.exists)
     throw InputError(name + ": there is no such interface: see `ip link`, and plug the adapter in");
@@ -124,7 +127,9 @@ void require_can_interface(const std::string& name, const CanInterface& interfac
   if (!interface.up)
     throw InputError(name + ": is down: " + link_set + "type can bitrate " + std::to_string(bit_rate) +
                      "`, then " + link_set + "up`");
-  if (interface.bit_rate && *interface.bit_rate != 0 && *interface.bit_rate != bit_rate)
+  const double rate = interface.bit_rate.value_or(0) != 0 ? *interface.bit_rate : bit_rate;
+  const double off = rate / bit_rate - 1.0;
+  if (std::abs(off) > kRateTolerance)
     throw InputError(name + ": runs at " + std::to_string(*interface.bit_rate) +
                      " bit/s, the configuration says " + std::to_string(bit_rate) + ": set it down, then " +
                      link_set + "type can bitrate " + std::to_string(bit_rate) + "`");
@@ -138,6 +143,9 @@ void require_can_interface(const std::string& name, const CanInterface& interfac
     throw InputError(name + ": its queue holds " + std::to_string(interface.transmit_queue_frames) +
                      " frames, a period needs " + std::to_string(frames_per_cycle) + ": " + link_set +
                      "txqueuelen " + std::to_string(frames_per_cycle) + "`");
+  if (off == 0.0) return {};
+  return {name + ": runs at " + std::to_string(*interface.bit_rate) + " bit/s, the nearest to " +
+          std::to_string(bit_rate) + " that its clock has"};
 }
 
 }  // namespace strainwave

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace strainwave {
 
@@ -25,9 +26,10 @@ CanInterface inspect_can_interface(const std::string& name);
 /// The link's part of a netlink answer of RTM_NEWLINK: the attributes behind its ifinfomsg. For tests as well.
 void read_link_attributes(std::span<const std::byte> attributes, CanInterface& interface);
 
-/// Throws InputError that says what is wrong and the command that mends it: absent, down, another bit rate
-/// than `bit_rate`, an automatic restart, or a transmit queue of fewer than `frames_per_cycle` frames.
-void require_can_interface(const std::string& name, const CanInterface& interface, std::uint32_t bit_rate,
-                           int frames_per_cycle);
+/// Throws InputError that says what is wrong and the command that mends it: absent, down, another bit rate than `bit_rate`, an
+/// automatic restart, or a transmit queue of fewer than `frames_per_cycle` frames. A controller's clock may not divide to the exact
+/// rate: within half a per cent it is accepted. Returns lines for the log.
+std::vector<std::string> require_can_interface(const std::string& name, const CanInterface& interface,
+                                               std::uint32_t bit_rate, int frames_per_cycle);
 
 }  // namespace strainwave

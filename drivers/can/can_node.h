@@ -46,7 +46,9 @@ class CanNode : public Actuator {
   /// A turn of the bus's background thread: slow readings, a set-up that clear_fault() asked for. Returns
   /// lines for the log.
   virtual std::vector<std::string> serve(CanPort& port) = 0;
-  /// After the last cycle: leaves the drive disabled, in order. Does not throw.
+  /// Right after the last cycle: the drive must not miss our frames any more. Never waits.
+  virtual void end_operation(CanPort& /*port*/) noexcept {}
+  /// After that: leaves the drive disabled, in order. Does not throw.
   virtual void shut_down(CanPort& port) noexcept = 0;
 
   // In the loop, real-time safe, besides read(), write(), stop() and clear_fault(), which only look and note.

@@ -66,7 +66,9 @@ void read_temperatures(SdoClient& client, ScannedNode& node) {
 void describe_node(SdoClient& client, ScannedNode& node) {
   const cia402::Description found = cia402::describe(client);
   node.identity = cia402::to_text(found);
-  if (cia402::is_servo_drive(found)) node.modes = cia402::modes_text(found.supported_modes);
+  if (cia402::is_servo_drive(found))
+    node.modes =
+        found.supported_modes ? cia402::modes_text(*found.supported_modes) : "not told, there is no 6502h";
   read_mapping(client, node);
   read_temperatures(client, node);
 }
@@ -102,7 +104,7 @@ std::vector<ScannedNode> scan_can_bus(const CanPortFactory& open, std::int64_t t
 std::vector<ScannedNode> scan_can_interface(const std::string& interface_name) {
   const CanInterface interface = inspect_can_interface(interface_name);
   // At whatever bit rate it runs: that is what a scan is to find out.
-  require_can_interface(interface_name, interface, interface.bit_rate.value_or(0), 1);
+  (void)require_can_interface(interface_name, interface, interface.bit_rate.value_or(0), 1);
   return scan_can_bus(
       [&](const CanPortOptions& options) { return std::make_unique<CanSocket>(interface_name, options); },
       kAskTimeout_ns);

@@ -19,16 +19,16 @@ constexpr std::uint32_t kIdentifierBits = kPdoInvalid | kMaxCanId;
 constexpr std::uint8_t kIdentifierSub = 1;
 constexpr std::uint8_t kTypeSub = 2;
 
-constexpr std::uint32_t mapping_word(const MappedObject& object) noexcept {
-  return static_cast<std::uint32_t>(object.entry.index) << 16U |
-         static_cast<std::uint32_t>(object.entry.sub_index) << 8U | object.bytes * 8U;
-}
-
 std::string name_of(const Pdo& pdo) {
   return (pdo.direction == PdoDirection::kTransmit ? "TPDO" : "RPDO") + std::to_string(pdo.number);
 }
 
 }  // namespace
+
+std::uint32_t mapping_word(const MappedObject& object) noexcept {
+  return static_cast<std::uint32_t>(object.entry.index) << 16U |
+         static_cast<std::uint32_t>(object.entry.sub_index) << 8U | object.bytes * 8U;
+}
 
 std::uint32_t Pdo::cob_id(std::uint8_t node) const noexcept {
   const CobId first = direction == PdoDirection::kTransmit ? CobId::kTpdo1 : CobId::kRpdo1;

@@ -18,6 +18,8 @@ struct MappedObject {
   Entry entry;
   std::uint8_t bytes = 0;  ///< 1, 2, 4 or 8
 };
+/// Index, sub-index and length in bits, as the drive's mapping holds it.
+std::uint32_t mapping_word(const MappedObject& object) noexcept;
 
 /// One PDO. Numbers count from 1; identifiers are those of the predefined connection set.
 struct Pdo {

@@ -174,6 +174,16 @@ void SdoClient::write_verified(const SdoWrite& write) {
                    ": the drive does not take this value");
 }
 
+bool SdoClient::write_if_there(const SdoWrite& write) {
+  try {
+    write_verified(write);
+    return true;
+  } catch (const SdoError& error) {
+    if (error.no_such_entry()) return false;
+    throw;
+  }
+}
+
 void SdoClient::send_nmt(NmtCommand command) {
   send(nmt_frame(command, node_));
 }

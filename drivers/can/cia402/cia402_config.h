@@ -88,6 +88,7 @@ struct DriveConfig {
   double drive_heartbeat_s = 0.05;  ///< 1017h
   double drive_heartbeat_timeout_s = 0.15;
   double our_heartbeat_timeout_s = 0.15;  ///< 1016h
+  double command_deadline_s = 0.02;       ///< 1400h:05; as long as a joint may be without control
   AbortConnection abort_connection = AbortConnection::kQuickStop;
   std::optional<std::int16_t> quick_stop_option;  ///< 605Ah; unset: as the drive is set
   int zero_torque_after = 2;                      ///< periods without a position

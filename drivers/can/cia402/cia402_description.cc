@@ -31,7 +31,9 @@ Description describe(SdoClient& client) {
   found.product_code = optional(2);
   found.revision_number = optional(3);
   found.serial_number = optional(4);
-  if (is_servo_drive(found)) found.supported_modes = number(client, kSupportedModes);
+  if (is_servo_drive(found))
+    if (const auto modes = client.upload_if_there(kSupportedModes, 4))
+      found.supported_modes = static_cast<std::uint32_t>(*modes);
   try {
     found.device_name = client.upload_text(kDeviceName);
   } catch (const canopen::SdoError&) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "drivers/can/canopen/sdo_client.h"
@@ -16,8 +17,8 @@ struct Description {
   std::uint32_t product_code = 0;
   std::uint32_t revision_number = 0;
   std::uint32_t serial_number = 0;
-  std::uint32_t supported_modes = 0;  ///< 6502h; 0 when it is no servo drive
-  std::string device_name;            ///< 1008h, if it has one
+  std::optional<std::uint32_t> supported_modes;  ///< 6502h, of a servo drive that has it
+  std::string device_name;                       ///< 1008h, if it has one
 };
 Description describe(canopen::SdoClient& client);
 /// Whether the device profile is CiA 402.

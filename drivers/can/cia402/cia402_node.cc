@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace strainwave::cia402 {
 
@@ -42,6 +43,8 @@ void Node::begin_cycle(std::int64_t now_ns) noexcept {
 // A drive that has just been set up starts anew for us as well.
 void Node::forget_drive() noexcept {
   power_.restart();
+  // The order to clear a fault was what began this set-up: it is the drive's own fault's as well.
+  if (std::exchange(clear_ordered_, false)) power_.begin_reset(now_ns_);
   position_scale_ = PositionScale(config_.units);
   probe_.restart();
   restarted_ = {};
@@ -102,10 +105,7 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
     inputs_.positive_limit = config_.inputs.positive_limit && (bits & kPositiveLimitBit) != 0;
     inputs_.home = config_.inputs.home && (bits & kHomeBit) != 0;
   }
-  if (has(layout_.mode)) {
-    shown_mode_ = static_cast<std::uint8_t>(raw_field(frame, layout_.mode));
-    wrong_mode_ = shown_mode_ != static_cast<std::uint8_t>(mode_);
-  }
+  if (has(layout_.mode)) see_mode(static_cast<std::uint8_t>(raw_field(frame, layout_.mode)));
   if (has(layout_.temperature)) {
     pdo_temperature_C_ = temperature_C(*config_.temperature, raw_field(frame, layout_.temperature));
     pdo_temperature_ns_ = now_ns_;
@@ -116,6 +116,11 @@ void Node::receive_pdo(const canopen::Pdo& pdo, const CanFrame& frame) noexcept 
         position_scale_.position_rad(static_cast<std::int32_t>(raw_field(frame, layout_.position)));
     fresh_ = true;
   }
+}
+
+void Node::see_mode(std::uint8_t mode) noexcept {
+  shown_mode_ = mode;
+  wrong_mode_ = mode != static_cast<std::uint8_t>(mode_);
 }
 
 void Node::receive_probe(const CanFrame& frame) noexcept {
@@ -142,6 +147,7 @@ void Node::receive_heartbeat(NmtState state) noexcept {
 }
 
 ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
+  if (std::uint8_t mode = 0; setup_.ready() && reads_mode() && sdo_mode_.take(mode)) see_mode(mode);
   supervise();
   const NodeFault shown = watch_.shown(present_trouble());
   ActuatorReading reading;
@@ -165,7 +171,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
 
 void Node::fill_temperature(ActuatorReading& reading) const noexcept {
   if (!config_.temperature) return;
-  if (config_.temperature->way == TemperatureObject::Way::kSdo) {
+  if (reads_temperature()) {
     TemperatureSample sample;
     reading.has_temperature = sdo_temperature_.take(sample);
     reading.temperature_C = sample.temperature_C;
@@ -218,6 +224,7 @@ void Node::clear_fault() noexcept {
   if (!watch_.bus_is_well()) return;
   if (setup_.must_be_repeated()) {
     setup_.request();
+    clear_ordered_ = true;
     has_status_ = false;
     power_.restart();
     return;

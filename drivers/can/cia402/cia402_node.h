@@ -41,6 +41,7 @@ class Node final : public CanNode {
   std::vector<std::string> set_up(CanPort& port) override;
   std::vector<std::string> verify(CanPort& port) override;
   std::vector<std::string> serve(CanPort& port) override;
+  void end_operation(CanPort& port) noexcept override;
   void shut_down(CanPort& port) noexcept override;
 
   void begin_cycle(std::int64_t now_ns) noexcept override;
@@ -72,7 +73,12 @@ class Node final : public CanNode {
   Goal goal() const noexcept;
   DriveState drive_state() const noexcept;
   void fill_temperature(ActuatorReading& reading) const noexcept;
-  void read_temperature(CanPort& port, std::vector<std::string>& messages);
+  void see_mode(std::uint8_t mode) noexcept;
+  bool reads_temperature() const noexcept {
+    return config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo;
+  }
+  bool reads_mode() const noexcept { return layout_.mode.pdo == 0; }
+  void read_by_sdo(CanPort& port, std::vector<std::string>& messages);
 
   DriveConfig config_;
   PdoLayout layout_;
@@ -86,10 +92,11 @@ class Node final : public CanNode {
   std::int64_t sync_to_position_ns_ = 0;
   SetUpState setup_;
   LatestValue<TemperatureSample> sdo_temperature_;  ///< from the background thread
+  LatestValue<std::uint8_t> sdo_mode_;              ///< likewise
   // Start-up and background thread alone.
   bool identified_ = false;  ///< it is the drive that the configuration means, and may be written to
-  std::int64_t temperature_due_ns_ = 0;
-  bool temperature_failed_ = false;
+  std::int64_t sdo_due_ns_ = 0;
+  bool sdo_failed_ = false;
 
   // The loop alone.
   std::int64_t now_ns_ = 0;
@@ -119,6 +126,7 @@ class Node final : public CanNode {
   bool wrong_mode_ = false;
   std::uint8_t shown_mode_ = 0;
   bool stop_ordered_ = false;
+  bool clear_ordered_ = false;  ///< and the set-up that it needs is not done yet
 };
 
 }  // namespace strainwave::cia402

@@ -6,6 +6,7 @@
 #include "base/durations.h"
 #include "base/input_error.h"
 #include "drivers/can/canopen/sdo_client.h"
+#include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/cia402/cia402_setup.h"
 
 namespace strainwave::cia402 {
@@ -13,6 +14,9 @@ namespace strainwave::cia402 {
 namespace {
 
 using canopen::CobId;
+
+/// As often as a temperature is read.
+constexpr double kModePeriod_s = 1.0;
 
 PowerTimes times_of(const DriveConfig& config) noexcept {
   PowerTimes times;
@@ -62,7 +66,7 @@ std::vector<FrameTraffic> Node::traffic() const {
     if (!pdo->objects.empty())
       traffic.push_back({"TPDO" + std::to_string(pdo->number) + " of " + config_.name, bytes(*pdo),
                          rate_Hz / pdo->transmission_type});
-  if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo)
+  if (reads_temperature())
     traffic.push_back({"temperature SDO of " + config_.name, static_cast<int>(kMaxCanBytes),
                        2.0 / config_.temperature->period_s});
   return traffic;
@@ -77,6 +81,7 @@ std::vector<std::string> Node::set_up(CanPort& port) {
   mode_ = found.mode;
   torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
   initial_error_ = found.error_code;
+  sdo_mode_.put(static_cast<std::uint8_t>(found.mode));
   setup_.end(true);
   return found.report;
 }
@@ -102,27 +107,34 @@ std::vector<std::string> Node::serve(CanPort& port) {
       setup_.end(false);
     }
   }
-  if (config_.temperature && config_.temperature->way == TemperatureObject::Way::kSdo &&
-      setup_.now() == SetUpState::State::kReady)
-    read_temperature(port, messages);
+  if ((reads_temperature() || reads_mode()) && setup_.now() == SetUpState::State::kReady)
+    read_by_sdo(port, messages);
   return messages;
 }
 
-void Node::read_temperature(CanPort& port, std::vector<std::string>& messages) {
+void Node::read_by_sdo(CanPort& port, std::vector<std::string>& messages) {
   const std::int64_t now_ns = port.now_ns();
-  if (now_ns < temperature_due_ns_) return;
-  const TemperatureObject& object = *config_.temperature;
-  temperature_due_ns_ = now_ns + nanoseconds(object.period_s);
+  if (now_ns < sdo_due_ns_) return;
+  sdo_due_ns_ = now_ns + nanoseconds(reads_temperature() ? config_.temperature->period_s : kModePeriod_s);
   try {
     canopen::SdoClient client(port, config_.node_id, config_.name);
-    sdo_temperature_.put(
-        {temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))), now_ns});
-    if (temperature_failed_) messages.push_back(config_.name + ": the temperature can be read again");
-    temperature_failed_ = false;
+    if (reads_mode()) sdo_mode_.put(static_cast<std::uint8_t>(client.upload_number(kModeDisplay, 1)));
+    if (reads_temperature()) {
+      const TemperatureObject& object = *config_.temperature;
+      sdo_temperature_.put(
+          {temperature_C(object, client.upload_number(object.entry, bytes_of(object.type))), now_ns});
+    }
+    if (sdo_failed_) messages.push_back(config_.name + ": what is read by SDO can be read again");
+    sdo_failed_ = false;
   } catch (const InputError& error) {
-    if (!temperature_failed_) messages.emplace_back(error.what());
-    temperature_failed_ = true;
+    if (!sdo_failed_) messages.emplace_back(error.what());
+    sdo_failed_ = true;
   }
+}
+
+void Node::end_operation(CanPort& port) noexcept {
+  if (identified_)
+    (void)port.send(canopen::nmt_frame(canopen::NmtCommand::kEnterPreOperational, config_.node_id));
 }
 
 void Node::shut_down(CanPort& port) noexcept {

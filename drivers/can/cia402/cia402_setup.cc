@@ -16,7 +16,6 @@ namespace {
 
 using canopen::Entry;
 using canopen::NmtCommand;
-using canopen::PdoDirection;
 using canopen::SdoClient;
 using canopen::SdoWrite;
 
@@ -37,7 +36,6 @@ constexpr Entry kInterpolationExponent{0x60C2, 2};
 constexpr std::uint32_t kSyncProducerBit = 1U << 30U;
 constexpr std::uint32_t kTorqueModeBit = 1U << 3U;
 constexpr std::uint32_t kCyclicTorqueModeBit = 1U << 9U;
-constexpr int kPdosOfADrive = 4;
 
 constexpr std::int64_t kPoll_ns = 5'000'000;
 constexpr std::int64_t kModeWait_ns = 1'000'000'000;
@@ -93,61 +91,35 @@ void check_identity(SdoClient& client, const Identity& wanted, const Description
   compare("serial_number", wanted.serial_number, found.serial_number);
 }
 
-OperationMode choose_mode(SdoClient& client, std::uint32_t supported) {
-  if ((supported & kCyclicTorqueModeBit) != 0) return OperationMode::kCyclicTorque;
-  if ((supported & kTorqueModeBit) != 0) return OperationMode::kTorque;
-  refuse(client, "supports neither cyclic synchronous torque (mode 10) nor torque (mode 4): 6502h = " +
-                     hexadecimal(supported, 8) + " (" + modes_text(supported) +
-                     "); it cannot be driven by torque");
-}
-
-/// False when the drive has this identifier for good; then it must be ours. Such a drive lets its mapping be changed as it is.
-bool switch_off(SdoClient& client, const canopen::Pdo& pdo, const SdoWrite& off,
-                std::uint32_t old_identifier) {
-  try {
-    client.write_verified(off);
-    return true;
-  } catch (const canopen::SdoError& error) {
-    const bool ours = (old_identifier & (canopen::kPdoInvalid | kMaxCanId)) == pdo.cob_id(client.node());
-    if (!error.read_only() || !ours) throw;
-    return false;
-  }
-}
-
-void configure_pdos(SdoClient& client, const PdoLayout& layout) {
-  for (const canopen::Pdo* pdo : {&layout.command, &layout.fast, &layout.slow, &layout.probe}) {
-    if (pdo->objects.empty()) continue;
-    const std::uint32_t old_identifier = number(client, pdo->communication(1));
-    std::vector<SdoWrite> writes = canopen::pdo_configuration(*pdo, client.node(), old_identifier);
-    if (!switch_off(client, *pdo, writes.front(), old_identifier)) writes.pop_back();
-    for (std::size_t i = 1; i < writes.size(); ++i) client.write_verified(writes[i]);
-  }
-}
-
-// Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it.
-void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
-  const int first_unused_tpdo = layout.probe.objects.empty() ? layout.probe.number : layout.probe.number + 1;
-  for (const auto& [direction, first_unused] :
-       {std::pair{PdoDirection::kReceive, 2}, std::pair{PdoDirection::kTransmit, first_unused_tpdo}}) {
-    for (int pdo = first_unused; pdo <= kPdosOfADrive; ++pdo) {
-      const Entry identifier = canopen::pdo_switched_off(direction, pdo, 0).entry;
-      const auto old_identifier = client.upload_if_there(identifier, 4);
-      if (!old_identifier || (*old_identifier & canopen::kPdoInvalid) != 0) continue;
-      client.write_verified(
-          canopen::pdo_switched_off(direction, pdo, static_cast<std::uint32_t>(*old_identifier)));
-    }
-  }
-}
-
 // The drive must notice when we are gone, and must do something about it: nothing else protects then.
-void configure_supervision(SdoClient& client, const DriveConfig& config) {
+void configure_supervision(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
   const std::uint32_t consumer =
       static_cast<std::uint32_t>(config.our_node_id) << 16U | thousandths(config.our_heartbeat_timeout_s);
-  client.write_verified({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
+  const bool hears_heartbeat =
+      client.write_if_there({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
+  const bool has_deadline = configure_deadline(client, config);
+  if (!hears_heartbeat && !has_deadline)
+    refuse(client,
+           "has neither 1016h (supervision of our heartbeat) nor 1400h:05 (deadline of RPDO1): nothing would "
+           "stop "
+           "it when this daemon dies; it cannot be driven");
+  if (!has_deadline)
+    report.push_back(
+        client.who() + ": the drive has no deadline of RPDO1 (1400h:05): it misses this daemon " +
+        std::to_string(thousandths(config.our_heartbeat_timeout_s)) +
+        " ms after its last heartbeat, and not at all while another node sends the same heartbeat");
+  if (!hears_heartbeat)
+    report.push_back(
+        client.who() +
+        ": the drive has no 1016h: only the deadline of RPDO1 (1400h:05) tells it that this daemon is gone");
   client.write_verified(
       {kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
-  client.write_verified({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2, ~0U,
-                         "reaction to a lost connection"});
+  if (!client.write_if_there({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2, ~0U,
+                              "reaction to a lost connection"}))
+    report.push_back(
+        client.who() +
+        ": the drive has no 6007h: what it does without our heartbeat is its own choice. Kill the "
+        "daemon while the unloaded joint moves slowly, and see it stop, before it is used");
   if (config.quick_stop_option)
     client.write_verified({kQuickStopOption, static_cast<std::uint16_t>(*config.quick_stop_option), 2, ~0U,
                            "reaction to a quick stop"});
@@ -160,8 +132,7 @@ void configure_supervision(SdoClient& client, const DriveConfig& config) {
 /// A period as a number of one byte and a power of ten of seconds.
 void configure_period(SdoClient& client, const DriveConfig& config) {
   const auto period_us = static_cast<std::uint32_t>(std::lround(config.period_s * 1e6));
-  if (client.upload_if_there(kSyncPeriod_us, 4))
-    client.write_verified({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
+  (void)client.write_if_there({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
   if (config.produces_sync) {
     const std::uint32_t sync = canopen::cob_id(canopen::CobId::kSync);
     client.write_verified({kSyncIdentifier, sync | kSyncProducerBit, 4, ~0U, "production of SYNC"});
@@ -209,6 +180,31 @@ void take_torque_off(SdoClient& client) {
   }
 }
 
+/// The one that 6502h names, or nothing when the drive has no 6502h.
+std::optional<OperationMode> named_mode(SdoClient& client, std::optional<std::uint32_t> supported) {
+  if (!supported) return std::nullopt;
+  if ((*supported & kCyclicTorqueModeBit) != 0) return OperationMode::kCyclicTorque;
+  if ((*supported & kTorqueModeBit) != 0) return OperationMode::kTorque;
+  refuse(client, "supports neither cyclic synchronous torque (mode 10) nor torque (mode 4): 6502h = " +
+                     hexadecimal(*supported, 8) + " (" + modes_text(*supported) +
+                     "); it cannot be driven by torque");
+}
+
+/// The first that 6061h then shows.
+OperationMode tried_mode(SdoClient& client) {
+  std::string reason;
+  for (const OperationMode mode : {OperationMode::kCyclicTorque, OperationMode::kTorque}) {
+    try {
+      set_mode(client, mode);
+      return mode;
+    } catch (const InputError& error) {
+      reason = error.what();
+    }
+  }
+  refuse(client, "has no 6502h, and takes neither cyclic synchronous torque (mode 10) nor torque (mode 4): " +
+                     reason);
+}
+
 void report_found(Found& found, const Description& description, const DriveConfig& config) {
   std::ostringstream text;
   text << config.name << ": node " << static_cast<int>(config.node_id) << ", " << to_text(description)
@@ -236,17 +232,17 @@ Description identify_drive(SdoClient& client, const DriveConfig& config) {
   return description;
 }
 
-Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout& layout,
+Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layout,
                    const Description& description) {
   Found found;
-  found.mode = choose_mode(client, description.supported_modes);
+  const auto named = named_mode(client, description.supported_modes);
   reset_communication(client, config);
   take_torque_off(client);
-  configure_pdos(client, layout);
-  switch_off_other_pdos(client, layout);
+  found.mode = named ? *named : tried_mode(client);
+  configure_pdos(client, layout, found.report);
   if (config.inputs.index != ProbeSource::kNone)
     client.write_verified({kProbeFunction, 0, 2, ~0U, "touch probe off"});
-  configure_supervision(client, config);
+  configure_supervision(client, config, found.report);
   found.rated_torque_Nm = configure_torque(client, config, found.report);
   configure_torque_path(client, config, found.mode, found.report);
   configure_period(client, config);
@@ -261,8 +257,7 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, const PdoLayout
 
 void release_drive(SdoClient& client) {
   take_torque_off(client);
-  client.download(kConsumerHeartbeat, 0, 4);
-  client.send_nmt(NmtCommand::kEnterPreOperational);
+  (void)client.write_if_there({kConsumerHeartbeat, 0, 4, ~0U, "no supervision of our heartbeat"});
 }
 
 }  // namespace strainwave::cia402

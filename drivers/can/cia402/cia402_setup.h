@@ -13,9 +13,9 @@ namespace strainwave::cia402 {
 /// answer. Throws InputError naming joint, node and what is wrong: then nothing has been changed.
 Description identify_drive(canopen::SdoClient& client, const DriveConfig& config);
 
-/// The whole sequence from there until the drive is operational, in the order of docs/can.md. Throws InputError naming
-/// joint, node, object, value and what is allowed.
-Found set_up_drive(canopen::SdoClient& client, const DriveConfig& config, const PdoLayout& layout,
+/// The whole sequence from there until the drive is operational, in the order of docs/can.md. What the drive cannot map and can be
+/// read by SDO leaves `layout`. Throws InputError naming joint, node, object, value and what is allowed.
+Found set_up_drive(canopen::SdoClient& client, const DriveConfig& config, PdoLayout& layout,
                    const Description& description);
 
 /// Waits for fresh TPDOs of the mapped sizes, sending SYNC if that is our task. Throws InputError naming what
@@ -26,7 +26,8 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
 /// Throws InputError when it is more than config.delay_periods allow.
 std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
 
-/// Takes the torque off and ends the drive's supervision of us, so that our going is no fault.
+/// Of a drive that is pre-operational, where it misses no RPDO: takes the torque off and ends its supervision of us, so that our
+/// going is no fault.
 void release_drive(canopen::SdoClient& client);
 
 }  // namespace strainwave::cia402

@@ -221,7 +221,8 @@ std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const Dri
   try {
     canopen::SdoClient client(drive, config.node_id, config.name);
     const Description description = identify_drive(client, config);
-    const Found found = set_up_drive(client, config, pdo_layout(config), description);
+    PdoLayout layout = pdo_layout(config);
+    const Found found = set_up_drive(client, config, layout, description);
     if (config.temperature && config.temperature->way == TemperatureObject::Way::kSdo)
       (void)client.upload_number(config.temperature->entry, bytes_of(config.temperature->type));
     for (const std::string& note : drive.notes()) report.push_back(config.name + ": " + note);

@@ -26,6 +26,12 @@ inline std::uint32_t thousandths(double value) {
   throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
 }
 
+/// Takes 6061h out of `layout` when the drive cannot map it.
+void configure_pdos(canopen::SdoClient& client, PdoLayout& layout, std::vector<std::string>& report);
+
+/// Has the drive miss RPDO1 (1400h:05); false when it cannot.
+bool configure_deadline(canopen::SdoClient& client, const DriveConfig& config);
+
 /// Rated torque at the joint in N.m: 6075h and 6076h compared, and the limit written to what the drive has for it.
 double configure_torque(canopen::SdoClient& client, const DriveConfig& config,
                         std::vector<std::string>& report);

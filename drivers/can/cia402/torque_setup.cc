@@ -22,9 +22,7 @@ constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
 void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, std::vector<std::string>& report) {
   bool limited = false;
   const auto limit_by = [&](Entry entry, const char* purpose) {
-    if (!client.upload_if_there(entry, 2)) return;
-    client.write_verified({entry, limit_per_mille, 2, ~0U, purpose});
-    limited = true;
+    limited = client.write_if_there({entry, limit_per_mille, 2, ~0U, purpose}) || limited;
   };
   limit_by(kMaxTorque, "torque limit");
   limit_by(kPositiveTorqueLimit, "positive torque limit");
@@ -61,8 +59,7 @@ void configure_torque_path(SdoClient& client, const DriveConfig& config, Operati
     refuse(client,
            "607Eh (polarity) = " + hexadecimal(*polarity, 2) +
                " turns signs in the drive: set it to 0 and store it, and say the direction by `direction`");
-  if (client.upload_if_there(kTorqueOffset, 2))
-    client.write_verified({kTorqueOffset, 0, 2, ~0U, "torque offset"});
+  (void)client.write_if_there({kTorqueOffset, 0, 2, ~0U, "torque offset"});
   if (mode != OperationMode::kTorque || !client.upload_if_there(kTorqueSlope, 4)) return;
   // All of the torque there and back within a period.
   const auto slope = static_cast<std::uint32_t>(std::lround(2.0 * INT16_MAX / config.period_s));

@@ -56,7 +56,7 @@ CanInterface sound_interface() {
 
 std::string refusal(const CanInterface& interface) {
   try {
-    require_can_interface("can0", interface, 1'000'000, 8);
+    (void)require_can_interface("can0", interface, 1'000'000, 8);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -107,6 +107,19 @@ TEST(CanInterface, RefusalNamesTheCommandThatMendsIt) {
   interface = sound_interface();
   interface.transmit_queue_frames = 7;
   EXPECT_NE(refusal(interface).find("txqueuelen 8"), std::string::npos);
+}
+
+TEST(CanInterface, WithinHalfAPerCentOfTheBitRateIsAcceptedWithALine) {
+  CanInterface interface = sound_interface();
+  EXPECT_TRUE(require_can_interface("can0", interface, 1'000'000, 8).empty());
+  interface.bit_rate = 1'004'016;
+  const std::vector<std::string> lines = require_can_interface("can0", interface, 1'000'000, 8);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("1004016 bit/s"), std::string::npos) << lines[0];
+  interface.bit_rate = 1'006'000;
+  EXPECT_NE(refusal(interface).find("1006000"), std::string::npos);
+  interface.bit_rate = 994'000;
+  EXPECT_NE(refusal(interface).find("994000"), std::string::npos);
 }
 
 TEST(CanInterface, NeedsNoQueueWhereFramesAreHandedOverAtOnce) {

@@ -7,6 +7,10 @@
 
 namespace strainwave::testing {
 
+void expect_mentions(const std::string& text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+}
+
 BenchDrive bench_drive(std::uint8_t node_id) {
   BenchDrive drive;
   drive.node.node_id = node_id;
@@ -99,6 +103,12 @@ void DriveBench::clear(int periods) {
 
 void DriveBench::tell_node(const std::string& line, std::size_t joint) {
   EXPECT_EQ(nodes_[joint]->command(line, can_.now_ns() / 1000), "") << line;
+}
+
+std::string DriveBench::said() {
+  std::string text;
+  for (const std::string& line : bus_->take_messages()) text += line + '\n';
+  return text;
 }
 
 std::vector<CanFrame> DriveBench::frames(std::uint32_t id, std::int64_t since_ns) const {

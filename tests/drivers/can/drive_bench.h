@@ -13,6 +13,9 @@
 
 namespace strainwave::testing {
 
+/// Fails unless `text` has each of `parts`.
+void expect_mentions(const std::string& text, std::initializer_list<const char*> parts);
+
 /// A drive as the node is made, and as the configuration describes it.
 struct BenchDrive {
   can_nodes::Cia402NodeConfig node;
@@ -50,6 +53,8 @@ class DriveBench {
   cia402::DriveConfig& config(std::size_t joint = 0) { return drives_[joint].config; }
   Actuator& actuator(std::size_t joint = 0) { return *actuators_[joint]; }
   void end() { bus_.reset(); }
+  /// What the bus had to say, a line each.
+  std::string said();
   /// Frames with this identifier since `since_ns`.
   std::vector<CanFrame> frames(std::uint32_t id, std::int64_t since_ns) const;
 

@@ -169,7 +169,7 @@ void Cia402Node::answer_sdo(const Frame& frame) {
 }
 
 void Cia402Node::receive_pdo(const Frame& frame) {
-  const Reception reception = pdos_.receive(frame);
+  const Reception reception = pdos_.receive(frame, now_us_);
   if (reception == Reception::kTooShort) send_emergency(kErrorPdoLength);
 }
 
@@ -238,8 +238,13 @@ void Cia402Node::advance(std::int64_t now_us) {
     next_heartbeat_us_ = std::max(next_heartbeat_us_ + heartbeat_us, now_us + heartbeat_us / 2);
   }
   while (const auto lost = consumer_.lost(now_us)) on_heartbeat_lost(*lost);
-  if (nmt_ == NmtState::kOperational)
-    for (const Frame& frame : pdos_.due_by_event(now_us)) send(frame);
+  if (nmt_ != NmtState::kOperational) return;
+  if (const auto deadline_us = pdos_.rpdo_deadline_us(); deadline_us && now_us >= *deadline_us) {
+    output_.note("rpdo-missing");
+    pdos_.forget_rpdos();
+    drive_.raise_error(kErrorRpdoTimeout);
+  }
+  for (const Frame& frame : pdos_.due_by_event(now_us)) send(frame);
 }
 
 std::int64_t Cia402Node::next_deadline_us() const {
@@ -250,6 +255,8 @@ std::int64_t Cia402Node::next_deadline_us() const {
   if (!answers_.empty()) next = std::min(next, answers_.front().due_us);
   if (!late_.empty()) next = std::min(next, late_.front().due_us);
   if (const auto consumer = consumer_.next_deadline_us()) next = std::min(next, *consumer);
+  if (const auto rpdo = pdos_.rpdo_deadline_us(); rpdo && nmt_ == NmtState::kOperational)
+    next = std::min(next, *rpdo);
   return next;
 }
 

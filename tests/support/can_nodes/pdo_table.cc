@@ -1,5 +1,7 @@
 #include "tests/support/can_nodes/pdo_table.h"
 
+#include <algorithm>
+
 namespace strainwave::can_nodes {
 
 namespace {
@@ -150,7 +152,19 @@ void PdoTable::unpack(std::uint16_t mapping, std::span<const std::uint8_t> bytes
   }
 }
 
-Reception PdoTable::receive(const Frame& frame) {
+std::optional<std::int64_t> PdoTable::rpdo_deadline_us() const {
+  std::optional<std::int64_t> first_us;
+  for (int n = 0; n < kPdosPerDirection; ++n) {
+    const std::uint16_t communication = plus(kReceiveCommunication, n);
+    const std::int64_t timer_us = dictionary_.number({communication, 5}) * 1000;
+    const auto& received_us = received_us_[static_cast<std::size_t>(n)];
+    if (enabled(communication) && timer_us > 0 && received_us)
+      first_us = std::min(first_us.value_or(INT64_MAX), *received_us + timer_us);
+  }
+  return first_us;
+}
+
+Reception PdoTable::receive(const Frame& frame, std::int64_t now_us) {
   for (int n = 0; n < kPdosPerDirection; ++n) {
     const std::uint16_t communication = plus(kReceiveCommunication, n);
     if (!enabled(communication) || id_of(communication) != frame.id) continue;
@@ -159,6 +173,7 @@ Reception PdoTable::receive(const Frame& frame) {
     for (const Key key : mapped(mapping)) needed += size_of(dictionary_.find(key)->type);
     if (frame.length < needed) return Reception::kTooShort;
     ++counts_.received;
+    received_us_[static_cast<std::size_t>(n)] = now_us;
     if (type_of(communication) > kLastSynchronousType) {
       unpack(mapping, frame.bytes().first(needed));
     } else {
@@ -229,6 +244,7 @@ std::vector<Frame> PdoTable::due_by_event(std::int64_t now_us) {
 void PdoTable::begin() {
   held_ = {};
   transmit_ = {};
+  received_us_ = {};
 }
 
 }  // namespace strainwave::can_nodes

@@ -35,7 +35,11 @@ class PdoTable {
   /// Whether the node is in a state that lets PDOs be configured.
   void set_configurable(bool configurable) { configurable_ = configurable; }
 
-  Reception receive(const Frame& frame);
+  Reception receive(const Frame& frame, std::int64_t now_us = 0);
+  /// When the first deadline of an RPDO passes that has come since begin(); the deadline begins with the first.
+  std::optional<std::int64_t> rpdo_deadline_us() const;
+  /// It was missed, and has been told: it begins again with the next one.
+  void forget_rpdos() { received_us_ = {}; }
   /// A SYNC came: uses the synchronous RPDOs that were held for it.
   void use_held();
   /// A SYNC came: the TPDOs that are due with it, as the dictionary is now.
@@ -71,6 +75,7 @@ class PdoTable {
   bool configurable_ = true;
   std::array<std::optional<std::vector<std::uint8_t>>, kPdosPerDirection> held_;
   std::array<Transmit, kPdosPerDirection> transmit_;
+  std::array<std::optional<std::int64_t>, kPdosPerDirection> received_us_;
   PdoCounts counts_;
 };
 

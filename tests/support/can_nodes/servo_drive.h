@@ -20,6 +20,7 @@ inline constexpr int kModeCyclicTorque = 10;
 /// Error codes of CiA 301 (table 26) and CiA 402 that the drive raises by itself.
 inline constexpr std::uint16_t kErrorHeartbeat = 0x8130;
 inline constexpr std::uint16_t kErrorPdoLength = 0x8210;
+inline constexpr std::uint16_t kErrorRpdoTimeout = 0x8250;
 
 struct TemperatureObject {
   Key key{0x3201, 1};

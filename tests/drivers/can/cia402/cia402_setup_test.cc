@@ -11,10 +11,6 @@ std::int64_t entry(DriveBench& bench, std::uint16_t index, std::uint8_t sub_inde
   return bench.node().dictionary().number({index, sub_index});
 }
 
-void expect_mentions(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
-}
-
 TEST(Cia402Setup, WritesWhatTheDriveMustKnow) {
   BenchDrive drive = bench_drive(3);
   drive.config.quick_stop_option = 1;
@@ -93,8 +89,8 @@ TEST(Cia402Setup, RefusesADriveThatKeepsAnotherValueThanItWasGiven) {
 
 TEST(Cia402Setup, GivesTheDrivesReasonForARefusedObject) {
   DriveBench bench({bench_drive(3)});
-  bench.tell_node("refuse 0x6007 0 0x06020000");
-  expect_mentions(bench.start_refusal(), {"6007h:00", "no such object", "06020000h"});
+  bench.tell_node("refuse 0x1017 0 0x06020000");
+  expect_mentions(bench.start_refusal(), {"1017h:00", "no such object", "06020000h"});
 }
 
 TEST(Cia402Setup, NamesEveryDriveThatFails) {
@@ -210,7 +206,8 @@ TEST(Cia402Setup, LeavesADisabledDriveWhateverItWasDoing) {
   bench.run(50, {10.0, true});
   bench.start();  // a second daemon; the first one's bus ends without any order in between
   bench.run(5, {0.0, false});
-  EXPECT_EQ(bench.node().drive().power(), can_nodes::PowerState::kSwitchOnDisabled);
+  EXPECT_NE(bench.node().drive().power(), can_nodes::PowerState::kOperationEnabled);
+  EXPECT_EQ(bench.node().drive().torque_demand_Nm(), 0.0);
   EXPECT_EQ(bench.reading().drive_state, DriveState::kDisabled);
 }
 

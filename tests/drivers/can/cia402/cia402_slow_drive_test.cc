@@ -10,10 +10,6 @@ std::int64_t entry(DriveBench& bench, std::uint16_t index, std::uint8_t sub_inde
   return bench.node().dictionary().number({index, sub_index});
 }
 
-void expect_mentions(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
-}
-
 TEST(Cia402SlowDrive, WaitsForADriveThatIsSlowToStartAndToBecomeOperational) {
   BenchDrive drive = bench_drive(3);
   drive.node.boot_us = 3'000'000;

@@ -1,0 +1,113 @@
+// The part of a CiA 402 drive's set-up that is about process data: the PDOs that are used, their deadline, and the others off.
+#include "drivers/can/cia402/cia402_objects.h"
+#include "drivers/can/cia402/setup_steps.h"
+
+namespace strainwave::cia402 {
+
+namespace {
+
+using canopen::Entry;
+using canopen::Pdo;
+using canopen::PdoDirection;
+using canopen::SdoClient;
+using canopen::SdoError;
+using canopen::SdoWrite;
+
+/// CANopen allows as many in each direction; the first four have identifiers of their own.
+constexpr int kMostPdos = 512;
+constexpr int kUsualPdos = 4;
+constexpr Entry kCommandDeadline_ms{0x1400, 5};
+
+/// False when the drive has this identifier for good; then it must be ours. Such a drive lets its mapping be changed as it is.
+bool switch_off(SdoClient& client, const Pdo& pdo, const SdoWrite& off, std::uint32_t old_identifier) {
+  try {
+    client.write_verified(off);
+    return true;
+  } catch (const SdoError& error) {
+    const bool ours = (old_identifier & (canopen::kPdoInvalid | kMaxCanId)) == pdo.cob_id(client.node());
+    if (!error.read_only() || !ours) throw;
+    return false;
+  }
+}
+
+bool is_mapped_as_wanted(SdoClient& client, const Pdo& pdo) {
+  if (client.upload_number(pdo.mapping(0), 1) != pdo.objects.size()) return false;
+  for (std::uint8_t i = 0; i < pdo.objects.size(); ++i)
+    if (client.upload_number(pdo.mapping(static_cast<std::uint8_t>(i + 1)), 4) !=
+        mapping_word(pdo.objects[i]))
+      return false;
+  return true;
+}
+
+bool is_mapping(Entry entry) {
+  return entry.index >= 0x1600 && (entry.index < 0x1800 || entry.index >= 0x1A00);
+}
+
+/// A drive with a fixed mapping is taken when it is the one that is wanted.
+void configure_pdo(SdoClient& client, const Pdo& pdo) {
+  const std::uint32_t old_identifier = number(client, pdo.communication(1));
+  std::vector<SdoWrite> writes = canopen::pdo_configuration(pdo, client.node(), old_identifier);
+  if (!switch_off(client, pdo, writes.front(), old_identifier)) writes.pop_back();
+  writes.erase(writes.begin());
+  try {
+    client.write_verified(writes.front());
+  } catch (const SdoError& error) {
+    if (error.no_answer() || !is_mapped_as_wanted(client, pdo)) throw;
+    std::erase_if(writes, [](const SdoWrite& write) { return is_mapping(write.entry); });
+  }
+  for (const SdoWrite& write : writes) client.write_verified(write);
+}
+
+// Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it. Drives number theirs
+// without gaps, but for the first four.
+void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
+  const auto is_used = [&](PdoDirection direction, int pdo) {
+    for (const Pdo* used : {&layout.command, &layout.fast, &layout.slow, &layout.probe})
+      if (used->direction == direction && used->number == pdo && !used->objects.empty()) return true;
+    return false;
+  };
+  for (const PdoDirection direction : {PdoDirection::kReceive, PdoDirection::kTransmit}) {
+    for (int pdo = 1; pdo <= kMostPdos; ++pdo) {
+      if (is_used(direction, pdo)) continue;
+      const Entry identifier = canopen::pdo_switched_off(direction, pdo, 0).entry;
+      const auto old_identifier = client.upload_if_there(identifier, 4);
+      if (!old_identifier && pdo > kUsualPdos) break;
+      if (!old_identifier || (*old_identifier & canopen::kPdoInvalid) != 0) continue;
+      client.write_verified(
+          canopen::pdo_switched_off(direction, pdo, static_cast<std::uint32_t>(*old_identifier)));
+    }
+  }
+}
+
+}  // namespace
+
+void configure_pdos(SdoClient& client, PdoLayout& layout, std::vector<std::string>& report) {
+  configure_pdo(client, layout.command);
+  configure_pdo(client, layout.fast);
+  try {
+    if (!layout.slow.objects.empty()) configure_pdo(client, layout.slow);
+  } catch (const SdoError& error) {
+    if (error.no_answer() || layout.mode.pdo == 0) throw;
+    // The mode is the last of its objects.
+    layout.slow.objects.pop_back();
+    layout.mode = {};
+    if (!layout.slow.objects.empty()) configure_pdo(client, layout.slow);
+    report.push_back(client.who() + ": the drive cannot send 6061h in TPDO2, its mode is read by SDO");
+  }
+  if (!layout.probe.objects.empty()) configure_pdo(client, layout.probe);
+  switch_off_other_pdos(client, layout);
+}
+
+bool configure_deadline(SdoClient& client, const DriveConfig& config) {
+  try {
+    return client.write_if_there(
+        {kCommandDeadline_ms, thousandths(config.command_deadline_s), 2, ~0U, "deadline of RPDO1"});
+  } catch (const SdoError& error) {
+    if (error.no_answer()) throw;
+  } catch (const InputError&) {
+    // An entry that keeps 0 is none.
+  }
+  return false;
+}
+
+}  // namespace strainwave::cia402
