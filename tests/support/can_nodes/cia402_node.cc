@@ -242,7 +242,8 @@ void Cia402Node::advance(std::int64_t now_us) {
   if (const auto deadline_us = pdos_.rpdo_deadline_us(); deadline_us && now_us >= *deadline_us) {
     output_.note("rpdo-missing");
     pdos_.forget_rpdos();
-    drive_.raise_error(kErrorRpdoTimeout);
+    send_emergency(kErrorRpdoTimeout);
+    drive_.lose_connection();
   }
   for (const Frame& frame : pdos_.due_by_event(now_us)) send(frame);
 }

@@ -43,6 +43,21 @@ TEST(Cia402Deadline, ADriveWithoutItIsTakenAndTheLogSaysWhatThatMeans) {
   }
 }
 
+TEST(Cia402Deadline, OneClearingAfterALinkThatWasDownResetsTheDrivesOwnFaultAsWell) {
+  BenchDrive drive = bench_drive(3);
+  drive.config.abort_connection = cia402::AbortConnection::kFault;
+  DriveBench bench({drive});
+  bench.start();
+  ASSERT_TRUE(bench.enable());
+  bench.can().set_down();
+  bench.run(50, {5.0, true});
+  EXPECT_EQ(bench.node().drive().power(), can_nodes::PowerState::kFault) << "it missed our orders";
+  bench.can().set_up();
+  bench.run(50, {0.0, false});
+  bench.clear();
+  EXPECT_TRUE(bench.enable());
+}
+
 TEST(Cia402Deadline, AnOrderlyEndIsNoFaultHoweverLongTheDriveTakesToAnswer) {
   for (const int answer_us : {0, 300'000}) {
     BenchDrive drive = bench_drive(3);
