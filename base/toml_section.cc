@@ -31,12 +31,26 @@ std::string join(const std::vector<std::string>& words, const char* quote) {
   return text;
 }
 
+/// "key = 0,089" in this line, from 1.
+bool has_decimal_comma(std::string_view text, unsigned line) {
+  for (; line > 1 && !text.empty(); --line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  text = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(text.find('='), text.size()));
+  text = text.substr(0, text.find_first_of("\"'[#"));
+  const std::size_t comma = text.find(',');
+  const auto digit = [&](std::size_t at) { return at < text.size() && text[at] >= '0' && text[at] <= '9'; };
+  return comma != std::string_view::npos && comma > 0 && digit(comma - 1) && digit(comma + 1);
+}
+
 }  // namespace
 
-/// A file's outermost table, and the doubts about what it says.
+/// A file's outermost table, the doubts about what it says, and what is wrong with it.
 struct TomlSection::Document {
   toml::table root;
   std::vector<std::string> warnings;
+  std::vector<std::string> errors;
+  bool collects = false;
 };
 
 struct TomlSection::Table {
@@ -53,20 +67,22 @@ struct TomlSection::Reader {
     return section.table_->table->get(key);
   }
 
-  static const toml::node& require(TomlSection& section, std::string_view key,
+  /// Null when it is missing, which is noted then.
+  static const toml::node* require(TomlSection& section, std::string_view key,
                                    const std::string& what = "the key") {
     const toml::node* node = find(section, key);
-    if (node == nullptr) section.fail(key, what + " is required" + instead(section, key));
-    return *node;
+    if (node == nullptr) section.refuse(key, what + " is required" + instead(section, key));
+    return node;
   }
 
-  /// What stands in the table and may be the key that is missing.
-  static std::string instead(const TomlSection& section, std::string_view key) {
+  /// What stands in the table and may be the key that is missing; it is no unknown key besides.
+  static std::string instead(TomlSection& section, std::string_view key) {
     std::vector<std::string> others;
     for (const auto& [name, node] : *section.table_->table)
       if (!section.asked_.contains(name.str())) others.emplace_back(name.str());
     const std::string* nearest = nearest_word(key, others);
     if (nearest == nullptr) return "";
+    section.asked_.insert(*nearest);
     const auto line = section.table_->table->get(*nearest)->source().begin.line;
     return "; line " + std::to_string(line) + " has " + printable(*nearest) + ": is that what was meant?";
   }
@@ -74,10 +90,11 @@ struct TomlSection::Reader {
   static double checked(const TomlSection& section, std::string_view key, const toml::node& node,
                         Range allowed) {
     const auto value = node.value<double>();
-    if (!node.is_number() || !value || !std::isfinite(*value) || *value < allowed.min || *value > allowed.max)
-      section.fail(key, "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) +
+    const bool is_number = node.is_number() && value && std::isfinite(*value);
+    if (is_number && *value >= allowed.min && *value <= allowed.max) return *value;
+    section.refuse(key, "a number from " + number_text(allowed.min) + " to " + number_text(allowed.max) +
                             " is allowed" + (node.is_string() ? ", without quotes" : ""));
-    return *value;
+    return is_number ? std::clamp(*value, allowed.min, allowed.max) : allowed.min;
   }
 };
 
@@ -87,11 +104,14 @@ TomlSection::TomlSection(std::shared_ptr<const Table> table, std::string file, s
 TomlSection TomlSection::parse(std::string_view text, const std::string& file) {
   refuse_deep_nesting(text, file);
   try {
-    const auto document = std::make_shared<Document>(Document{toml::parse(text, file), {}});
+    const auto document = std::make_shared<Document>(Document{toml::parse(text, file), {}, {}});
     return {std::make_shared<const Table>(Table{document, &document->root}), file, ""};
   } catch (const toml::parse_error& error) {
-    throw InputError(file + ":" + std::to_string(error.source().begin.line) +
-                     ": not valid TOML: " + printable(error.description()));
+    const auto line = error.source().begin.line;
+    throw InputError(file + ":" + std::to_string(line) + ": not valid TOML: " +
+                     (has_decimal_comma(text, line)
+                          ? "a comma in a number: TOML has a decimal point, 0.5 for 0,5"
+                          : printable(error.description())));
   }
 }
 
@@ -116,8 +136,33 @@ std::string TomlSection::place(std::string_view key) const {
          (node == nullptr ? " is missing" : " = " + value_text(*node));
 }
 
+void TomlSection::refuse(std::string_view key, const std::string& allowed) const {
+  if (!table_->document->collects) throw InputError(place(key) + ": " + allowed);
+  table_->document->errors.push_back(place(key) + ": " + allowed);
+}
+
+// What contradicts a value that stands in for another one is no error of the file.
 void TomlSection::fail(std::string_view key, const std::string& allowed) const {
-  throw InputError(place(key) + ": " + allowed);
+  if (table_->document->errors.empty()) refuse(key, allowed);
+  throw InputError(joined_errors());
+}
+
+void TomlSection::collect_errors() {
+  table_->document->collects = true;
+}
+
+void TomlSection::note_error(const std::string& error) {
+  if (table_->document->errors.empty()) table_->document->errors.push_back(error);
+}
+
+std::string TomlSection::joined_errors() const {
+  std::string text;
+  for (const std::string& error : table_->document->errors) text += (text.empty() ? "" : "\n") + error;
+  return text;
+}
+
+void TomlSection::throw_errors() const {
+  if (!table_->document->errors.empty()) throw InputError(joined_errors());
 }
 
 void TomlSection::warn(std::string_view key, const std::string& doubt) const {
@@ -129,7 +174,8 @@ const std::vector<std::string>& TomlSection::warnings() const {
 }
 
 double TomlSection::number(std::string_view key, Range allowed) {
-  return Reader::checked(*this, key, Reader::require(*this, key), allowed);
+  const toml::node* node = Reader::require(*this, key);
+  return node == nullptr ? allowed.min : Reader::checked(*this, key, *node, allowed);
 }
 
 double TomlSection::number_or(std::string_view key, double fallback, Range allowed) {
@@ -138,33 +184,34 @@ double TomlSection::number_or(std::string_view key, double fallback, Range allow
 }
 
 std::int64_t TomlSection::integer(std::string_view key, std::int64_t min, std::int64_t max) {
-  (void)Reader::require(*this, key);
-  return integer_or(key, min, min, max);
+  return Reader::require(*this, key) == nullptr ? min : integer_or(key, min, min, max);
 }
 
 std::int64_t TomlSection::integer_or(std::string_view key, std::int64_t fallback, std::int64_t min,
                                      std::int64_t max) {
   const toml::node* node = Reader::find(*this, key);
   if (node == nullptr) return fallback;
-  const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
-  if (!value || *value < min || *value > max)
-    fail(key, "a whole number from " + std::to_string(min) + " to " + std::to_string(max) + " is allowed" +
+  const toml::value<std::int64_t>* whole = node->as_integer();
+  const std::int64_t value = whole != nullptr ? whole->get() : min;
+  if (whole != nullptr && value >= min && value <= max) return value;
+  refuse(key, "a whole number from " + std::to_string(min) + " to " + std::to_string(max) + " is allowed" +
                   (node->is_string() ? ", without quotes" : ""));
-  return *value;
+  return std::clamp(value, min, max);
 }
 
 bool TomlSection::boolean_or(std::string_view key, bool fallback) {
   const toml::node* node = Reader::find(*this, key);
   if (node == nullptr) return fallback;
-  if (!node->is_boolean())
-    fail(key, std::string("true or false is allowed") + (node->is_string() ? ", without quotes" : ""));
-  return *node->value<bool>();
+  if (node->is_boolean()) return *node->value<bool>();
+  refuse(key, std::string("true or false is allowed") + (node->is_string() ? ", without quotes" : ""));
+  return fallback;
 }
 
 std::string TomlSection::text(std::string_view key) {
-  const toml::node& node = Reader::require(*this, key);
-  if (!node.is_string()) fail(key, "a text in quotes is allowed");
-  return *node.value<std::string>();
+  const toml::node* node = Reader::require(*this, key);
+  if (node != nullptr && node->is_string()) return *node->value<std::string>();
+  if (node != nullptr) refuse(key, "a text in quotes is allowed");
+  return "";
 }
 
 std::string TomlSection::text_or(std::string_view key, std::string fallback) {
@@ -172,13 +219,14 @@ std::string TomlSection::text_or(std::string_view key, std::string fallback) {
 }
 
 std::string TomlSection::choice(std::string_view key, const std::vector<std::string>& allowed) {
-  const std::optional<std::string> value = Reader::require(*this, key).value_exact<std::string>();
-  if (!value || std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
-    const std::string* nearest = value ? nearest_word(*value, allowed) : nullptr;
-    fail(key, "allowed are " + join(allowed, "\"") +
+  const toml::node* node = Reader::require(*this, key);
+  if (node == nullptr) return allowed.front();
+  const std::optional<std::string> value = node->value_exact<std::string>();
+  if (value && std::find(allowed.begin(), allowed.end(), *value) != allowed.end()) return *value;
+  const std::string* nearest = value ? nearest_word(*value, allowed) : nullptr;
+  refuse(key, "allowed are " + join(allowed, "\"") +
                   (nearest != nullptr ? "; did you mean \"" + *nearest + "\"?" : ""));
-  }
-  return *value;
+  return allowed.front();
 }
 
 std::string TomlSection::choice_or(std::string_view key, std::string fallback,
@@ -187,15 +235,19 @@ std::string TomlSection::choice_or(std::string_view key, std::string fallback,
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, Range allowed) {
-  const toml::array* array = Reader::require(*this, key).as_array();
+  const toml::node* node = Reader::require(*this, key);
+  if (node == nullptr) return {allowed.min};
+  const toml::array* array = node->as_array();
   if (array == nullptr || array->empty()) fail(key, "a list of numbers is allowed");
   std::vector<double> values;
-  for (const toml::node& node : *array) values.push_back(Reader::checked(*this, key, node, allowed));
+  for (const toml::node& number : *array) values.push_back(Reader::checked(*this, key, number, allowed));
   return values;
 }
 
 TomlSection TomlSection::section(std::string_view key) {
-  const toml::table* table = Reader::require(*this, key).as_table();
+  const toml::node* node = Reader::require(*this, key);
+  if (node == nullptr) throw_errors();
+  const toml::table* table = node->as_table();
   if (table == nullptr) fail(key, "a table, written [" + full_name(key) + "], is allowed");
   return {std::make_shared<const Table>(Table{table_->document, table}), file_, full_name(key)};
 }
@@ -208,13 +260,15 @@ TomlSection TomlSection::section_or_empty(std::string_view key) {
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) {
   const std::string what = "a table, or several, each begun with [[" + full_name(key) + "]],";
-  const toml::array* array = Reader::require(*this, key, what).as_array();
+  const toml::node* node = Reader::require(*this, key, what);
+  if (node == nullptr) throw_errors();
+  const toml::array* array = node->as_array();
   if (array == nullptr || array->empty() || !array->is_homogeneous(toml::node_type::table))
     fail(key, "one or more tables are allowed, each written [[" + full_name(key) + "]] with two brackets" +
                   Reader::instead(*this, key));
   std::vector<TomlSection> result;
-  for (const toml::node& node : *array)
-    result.push_back({std::make_shared<const Table>(Table{table_->document, node.as_table()}), file_,
+  for (const toml::node& table : *array)
+    result.push_back({std::make_shared<const Table>(Table{table_->document, table.as_table()}), file_,
                       full_name(key) + "[" + std::to_string(result.size()) + "]"});
   return result;
 }
@@ -227,7 +281,7 @@ void TomlSection::refuse_unknown_keys() const {
     const std::string* nearest = nearest_word(name, known);
     const std::string hint =
         nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are " + join(known, "") + ".";
-    fail(name, "unknown key; " + hint + " Physical quantities carry their unit in the key.");
+    refuse(name, "unknown key; " + hint + " Physical quantities carry their unit in the key.");
   }
 }
 

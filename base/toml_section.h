@@ -20,7 +20,8 @@ struct Range {
 inline constexpr Range kPositive{1e-9, 1e9};
 
 /// One table of a file. Messages name it by its path ("joint[0].limits"). All methods throw InputError that names the file,
-/// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead.
+/// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead. After collect_errors() a
+/// value that cannot be read is noted, and one that is allowed stands for it, so that all errors of a file are told at once.
 class TomlSection {
  public:
   /// The outermost table of `text`; `file` is named in messages.
@@ -49,6 +50,13 @@ class TomlSection {
   /// Throws when the table has a key that was never asked for, with the nearest known key as a suggestion.
   void refuse_unknown_keys() const;
 
+  /// From now on, for every table of the file; throw_errors() must follow.
+  void collect_errors();
+  /// Notes what stopped a part of the file, unless that follows from what is noted already.
+  void note_error(const std::string& error);
+  /// Throws an InputError with a line for each error, if there are any.
+  void throw_errors() const;
+
   /// How messages name `key`: "joint[0].limits.torque_limit_Nm".
   std::string full_name(std::string_view key) const;
   /// Where `key` of this table stands and what it says: "arm.toml:12: joint[0].inertia_kgm2 = -1".
@@ -65,6 +73,9 @@ class TomlSection {
   struct Table;  ///< toml++'s table, kept with its document
   struct Reader;
   TomlSection(std::shared_ptr<const Table> table, std::string file, std::string path);
+  /// Throws, or notes it.
+  void refuse(std::string_view key, const std::string& allowed) const;
+  std::string joined_errors() const;
 
   std::shared_ptr<const Table> table_;
   std::string file_;

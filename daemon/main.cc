@@ -56,7 +56,9 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ, SIG_IGN);
   ::signal(SIGPIPE, SIG_IGN);
   return strainwave::run_program(app, argc, argv, [&] {
-    strainwave::DaemonConfig config = strainwave::read_config(config_path);
+    const bool drives_alone = check_lines || check_drives || !data_sheet.empty();
+    strainwave::DaemonConfig config = strainwave::read_config(
+        config_path, drives_alone ? strainwave::ConfigUse::kCheckDrives : strainwave::ConfigUse::kRun);
     config.gateway_socket = gateway_socket;
     if (check_only) {
       strainwave::check_start(config, std::cout);

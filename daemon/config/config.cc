@@ -138,9 +138,10 @@ Writers writers_allowed(const JointConfig& joint) {
   return joint.driver == "simulated" ? Writers::kGroup : Writers::kNobody;
 }
 
-DaemonConfig read_config(const std::filesystem::path& path) {
+DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use) {
   require_protected(path, Writers::kGroup);
   TomlSection root = TomlSection::read(path);
+  root.collect_errors();
   DaemonConfig config;
   TomlSection daemon = root.section_or_empty("daemon");
   config.loop = read_loop(daemon);
@@ -156,10 +157,15 @@ DaemonConfig read_config(const std::filesystem::path& path) {
     root.fail("joint", "1 to " + std::to_string(kMaxJoints) + " joints are allowed");
   std::set<std::string> names;
   for (TomlSection& section : joints) {
-    config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can));
-    if (!names.insert(config.joints.back().name).second)
-      section.fail("name", "each joint needs a name of its own");
+    try {
+      config.joints.push_back(read_joint(section, config.loop.period_s, path.parent_path(), can));
+      if (!names.insert(config.joints.back().name).second)
+        section.fail("name", "each joint needs a name of its own");
+    } catch (const InputError& error) {
+      root.note_error(error.what());
+    }
   }
+  root.throw_errors();
   config.buses = can.buses();
   number_groups(config.joints);
   config.recorder = read_recorder(root.section_or_empty("recorder"), path.parent_path());
@@ -171,7 +177,10 @@ DaemonConfig read_config(const std::filesystem::path& path) {
                               " joints, at most " + std::to_string(std::lround(kMaxRecorder_MB)));
   const TomlSection security = root.section_or_empty("security");
   root.refuse_unknown_keys();
-  config.security = read_security(security, config.loop, config.joints, path.parent_path());
+  root.throw_errors();
+  if (use == ConfigUse::kRun)
+    config.security = read_security(security, config.loop, config.joints, path.parent_path());
+  root.throw_errors();
   // Who can write this file decides what its joints do.
   for (const JointConfig& joint : config.joints) require_protected(path, writers_allowed(joint));
   config.warnings = root.warnings();

@@ -2,6 +2,7 @@
 // docs/configuration.md lists every key.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -77,8 +78,11 @@ struct DaemonConfig {
 /// Who besides root and our own user may write what decides about `joint`: the configuration and its table.
 Writers writers_allowed(const JointConfig& joint);
 
-/// Reads `path`. Throws InputError naming file, line, key, value and what is allowed: unreadable or malformed file,
-/// unknown, missing or repeated keys, impossible values, joints of the same name.
-DaemonConfig read_config(const std::filesystem::path& path);
+/// What a configuration is read for: only who runs it needs to know who may give orders.
+enum class ConfigUse : std::uint8_t { kRun, kCheckDrives };
+
+/// Reads `path`. Throws InputError with a line for each error, naming file, line, key, value and what is allowed: unreadable or
+/// malformed file, unknown, missing or repeated keys, impossible values, joints of the same name.
+DaemonConfig read_config(const std::filesystem::path& path, ConfigUse use = ConfigUse::kRun);
 
 }  // namespace strainwave
