@@ -40,7 +40,7 @@ constexpr double kTemperatureNoise_C = 0.02;
 struct Kind {
   std::string name;
   JointPlantConfig plant;
-  ExtendedFeatures features;
+  MotionLimits motion;
   GainTable table;
 };
 
@@ -50,11 +50,8 @@ std::vector<Kind> kinds() {
   const GainTable total = read_gain_table(tables + "total-0.178/c4.json");
   JointPlantConfig spring = flexible_plant();
   spring.effects.gravity = {3.0, -0.5};
-  ExtendedFeatures every;
-  every.motion = {6.0, 150.0, 150.0};
-  ExtendedFeatures flexible = daemon_defaults();
-  flexible.gravity = flexible.link = true;
-  return {{"rigid", realistic_plant(), every, rigid}, {"flexible, with gravity", spring, flexible, total}};
+  return {{"rigid", realistic_plant(), {6.0, 150.0, 150.0}, rigid},
+          {"flexible, with gravity", spring, kNoMotionLimits, total}};
 }
 
 void order(JointController& controller, int k) {
@@ -74,7 +71,7 @@ void order(JointController& controller, int k) {
 class Replay {
  public:
   Replay(const Kind& kind, const std::vector<JointMeasurement>& run)
-      : fresh_(extended_config(kind.plant, kind.table, kind.features)), run_(run), controller_(fresh_) {
+      : fresh_(extended_config(kind.plant, kind.table, kind.motion)), run_(run), controller_(fresh_) {
     fresh_.load(kind.table);
     begin();
   }
@@ -95,7 +92,7 @@ class Replay {
 
 /// What the joint's sensors read over the run.
 std::vector<JointMeasurement> record(const Kind& kind) {
-  JointController controller(extended_config(kind.plant, kind.table, kind.features));
+  JointController controller(extended_config(kind.plant, kind.table, kind.motion));
   controller.load(kind.table);
   controller.start(0.0);
   JointPlant plant(kind.plant);
@@ -109,8 +106,8 @@ std::vector<JointMeasurement> record(const Kind& kind) {
     run.push_back(measurement_of(sample, plant.sensor_temperature_C() + kTemperatureNoise_C * noise));
     order(controller, k);
     const JointStep step = controller.step(run.back());
-    if (step.monitor != MonitorState::kWatching)
-      throw std::runtime_error(kind.name + ": the monitor has stepped in, the figures mean nothing");
+    if (step.oscillates)
+      throw std::runtime_error(kind.name + ": the joint oscillates, the figures mean nothing");
     plant.step(step.output.torque_Nm);
   }
   return run;

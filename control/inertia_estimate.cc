@@ -18,6 +18,8 @@ constexpr double kLeastTravel_rad = 1e-6;
 constexpr double kKept = 0.97;
 // What a window is off by at least, in static friction over its length; friction that is a share of the torque, ripple and swings.
 constexpr double kNoiseShare = 0.1;
+// Where the table has no friction.
+constexpr double kLeastScale_Nm = 1e-3;
 // How well friction is known beforehand, and how large a load is that nobody tells, in static friction.
 constexpr double kFrictionDeviation = 0.3;
 constexpr double kLoadDeviation = 1.0;
@@ -85,7 +87,7 @@ void InertiaEstimate::step(const Sample& sample, const JointModel& model) noexce
   moving_ = way == 0 || way != way_ ? 0 : moving_ + 1;
   way_ = way;
   if (moving_ < span_ + window_) return;
-  learn(model.friction.static_Nm);
+  learn(std::max(model.friction.static_Nm, kLeastScale_Nm));
   // The next window begins with the mean that this one ended with.
   moving_ = span_;
 }

@@ -15,8 +15,8 @@
 #include <array>
 #include <optional>
 
-#include "control/joint_model.h"
 #include "control/joint_measurement.h"
+#include "control/joint_model.h"
 
 namespace strainwave {
 

@@ -41,7 +41,8 @@ JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
       trajectory_(config.period_s, config.stream_bridge_s),
       planner_(planner_config(config)),
-      law_(config.period_s, config.encoder_resolution_rad, share_of_velocity(config), config.link.has_value()),
+      law_(config.period_s, config.encoder_resolution_rad, share_of_velocity(config),
+           config.link.has_value()),
       reading_(config.period_s, share_of_velocity(config), count_of(config)),
       corrections_(config.period_s, count_of(config)),
       oscillation_(config.period_s) {

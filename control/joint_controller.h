@@ -51,6 +51,7 @@ struct JointStep {
   MotionPhase phase = MotionPhase::kTracking;
   /// That shows, besides gravity and what a stream says: what was learned and what the feedback asks for, the mean over 10 ms.
   double load_Nm = 0.0;
+  int corrections = 0;  ///< small motions at rest since the last order
   bool learns = false;  ///< friction and load, in this period
   bool oscillates = false;
 };

@@ -16,8 +16,8 @@ namespace strainwave {
 struct JointControllerConfig {
   double period_s = 0.001;              ///< > 0, the table's
   double encoder_resolution_rad = 0.0;  ///< position of one count at the joint; 0: exact
-  int delay_periods = 0;                ///< between a torque's computation and its effect, 0..kMaxControlDelay
-  double torque_limit_Nm = 0.0;         ///< > 0; the table's limit applies as well
+  int delay_periods = 0;         ///< between a torque's computation and its effect, 0..kMaxControlDelay
+  double torque_limit_Nm = 0.0;  ///< > 0; the table's limit applies as well
   double torque_limit_with(const GainTable& table) const noexcept {
     return std::min(torque_limit_Nm, table.torque_limit_Nm);
   }

@@ -50,11 +50,10 @@ void JointController::hold_from(const JointMeasurement& measurement) noexcept {
 // What the joint can do at the speed that the reference has reached.
 MotionLimits JointController::present_limits() const noexcept {
   const ToldLoad& load = trajectory_.load();
-  const double load_Nm =
-      config_.gravity.at(plan_.link_position_rad) + load.torque_Nm + friction_.load_Nm();
-  MotionLimits limits = reachable_limits(motion_, config_.motor, loaded_model(), load_Nm, torque_limit_Nm_,
-                                         config_.torque_reserve, std::abs(trajectory_.velocity_rad_s()),
-                                         config_.period_s);
+  const double load_Nm = config_.gravity.at(plan_.link_position_rad) + load.torque_Nm + friction_.load_Nm();
+  MotionLimits limits =
+      reachable_limits(motion_, config_.motor, loaded_model(), load_Nm, torque_limit_Nm_,
+                       config_.torque_reserve, std::abs(trajectory_.velocity_rad_s()), config_.period_s);
   limits.acceleration_rad_s2 *= pace_;
   limits.deceleration_rad_s2 *= pace_;
   return limits;
@@ -117,8 +116,8 @@ void JointController::choose_phase() noexcept {
   } else if (!at_place) {
     phase_ = MotionPhase::kTracking;
   } else if (phase_ == MotionPhase::kTracking && rest_periods_ > kSettlingPeriods) {
-    hold_torque_Nm_ = config_.gravity.at(plan_.link_position_rad) + friction_.load_Nm() +
-                      law_.integral_torque_Nm();
+    hold_torque_Nm_ =
+        config_.gravity.at(plan_.link_position_rad) + friction_.load_Nm() + law_.integral_torque_Nm();
     phase_ = MotionPhase::kResting;
   }
 }
@@ -226,6 +225,7 @@ JointStep JointController::result(const ControllerOutput& output, bool learns) c
   step.off_stream = trajectory_.off_stream() && !corrections_.begun();
   step.phase = phase_;
   step.load_Nm = shown_load_Nm_;
+  step.corrections = corrections_.count();
   step.learns = learns;
   step.oscillates = oscillation_.oscillates();
   return step;

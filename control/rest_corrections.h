@@ -20,6 +20,7 @@ class RestCorrections {
   void motion() noexcept { off_periods_ = 0; }
   /// What moves now, or moved last, was one of these and no order.
   bool begun() const noexcept { return corrections_ > 0; }
+  int count() const noexcept { return corrections_; }
   /// Friction besides what is known, as a share of it, that the corrections so far have shown.
   double friction_share() const noexcept { return friction_share_; }
 

@@ -67,7 +67,8 @@ void FrictionLearning::learn(double feedback_Nm, double motor_velocity_rad_s, do
   if (!(table_Nm > 0.0)) return;
   const double counted_Nm = std::clamp(feedback_Nm, -kCounted * table_Nm, kCounted * table_Nm);
   learned_.load_Nm += elapsed_s * kLoadRate_1_s * counted_Nm;
-  const double along_Nm = elapsed_s * kFrictionRate_1_s * reciprocal_squares_ * counted_Nm * sign(motor_velocity_rad_s);
+  const double along_Nm =
+      elapsed_s * kFrictionRate_1_s * reciprocal_squares_ * counted_Nm * sign(motor_velocity_rad_s);
   for (std::size_t i = 0; i < count; ++i)
     learned_.scale[i] = std::clamp(
         learned_.scale[i] + along_Nm * weights_.weight[i] / rule_friction_Nm(i, stribeck, speed_rad_s),

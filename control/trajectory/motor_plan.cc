@@ -84,7 +84,8 @@ MotionLimits MotorPlanner::possible_limits(const MotorPlannerConfig& config) noe
 MotorPlanner::MotorPlanner(const MotorPlannerConfig& config) noexcept
     : config_(config),
       wind_up_(config.joint.spring),
-      gains_(config.joint.rigid() ? LinkGains{} : config.joint.regulate(config.torque_limit_Nm, config.period_s)),
+      gains_(config.joint.rigid() ? LinkGains{}
+                                  : config.joint.regulate(config.torque_limit_Nm, config.period_s)),
       spread_periods_(whole_spread(config)),
       first_(spread_periods_ / 2, config.period_s),
       second_(spread_periods_ - spread_periods_ / 2, config.period_s) {
@@ -131,7 +132,7 @@ LinkState MotorPlanner::flat(const MotionPoint& link, double snap_rad_s4) const 
 // The model's period, in which the motion wants `wanted_Nm`, and at its end to be at `wanted_end`: what is off there without a regulator,
 // of the last period and of this one.
 void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
-                        double taken_Nm) noexcept {
+                          double taken_Nm) noexcept {
   if (rigid()) {
     torque_Nm_ = wanted_Nm;
     middle_velocity_rad_s_ = 0.5 * (wanted_.motor_velocity_rad_s + wanted_end.motor_velocity_rad_s);
@@ -188,7 +189,8 @@ MotorPlan MotorPlanner::plan() noexcept {
 }
 
 // The planned motion's end of the period that begins now is known, and with it the joint's.
-MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possible, double taken_Nm) noexcept {
+MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possible,
+                             double taken_Nm) noexcept {
   const double h = config_.period_s;
   const LinkModel& joint = config_.joint;
   const MotionPoint end{

@@ -203,30 +203,6 @@ TextTable oscillation_table(const std::string& title, const std::vector<Flexible
   return table;
 }
 
-TextTable lasting_oscillations(std::vector<FlexibleCell> cells, const Contender& contender,
-                               const std::vector<double>& durations_s) {
-  TextTable table;
-  table.title = contender.name + ": cells that still oscillate over the last quarter of a run";
-  table.header = {"run (s)"};
-  std::map<double, std::size_t> columns;
-  for (const FlexibleCell& cell : cells) columns.try_emplace(cell.link_inertia_kgm2, 0);
-  for (auto& [inertia, column] : columns) {
-    column = table.header.size();
-    table.header.push_back("link " + number(inertia, 3) + " kg.m2");
-  }
-  for (const double duration_s : durations_s) {
-    for (FlexibleCell& cell : cells) cell.duration_s = duration_s;
-    std::vector<char> found(cells.size());
-    run_in_parallel(cells.size(), [&](std::size_t i) { found[i] = oscillates(cells[i], contender) ? 1 : 0; });
-    std::vector<int> counts(table.header.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) counts[columns[cells[i].link_inertia_kgm2]] += found[i];
-    std::vector<std::string> fields = {number(duration_s, 3)};
-    for (std::size_t c = 1; c < counts.size(); ++c) fields.push_back(std::to_string(counts[c]));
-    table.rows.push_back(fields);
-  }
-  return table;
-}
-
 TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders) {
   struct Cost {
     std::vector<std::vector<double>> ratios;

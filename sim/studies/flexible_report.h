@@ -31,10 +31,6 @@ TextTable lost_cells(const std::vector<FlexibleRow>& rows, const std::vector<Con
 TextTable oscillation_table(const std::string& title, const std::vector<FlexibleRow>& rows,
                             const std::vector<Contender>& contenders);
 
-/// How many of `cells` of each link inertia still oscillate under `contender` at the end of runs of so many seconds.
-TextTable lasting_oscillations(std::vector<FlexibleCell> cells, const Contender& contender,
-                               const std::vector<double>& durations_s);
-
 /// Effects by what they cost the contender, most expensive first: geometric mean over the same cells without.
 TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
 

@@ -22,9 +22,6 @@ inline JointControllerConfig realistic_config() {
   config.torque_limit_Nm = kReferencePeakTorque_Nm;
   config.motor = plant.motor;
   config.motion = {100.0, 1e4, 1e4};
-  config.rigid = true;
-  config.use_observer = true;
-  config.use_landing = true;
   return config;
 }
 

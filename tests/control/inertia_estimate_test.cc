@@ -7,10 +7,29 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/control/watched_joint.h"
+#include "control/joint_controller.h"
+#include "tests/support/scaled_table.h"
+#include "tests/support/two_mass_joint.h"
 
 namespace strainwave::testing {
 namespace {
+
+/// The catalogue's table for another inertia.
+GainTable table_for(double inertia_kgm2) {
+  return scaled_table("c4.json", inertia_kgm2);
+}
+
+/// Of a joint that is configured with this inertia in all, on a spring as stiff as the joint's.
+JointControllerConfig config_for(double total_kgm2, double count_rad) {
+  JointControllerConfig config;
+  config.encoder_resolution_rad = count_rad;
+  config.delay_periods = 1;
+  config.torque_limit_Nm = 34.0;
+  config.motor = {34.0, 150.0, 18.3};
+  config.motion = {5.0, 60.0, 60.0};
+  config.link = {0.089, total_kgm2 - 0.089, TorsionSpring::linear(1e4), 1.0, {}};
+  return config;
+}
 
 struct Case {
   TwoMassData joint;
@@ -37,13 +56,12 @@ class Watched {
       : table_(table_for(what.told_kgm2)),
         what_(what),
         joint_(what.joint),
-        controller_(config_for(false, joint_.count_rad())),
+        controller_(config_for(what.told_kgm2, joint_.count_rad())),
         estimate_({0.001, joint_.count_rad(), 1}) {
     controller_.load(table_);
     controller_.start(joint_.reading_rad());
     model_.friction = table_.friction.blend(table_.friction.weights(what.temperature_C));
     model_.stribeck = {0.5 * table_.friction.velocity.zero_width_rad_s, 2.0};
-    model_.friction_scale_Nm = table_.friction.least_static_Nm();
   }
   void move(const std::vector<double>& targets) {
     for (const double target_rad : targets) {
@@ -72,7 +90,7 @@ class Watched {
   double torque_Nm_ = 0.0;
 };
 
-TEST(InertiaEstimate, FindsWhatHangsOnTheSpringWhateverItWasTold) {
+TEST(InertiaEstimate, FindsWhatHangsOnTheSpringWhateverIsConfigured) {
   for (const double link_kgm2 : {0.0, 0.03, 0.089, 0.267})
     for (const double temperature_C : {-5.0, 20.0, 40.0})
       for (const double factor : {0.7, 1.0, 1.3})
@@ -101,7 +119,7 @@ TEST(InertiaEstimate, IsTheSameForFasterAndSlowerLoops) {
     constexpr double kInertia_kgm2 = 0.2;
     InertiaEstimate estimate({period_s, 2e-5, 2});
     JointModel model;
-    model.friction_scale_Nm = 1.0;
+    model.friction.static_Nm = 1.0;
     double position_rad = 0.0;
     double velocity_rad_s = 0.5;
     std::array<double, 3> torques_Nm{};

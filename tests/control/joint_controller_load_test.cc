@@ -72,7 +72,7 @@ TEST(JointControllerLoad, IsNotTakenTwiceByWhatEstimatesTheLoad) {
     if (k % 10 == 0) loop.controller().follow(sine(k * 1e-3, {8.0, 0.0}), k == 0, 0.0, {});
     step = loop.step();
   }
-  EXPECT_NEAR(step.estimate.disturbance.load_Nm, 0.0, 2.0) << "what is told is not estimated";
+  EXPECT_NEAR(step.load_Nm, 0.0, 2.0) << "what the stream says is not learned";
   EXPECT_NEAR(step.ordered_reference.position_rad, loop.position_rad(), 1e-3);
 }
 

@@ -15,7 +15,7 @@ namespace {
 struct LateMove {
   double rest_rad = 0.0;
   double overshoot_rad = 0.0;
-  MonitorState monitor = MonitorState::kWatching;
+  bool oscillates = false;
 };
 LateMove move_late(int late_periods, bool told) {
   ControlledJoint loop;
@@ -27,7 +27,7 @@ LateMove move_late(int late_periods, bool told) {
   loop.controller().set_target(0.4);
   LateMove result;
   for (int k = 0; k < 2000; ++k) {
-    result.monitor = loop.step().monitor;
+    result.oscillates = loop.step().oscillates;
     const double beyond_rad = loop.position_rad() - 0.4;
     result.overshoot_rad = std::max(result.overshoot_rad, beyond_rad);
     if (k >= 1500) result.rest_rad = std::max(result.rest_rad, std::abs(beyond_rad));
@@ -41,29 +41,9 @@ TEST(JointControllerTiming, ALatePositionDoesLessHarmWhenItsLatenessIsKnown) {
     const LateMove untold = move_late(periods, false);
     EXPECT_LT(told.rest_rad, 1e-4) << periods;
     EXPECT_LT(told.overshoot_rad, 5e-4) << periods;
-    EXPECT_EQ(told.monitor, MonitorState::kWatching) << periods;
-    EXPECT_TRUE(untold.overshoot_rad > 5e-3 || untold.monitor != MonitorState::kWatching)
+    EXPECT_FALSE(told.oscillates) << periods;
+    EXPECT_TRUE(untold.overshoot_rad > 2.0 * told.overshoot_rad || untold.oscillates)
         << periods << ": it is the knowledge that helps";
-  }
-}
-
-TEST(JointControllerTiming, TakesSkippedPeriodsForWhatTheyAre) {
-  for (const int skipped : {1, 2, 5, 19}) {
-    ControlledJoint loop;
-    loop.controller().set_target(10.0, 2.0);
-    loop.run(1.0);
-    const JointStep before = loop.step();
-    ASSERT_NEAR(before.estimate.velocity_rad_s, 2.0, 0.01);
-    loop.skip(skipped);
-    for (int k = 0; k < 50; ++k) {
-      const double true_rad_s = loop.velocity_rad_s();
-      const JointStep after = loop.step();
-      EXPECT_NEAR(after.estimate.velocity_rad_s, true_rad_s, skipped > 5 ? 0.1 : 0.02) << skipped;
-      EXPECT_NEAR(after.output.torque_Nm, before.output.torque_Nm, skipped > 5 ? 5.0 : 1.0) << skipped;
-      EXPECT_NEAR(after.reference.position_rad - before.reference.position_rad,
-                  2.0 * 0.001 * (skipped + 1 + k), 1e-9);
-      EXPECT_EQ(after.replans, 0);
-    }
   }
 }
 
@@ -83,21 +63,18 @@ TEST(JointControllerTiming, ArrivesToTheCountAlthoughPeriodsWereSkippedOnTheWay)
   }
 }
 
-TEST(JointControllerTiming, GoesOnFromWhereTheJointIsAfterAStallThatNoModelKnows) {
-  for (const int skipped : {20, 80, 2000}) {
+TEST(JointControllerTiming, ComesToRestFromWhereTheJointIsAfterALongGap) {
+  for (const int skipped : {20, 80}) {
     ControlledJoint loop;
     loop.controller().set_target(10.0, 2.0);
     loop.run(1.0);
-    const JointStep before = loop.step();
-    const double from_rad = loop.position_rad();
     loop.skip(skipped);
-    const double mean_rad_s = (loop.position_rad() - from_rad) / (0.001 * skipped);
+    const double from_rad = loop.position_rad();
     const JointStep after = loop.step();
-    EXPECT_NEAR(after.estimate.velocity_rad_s, mean_rad_s, 0.1)
-        << "over all periods that passed: " << skipped;
-    EXPECT_NEAR(after.reference.position_rad, loop.position_rad(), 0.01) << skipped;
-    EXPECT_EQ(after.ordered_reference.position_rad, after.reference.position_rad) << skipped;
-    EXPECT_GT(after.reference.position_rad, before.reference.position_rad) << skipped;
+    EXPECT_NEAR(after.reference.position_rad, from_rad, 0.01) << skipped;
+    loop.run(2.0);
+    EXPECT_LT(loop.position_rad(), from_rad + 0.5) << skipped << ": it does not go on to its target";
+    EXPECT_EQ(loop.step().phase, MotionPhase::kResting) << skipped;
   }
 }
 

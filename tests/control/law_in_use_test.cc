@@ -62,44 +62,18 @@ TEST(LawInUse, ContinuesNoTorqueOnceAnotherWasApplied) {
   EXPECT_GT(std::abs(next_torque_Nm(law) - expected_Nm), 0.01);
 }
 
-TEST(LawInUse, KeepsAQuarterOfItsGainsAndAllOfItsIntegralsTorqueWhenItIsSoft) {
+TEST(LawInUse, BeginsAnewWithNothingButItsTable) {
   LawInUse law = running();
-  LawInUse soft = law;
-  soft.soften();
-  EXPECT_TRUE(soft.soft());
-  EXPECT_NEAR(soft.integral_torque_Nm(), law.integral_torque_Nm(), 1e-9);
-  EXPECT_NE(soft.integral_torque_Nm(), 0.0);
-  for (const bool smooth : {false, true})
-    EXPECT_EQ(soft.count_torque_Nm(smooth), 0.25 * law.count_torque_Nm(smooth));
-  law.forget_integral();
-  soft.forget_integral();
-  const double moving_rad_s = 2.0;
-  EXPECT_NEAR(soft.step(input_at(0.0, moving_rad_s)).feedback_torque_Nm,
-              0.25 * law.step(input_at(0.0, moving_rad_s)).feedback_torque_Nm, 1e-9);
-}
-
-TEST(LawInUse, StaysSoftWithAnyTableUntilItBeginsAnew) {
-  LawInUse law = running();
-  const double count_Nm = law.count_torque_Nm(false);
-  law.soften();
-  law.soften();
-  law.load(table("c4.json"));
-  EXPECT_TRUE(law.soft());
-  EXPECT_EQ(law.count_torque_Nm(false), 0.25 * count_Nm);
   law.begin_anew();
-  EXPECT_FALSE(law.soft());
-  EXPECT_EQ(law.count_torque_Nm(false), count_Nm);
   EXPECT_EQ(law.integral_torque_Nm(), 0.0);
   EXPECT_EQ(law.gains_in_use(), GainsInUse::kNone);
 }
 
-TEST(LawInUse, ACountMakesMoreWhereTheVelocityIsMadeOfReadings) {
-  const LawInUse law = running();
-  EXPECT_GT(law.count_torque_Nm(true), 0.0);
-  EXPECT_GT(law.count_torque_Nm(false), law.count_torque_Nm(true));
+TEST(LawInUse, ACountMakesNothingWherePositionsAreExact) {
+  EXPECT_GT(running().count_torque_Nm(), 0.0);
   LawInUse exact(kPeriod_s, 0.0);
   exact.load(table("c4.json"));
-  EXPECT_EQ(exact.count_torque_Nm(false), 0.0);
+  EXPECT_EQ(exact.count_torque_Nm(), 0.0);
 }
 
 GainTable with_lead(double lead_periods) {
@@ -108,9 +82,9 @@ GainTable with_lead(double lead_periods) {
   return led;
 }
 
-TEST(LawInUse, HasTheTablesLeadWhereTheJointIsToldOfItsSpring) {
-  const auto second_torque_Nm = [](const GainTable& table, bool told_of_spring) {
-    LawInUse law(kPeriod_s, kCount_rad, 1.0, told_of_spring);
+TEST(LawInUse, HasTheTablesLeadOnASpring) {
+  const auto second_torque_Nm = [](const GainTable& table, bool on_spring) {
+    LawInUse law(kPeriod_s, kCount_rad, 1.0, on_spring);
     law.load(table);
     law.choose_gains(20.0);
     law.step(input_at(1e-3, 0.0));
@@ -151,20 +125,9 @@ TEST(LawInUse, ATemperatureThatIsLostWhileTheLawChangesIsNotTakenForLoad) {
 TEST(LawInUse, ACountMakesMoreWithALead) {
   LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
   law.load(with_lead(0.0));
-  const double count_Nm = law.count_torque_Nm(false);
+  const double count_Nm = law.count_torque_Nm();
   law.load(with_lead(2.0));
-  EXPECT_NEAR(law.count_torque_Nm(false), 3.0 * count_Nm, 1e-12);
-}
-
-TEST(LawInUse, KnowsFrictionOfTheLastTemperatureThatWasKnown) {
-  LawInUse law = running(10.0);
-  const double cold_Nm = law.friction().coulomb_Nm;
-  law.choose_gains({});
-  EXPECT_EQ(law.friction().coulomb_Nm, cold_Nm);
-  law.load(table("c4.json"));
-  EXPECT_EQ(law.friction().coulomb_Nm, cold_Nm) << "a new table at the same temperature";
-  law.choose_gains(40.0);
-  EXPECT_LT(law.friction().coulomb_Nm, cold_Nm);
+  EXPECT_NEAR(law.count_torque_Nm(), 3.0 * count_Nm, 1e-12);
 }
 
 TEST(LawInUse, SaysWhetherItHasATable) {

@@ -1,5 +1,5 @@
 // The planned torque on a joint written here: two masses, a linear spring, no friction.
-#include "control/link_motion.h"
+#include "control/trajectory/motor_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ constexpr double kLimit_Nm = 34.0;
 constexpr double kBand_rad = 20e-6;
 constexpr double kTwoCounts_rad = 40e-6;
 
-LinkMotionConfig config_for(double link_kgm2, double stiffness_Nm_rad, int delay_periods = 0) {
-  LinkMotionConfig config;
+MotorPlannerConfig config_for(double link_kgm2, double stiffness_Nm_rad, int delay_periods = 0) {
+  MotorPlannerConfig config;
   config.period_s = kPeriod_s;
   config.joint = {0.089, link_kgm2, TorsionSpring::linear(stiffness_Nm_rad), 0.0, {}};
   config.torque_limit_Nm = kLimit_Nm;
@@ -25,7 +25,7 @@ LinkMotionConfig config_for(double link_kgm2, double stiffness_Nm_rad, int delay
   return config;
 }
 
-ReferenceShaper shaper_for(const LinkMotionConfig& config, double target_rad) {
+ReferenceShaper shaper_for(const MotorPlannerConfig& config, double target_rad) {
   ReferenceShaper shaper(kPeriod_s);
   const double most = (0.95 * kLimit_Nm - config.joint.gravity.torque_Nm) /
                       (config.joint.motor_inertia_kgm2 + config.joint.link_inertia_kgm2);
@@ -43,12 +43,12 @@ struct Outcome {
 };
 
 // Steps the plan under all of the torque.
-MotorPlan step(LinkMotion& motion, const Reference& planned) {
+MotorPlan step(MotorPlanner& motion, const Reference& planned) {
   return motion.step(planned, {-kLimit_Nm, kLimit_Nm}, 0.0);
 }
 
-Outcome run(const LinkMotionConfig& config, const LinkModel& joint, double target_rad) {
-  LinkMotion motion(config);
+Outcome run(const MotorPlannerConfig& config, const LinkModel& joint, double target_rad) {
+  MotorPlanner motion(config);
   ReferenceShaper shaper = shaper_for(config, target_rad);
   double motor = 0.0, motor_speed = 0.0, link = 0.0, link_speed = 0.0;
   Outcome outcome;
@@ -75,35 +75,35 @@ Outcome run(const LinkMotionConfig& config, const LinkModel& joint, double targe
   return outcome;
 }
 
-TEST(LinkMotion, AJointAsItWasToldFollowsWithinACountAndDoesNotSwing) {
+TEST(MotorPlanner, AJointAsItWasToldFollowsWithinACountAndDoesNotSwing) {
   for (const double link : {0.03, 0.089, 0.267})
     for (const double stiffness : {8100.0, 13000.0})
       for (const double target : {0.01, 0.1, -1.0}) {
-        const LinkMotionConfig config = config_for(link, stiffness);
+        const MotorPlannerConfig config = config_for(link, stiffness);
         const Outcome outcome = run(config, config.joint, target);
         EXPECT_LE(outcome.residual_rad, kTwoCounts_rad) << link << " " << stiffness << " " << target;
         EXPECT_LE(outcome.motor_error_rad, kBand_rad) << link << " " << stiffness << " " << target;
       }
 }
 
-TEST(LinkMotion, SwingsLessThanTheSameTorqueWithoutIt) {
+TEST(MotorPlanner, SwingsLessThanTheSameTorqueWithoutIt) {
   // Nothing but the shaper's acceleration: what is left then is of the wind-up's own size.
-  const LinkMotionConfig config = config_for(0.089, 10000.0);
-  LinkMotionConfig stiff = config;
+  const MotorPlannerConfig config = config_for(0.089, 10000.0);
+  MotorPlannerConfig stiff = config;
   stiff.joint.spring = TorsionSpring::linear(1e7);
   EXPECT_GE(run(stiff, config.joint, 0.1).residual_rad, 10.0 * run(config, config.joint, 0.1).residual_rad);
 }
 
-TEST(LinkMotion, AsksForHardlyMoreTorqueThanTheRigidMotion) {
+TEST(MotorPlanner, AsksForHardlyMoreTorqueThanTheRigidMotion) {
   for (const double link : {0.03, 0.089, 0.267}) {
-    const LinkMotionConfig config = config_for(link, 10000.0);
+    const MotorPlannerConfig config = config_for(link, 10000.0);
     EXPECT_LE(run(config, config.joint, 1.0).peak_Nm, 1.25 * kLimit_Nm) << link;
     EXPECT_GE(run(config, config.joint, 1.0).peak_Nm, 0.9 * kLimit_Nm) << link;
   }
 }
 
-TEST(LinkMotion, BearsAStiffnessAndALoadThatAreNotWhatItWasTold) {
-  const LinkMotionConfig config = config_for(0.089, 10000.0);
+TEST(MotorPlanner, BearsAStiffnessAndALoadThatAreNotWhatItWasTold) {
+  const MotorPlannerConfig config = config_for(0.089, 10000.0);
   for (const double share : {0.75, 1.25}) {
     const Outcome outcome = run(config, config_for(0.089, share * 10000.0).joint, 0.1);
     EXPECT_LE(outcome.residual_rad, 0.6 * outcome.wind_up_rad) << share;
@@ -112,12 +112,12 @@ TEST(LinkMotion, BearsAStiffnessAndALoadThatAreNotWhatItWasTold) {
 
 // The damper's torque takes part in the wind-up: without its change the link would lag behind its motion, and pass its end.
 // As far as a configuration may tell it.
-TEST(LinkMotion, ALinkOnADampedSpringKeepsToItsMotion) {
+TEST(MotorPlanner, ALinkOnADampedSpringKeepsToItsMotion) {
   for (const double link : {0.089, 0.267})
     for (const double ratio : {0.1, 0.5}) {
-      LinkMotionConfig config = config_for(link, 10000.0);
+      MotorPlannerConfig config = config_for(link, 10000.0);
       config.joint.damping_Nms_rad = structural_damping_Nms_rad(0.089, link, 10000.0, ratio);
-      LinkMotion motion(config);
+      MotorPlanner motion(config);
       ReferenceShaper shaper = shaper_for(config, 1e-3);
       double farthest_rad = 0.0;
       int periods = 0;
@@ -129,9 +129,9 @@ TEST(LinkMotion, ALinkOnADampedSpringKeepsToItsMotion) {
     }
 }
 
-TEST(LinkMotion, TellsWhereTheMotorIsReadNowAndTheTorqueThatActsLater) {
-  LinkMotion now(config_for(0.089, 10000.0, 0));
-  LinkMotion late(config_for(0.089, 10000.0, 2));
+TEST(MotorPlanner, TellsWhereTheMotorIsReadNowAndTheTorqueThatActsLater) {
+  MotorPlanner now(config_for(0.089, 10000.0, 0));
+  MotorPlanner late(config_for(0.089, 10000.0, 2));
   ReferenceShaper shaper = shaper_for(config_for(0.089, 10000.0), 0.1);
   std::array<double, 3> positions_rad{};
   for (int k = 0; k < 200; ++k) {
@@ -145,9 +145,9 @@ TEST(LinkMotion, TellsWhereTheMotorIsReadNowAndTheTorqueThatActsLater) {
   }
 }
 
-TEST(LinkMotion, MovesAtOnceAndRestsExactlyOnTheTarget) {
-  const LinkMotionConfig config = config_for(0.089, 10000.0, 1);
-  LinkMotion motion(config);
+TEST(MotorPlanner, MovesAtOnceAndRestsExactlyOnTheTarget) {
+  const MotorPlannerConfig config = config_for(0.089, 10000.0, 1);
+  MotorPlanner motion(config);
   EXPECT_FALSE(motion.moves());
   ReferenceShaper shaper = shaper_for(config, 0.1);
   EXPECT_NE(step(motion, shaper.step()).torque_Nm, 0.0);
@@ -160,11 +160,11 @@ TEST(LinkMotion, MovesAtOnceAndRestsExactlyOnTheTarget) {
   EXPECT_EQ(plan.torque_Nm, 0.0);
 }
 
-TEST(LinkMotion, FollowsASpringOfThreeSlopesAndAWeightAsWell) {
-  LinkMotionConfig config = config_for(0.1, 1.0);
+TEST(MotorPlanner, FollowsASpringOfThreeSlopesAndAWeightAsWell) {
+  MotorPlannerConfig config = config_for(0.1, 1.0);
   config.joint.spring = find_gear("csf-17-50")->spring;
   config.joint.gravity = {10.0, -0.5};
-  LinkMotion motion(config);
+  MotorPlanner motion(config);
   const double standing_rad = motion.motor_rest_rad(0.0);
   EXPECT_NEAR(motion.reset(standing_rad), 0.0, 1e-9) << "the link is where the motor and the weight say";
   ReferenceShaper shaper = shaper_for(config, 0.1);
@@ -182,12 +182,12 @@ TEST(LinkMotion, FollowsASpringOfThreeSlopesAndAWeightAsWell) {
   EXPECT_NEAR(joint.motor_position_rad, motion.motor_rest_rad(0.1), kBand_rad);
 }
 
-TEST(LinkMotion, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
+TEST(MotorPlanner, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
   for (const double link : {0.03, 0.1, 0.267}) {
-    LinkMotionConfig config = config_for(link, 1.0);
+    MotorPlannerConfig config = config_for(link, 1.0);
     config.joint.spring = find_gear("csf-17-50")->spring;
     config.joint.gravity = {10.0, -0.5};
-    LinkMotion motion(config);
+    MotorPlanner motion(config);
     ReferenceShaper shaper = shaper_for(config_for(link, 1.0), 0.1);  // as if it weighed nothing
     int periods = 0;
     double farthest_rad = 0.0;
@@ -201,15 +201,15 @@ TEST(LinkMotion, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
 
 // A stream that is joined at speed, or whose samples jump: what the torque cannot do saturates the regulator, which must not swing the
 // model up for ever between the torque's limits.
-TEST(LinkMotion, ComesBackToAMotionThatJumpedAway) {
+TEST(MotorPlanner, ComesBackToAMotionThatJumpedAway) {
   for (const double link : {0.03, 0.089, 0.267})
     for (const double damping : {0.0, 0.01, 0.1})
       for (const double jump_rad : {0.0, 3e-3, 2e-2})
         for (const double speed_rad_s : {0.5, 1.57, 4.0}) {
-          LinkMotionConfig config = config_for(link, 1.0);
+          MotorPlannerConfig config = config_for(link, 1.0);
           config.joint.spring = find_gear("csf-17-50")->spring;
           config.joint.damping_Nms_rad = structural_damping_Nms_rad(0.089, link, 10000.0, damping);
-          LinkMotion motion(config);
+          MotorPlanner motion(config);
           double planned_rad = jump_rad;
           double off_rad = 0.0;
           int reversals = 0;
@@ -228,9 +228,9 @@ TEST(LinkMotion, ComesBackToAMotionThatJumpedAway) {
         }
 }
 
-TEST(LinkMotion, AsksForNoMoreThanThereIs) {
-  const LinkMotionConfig config = config_for(0.089, 10000.0);
-  LinkMotion motion(config);
+TEST(MotorPlanner, AsksForNoMoreThanThereIs) {
+  const MotorPlannerConfig config = config_for(0.089, 10000.0);
+  MotorPlanner motion(config);
   ReferenceShaper shaper = shaper_for(config, 1e-3);  // short: the motion itself would take more
   double taken_Nm = 5.0;
   for (int k = 0; k < 200; ++k) {
@@ -241,8 +241,8 @@ TEST(LinkMotion, AsksForNoMoreThanThereIs) {
   }
 }
 
-TEST(LinkMotion, GoesOnFromAJointThatMoves) {
-  LinkMotion motion(config_for(0.089, 10000.0, 1));
+TEST(MotorPlanner, GoesOnFromAJointThatMoves) {
+  MotorPlanner motion(config_for(0.089, 10000.0, 1));
   double planned_rad = motion.reset(0.5, 2.0);
   double last_rad = 0.5 - 2.0 * 2.0 * kPeriod_s;
   for (int k = 0; k < 50; ++k) {
@@ -256,9 +256,9 @@ TEST(LinkMotion, GoesOnFromAJointThatMoves) {
   }
 }
 
-TEST(LinkMotion, IsNotForASpringThatIsSofterThanItsMemory) {
-  EXPECT_TRUE(LinkMotion::possible(config_for(1.0, 1000.0)));
-  EXPECT_FALSE(LinkMotion::possible(config_for(1.0, 10.0)));
+TEST(MotorPlanner, IsNotForASpringThatIsSofterThanItsMemory) {
+  EXPECT_TRUE(MotorPlanner::possible(config_for(1.0, 1000.0)));
+  EXPECT_FALSE(MotorPlanner::possible(config_for(1.0, 10.0)));
 }
 
 TEST(SmoothWindUp, IsTheGearsFarOutAndSofterNearZero) {

@@ -11,7 +11,7 @@
 
 #include "control/link_velocity.h"
 #include "control/scheduled_controller.h"
-#include "control/state_estimator.h"
+#include "control/joint_measurement.h"
 #include "control/ts_plant.h"
 
 namespace strainwave {
@@ -148,8 +148,8 @@ TEST(SpringPlant, BetweenItsEndsTheExponentialIsWithinTheInterpolationsError) {
   EXPECT_GT(nearest, 0.5);  // and it is no wider than it must be
 }
 
-// The certificate's matrix is the loop that the daemon runs: its estimator and its law on the sampled joint.
-TEST(SpringPlant, TheLoopIsWhatEstimatorAndLawDo) {
+// The certificate's matrix is the loop that the daemon runs: its reading and its law on the sampled joint.
+TEST(SpringPlant, TheLoopIsWhatReadingAndLawDo) {
   FeedbackGains gains;
   gains.has_integrator = 1;
   gains.rule_count = 1;
@@ -166,16 +166,12 @@ TEST(SpringPlant, TheLoopIsWhatEstimatorAndLawDo) {
                                    {EncoderSide::kLink, 0.5}}) {
     for (const int delay : {0, 1, 2, 3}) {
       SCOPED_TRACE("delay " + std::to_string(delay) + ", lead " + std::to_string(lead));
-      StateEstimatorConfig config;
-      config.observer.period_s = kPeriod_s;
-      config.delay_periods = delay;
-      config.velocity_share = velocity_share(side, kPeriod_s);
-      StateEstimator estimator(config);
+      JointReading reading(kPeriod_s, velocity_share(side, kPeriod_s), 1e-6);
       ScheduledController law(gains, friction, plant, lead);
       const double setpoint_rad = 0.3;
       Eigen::Vector4d state(0.31, 0.0, 0.001, 0.0);
       const auto reading_rad = [&] { return state(0) + (side == EncoderSide::kLink ? state(2) : 0.0); };
-      estimator.reset(reading_rad(), 0.0, 0.0, 1.0);
+      reading.reset(reading_rad(), 0.0);
       Eigen::VectorXd x = Eigen::VectorXd::Zero(spring_loop_states(delay, lead));
       x(1) = state(0) - setpoint_rad;
       x(3) = state(2);
@@ -187,10 +183,10 @@ TEST(SpringPlant, TheLoopIsWhatEstimatorAndLawDo) {
       std::deque<double> under_way(static_cast<std::size_t>(delay), 0.0);
       double largest = 0.0;
       for (int k = 0; k < 400; ++k) {
-        estimator.step({.joint_position_rad = reading_rad()}, {}, EstimateSource::kReadings);
+        reading.step({.joint_position_rad = reading_rad()}, setpoint_rad, setpoint_rad);
         ControllerInput input;
-        input.joint_position_rad = estimator.then().position_rad;
-        input.joint_velocity_rad_s = estimator.then().velocity_rad_s;
+        input.joint_position_rad = reading.position_rad();
+        input.joint_velocity_rad_s = reading.velocity_rad_s();
         input.setpoint_position_rad = setpoint_rad;
         input.planned = true;
         input.torque_limit_Nm = 1e15;

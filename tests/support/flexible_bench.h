@@ -7,27 +7,24 @@
 
 namespace strainwave::testing {
 
-/// Puts `joint` on the link and the spring of `plant`, of which its controller is told or not.
-inline void put_on_spring(BenchJoint& joint, const JointPlantConfig& plant, bool told = true) {
+/// Puts `joint` on the link and the spring of `plant`.
+inline void put_on_spring(BenchJoint& joint, const JointPlantConfig& plant) {
   joint.drive.plant = plant;
   JointControllerConfig& controller = joint.loop.controller;
-  controller.rigid = controller.use_observer = controller.use_landing = false;
   const Transmission& gear = *plant.effects.transmission;
-  if (told)
-    controller.link = {
-        plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  controller.link = {
+      plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
 }
 
-/// A link as heavy as the motor on the gear's spring, and what it carries besides, which nobody tells.
-inline BenchJoint flexible_joint(bool told = true, double load_kgm2 = 0.0) {
+/// A link as heavy as the motor on the gear's spring, and a load besides that is not configured.
+inline BenchJoint flexible_joint(double load_kgm2 = 0.0) {
   BenchJoint joint = demo_joint();
-  put_on_spring(joint, flexible_plant(), told);
+  put_on_spring(joint, flexible_plant());
   joint.drive.plant.effects.transmission->link_inertia_kgm2 += load_kgm2;
   return joint;
 }
 
 /// Of the reference joint with a link of the motor's inertia.
-
 inline const GainTable& flexible_table() {
   static const GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json");
   return table;

@@ -99,8 +99,6 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
     const double link_kgm2 = table.plant.inertia_kgm2 - 0.089;
     const double damping_Nms_rad = 1.0;
     const JointPlantConfig plant = plant_from_toml(plant_with_a_link(link_kgm2, damping_Nms_rad), "plant");
-    ExtendedFeatures features = daemon_defaults();
-    features.link = true;
     const std::string model =
         "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = " +
         std::to_string(link_kgm2) + "\ndamping_Nms_rad = " + std::to_string(damping_Nms_rad) + "\n";
@@ -112,7 +110,7 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
       config.duration_s = kSamples * plant.period_s;
       Figures study;
       for (const TracePoint& point :
-           run_closed_loop(config, *extended_contender("daemon", table, features).make(plant)).trace)
+           run_closed_loop(config, *extended_contender("daemon", table).make(plant)).trace)
         study.add(point.link_position_rad, point.wanted_torque_Nm, step_rad);
 
       enable(configured(model,

@@ -34,7 +34,6 @@ TEST_F(ModelConfigTest, OfAFlexibleJointIsTheGearsSpringBetweenMotorAndLoad) {
   EXPECT_EQ(controller.link->link_inertia_kgm2, 0.1);
   EXPECT_EQ(controller.link->motor_inertia_kgm2, 0.089);
   EXPECT_EQ(controller.link->spring.stiffness_1_Nm_rad, 8100.0);
-  EXPECT_FALSE(controller.rigid || controller.use_observer || controller.use_landing);
   EXPECT_EQ(joint.plant.gear.view(), "csf-17-50") << "what tables are compared with";
   EXPECT_DOUBLE_EQ(joint.plant.inertia_kgm2, 0.189) << "of both together";
 }
@@ -43,7 +42,6 @@ TEST_F(ModelConfigTest, OfARigidJointIsOneInertiaWithoutALink) {
   const JointConfig& joint = joint_of(rigid());
   const JointControllerConfig& controller = joint.loop.controller;
   EXPECT_FALSE(controller.link.has_value());
-  EXPECT_TRUE(controller.rigid && controller.use_observer && controller.use_landing);
   EXPECT_EQ(joint.plant.inertia_kgm2, 0.089);
   EXPECT_EQ(joint.plant.gear.view(), "");
 }

@@ -12,9 +12,6 @@ namespace {
 /// With so many times the inertia that its table is for.
 BenchJoint joint_of(double times) {
   BenchJoint joint = demo_joint();
-  joint.loop.controller.rigid = false;
-  joint.loop.controller.use_observer = false;
-  joint.loop.controller.use_landing = false;
   joint.drive.plant.joint.inertia_kgm2 *= times;
   return joint;
 }

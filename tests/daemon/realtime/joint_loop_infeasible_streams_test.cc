@@ -159,7 +159,7 @@ Outcome ride(const Joint& kind, const Shape& shape, int every, bool with_velocit
     const state_v1& state = bench.state(0);
     outcome.fault = bench.fault(0);
     outcome.faulted_at = k;
-    outcome.plain_law = outcome.plain_law || bench.has_notice(0, Notice::kPlainLaw);
+    outcome.plain_law = outcome.plain_law || bench.fault(0) == Fault::kChatter;
     outcome.off_stream = outcome.off_stream || bench.has_notice(0, Notice::kOffStream);
     outcome.fastest_rad_s = std::max(outcome.fastest_rad_s, std::abs(state.setpoint_velocity_rad_s));
     outcome.farthest_rad = std::max(outcome.farthest_rad, std::abs(state.setpoint_position_rad));

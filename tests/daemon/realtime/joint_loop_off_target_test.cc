@@ -14,9 +14,6 @@ constexpr double kTolerance_rad = 1e-3;
 
 BenchJoint plain_joint() {
   BenchJoint joint = demo_joint();
-  joint.loop.controller.rigid = false;
-  joint.loop.controller.use_observer = false;
-  joint.loop.controller.use_landing = false;
   joint.loop.rest_tolerance_rad = kTolerance_rad;
   return joint;
 }

@@ -33,14 +33,14 @@ const GainTable& table_of(const FlexibleCell& cell) {
 Figures by_the_study(const FlexibleCell& cell) {
   Figures figures;
   for (const TracePoint& point :
-       run_cell(cell, extended_contender("daemon", table_of(cell), daemon_defaults())).trace)
+       run_cell(cell, extended_contender("daemon", table_of(cell))).trace)
     figures.add(point.link_position_rad, point.wanted_torque_Nm, cell.step_rad);
   return figures;
 }
 
 Figures by_the_loop(const FlexibleCell& cell) {
   BenchJoint joint = demo_joint();
-  put_on_spring(joint, cell.plant, false);
+  put_on_spring(joint, cell.plant);
   joint.drive.ambient = TemperatureProfile::constant(cell.temperature_C);
   joint.drive.temperature_noise_C = 0.0;
   joint.loop.controller.motion = kNoMotionLimits;

@@ -43,7 +43,6 @@ struct Stream {
   double reordered = 0.0;
   bool gaps = false;         ///< 30 ms twice a second
   double jerk_rad_s3 = 0.0;  ///< limit of the joint; 0: none
-  bool told = true;          ///< of the spring that it has
   double load_kgm2 = 0.0;    ///< that it carries besides, and the stream tells of
   int held_up = 0;           ///< once a second so many periods without any, and then all at once
 };
@@ -107,7 +106,7 @@ class LossyNetwork {
 };
 
 Ride ride(const Stream& stream) {
-  BenchJoint joint = stream.flexible ? flexible_joint(stream.told, stream.load_kgm2) : demo_joint();
+  BenchJoint joint = stream.flexible ? flexible_joint(stream.load_kgm2) : demo_joint();
   if (stream.jerk_rad_s3 > 0.0) {
     joint.loop.controller.jerk_limit_rad_s3 = stream.jerk_rad_s3;
     joint.loop.controller.motion.acceleration_rad_s2 = 20.0;
@@ -149,7 +148,6 @@ Ride ride(const Stream& stream) {
   result.rms_error_rad = std::sqrt(result.rms_error_rad / (kEnd - kBegin));
   EXPECT_EQ(bench.mode(0), Mode::kTracking);
   EXPECT_EQ(bench.fault(0), Fault::kNone);
-  EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
   return result;
 }
 
@@ -193,15 +191,6 @@ INSTANTIATE_TEST_SUITE_P(
              (stream.ahead > 0 ? "Ahead" + std::to_string(stream.ahead) : "") +
              (std::get<bool>(instance.param) ? "OnASpring" : "");
     });
-
-// Its law follows the reading of now: ahead of it by the drive's delay it would be a period early.
-TEST(JointLoopStreaming, AreOnTimeOnASpringThatNobodyTellsOf) {
-  for (const int ahead : {0, 30}) {
-    const Ride streamed = ride({.derivatives = 1, .ahead = ahead, .flexible = true, .told = false});
-    EXPECT_LT(streamed.rms_error_rad, 2e-4) << ahead;
-    EXPECT_LT(streamed.rms_torque_Nm, 1.2 * smooth_sine(true).rms_torque_Nm) << ahead;
-  }
-}
 
 // What the motor's own motion takes, regulated as it is, fed forward times the load's inertia a period later would drive it on.
 TEST(JointLoopStreaming, CarryALoadThatTheyTellOfOnASpring) {

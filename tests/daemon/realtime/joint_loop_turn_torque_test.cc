@@ -92,7 +92,6 @@ TurnTorques torques_of(const TurnStream& stream) {
                                         kTurnPeriod_s * (k + kActsAfter - stream.lag())));
   }
   EXPECT_EQ(bench.fault(0), Fault::kNone);
-  EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
   return torques;
 }
 

@@ -50,7 +50,6 @@ class UnevenJoint {
     JointLoopConfig config = demo_joint().loop;
     config.controller.delay_periods = 1 + uneven.torque_lag + uneven.position_lag;
     config.controller.encoder_resolution_rad = 2.0 * std::numbers::pi / data.counts_per_revolution;
-    config.controller.sampling_deviation_s = 3e-5;
     config.controller.motor = {1e9, 150.0, 19.1};
     config.missed_readings_limit = 1000;
     loop_ = std::make_unique<JointLoop>(0, config, std::move(drive), *replies_, *events_);
@@ -94,7 +93,7 @@ class UnevenJoint {
       step(stall_periods_ > 0 && k == stall_at ? stall_periods_ : 0);
       moves.overshoot_rad = std::max(moves.overshoot_rad, side * (position_rad() - target_rad));
       fell_back =
-          fell_back || (loop_->record().state.notices & static_cast<std::int32_t>(Notice::kPlainLaw)) != 0;
+          fell_back || loop_->record().state.fault == static_cast<std::int32_t>(Fault::kChatter);
     }
     moves.fallbacks += fell_back ? 1 : 0;
     moves.faults += loop_->mode() == Mode::kFaulted ? 1 : 0;
@@ -197,7 +196,6 @@ double off_after_a_stall_rad(int delay_periods, int landing_for, double target_r
     bench.step();
     off_rad = std::max(off_rad, std::abs(bench.state(0).joint_position_rad - target_rad));
   }
-  EXPECT_FALSE(bench.has_notice(0, Notice::kPlainLaw));
   return off_rad;
 }
 

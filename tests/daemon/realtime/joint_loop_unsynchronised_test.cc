@@ -74,7 +74,6 @@ class Unsynchronised : public ::testing::TestWithParam<std::int64_t> {
     auto drive = std::make_unique<FreeRunningDrive>(GetParam(), 7);
     drive_ = drive.get();
     JointLoopConfig config = demo_joint().loop;
-    config.controller.use_observer = config.controller.use_landing = false;
     loop_ = std::make_unique<JointLoop>(0, config, std::move(drive), replies_, events_);
     loop_->table_slot(0) = {demo_table(), 1};
     for (int k = 0; k < 50; ++k) step();

@@ -36,7 +36,7 @@ BenchJoint with_usual_load(BenchJoint joint, double inertia_kgm2) {
 /// Flexible, as `plant` is.
 BenchJoint on_a_spring(const JointPlantConfig& plant) {
   BenchJoint joint = demo_joint();
-  put_on_spring(joint, plant, true);
+  put_on_spring(joint, plant);
   return joint;
 }
 

@@ -138,14 +138,6 @@ TEST_F(MotionWatchTest, TakesTheTorqueThatASwitchRefusesForNoPush) {
   EXPECT_EQ(periods_until(Fault::kNone, 5000, [] {}), 0);
 }
 
-TEST_F(MotionWatchTest, CountsNewPlansByTheSecondWhateverBeginsMeanwhile) {
-  EXPECT_NEAR(periods_until(Fault::kBlocked, 5000, [&] { ++motion_.replans; }), 51, 1);
-  watch_.begin(position_rad_, now_ns_);
-  motion_.replans = 0;
-  int period = 0;
-  EXPECT_EQ(periods_until(Fault::kNone, 20000, [&] { motion_.replans = ++period / 25; }), 0) << "40 a second";
-}
-
 TEST_F(MotionWatchTest, BoundsTheLoadOverTime) {
   motion_.load_Nm = 19.9;
   EXPECT_EQ(periods_until(Fault::kNone, 5000, [] {}), 0);
