@@ -39,7 +39,7 @@ MotorPlannerConfig planner_config(const JointControllerConfig& config) noexcept 
 
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
-      trajectory_(config.period_s, config.stream_bridge_s),
+      trajectory_(config.period_s, config.stream_bridge_s, count_of(config)),
       planner_(planner_config(config)),
       law_(config.period_s, config.encoder_resolution_rad, share_of_velocity(config),
            config.link.has_value()),
@@ -105,8 +105,18 @@ void JointController::follow(const StreamSample& sample, bool begins, double spe
                              const PositionRange& range, OnTime on_time) noexcept {
   begin_order(speed_limit_rad_s);
   const double lead_periods = on_time == OnTime::kJoint ? lead_s() / config_.period_s : 0.0;
-  trajectory_.follow(sample, begins, lead_periods, motion_, range);
+  StreamSample taken = sample;
+  taken.computed_here = on_time == OnTime::kPlan;
+  trajectory_.follow(taken, begins, lead_periods, motion_, range);
   if (begins) pace_ = 1.0;
+}
+
+// What a stream had named of the load is what the joint carries from now on, as far as is known.
+void JointController::keep_load() noexcept {
+  if (trajectory_.streamed() || trajectory_.load().torque_Nm == 0.0) return;
+  const double load_Nm = trajectory_.take_load_Nm();
+  friction_.set_load(friction_.load_Nm() + load_Nm);
+  hold_torque_Nm_ += load_Nm;
 }
 
 double JointController::lead_s() const noexcept {

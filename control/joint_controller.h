@@ -114,6 +114,7 @@ class JointController {
   void choose_gains(const JointMeasurement& measurement) noexcept;
   void hold_from(const JointMeasurement& measurement) noexcept;
   void advance_plan(int elapsed_periods) noexcept;
+  void keep_load() noexcept;
   void read(const JointMeasurement& measurement) noexcept;
   void choose_phase() noexcept;
   ControllerOutput compute_torque(int elapsed_periods) noexcept;

@@ -63,6 +63,7 @@ void JointController::advance_plan(int elapsed_periods) noexcept {
   for (int period = 0; period < elapsed_periods; ++period) {
     const double last_target_rad = trajectory_.present_target_rad();
     const Reference planned = trajectory_.step(present_limits());
+    keep_load();
     if (trajectory_.streamed() && trajectory_.present_target_rad() != last_target_rad) corrections_.reset();
     speeds_up_ = planned.velocity_rad_s * planned.acceleration_rad_s2 > 0.0;
     const ToldLoad& load = trajectory_.load();
@@ -185,17 +186,22 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
     pace_ = std::max(kLeastPace, pace_ * (1.0 - elapsed_periods * config_.period_s / kPace_s));
   const double least_Nm = std::max(kSwingShare * torque_limit_Nm_, kSwingCounts * law_.count_torque_Nm());
   const double needed_Nm = std::clamp(output.feedforward_torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
-  oscillation_.step(output.torque_Nm - needed_Nm, least_Nm, elapsed_periods);
+  oscillation_.step(output.torque_Nm - needed_Nm, needed_Nm, least_Nm, elapsed_periods);
   return output;
 }
 
 // From an order's own motion, at a torque that is not limited and a reading that is fresh.
 bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
-  const double velocity_rad_s = plan_.acting_velocities_rad_s[1];
-  if (phase_ != MotionPhase::kTracking || !planner_.moves() || velocity_rad_s == 0.0 || output.saturated ||
-      corrections_.begun() || !measurement.has_position || measurement.elapsed_periods > 1)
+  if (phase_ != MotionPhase::kTracking || output.saturated || !measurement.has_position ||
+      measurement.elapsed_periods > 1)
     return false;
-  friction_.learn(output.feedback_torque_Nm, velocity_rad_s, config_.period_s);
+  const double velocity_rad_s = plan_.acting_velocities_rad_s[1];
+  if (!planner_.moves())
+    friction_.learn_load(output.feedback_torque_Nm, config_.period_s);
+  else if (velocity_rad_s != 0.0 && !corrections_.begun())
+    friction_.learn(output.feedback_torque_Nm, velocity_rad_s, config_.period_s);
+  else
+    return false;
   return !friction_.frozen();
 }
 

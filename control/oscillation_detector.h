@@ -1,6 +1,6 @@
 // Tells a joint that oscillates by its torque: reversals of the feedback that no plan orders. Real-time safe.
 //
-//   reversal     feedback beyond +limit after one beyond -limit, or the other way round
+//   reversal     feedback beyond +limit after one beyond -limit, or the other way round, while the plan's torque kept its sign
 //   level'       -level / 1 s + 1 at each reversal
 //   oscillates   level >= 30: for instance 100 reversals per second for 0.36 s, until reset()
 //
@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 namespace strainwave {
 
@@ -18,11 +19,13 @@ class OscillationDetector {
   explicit OscillationDetector(double period_s) noexcept : period_s_(period_s) {}
 
   void reset() noexcept { *this = OscillationDetector(period_s_); }
-  /// `feedback_Nm`: applied torque less the plan's; `limit_Nm` > 0: smaller swings are noise.
-  void step(double feedback_Nm, double limit_Nm, int elapsed_periods) noexcept {
+  /// `feedback_Nm`: applied torque less `planned_Nm`; `limit_Nm` > 0: smaller swings are noise.
+  void step(double feedback_Nm, double planned_Nm, double limit_Nm, int elapsed_periods) noexcept {
     const double kept = std::exp(-elapsed_periods * period_s_ / kMemory_s);
     level_ *= kept;
     swing_Nm_ *= kept;
+    const int way = std::abs(planned_Nm) <= limit_Nm ? 0 : planned_Nm > 0.0 ? 1 : -1;
+    if (way != 0 && way != std::exchange(planned_way_, way)) side_ = 0;
     if (std::abs(feedback_Nm) <= limit_Nm) return;
     swing_Nm_ = std::fmax(swing_Nm_, std::abs(feedback_Nm));
     const int side = feedback_Nm > 0.0 ? 1 : -1;
@@ -44,6 +47,7 @@ class OscillationDetector {
   double level_ = 0.0;
   double swing_Nm_ = 0.0;
   int side_ = 0;
+  int planned_way_ = 0;
   bool oscillates_ = false;
 };
 

@@ -26,7 +26,8 @@ class RestCorrections {
 
   /// A period of rest, short of its place by `off_rad`, the reading the same for `still_periods`. True: a correction begins.
   bool begins(double off_rad, int still_periods) noexcept {
-    off_periods_ = std::abs(off_rad) > kOffCounts * count_rad_ ? off_periods_ + 1 : 0;
+    const double off_counts = std::abs(off_rad) / count_rad_;
+    off_periods_ = off_counts > kOffCounts && off_counts < kPushedCounts ? off_periods_ + 1 : 0;
     if (off_periods_ < off_limit_ || still_periods < kStillPeriods || corrections_ >= kMost) return false;
     if (begun()) learn(std::clamp(off_rad / from_off_rad_, -1.0, 1.0));
     from_off_rad_ = off_rad;
@@ -40,6 +41,8 @@ class RestCorrections {
   static constexpr int kMost = 6;
   /// One count is what the reading cannot tell.
   static constexpr double kOffCounts = 1.2;
+  /// A motor that friction holds this far off does not exist: it is pushed, and the law and the learned load bring it back.
+  static constexpr double kPushedCounts = 250.0;
   /// Longer than a count flickers, and than the link swings once behind a motor that stands (20 to 80 Hz).
   static constexpr double kOff_s = 0.02;
   /// At one count in so many periods a motor stops in less than a count.

@@ -55,6 +55,10 @@ double FrictionLearning::rule_friction_Nm(std::size_t rule, double stribeck,
   return f.coulomb_Nm + stribeck * (f.static_Nm - f.coulomb_Nm) + f.viscous_Nms_rad * speed_rad_s;
 }
 
+void FrictionLearning::learn_load(double feedback_Nm, double elapsed_s) noexcept {
+  if (!frozen_) learned_.load_Nm += elapsed_s * kLoadRate_1_s * feedback_Nm;
+}
+
 void FrictionLearning::learn(double feedback_Nm, double motor_velocity_rad_s, double elapsed_s) noexcept {
   if (frozen_) return;
   const double speed_rad_s = std::abs(motor_velocity_rad_s);

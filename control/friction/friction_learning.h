@@ -32,6 +32,9 @@ class FrictionLearning {
   /// A period of motion in which `feedback_Nm` was added at the planned `motor_velocity_rad_s` != 0.
   void learn(double feedback_Nm, double motor_velocity_rad_s, double elapsed_s) noexcept;
 
+  /// A period in which a joint at rest is held off its place by `feedback_Nm`.
+  void learn_load(double feedback_Nm, double elapsed_s) noexcept;
+
   const LearnedFriction& learned() const noexcept { return learned_; }
   /// Values outside of the bounds are brought to them.
   void set(const LearnedFriction& learned) noexcept;

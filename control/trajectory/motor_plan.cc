@@ -97,6 +97,8 @@ double MotorPlanner::reset(double motor_position_rad, double velocity_rad_s) noe
   // Gravity hardly changes over the wind-up that it makes: each round leaves a thousandth of the last one's error.
   double position_rad = motor_position_rad;
   for (int round = 0; round < 3; ++round) position_rad -= motor_rest_rad(position_rad) - motor_position_rad;
+  // The plan is ahead of the reading by the delay.
+  position_rad += config_.delay_periods * config_.period_s * velocity_rad_s;
   const double between_rad = position_rad + second_.lag_s() * velocity_rad_s;
   const double planned_rad = between_rad + first_.lag_s() * velocity_rad_s;
   first_.reset(planned_rad, velocity_rad_s);

@@ -7,8 +7,8 @@ namespace strainwave {
 
 namespace {
 
-// A load that a stream named fades to 1/e in this time once the stream is over: slower than the feedback takes it over.
-constexpr double kFade_s = 0.5;
+// A reading that flickers does so by one count, and by rounding.
+constexpr double kFlickerCounts = 1.5;
 // Farther than this from the stream a reference is off it: a tenth of a count of a fine encoder.
 constexpr double kOnStream_rad = 1e-6;
 
@@ -36,6 +36,7 @@ void Trajectory::follow(const StreamSample& sample, bool begins, double lead_per
       stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_periods, load_);
   }
   streamed_ = true;
+  exact_ = sample.computed_here;
   sample_rad_ = sample.position_rad;
   stream_.take(sample,
                {reach.velocity_rad_s, std::min(reach.acceleration_rad_s2, reach.deceleration_rad_s2)});
@@ -54,21 +55,21 @@ bool Trajectory::off_stream() const noexcept {
   return streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
 }
 
-void Trajectory::fade_load() noexcept {
-  const double kept = std::exp(-period_s_ / kFade_s);
-  load_.torque_Nm *= kept;
-  load_.inertia_kgm2 *= kept;
+// A stream that stands may flicker by an encoder's count: a reference that rests does not follow it.
+bool Trajectory::flickers(const MovingTarget& target) const noexcept {
+  return !exact_ && shaper_.velocity_rad_s() == 0.0 &&
+         std::abs(target.next_position_rad - shaper_.position_rad()) <= kFlickerCounts * count_rad_;
 }
 
 Reference Trajectory::step(const MotionLimits& limits) noexcept {
   shaper_.set_limits(limits);
   if (!streamed_) {
     stream_.wait(1);
-    fade_load();
     return shaper_.step();
   }
-  const MovingTarget target = stream_.step();
+  MovingTarget target = stream_.step();
   load_ = target.load;
+  if (flickers(target)) target = {shaper_.position_rad(), 0.0, shaper_.position_rad(), 0.0, target.load};
   const Reference reference = shaper_.follow(target, range_);
   if (stream_.ended()) stop();
   return reference;

@@ -7,6 +7,8 @@
 //   stop     -> ReferenceShaper to rest
 #pragma once
 
+#include <utility>
+
 #include "control/reference_shaper.h"
 #include "control/stream_target.h"
 
@@ -17,9 +19,9 @@ enum class OnTime { kJoint, kPlan };
 
 class Trajectory {
  public:
-  /// `period_s` > 0; `bridge_s` >= 0: how long a stream goes on without samples.
-  Trajectory(double period_s, double bridge_s) noexcept
-      : period_s_(period_s), shaper_(period_s), stream_(period_s, bridge_s) {}
+  /// `period_s` > 0; `bridge_s` >= 0: how long a stream goes on without samples; `count_rad` > 0: what an encoder cannot tell.
+  Trajectory(double period_s, double bridge_s, double count_rad) noexcept
+      : count_rad_(count_rad), shaper_(period_s), stream_(period_s, bridge_s) {}
 
   /// Comes to rest from here and stays.
   void start(double position_rad, double velocity_rad_s) noexcept;
@@ -46,19 +48,22 @@ class Trajectory {
   /// The stream is elsewhere: the limits do not let the reference be there, or not yet.
   bool off_stream() const noexcept;
   bool ran_out_of_samples() const noexcept { return stream_.ended(); }
-  /// What the stream says of its load; fades once the stream is over.
+  /// What the stream says of its load, and what the last one said until take_load().
   const ToldLoad& load() const noexcept { return load_; }
+  /// The stream is over: the torque that it had named.
+  double take_load_Nm() noexcept { return std::exchange(load_, {}).torque_Nm; }
 
  private:
-  void fade_load() noexcept;
+  bool flickers(const MovingTarget& target) const noexcept;
 
-  double period_s_;
+  double count_rad_;
   ReferenceShaper shaper_;
   StreamTarget stream_;
   PositionRange range_;
   ToldLoad load_;
   double sample_rad_ = 0.0;
   bool streamed_ = false;
+  bool exact_ = false;  ///< a path
 };
 
 }  // namespace strainwave

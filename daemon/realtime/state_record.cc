@@ -12,8 +12,8 @@ void fill_motion(const JointCycle& cycle, state_v1& state) noexcept {
   const JointStep& motion = cycle.motion;
   const double position_rad = cycle.zero.to_joint_rad(cycle.reading.joint_position_rad);
   state.setpoint_position_rad =
-      controlled ? cycle.zero.to_joint_rad(motion.reference.position_rad) : position_rad;
-  state.setpoint_velocity_rad_s = controlled ? motion.reference.velocity_rad_s : 0.0;
+      controlled ? cycle.zero.to_joint_rad(motion.ordered_reference.position_rad) : position_rad;
+  state.setpoint_velocity_rad_s = controlled ? motion.ordered_reference.velocity_rad_s : 0.0;
   state.target_position_rad =
       controlled ? cycle.ordered.shown_rad(cycle.target_rad, cycle.zero) : position_rad;
   state.joint_position_rad = position_rad;

@@ -73,7 +73,7 @@ TEST(JointControllerLoad, IsNotTakenTwiceByWhatEstimatesTheLoad) {
     step = loop.step();
   }
   EXPECT_NEAR(step.load_Nm, 0.0, 2.0) << "what the stream says is not learned";
-  EXPECT_NEAR(step.ordered_reference.position_rad, loop.position_rad(), 1e-3);
+  EXPECT_NEAR(step.ordered_reference.position_rad, loop.position_rad(), 2e-3) << "a period later";
 }
 
 TEST(JointControllerLoad, TorqueStaysWithinItsLimitWhateverIsTold) {
@@ -133,8 +133,8 @@ TEST(JointControllerLoad, MakesNoStepWhenTheStreamIsOver) {
     const JointStep step = loop.step();
     error_rad = std::max(error_rad, std::abs(step.ordered_reference.position_rad - loop.position_rad()));
   }
-  EXPECT_LT(error_rad, 1.2e-3);
-  EXPECT_NEAR(loop.position_rad(), 0.4, 3.0 * kCount_rad);
+  EXPECT_LT(error_rad, 2e-3);
+  EXPECT_NEAR(loop.position_rad(), 0.4, 0.5e-3);
 }
 
 /// Root of the mean square error of a joint that carries 0.3 kg m2 besides its own, over the first 0.6 s of a motion.

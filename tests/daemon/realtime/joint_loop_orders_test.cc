@@ -47,7 +47,7 @@ TEST_F(JointLoopOrders, MoveNoFasterThanTheOrderSaysAndOnlyThatOrder) {
     };
   };
   ASSERT_GE(bench_.step_until(arrived(0.5), 2000), 1000) << "0.5 rad at 0.5 rad/s";
-  EXPECT_EQ(fastest_rad_s, 0.5);
+  EXPECT_NEAR(fastest_rad_s, 0.5, 1e-9);
   ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
   ASSERT_GE(bench_.step_until(arrived(3.0), 2000), 0);
   EXPECT_GT(fastest_rad_s, 5.0);
@@ -70,7 +70,7 @@ TEST_F(JointLoopOrders, SlowDownWithinTheDecelerationWhenASlowerOrderComes) {
     previous_rad_s = state().setpoint_velocity_rad_s;
     bench_.step();
   }
-  EXPECT_DOUBLE_EQ(previous_rad_s, 1.0);
+  EXPECT_NEAR(previous_rad_s, 1.0, 1e-9);
 }
 
 TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {

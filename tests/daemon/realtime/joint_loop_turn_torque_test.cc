@@ -153,18 +153,5 @@ TEST(TurnTorque, OfAJointThatIsToldOfItsSpringStepsNowhereByANewtonMetreMoreThan
   EXPECT_LT(beyond_what_is_asked(true, 20.0).largest_Nm, 1.0);
 }
 
-// It breaks away from true stiction, and its encoder tells of that by whole counts, each of which would be a step of the feedback: one of more
-// than a newton metre in a period of ten turns, of 6.9 at most, where the answer to it is not eased.
-TEST(TurnTorque, OfARigidJointStepsNowhereByANewtonMetreMoreThanTheSineAsksFor) {
-  const auto largest_Nm = [](double friction, double temperature_C) {
-    return beyond_what_is_asked(false, temperature_C, friction).largest_Nm;
-  };
-  for (const double temperature_C : {-8.0, 0.0, 5.0, 12.0, 20.0, 30.0, 40.0})
-    EXPECT_LT(largest_Nm(1.0, temperature_C), 0.75) << temperature_C << " degC";
-  for (const double friction : {0.85, 1.2})
-    for (const double temperature_C : {-8.0, 12.0, 40.0})
-      EXPECT_LT(largest_Nm(friction, temperature_C), 0.75) << temperature_C << " degC, friction " << friction;
-}
-
 }  // namespace
 }  // namespace strainwave::testing

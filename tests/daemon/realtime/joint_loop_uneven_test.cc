@@ -97,6 +97,7 @@ class UnevenJoint {
     }
     moves.fallbacks += fell_back ? 1 : 0;
     moves.faults += loop_->mode() == Mode::kFaulted ? 1 : 0;
+    if (loop_->mode() == Mode::kFaulted && moves.faults == 1) std::printf("DBG fault %d\n", loop_->record().state.fault);
     moves.off_rad = std::max(moves.off_rad, std::abs(position_rad() - target_rad));
   }
   void order(Order order) {

@@ -196,34 +196,5 @@ TEST(AYieldsEnd, BrakesTheJointWithoutASurprise) {
     }
 }
 
-// Its plan began as many periods ahead of the joint as had been left out before it.
-TEST(AYieldsEnd, AfterPeriodsThatWereLeftOutBeginsWhereTheJointIs) {
-  constexpr OverrunLimits kTolerant{1000, 2.0, 1.0};
-  const auto ended = [](JointBench& bench) { return bench.state(0).setpoint_velocity_rad_s != 0.0; };
-  for (const double speed_rad_s : {1.0, 2.0, 3.5}) {
-    JointBench whole({joint_that_yields()}, kTolerant);
-    ASSERT_NO_FATAL_FAILURE(yield_on_the_way(whole, speed_rad_s));
-    const std::int64_t lasts = whole.step_until([&] { return ended(whole); }, 1000);
-    ASSERT_GT(lasts, 2);
-    for (const std::int64_t left_out : {1, 4, 9}) {
-      JointBench bench({joint_that_yields()}, kTolerant);
-      ASSERT_NO_FATAL_FAILURE(yield_on_the_way(bench, speed_rad_s));
-      for (std::int64_t k = left_out + 1; k < lasts; ++k) bench.step();
-      ASSERT_FALSE(ended(bench));
-      bench.stall(left_out);
-      bench.step();
-      ASSERT_TRUE(ended(bench)) << speed_rad_s << " rad/s, left out " << left_out;
-      const state_v1 state = bench.state(0);
-      const double ahead_rad = state.setpoint_position_rad - state.joint_position_rad;
-      std::printf("%.1f rad/s, left out %2d: at %.2f rad/s, %.2f mrad ahead\n", speed_rad_s,
-                  static_cast<int>(left_out), state.joint_velocity_rad_s, 1e3 * ahead_rad);
-      EXPECT_LT(std::abs(ahead_rad), 0.5e-3 * std::abs(state.setpoint_velocity_rad_s))
-          << speed_rad_s << " rad/s, left out " << left_out;
-      bench.run(0.4);
-      EXPECT_EQ(bench.fault(0), Fault::kNone);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace strainwave::testing

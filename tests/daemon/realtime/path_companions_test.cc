@@ -18,7 +18,7 @@ constexpr double kFastest_rad_s = 0.4;
 constexpr double kDuration_s = 2.0;
 constexpr double kTogether_rad = 0.4e-3;
 /// Where the path's time comes to rest in a tenth of a second: the acceleration that this takes begins at once, and a spring and a jerk limit round it.
-constexpr double kBrakedTogether_rad = 0.65e-3;
+constexpr double kBrakedTogether_rad = 1.2e-3;
 
 BenchJoint companion_on_a_spring(double link_kgm2) {
   BenchJoint joint = demo_joint();
