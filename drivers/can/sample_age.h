@@ -1,11 +1,12 @@
 // How old a position is that a drive samples with each SYNC and sends later: from the time stamps that the kernel gives SYNC
 // and TPDO. Real-time safe.
 //
-// A TPDO does not say which SYNC it belongs to. Its delay is measured at start-up, with one SYNC at a time. From there on two
+// A TPDO does not say which SYNC it belongs to. Its delay is measured at start-up, at the loop's own rate. From there on two
 // things are followed:
 //
-//   its place in the period   after SYNCs without a TPDO, one that comes at another place in the period than before is late by
-//                             those periods; two with one SYNC catch up by a period
+//   its place in the period   after SYNCs without a TPDO, one that comes at another place in the period than start-up measured is late
+//                             by those periods; two with one SYNC catch up by a period. One that stays at another place for no
+//                             such reason is displaced: by how many periods it is late cannot be known
 //   the place of TPDO2        which the drive sends with every nth SYNC that it counts: lateness of whole periods, which leaves
 //                             TPDO1 at its place as if some had been lost, moves it among the SYNCs
 #pragma once
@@ -25,8 +26,9 @@ class SampleAge {
   /// `delay_ns` >= 0: from SYNC to TPDO, as measured.
   void restart(std::int64_t delay_ns) noexcept {
     usual_lag_ = lag_ = static_cast<int>(delay_ns / period_ns_);
-    syncs_ = samples_at_place_ = 0;
+    syncs_ = samples_at_place_ = displaced_samples_ = 0;
     delay_ns_ = delay_ns;
+    usual_phase_ns_ = moved_phase_ns_ = within_a_period(delay_ns);
     started_ = false;
     slow_ = {};
   }
@@ -40,9 +42,10 @@ class SampleAge {
     if (sync_ns_ == 0 || time_ns == 0) return;
     // Within a period: an adapter may tell of our SYNC later than of its answer, so which SYNC was the last one shows nothing.
     const std::int64_t phase_ns = within_a_period(time_ns - sync_ns_);
-    if (!started_) usual_phase_ns_ = phase_ns;
-    const std::int64_t off_ns = within_a_period(phase_ns - usual_phase_ns_);
-    const bool at_its_place = std::min(off_ns, period_ns_ - off_ns) <= period_ns_ / kPlaceShare;
+    const bool at_its_place = near(phase_ns, usual_phase_ns_);
+    if (started_ && syncs_ != 1) moved_phase_ns_ = phase_ns;
+    displaced_samples_ =
+        at_its_place || near(phase_ns, moved_phase_ns_) ? 0 : std::min(displaced_samples_ + 1, kSettled);
     if (started_ && syncs_ == 0 && lag_ > 0) --lag_;
     if (started_ && syncs_ > 1 && !at_its_place) lag_ += syncs_ - 1;
     samples_at_place_ = at_its_place ? samples_at_place_ + 1 : 0;
@@ -63,6 +66,8 @@ class SampleAge {
   }
   /// Of the newest sample, from its SYNC until it came.
   std::int64_t delay_ns() const noexcept { return delay_ns_; }
+  /// It has been coming at another place in the period than start-up measured, and nothing tells why.
+  bool displaced() const noexcept { return displaced_samples_ >= kSettled; }
   /// How many SYNCs later than the newest one before it came it was sampled.
   int lag_periods() const noexcept { return std::max(lag_, usual_lag_ + slow_.late); }
   /// Those beyond what was measured at start-up, and beyond the last `left_out` periods, in which nobody sent a SYNC: what comes then is
@@ -102,6 +107,10 @@ class SampleAge {
     const std::int64_t rest_ns = time_ns % period_ns_;
     return rest_ns < 0 ? rest_ns + period_ns_ : rest_ns;
   }
+  bool near(std::int64_t phase_ns, std::int64_t other_ns) const noexcept {
+    const std::int64_t off_ns = within_a_period(phase_ns - other_ns);
+    return std::min(off_ns, period_ns_ - off_ns) <= period_ns_ / kPlaceShare;
+  }
   /// The same place among the SYNCs between two TPDO2s, from -slow_every / 2 to slow_every / 2.
   std::int64_t around_zero(std::int64_t syncs) const noexcept {
     const std::int64_t rest = ((syncs % slow_every_) + slow_every_) % slow_every_;
@@ -110,7 +119,8 @@ class SampleAge {
 
   std::int64_t period_ns_;
   std::int64_t slow_every_;
-  std::int64_t usual_phase_ns_ = 0;
+  std::int64_t usual_phase_ns_ = 0;  ///< as start-up measured it
+  std::int64_t moved_phase_ns_ = 0;  ///< after the last gap or catching up
   int usual_lag_ = 0;
   int lag_ = 0;
   std::int64_t sync_ns_ = 0;
@@ -118,6 +128,7 @@ class SampleAge {
   std::int64_t delay_ns_ = 0;
   int syncs_ = 0;  ///< since the last sample
   int samples_at_place_ = 0;
+  int displaced_samples_ = 0;
   SlowPlace slow_;
   bool started_ = false;
 };

@@ -80,7 +80,8 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
 // for newer than it is.
 void Node::judge_age(std::int64_t kernel_time_ns) noexcept {
   age_.sample(kernel_time_ns);
-  const bool late = age_.delay_ns() > config_.delay_periods * period_ns_;
+  const bool late =
+      config_.daemon_sends_sync && (age_.displaced() || age_.delay_ns() > config_.delay_periods * period_ns_);
   late_samples_ = late ? std::min(late_samples_ + 1, config_.zero_torque_after + 1) : 0;
 }
 

@@ -22,7 +22,8 @@ Found set_up_drive(canopen::SdoClient& client, const DriveConfig& config, PdoLay
 /// is missing.
 void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
 
-/// From a SYNC of ours until the position that was sampled with it has come: the shortest of some, with no other SYNC in between.
+/// From a SYNC of ours, the last of some at the loop's rate, until the position that was sampled with it has come. `port` hears our
+/// SYNC come back.
 /// Throws InputError when it is more than config.delay_periods allow.
 std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout);
 

@@ -1,6 +1,7 @@
 // The part of cia402_setup.h that watches a drive which has been set up: whether it answers our SYNC, and how soon.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/durations.h"
 #include "base/input_error.h"
@@ -11,12 +12,49 @@ namespace strainwave::cia402 {
 
 namespace {
 
-/// A late position, and how often it is looked for.
+/// A late position.
 constexpr std::int64_t kLongestDelay_ns = 20'000'000;
-constexpr int kDelaySamples = 5;
-constexpr int kOldPositions = 100;
+/// SYNCs at the loop's rate, as many as a delay of that length needs to build up at 1 kHz, and how often; the median counts.
+constexpr int kTrain = 50;
+constexpr int kTrains = 3;
+constexpr int kOldBatches = 100;
 /// SYNCs until a drive must have sent both of its TPDOs.
 constexpr int kVerifySyncs = 2 * 240;
+
+// With the same times as in the loop: an adapter may tell of our SYNC late, which then is part of every delay.
+std::optional<std::int64_t> delay_after_train_ns(CanPort& port, std::int64_t period_ns,
+                                                 std::uint32_t position_id) {
+  std::array<ReceivedFrame, 16> frames;
+  std::int64_t sync_ns = 0;
+  std::int64_t position_ns = 0;
+  const auto listen_until = [&](std::int64_t end_ns) {
+    do {
+      const ReceiveResult result = port.receive(frames);
+      for (std::size_t i = 0; i < result.count; ++i) {
+        const std::int64_t time_ns = frames[i].kernel_time_ns != 0 ? frames[i].kernel_time_ns : port.now_ns();
+        const bool own = frames[i].kind == ReceivedFrame::Kind::kOwn;
+        if (own && frames[i].frame.id == canopen::sync_frame().id) sync_ns = time_ns;
+        if (!own && frames[i].frame.id == position_id) position_ns = time_ns;
+      }
+      if (result.count == 0) (void)port.wait(end_ns - port.now_ns());
+    } while (port.now_ns() < end_ns);
+  };
+  // What is still on its way belongs to SYNCs before.
+  for (int batch = 0; batch < kOldBatches; ++batch) {
+    position_ns = 0;
+    listen_until(port.now_ns() + kLongestDelay_ns);
+    if (position_ns == 0) break;
+  }
+  position_ns = 0;
+  std::int64_t next_ns = port.now_ns();
+  for (int i = 0; i < kTrain; ++i) {
+    (void)port.send(canopen::sync_frame());
+    listen_until(next_ns += period_ns);
+  }
+  listen_until(port.now_ns() + kLongestDelay_ns);
+  if (position_ns == 0 || sync_ns == 0) return std::nullopt;
+  return std::max<std::int64_t>(position_ns - sync_ns, 0);
+}
 
 }  // namespace
 
@@ -61,37 +99,23 @@ void verify_drive(CanPort& port, const DriveConfig& config, const PdoLayout& lay
 
 std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config, const PdoLayout& layout) {
   const std::int64_t period_ns = nanoseconds(config.period_s);
-  std::array<ReceivedFrame, 16> frames;
-  /// When the first position came, or nothing at `end_ns`.
-  const auto position_until = [&](std::int64_t end_ns) -> std::optional<std::int64_t> {
-    while (port.now_ns() < end_ns) {
-      const ReceiveResult result = port.receive(frames);
-      for (std::size_t i = 0; i < result.count; ++i)
-        if (frames[i].frame.id == layout.fast.cob_id(config.node_id)) return port.now_ns();
-      if (result.count == 0) (void)port.wait(end_ns - port.now_ns());
-    }
-    return std::nullopt;
-  };
-  std::optional<std::int64_t> shortest_ns;
-  for (int i = 0; i < kDelaySamples; ++i) {
-    // What is still on its way belongs to another SYNC; what never ends, to another producer's.
-    for (int old = 0; old < kOldPositions && position_until(port.now_ns() + kLongestDelay_ns); ++old)
-      continue;
-    const std::int64_t sync_ns = port.now_ns();
-    (void)port.send(canopen::sync_frame());
-    if (const auto came_ns = position_until(sync_ns + kLongestDelay_ns))
-      shortest_ns = std::min(shortest_ns.value_or(INT64_MAX), *came_ns - sync_ns);
-  }
+  std::vector<std::int64_t> delays_ns;
+  for (int i = 0; i < kTrains; ++i)
+    if (const auto delay_ns = delay_after_train_ns(port, period_ns, layout.fast.cob_id(config.node_id)))
+      delays_ns.push_back(*delay_ns);
   const std::string who = config.name + ": node " + std::to_string(config.node_id) + ": ";
-  if (!shortest_ns)
+  if (delays_ns.empty())
     throw InputError(
         who + "no position came within 20 ms of a SYNC, though some come: is there another SYNC producer?");
-  if (*shortest_ns > config.delay_periods * period_ns)
-    throw InputError(who + "a position comes " + std::to_string(static_cast<double>(*shortest_ns) * 1e-6) +
+  std::sort(delays_ns.begin(), delays_ns.end());
+  const std::int64_t delay_ns = delays_ns[delays_ns.size() / 2];
+  if (delay_ns > config.delay_periods * period_ns)
+    throw InputError(who + "at the loop's rate a position comes " +
+                     std::to_string(static_cast<double>(delay_ns) * 1e-6) +
                      " ms after its SYNC, delay_periods = " + std::to_string(config.delay_periods) +
                      " allows for " + std::to_string(config.delay_periods * period_ns / 1000) +
                      " us: let the drive send TPDO1 at once, or raise delay_periods");
-  return *shortest_ns;
+  return delay_ns;
 }
 
 }  // namespace strainwave::cia402

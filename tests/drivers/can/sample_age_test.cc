@@ -91,6 +91,25 @@ TEST_F(SampleAgeTest, TakesLostSamplesForLostAndNotForLate) {
   }
 }
 
+TEST_F(SampleAgeTest, OneThatIsElsewhereFromTheFirstSampleOnIsDisplaced) {
+  for (const std::int64_t late_ns : {1'400'000, 6'600'000, 10'400'000}) {
+    age_.restart(kUsual_ns);
+    // The first SYNCs were before its time, as where the drive was set up anew while the loop went on.
+    due_.clear();
+    for (int i = 0; i < 100; ++i) {
+      age_.sync(next_sync_ns_);
+      age_.sample(next_sync_ns_ + late_ns % kPeriod_ns);
+      next_sync_ns_ += kPeriod_ns;
+    }
+    EXPECT_TRUE(age_.displaced()) << late_ns;
+  }
+  age_.restart(kUsual_ns);
+  run(100, kUsual_ns);
+  EXPECT_FALSE(age_.displaced());
+  run(100, 2'400'000);
+  EXPECT_FALSE(age_.displaced()) << "it is known why";
+}
+
 TEST_F(SampleAgeTest, BearsTheJitterOfAnOrdinaryAdapter) {
   std::mt19937 random(6);
   for (int i = 0; i < 2000; ++i) {

@@ -7,6 +7,7 @@
 //   pretend nothing
 //   skip-tpdo COUNT               no TPDO at the next COUNT SYNCs
 //   late-tpdo US COUNT            TPDOs late by US at the next COUNT SYNCs
+//   late-tpdo-at-rate US          the same, but never at a SYNC that comes 10 ms after the last one or later
 //   heartbeat on|off              the producer
 //   ignore-nmt on|off             obey no order of network management
 //   refuse INDEX SUB ABORT        answer SDOs to this object with the abort code; 0: no longer
@@ -53,6 +54,8 @@ std::string Cia402Node::command(std::string_view line, std::int64_t now_us) {
   } else if (verb == "late-tpdo" && numbers_of(words, 2, n)) {
     late_us_ = n[0];
     late_syncs_ = n[1];
+  } else if (verb == "late-tpdo-at-rate" && numbers_of(words, 1, n)) {
+    late_at_rate_us_ = n[0];
   } else if (verb == "heartbeat" && switch_of(words, on)) {
     heartbeat_off_ = !on;
   } else if (verb == "ignore-nmt" && switch_of(words, on)) {

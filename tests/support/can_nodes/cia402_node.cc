@@ -185,6 +185,10 @@ std::int64_t Cia402Node::sync_period_us() const {
 // The values that the TPDOs carry are those of the SYNC's instant; what the RPDOs brought acts from there on.
 void Cia402Node::on_sync() {
   ++syncs_;
+  if (late_at_rate_us_ > 0) {
+    late_us_ = late_at_rate_us_;
+    late_syncs_ = last_sync_us_ && now_us_ - *last_sync_us_ < 10'000 ? 1000 : 0;
+  }
   if (last_sync_us_) longest_sync_gap_us_ = std::max(longest_sync_gap_us_, now_us_ - *last_sync_us_);
   last_sync_us_ = now_us_;
   if (nmt_ == NmtState::kOperational) {

@@ -107,6 +107,7 @@ class Cia402Node final : public Node {
   long skipped_syncs_ = 0;
   long late_syncs_ = 0;
   std::int64_t late_us_ = 0;
+  std::int64_t late_at_rate_us_ = 0;  ///< unless the SYNC before is 10 ms ago
   struct Late {
     std::int64_t due_us;
     Frame frame;

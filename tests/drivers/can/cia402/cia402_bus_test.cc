@@ -182,8 +182,8 @@ TEST_F(Cia402Bus, AllocatesNothingInItsCycle) {
   nodes.push_back(std::make_unique<cia402::Node>(bench_.config()));
   const CanPortFactory real = bench_.can().factory();
   const CanPortFactory open = [&](const CanPortOptions& options) -> std::unique_ptr<CanPort> {
-    // Only the loop's port wants its own frames back.
-    if (options.own_frames) return std::make_unique<FixedPort>();
+    // Only the loop's port overtakes others.
+    if (options.urgent) return std::make_unique<FixedPort>();
     return real(options);
   };
   CanBus bus(bench_.bus_config(), std::move(nodes), open);

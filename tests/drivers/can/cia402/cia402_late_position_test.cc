@@ -77,6 +77,43 @@ TEST_F(Cia402LatePosition, ADelayThatADriveHasFromTheStartIsPartOfDelayPeriods) 
   EXPECT_NEAR(static_cast<double>(bench.reading().position_delay_ns) * 1e-6, 2.4, 0.2);
 }
 
+TEST_F(Cia402LatePosition, ADriveThatIsLateOnlyAtTheLoopsRateIsRefused) {
+  for (const char* late : {"1400", "3000", "6400", "10400"}) {
+    DriveBench bench({bench_drive(3)});
+    // Until here it answers at once, as it would a single SYNC.
+    bench.tell_node("late-tpdo-at-rate " + std::string(late));
+    const std::string text = bench.start_refusal();
+    EXPECT_NE(text.find("at the loop's rate"), std::string::npos) << late << ": " << text;
+  }
+}
+
+TEST_F(Cia402LatePosition, ADriveThatBecomesLateWhileItIsOffIsAFaultOnceItIsUsed) {
+  for (const char* late : {"1400", "3000", "6400", "10400"}) {
+    DriveBench bench({bench_drive(3)});
+    bench.config().quick_stop_after = 20;
+    bench.start();
+    bench.run(100, {0.0, false});
+    bench.tell_node("late-tpdo " + std::string(late) + " 100000");
+    bench.run(300, {0.0, false});
+    EXPECT_FALSE(bench.enable()) << late;
+    EXPECT_EQ(detail_of(bench.reading().drive_error), CanDetail::kPositionLate)
+        << late << ": " << can_detail_text(bench.reading().drive_error);
+  }
+}
+
+TEST_F(Cia402LatePosition, ADriveThatIsLateFromTheLoopsFirstPeriodIsAFaultOnceItIsUsed) {
+  for (const char* late : {"1400", "6400", "10400"}) {
+    DriveBench bench({bench_drive(3)});
+    bench.config().quick_stop_after = 20;
+    bench.start();
+    bench.tell_node("late-tpdo " + std::string(late) + " 100000");
+    bench.run(100, {0.0, false});
+    EXPECT_FALSE(bench.enable()) << late;
+    EXPECT_EQ(detail_of(bench.reading().drive_error), CanDetail::kPositionLate)
+        << late << ": " << can_detail_text(bench.reading().drive_error);
+  }
+}
+
 TEST_F(Cia402LatePosition, ADriveWhosePositionsAreLateFromTheStartIsRefusedWithTheirDelay) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("late-tpdo 2400 100000");
