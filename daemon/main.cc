@@ -60,6 +60,9 @@ int main(int argc, char** argv) {
     strainwave::DaemonConfig config = strainwave::read_config(
         config_path, drives_alone ? strainwave::ConfigUse::kCheckDrives : strainwave::ConfigUse::kRun);
     config.gateway_socket = gateway_socket;
+    if (drives_alone)
+      for (const std::string& warning : config.warnings)
+        std::cout << "warning: " << strainwave::printable_paragraph(warning) << '\n';
     if (check_only) {
       strainwave::check_start(config, std::cout);
       std::cout << strainwave::printable(config_path) << ": sound, "

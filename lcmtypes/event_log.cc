@@ -9,6 +9,8 @@ namespace strainwave {
 
 namespace {
 constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
+/// 0x89, "MCA" of its first bytes.
+constexpr std::uint32_t kMcapMagic = 0x894D4341;
 constexpr std::uint64_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
 }  // namespace
 
@@ -40,6 +42,10 @@ bool EventLogReader::next(LogEvent& event) {
   truncated_ = true;  // until the event is whole
   std::uint32_t sync_word = 0, channel_bytes = 0, data_bytes = 0;
   if (!read(sync_word)) return false;
+  if (sync_word == kMcapMagic && offset_ == 0)
+    refuse(
+        "this is an MCAP file, which viewers read and nothing turns back; give the log that it was exported "
+        "from");
   if (sync_word != kSyncWord) refuse("no event begins here");
   if (!read(event.number) || !read(event.received_us) || !read(channel_bytes) || !read(data_bytes))
     return false;

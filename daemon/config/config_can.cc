@@ -9,6 +9,7 @@
 #include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
 #include "daemon/config/config_odrive.h"
+#include "daemon/config/drive_doubts.h"
 #include "drivers/can/cia402/cia402_node.h"
 
 namespace strainwave {
@@ -62,11 +63,12 @@ cia402::TemperatureObject read_temperature(TomlSection section, double period_s)
   return object;
 }
 
-MotorLimits read_motor(TomlSection section, cia402::DriveConfig& drive) {
+MotorLimits read_motor(TomlSection section, const JointConfig& joint, cia402::DriveConfig& drive) {
   const MotorConstants motor = read_motor_constants(section);
   drive.units.torque_constant_Nm_A = motor.torque_constant_Nm_A;
   drive.rated_current_A = section.number_or("rated_current_A", 0.0, {0.0, 1e4});
   const MotorLimits limits = read_motor_limits(section, motor, drive.units.gear_ratio, drive.torque_limit_Nm);
+  doubt_motor(section, joint, drive);
   section.refuse_unknown_keys();
   return limits;
 }
@@ -217,7 +219,8 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
     drive.temperature = read_temperature(section.section("temperature"), period_s_);
 
   JointControllerConfig& controller = joint.loop.controller;
-  controller.motor = read_motor(section.section("motor"), drive);
+  controller.motor = read_motor(section.section("motor"), joint, drive);
+  doubt_drive(section, joint, drive);
   controller.encoder_resolution_rad = kTurn_rad / drive.units.counts_per_output_revolution;
   // What is read was sampled with the last SYNC, and what is ordered acts from the next one on: one period.
   controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 1, kMaxControlDelay));

@@ -30,6 +30,10 @@ constexpr double kLargeShare = 0.5;
 // To full speed, or half a turn: a robot's joint needs tenths of a second. Beyond these it practically stands.
 constexpr double kSlowStart_s = 2.0;
 constexpr double kSlowTurn_s = 120.0;
+// Half of a decimal place, in decades: beyond it a tenth is nearer to what fits.
+constexpr double kMisplacedPoint = 3.16;
+// No motor bears more; in degrees Fahrenheit it is 49 degC, a usual limit.
+constexpr double kHottest_C = 120.0;
 // Of the torque limit, when friction and gravity are overcome: what is left for motion.
 constexpr double kLeastSpare = 0.1;
 
@@ -87,10 +91,30 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
     section.warn("speed_limit_rad_s", doubt.str());
   }
   doubt_motion(section, loop);
+  if (limits.temperature_limit_C > kHottest_C)
+    section.warn("temperature_limit_C", "no gear's grease bears it; if degrees Fahrenheit are meant, write " +
+                                            rounded((limits.temperature_limit_C - 32.0) / 1.8));
   if (section.has("overspeed_rad_s") && limits.overspeed_rad_s > kLargeOverspeed * speed_rad_s)
     section.warn("overspeed_rad_s", "a joint that runs away is stopped only at " +
                                         number_text(limits.overspeed_rad_s / speed_rad_s) +
                                         " times its speed limit; left out it is a quarter above it");
+}
+
+void doubt_inertia(const TomlSection& section, const JointConfig& joint) {
+  const JointControllerConfig& controller = joint.loop.controller;
+  const double inertia_kgm2 = joint.plant.inertia_kgm2;
+  const double most_kgm2 = controller.torque_limit_Nm / controller.motion.acceleration_rad_s2;
+  if (inertia_kgm2 <= most_kgm2) return;
+  std::string doubt =
+      "torque_limit_Nm = " + number_text(controller.torque_limit_Nm) + " gives it at most " +
+      rounded(controller.torque_limit_Nm / inertia_kgm2) +
+      " rad/s2, never acceleration_rad_s2 = " + number_text(controller.motion.acceleration_rad_s2) +
+      ": motions take what the torque allows and last longer than that limit promises";
+  // A misplaced decimal point is off by ten at least; less is a limit that is set too high.
+  double likely_kgm2 = inertia_kgm2 / 10.0;
+  while (likely_kgm2 > most_kgm2) likely_kgm2 /= 10.0;
+  if (inertia_kgm2 > kMisplacedPoint * most_kgm2) doubt += "; is " + rounded(likely_kgm2) + " meant?";
+  section.warn("inertia_kgm2", doubt);
 }
 
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
@@ -120,16 +144,6 @@ std::vector<std::string> doubt_torque(const std::string& joint, const JointContr
       if (gravity_Nm > 0.0) doubt << " and " << gravity_Nm << " N.m gravity";
       doubt << (holds_Nm > needed_Nm ? ", and hardly any is left to move" : ": the joint does not move there")
             << "; " << needed_Nm / (1.0 - kLeastSpare) << " N.m or more would do";
-    });
-  // A table with a box is designed for its heaviest link.
-  const double inertia_kgm2 = controller.link
-                                  ? controller.link->motor_inertia_kgm2 + controller.link->link_inertia_kgm2
-                                  : table.plant.inertia_kgm2;
-  if (controller.motion.acceleration_rad_s2 * inertia_kgm2 > holds_Nm)
-    note([&](std::ostream& doubt) {
-      doubt << "gives " << inertia_kgm2 << " kg m2 at most " << holds_Nm / inertia_kgm2
-            << " rad/s2, never joint.limits.acceleration_rad_s2 = " << controller.motion.acceleration_rad_s2
-            << ": motions take what the torque allows and last longer than that limit promises";
     });
   return doubts;
 }

@@ -10,6 +10,7 @@
 #include "base/toml_section.h"
 #include "control/gain_table.h"
 #include "control/units.h"
+#include "daemon/config/config.h"
 #include "daemon/realtime/joint_loop.h"
 #include "daemon/realtime/loop_parts.h"
 
@@ -22,8 +23,11 @@ void doubt_angle(const TomlSection& section, std::string_view key, double angle_
 /// Of [joint.limits], already read into `loop`, of a joint behind such a gear.
 void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio);
 
+/// Of [[joint]]: an inertia that the torque limit can never accelerate as acceleration_rad_s2 has it.
+void doubt_inertia(const TomlSection& section, const JointConfig& joint);
+
 /// Of a joint's torque limit, of the configuration or the table, whichever is smaller: where the table's friction and the gravity that is told
-/// leave so little that the joint hardly moves or does not move at all, and an acceleration that its inertia can never have.
+/// leave so little that the joint hardly moves or does not move at all.
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table);
 

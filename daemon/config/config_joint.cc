@@ -150,6 +150,7 @@ JointConfig read_joint(TomlSection& section, double period_s, const std::filesys
   driver.refuse_unknown_keys();
   read_homing(section.section_or_empty("homing"), inputs, joint);
   read_load_limits(limits, joint);
+  doubt_inertia(section, joint);
   limits.refuse_unknown_keys();
   section.refuse_unknown_keys();
   return joint;

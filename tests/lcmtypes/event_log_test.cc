@@ -71,6 +71,11 @@ TEST_F(EventLogTest, RefusesLengthsThatCannotBeAndNamesThePlace) {
   EXPECT_NE(refusal().find("at byte 30"), std::string::npos) << refusal();
 }
 
+TEST_F(EventLogTest, NamesAnMcapFileForWhatItIs) {
+  std::ofstream(path_, std::ios::binary) << "\x89MCAP0\r\n" << std::string(100, 'x');
+  EXPECT_NE(refusal().find("MCAP file"), std::string::npos) << refusal();
+}
+
 TEST_F(EventLogTest, SurvivesAnyBytes) {
   std::mt19937 random(5);
   for (int run = 0; run < 300; ++run) {

@@ -16,6 +16,9 @@ constexpr double kTolerance = 1.6;
 constexpr double kMillinewtonmetre_Nm = 1e-3;
 constexpr double kMicronewtonmetre_Nm = 1e-6;
 constexpr double kPerMille = 1000.0;
+/// A gear bears several times a motor's rated torque, so the joint's limit is usually above it; three times the other way leaves room
+/// for a large motor.
+constexpr double kMostRatedShare = 3.0;
 
 bool fits(double a, double b) {
   return a > 0.0 && b > 0.0 && a < b * kTolerance && b < a * kTolerance;
@@ -60,6 +63,16 @@ double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, 
   else
     text << fitting << " would agree; check which it is before any torque is applied";
   throw InputError(text.str());
+}
+
+std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig& units, double limit_Nm) {
+  if (rated_Nm <= kMostRatedShare * limit_Nm) return std::nullopt;
+  std::ostringstream text;
+  text << "torque_constant_Nm_A = " << units.torque_constant_Nm_A << " gives " << rated_Nm
+       << " N.m at the joint with the rated current alone, torque_limit_Nm is " << limit_Nm
+       << ": if that is the joint's constant, the motor's is "
+       << units.torque_constant_Nm_A / units.gear_ratio;
+  return text.str();
 }
 
 TorqueScale::TorqueScale(double rated_Nm, int direction, double limit_Nm)

@@ -31,6 +31,10 @@ struct RatedValues {
 /// side the gear ratio; peak and rms amperes differ by 1.41.
 double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, const std::string& where);
 
+/// What speaks against a rated torque at the joint that is far above the joint's limit, with the torque constant that is likely meant:
+/// that of the motor, in place of the joint's.
+std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig& units, double limit_Nm);
+
 /// Torque in per mille of rated torque, both ways.
 class TorqueScale {
  public:

@@ -43,6 +43,8 @@ double configure_torque(SdoClient& client, const DriveConfig& config, std::vecto
                                                                    : thousandths(config.rated_current_A)};
   const double rated_Nm =
       rated_joint_torque_Nm(rated, config.units, client.who() + ": node " + std::to_string(client.node()));
+  if (const auto doubt = rated_torque_doubt(rated_Nm, config.units, config.torque_limit_Nm))
+    report.push_back(client.who() + ": warning: " + *doubt);
   const TorqueScale scale(rated_Nm, config.units.direction, config.torque_limit_Nm);
   if (scale.limit_per_mille() == 0)
     refuse(client, "torque_limit_Nm = " + std::to_string(config.torque_limit_Nm) +

@@ -149,5 +149,52 @@ TEST_F(CanConfigTest, SaysWhatIsWrongWithTheInterfaceBeforeAnythingIsSent) {
   }
 }
 
+TEST_F(CanConfigTest, WarnsOfNumbersThatContradictEachOtherWithTheValueThatIsLikelyMeant) {
+  struct Row {
+    const char* from;
+    const char* to;
+    std::initializer_list<const char*> parts;
+  };
+  for (const Row& row : std::initializer_list<Row>{
+           {"= 320000", "= 6400", {"counts_per_output_revolution = 6400", "128", "write 320000"}},
+           {"gear_ratio = 50", "gear_ratio = 100", {"supply_V = 48", "2.5 rad/s", "joint.gear_ratio = 50"}},
+           {"supply_V = 48", "supply_V = 4.8", {"supply_V = 4.8", "38.4 V", "supply_V = 48"}},
+           {"torque_constant_Nm_A = 0.192",
+            "torque_constant_Nm_A = 9.6",
+            {"480 N.m", "34", "the motor's is 0.192"}},
+           {"\"uNm\"", "\"mNm\"", {"rated_torque_unit", "maxon", "\"uNm\" is likely meant"}},
+           {"inertia_kgm2 = 0.089",
+            "inertia_kgm2 = 8.9",
+            {"inertia_kgm2 = 8.9", "3.82 rad/s2", "is 0.089 meant?"}},
+           {"temperature_limit_C = 70",
+            "temperature_limit_C = 158",
+            {"temperature_limit_C", "Fahrenheit", "write 70"}}}) {
+    std::string text = replaced(example("epos4.toml"), row.from, row.to);
+    if (std::string(row.to).find("158") != std::string::npos)
+      text = replaced(text, "[joint.homing]", "[joint.temperature]\nmax_C = 200\n[joint.homing]");
+    const std::vector<std::string> warnings = read(text).warnings;
+    std::string all;
+    for (const std::string& warning : warnings) all += warning + '\n';
+    expect_mentions(all, row.parts);
+  }
+}
+
+TEST_F(CanConfigTest, HasNoDoubtsAboutTheShippedExamples) {
+  for (const char* name : {"epos4.toml", "elmo.toml", "elmo-link.toml", "odrive.toml"})
+    for (const std::string& warning : read(example(name)).warnings)
+      EXPECT_NE(warning.find("which a real joint needs"), std::string::npos) << name << ": " << warning;
+}
+
+TEST_F(CanConfigTest, AGearOfAnotherRatioIsRefusedWithItsOwn) {
+  expect_mentions(error_after("elmo-link.toml", "gear_ratio = 50", "gear_ratio = 100"),
+                  {"gear_ratio = 100", "is 50", "set joint.gear_ratio"});
+}
+
+TEST_F(CanConfigTest, ChecksOfDrivesNeedNoKeys) {
+  std::filesystem::remove(folder_ / "authorized_keys");
+  expect_mentions(error_of(example("epos4.toml")), {"authorized_keys"});
+  EXPECT_NO_THROW(read_config(folder_ / "c.toml", ConfigUse::kCheckDrives));
+}
+
 }  // namespace
 }  // namespace strainwave

@@ -143,6 +143,39 @@ TEST_F(ConfigTest, NamesTheLineOfMalformedToml) {
   expect_mentions(error_after("prefix = \"LAB\"", "prefix = LAB"), {"c.toml:3", "not valid TOML"});
 }
 
+TEST_F(ConfigTest, NamesADecimalCommaAndTakesNoOtherCommaForOne) {
+  expect_mentions(error_after("inertia_kgm2 = 0.089", "inertia_kgm2 = 0,089"),
+                  {"c.toml:", "decimal point", "0.5 for 0,5"});
+  EXPECT_EQ(error_after("prefix = \"LAB\"", "prefix = LAB # 1,2").find("decimal"), std::string::npos);
+}
+
+TEST_F(ConfigTest, ConvertsFromUnitsThatAreNotUsedHere) {
+  expect_mentions(error_after("torque_limit_Nm = 34", "torque_limit_kgfm = 3.5"),
+                  {"torque_limit_Nm is missing", "torque_limit_kgfm", "9.81 N m"});
+  expect_mentions(error_after("torque_limit_Nm = 34", "torque_limit_Nm = 34\ntemperature_limit_F = 158"),
+                  {"temperature_limit_F", "temperature_limit_C", "(degF - 32) / 1.8"});
+}
+
+TEST_F(ConfigTest, SaysEveryErrorOfTheFileAtOnceEachInALine) {
+  std::string text = kSound;
+  const std::string second = text.substr(text.find("[[joint]]"));
+  text = text.replace(text.find("prefix = \"LAB\""), 14, "prefix = \"LAB\"\nstate_rate_Hz = 0\ncolour = 1") +
+         second;
+  const auto spoil = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.rfind(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  spoil("inertia_kgm2 = 0.089", "inertia_kgm = 0.089");
+  spoil("driver = \"simulated\"", "driver = \"simulate\"");
+  spoil("gear_ratio = 50", "gear_ratio = \"50\"");
+  const std::string error = error_of(text);
+  expect_mentions(error, {"daemon.state_rate_Hz = 0", "joint[1].inertia_kgm2 is missing",
+                          "inertia_kgm: is that what was meant", "joint[1].driver = \"simulate\"",
+                          "joint[1].gear_ratio", "without quotes", "daemon.colour"});
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 4) << error;
+}
+
 TEST_F(ConfigTest, NamesAFileThatCannotBeRead) {
   try {
     read_config(folder_ / "absent.toml");

@@ -444,8 +444,8 @@ TEST_F(WrongInput, AnAccelerationThatNoTorqueAffordsIsDoubtedWithWhatIsAfforded)
     write(file_, text, "driver = \"simulated\"\n", "driver = \"simulated\"\ntable = \"t.json\"\n");
     return check().said;
   };
-  EXPECT_NE(with("1000").find(
-                "gives 0.089 kg m2 at most 382 rad/s2, never joint.limits.acceleration_rad_s2 = 1000"),
+  EXPECT_NE(with("1000").find("inertia_kgm2 = 0.089: torque_limit_Nm = 34 gives it at most 382 rad/s2, never "
+                              "acceleration_rad_s2 = 1000"),
             std::string::npos)
       << with("1000");
   EXPECT_EQ(with("381").find("warning"), std::string::npos) << with("381");

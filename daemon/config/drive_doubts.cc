@@ -1,0 +1,77 @@
+#include "daemon/config/drive_doubts.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/printable.h"
+#include "control/gear_catalogue.h"
+
+namespace strainwave {
+
+namespace {
+
+/// 125 lines with four edges each: servo motors' encoders have more.
+constexpr double kFewestCountsPerMotorTurn = 500.0;
+/// Drives on CAN take less (IEC 61800-5-1: above 120 V a drive is no extra-low voltage device).
+constexpr double kHighestSupply_V = 120.0;
+
+constexpr std::uint32_t kMaxon = 0x000000FB;
+constexpr std::uint32_t kElmo = 0x0000009A;
+
+/// The ratio below `ratio` that is nearest to it and at most `most`.
+std::optional<double> smaller_ratio(double ratio, double most) {
+  std::optional<double> best;
+  for (const Gear& gear : gear_catalogue())
+    if (gear.ratio < ratio && gear.ratio <= most) best = std::max(best.value_or(0.0), gear.ratio);
+  return best;
+}
+
+}  // namespace
+
+void doubt_drive(const TomlSection& section, const JointConfig& joint, const cia402::DriveConfig& drive) {
+  const cia402::UnitConfig& units = drive.units;
+  const double counts_per_motor_turn = units.counts_per_output_revolution / units.gear_ratio;
+  if (joint.loop.controller.encoder_side == EncoderSide::kMotor && units.gear_ratio > 1.0 &&
+      counts_per_motor_turn < kFewestCountsPerMotorTurn)
+    section.warn("counts_per_output_revolution",
+                 "are " + number_text(counts_per_motor_turn) +
+                     " in a turn of the motor, where encoders have 500 and more; if a turn of the motor is "
+                     "meant, write " +
+                     number_text(units.counts_per_output_revolution * units.gear_ratio));
+  const bool micro = units.rated_torque_unit_Nm < 1e-4;
+  if (drive.identity.vendor_id == kMaxon && !micro)
+    section.warn("rated_torque_unit", "maxon's drives give 6076h in uNm: \"uNm\" is likely meant");
+  if (drive.identity.vendor_id == kElmo && micro)
+    section.warn("rated_torque_unit", "Elmo's drives give 6076h in mNm: \"mNm\" is likely meant");
+}
+
+void doubt_motor(TomlSection& motor, const JointConfig& joint, const cia402::DriveConfig& drive) {
+  const cia402::UnitConfig& units = drive.units;
+  const double ratio = units.gear_ratio;
+  const double constant_Nm_A = units.torque_constant_Nm_A;
+  if (const auto doubt = cia402::rated_torque_doubt(drive.rated_current_A * constant_Nm_A * ratio, units,
+                                                    drive.torque_limit_Nm))
+    motor.warn("torque_constant_Nm_A", *doubt);
+  if (!motor.has("supply_V")) return;
+  const double speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
+  const double supply_V = motor.number("supply_V", kPositive);
+  const double back_emf_Vs_rad = motor.number_or("back_emf_Vs_rad", constant_Nm_A, {0.0, 1e6});
+  const double needed_V = back_emf_Vs_rad * ratio * speed_rad_s;
+  if (needed_V <= supply_V) return;
+  // The smallest change that is enough.
+  std::string likely;
+  if (const auto smaller = smaller_ratio(ratio, ratio * supply_V / needed_V))
+    likely = "joint.gear_ratio = " + number_text(*smaller);
+  else if (10.0 * supply_V >= needed_V && 10.0 * supply_V <= kHighestSupply_V)
+    likely = "supply_V = " + number_text(10.0 * supply_V);
+  else if (needed_V / ratio <= supply_V)
+    likely = "the motor's own constant, torque_constant_Nm_A = " + number_text(constant_Nm_A / ratio);
+  motor.warn("supply_V", "reaches " + number_text(supply_V / (back_emf_Vs_rad * ratio)) +
+                             " rad/s of the joint without any torque, less than speed_limit_rad_s = " +
+                             number_text(speed_rad_s) + ", which takes " + number_text(needed_V) +
+                             " V (back_emf_Vs_rad = " + number_text(back_emf_Vs_rad) +
+                             ", gear_ratio = " + number_text(ratio) + ")" +
+                             (likely.empty() ? "" : "; likely meant is " + likely));
+}
+
+}  // namespace strainwave
