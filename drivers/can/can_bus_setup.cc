@@ -124,9 +124,9 @@ void CanBus::set_up_nodes(const CanPortFactory& open) {
     CanPortOptions options;
     for (const auto& node : nodes_)
       for (const std::uint32_t id : node->receive_ids()) options.receive_ids.push_back(id);
-    options.own_frames = true;
-    if (config_.sync == SyncProducer::kDaemon)
-      options.receive_ids.push_back(canopen::cob_id(canopen::CobId::kSync));
+    // When a SYNC of ours was on the bus.
+    options.own_frames = config_.sync == SyncProducer::kDaemon;
+    if (options.own_frames) options.receive_ids.push_back(canopen::cob_id(canopen::CobId::kSync));
     const std::unique_ptr<CanPort> port = open(options);
     for (const auto& node : nodes_) attempt([&] { say(node->verify(*port)); });
   }
