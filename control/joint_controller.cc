@@ -64,7 +64,8 @@ void JointController::start(double position_rad, double velocity_rad_s,
                             std::optional<double> holding_torque_Nm) noexcept {
   begin_order(0.0);
   const double fastest = motion_.velocity_rad_s;
-  begin_plan(position_rad, std::clamp(velocity_rad_s, -fastest, fastest));
+  const double begin_rad_s = std::clamp(velocity_rad_s, -fastest, fastest);
+  trajectory_.start(begin_plan(position_rad, begin_rad_s), begin_rad_s);
   reading_.reset(position_rad, velocity_rad_s);
   law_.begin_anew();
   oscillation_.reset();
@@ -75,16 +76,16 @@ void JointController::start(double position_rad, double velocity_rad_s,
   phase_ = velocity_rad_s == 0.0 ? MotionPhase::kResting : MotionPhase::kTracking;
 }
 
-// A motion at constant velocity from where the encoder reads `reading_rad`; it comes to rest unless an order follows.
-void JointController::begin_plan(double reading_rad, double velocity_rad_s) noexcept {
+// A motion at constant velocity from where the encoder reads `reading_rad`. Where the trajectory, which is ahead, must go on from.
+double JointController::begin_plan(double reading_rad, double velocity_rad_s) noexcept {
   const bool of_link = config_.encoder_side == EncoderSide::kLink;
   const double motor_rad = of_link ? planner_.motor_rest_rad(reading_rad) : reading_rad;
-  trajectory_.start(planner_.reset(motor_rad, velocity_rad_s), velocity_rad_s);
   plan_ = {};
   plan_.position_rad = motor_rad;
   plan_.link_position_rad = reading_rad;
   plan_.velocity_rad_s = velocity_rad_s;
   rest_periods_ = 0;
+  return planner_.reset(motor_rad, velocity_rad_s);
 }
 
 void JointController::begin_order(double speed_limit_rad_s) noexcept {
@@ -144,7 +145,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   const bool missed = measurement.elapsed_periods > kMaxElapsedPeriods;
   const int elapsed_periods = missed ? 1 : std::max(1, measurement.elapsed_periods);
   choose_gains(measurement);
-  if (missed && !yields()) hold_from(measurement);
+  if (missed && !yields() && moves()) go_on_from(measurement);
   if (!yields()) advance_plan(elapsed_periods);
   read(measurement);
   if (!yields())

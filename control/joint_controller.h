@@ -85,7 +85,7 @@ class JointController {
 
   /// So many periods, >= 1, after the last step() comes the next, which is given the same number: before samples that have come since are
   /// followed. May be left out where it is one.
-  void begin_period(int elapsed_periods) noexcept { trajectory_.begin_period(elapsed_periods); }
+  void begin_period(std::int64_t elapsed_periods) noexcept { trajectory_.begin_period(elapsed_periods); }
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
@@ -112,7 +112,7 @@ class JointController {
  private:
   // The steps of a period, in their order.
   void choose_gains(const JointMeasurement& measurement) noexcept;
-  void hold_from(const JointMeasurement& measurement) noexcept;
+  void go_on_from(const JointMeasurement& measurement) noexcept;
   void advance_plan(int elapsed_periods) noexcept;
   void keep_load() noexcept;
   void read(const JointMeasurement& measurement) noexcept;
@@ -130,7 +130,7 @@ class JointController {
   double planned_torque_Nm() const noexcept;
   double planned_friction_Nm() const noexcept;
   void begin_order(double speed_limit_rad_s) noexcept;
-  void begin_plan(double reading_rad, double velocity_rad_s) noexcept;
+  double begin_plan(double reading_rad, double velocity_rad_s) noexcept;
   bool moves() const noexcept;
   /// Where the encoder should be read now.
   double place_rad() const noexcept;

@@ -34,8 +34,8 @@ void JointController::choose_gains(const JointMeasurement& measurement) noexcept
   if (law_.choose_gains(temperature_C)) friction_.weigh(law_.temperature_weights());
 }
 
-// After a gap in which the loop did not run: the joint comes to rest from where it is.
-void JointController::hold_from(const JointMeasurement& measurement) noexcept {
+// A motion over a gap in which the loop did not run: it goes on from where the joint is.
+void JointController::go_on_from(const JointMeasurement& measurement) noexcept {
   const double passed_s = measurement.elapsed_periods * config_.period_s;
   const bool seen = measurement.has_position;
   const double position_rad = seen ? measurement.joint_position_rad : reading_.position_rad();
@@ -43,7 +43,7 @@ void JointController::hold_from(const JointMeasurement& measurement) noexcept {
   const double fastest = config_.motion.velocity_rad_s;
   const double velocity_rad_s = std::clamp(shown_rad_s, -fastest, fastest);
   law_.reference_jumps();
-  begin_plan(position_rad, velocity_rad_s);
+  trajectory_.go_on_from(begin_plan(position_rad, velocity_rad_s), velocity_rad_s);
   reading_.reset(position_rad, velocity_rad_s);
 }
 

@@ -8,7 +8,7 @@ namespace strainwave {
 
 /// Most periods between a torque's computation and its effect.
 inline constexpr int kMaxControlDelay = 8;
-/// After a longer gap between two steps the controller knows nothing of the motion: the joint comes to rest from where it is.
+/// After a longer gap between two steps the controller knows nothing of the motion: the joint goes on from where it is.
 inline constexpr int kMaxElapsedPeriods = 20;
 
 /// One period's measurements.

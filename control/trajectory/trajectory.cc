@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/joint_measurement.h"
+
 namespace strainwave {
 
 namespace {
@@ -47,8 +49,14 @@ void Trajectory::stop() noexcept {
   shaper_.stop();
 }
 
-void Trajectory::begin_period(int elapsed_periods) noexcept {
-  stream_.leave_out(elapsed_periods - 1);
+// Through periods that were left out step() goes as if it had been called; not where the joint's motion is unknown.
+void Trajectory::begin_period(std::int64_t elapsed_periods) noexcept {
+  if (elapsed_periods <= kMaxElapsedPeriods)
+    stream_.leave_out(elapsed_periods - 1);
+  else if (streamed_)
+    stream_.skip(elapsed_periods - 1);
+  else
+    stream_.wait(elapsed_periods - 1);
 }
 
 bool Trajectory::off_stream() const noexcept {

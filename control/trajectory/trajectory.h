@@ -7,6 +7,7 @@
 //   stop     -> ReferenceShaper to rest
 #pragma once
 
+#include <cstdint>
 #include <utility>
 
 #include "control/reference_shaper.h"
@@ -25,15 +26,17 @@ class Trajectory {
 
   /// Comes to rest from here and stays.
   void start(double position_rad, double velocity_rad_s) noexcept;
-  /// Goes on from here, at rest, to what was ordered: a small motion of a joint that stands beside its place.
-  void go_on_from(double position_rad) noexcept { shaper_.restart(position_rad, 0.0); }
+  /// Goes on from here to what was ordered: a joint that stands beside its place, or that moved while the loop did not run.
+  void go_on_from(double position_rad, double velocity_rad_s = 0.0) noexcept {
+    shaper_.restart(position_rad, velocity_rad_s);
+  }
   void set_target(double position_rad) noexcept;
   void follow(const StreamSample& sample, bool begins, double lead_periods, const MotionLimits& reach,
               const PositionRange& range) noexcept;
   void stop() noexcept;
 
   /// So many periods, >= 1, after the last step() comes the next: before samples that have come since are followed.
-  void begin_period(int elapsed_periods) noexcept;
+  void begin_period(std::int64_t elapsed_periods) noexcept;
   /// The reference for this period, within `limits`.
   Reference step(const MotionLimits& limits) noexcept;
 

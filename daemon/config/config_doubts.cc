@@ -114,7 +114,7 @@ void doubt_inertia(const TomlSection& section, const JointConfig& joint) {
   double likely_kgm2 = inertia_kgm2 / 10.0;
   while (likely_kgm2 > most_kgm2) likely_kgm2 /= 10.0;
   if (inertia_kgm2 > kMisplacedPoint * most_kgm2) doubt += "; is " + rounded(likely_kgm2) + " meant?";
-  section.warn("inertia_kgm2", doubt);
+  section.warn(controller.link ? "load_inertia_kgm2" : "inertia_kgm2", doubt);
 }
 
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,

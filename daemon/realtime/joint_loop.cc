@@ -72,7 +72,7 @@ JointLoop::JointLoop(std::int64_t index, const JointLoopConfig& config, std::uni
 
 void JointLoop::step(const CycleTime& time) noexcept {
   notices_ = 0;
-  begin_period(time);
+  controller_.begin_period(time.elapsed_periods);
   take_orders(time);
   read_drive(time);
   check_reading(time);
@@ -84,14 +84,6 @@ void JointLoop::step(const CycleTime& time) noexcept {
   advance_mode(time);
   command_drive(time);
   tell(time);
-}
-
-// After a gap in which the loop did not run the controller brings the joint to rest: what it followed is over.
-void JointLoop::begin_period(const CycleTime& time) noexcept {
-  if (time.elapsed_periods > kMaxElapsedPeriods)
-    ordered_.end();
-  else
-    controller_.begin_period(static_cast<int>(time.elapsed_periods));
 }
 
 void JointLoop::read_drive(const CycleTime& time) noexcept {

@@ -121,7 +121,6 @@ class JointLoop {
     std::optional<double> position_rad;
   };
   // The steps of a period, in their order.
-  void begin_period(const CycleTime& time) noexcept;
   void take_orders(const CycleTime& time) noexcept;
   void read_drive(const CycleTime& time) noexcept;
   void check_reading(const CycleTime& time) noexcept;

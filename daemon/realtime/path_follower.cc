@@ -17,10 +17,7 @@ constexpr double kLeastPatience_s = 2.0 / PathClock::kFastestChange_1_s;
 }  // namespace
 
 PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s)
-    : joints_(joints),
-      period_s_(period_s),
-      members_(joints.size()),
-      travels_(joints.size()) {
+    : joints_(joints), period_s_(period_s), members_(joints.size()), travels_(joints.size()) {
   for (const auto& joint : joints_) joint->follow_paths_of(*this);
 }
 

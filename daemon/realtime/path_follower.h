@@ -56,7 +56,7 @@ class PathFollower {
     PathTimes times;                   ///< of the clock
     double most_behind_periods = 0.0;  ///< of its members
     double duration_s = 0.0;
-    std::int64_t rest_cycles = 0;   ///< left for coming to rest along the path, while it ends
+    std::int64_t rest_cycles = 0;  ///< left for coming to rest along the path, while it ends
   };
   /// A joint's place on it.
   struct Member {

@@ -72,8 +72,8 @@ struct LoopStatistics {
 
 struct ClosedLoopResult {
   LoopStatistics statistics;
-  std::vector<TracePoint> trace;                   ///< every sample
-  std::optional<double> switched_off_s;            ///< when the controller found the joint oscillating
+  std::vector<TracePoint> trace;         ///< every sample
+  std::optional<double> switched_off_s;  ///< when the controller found the joint oscillating
   bool diverged = false;  ///< left +-1e6 rad or became NaN; the indices are then infinite, the trace short
 };
 

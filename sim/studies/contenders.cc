@@ -72,14 +72,12 @@ Contender plain_contender(const std::string& name, const GainTable& table) {
           }};
 }
 
-Contender extended_contender(const std::string& name, const GainTable& table,
-                             const MotionLimits& motion) {
+Contender extended_contender(const std::string& name, const GainTable& table, const MotionLimits& motion) {
   return {name, [table, motion](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
             require_period(table, plant);
             GainTable limited = table;
             limited.torque_limit_Nm = torque_limit_Nm(plant, table);
-            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, motion),
-                                                            limited);
+            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, motion), limited);
           }};
 }
 

@@ -89,12 +89,13 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     }
     responses.panels.push_back(response);
   }
-  Figure map{"flexible_map",
-             "Where the joint oscillates at rest, or the controller switched it off, over its free-free frequency. "
-             "Each step has a band; "
-             "in it temperature rises from -10 to 45 °C, and for each temperature damping from 1 to 10 %.",
-             2,
-             {}};
+  Figure map{
+      "flexible_map",
+      "Where the joint oscillates at rest, or the controller switched it off, over its free-free frequency. "
+      "Each step has a band; "
+      "in it temperature rises from -10 to 45 °C, and for each temperature damping from 1 to 10 %.",
+      2,
+      {}};
   for (std::size_t c = 0; c < drawn; ++c) {
     Panel where = panel(contenders[c].name, "free-free frequency (Hz)", "step (rad)", true);
     where.y_range = {3e-4, 3.0};
@@ -103,9 +104,7 @@ std::vector<Figure> flexible_figures(const std::vector<FlexibleRow>& rows,
     Points loud;
     for (const FlexibleRow& row : rows) {
       const FlexibleResult& result = row.results[c];
-      Points& kind = result.oscillates     ? loud
-                     : result.switched_off ? off
-                                           : quiet;
+      Points& kind = result.oscillates ? loud : result.switched_off ? off : quiet;
       kind.emplace_back(free_free_Hz(row.cell), map_height(row.cell));
     }
     const auto add = [&](const char* name, const Points& points, int colour) {

@@ -165,15 +165,14 @@ TextTable flexible_summary(const std::string& title, const std::vector<FlexibleR
       return std::to_string(std::count_if(rows.begin(), rows.end(),
                                           [&](const FlexibleRow& row) { return of(row.results[c]); }));
     };
-    table.rows.push_back(
-        {contenders[c].name, number(geometric_mean(all), 3), number(percentile(all, 0.95), 3),
-         number(percentile(all, 1.0), 3), number(geometric_mean(counted), 3),
-         number(percentile(counted, 0.95), 3),
-         count([](const FlexibleResult& r) { return r.settling_time_s >= 0.0; }),
-         number(percentile(overshoot, 1.0), 3), number(percentile(rest, 0.95), 3),
-         count([](const FlexibleResult& r) { return r.oscillates; }),
-         count([](const FlexibleResult& r) { return r.switched_off; }),
-         count([](const FlexibleResult& r) { return r.diverged; })});
+    table.rows.push_back({contenders[c].name, number(geometric_mean(all), 3),
+                          number(percentile(all, 0.95), 3), number(percentile(all, 1.0), 3),
+                          number(geometric_mean(counted), 3), number(percentile(counted, 0.95), 3),
+                          count([](const FlexibleResult& r) { return r.settling_time_s >= 0.0; }),
+                          number(percentile(overshoot, 1.0), 3), number(percentile(rest, 0.95), 3),
+                          count([](const FlexibleResult& r) { return r.oscillates; }),
+                          count([](const FlexibleResult& r) { return r.switched_off; }),
+                          count([](const FlexibleResult& r) { return r.diverged; })});
   }
   return table;
 }

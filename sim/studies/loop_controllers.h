@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "control/scheduled_controller.h"
 #include "control/joint_measurement.h"
+#include "control/scheduled_controller.h"
 #include "sim/studies/closed_loop.h"
 
 namespace strainwave {

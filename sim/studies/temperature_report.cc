@@ -116,7 +116,7 @@ double rms_over_none(const std::vector<TemperatureRow>& rows, const std::string&
 
 TextTable temperature_rows(const std::vector<TemperatureRow>& rows) {
   TextTable table;
-  table.header = {"way",           "sensor",         "motion",     "temperature_C",
+  table.header = {"way",           "sensor",         "motion",      "temperature_C",
                   "rms_error_rad", "peak_error_rad", "switched_off"};
   for (const TemperatureRow& row : rows)
     table.rows.push_back({row.way, row.sensor, row.motion, number(row.temperature_C, 9),

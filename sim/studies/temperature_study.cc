@@ -41,8 +41,7 @@ FrictionWay product_way(const std::string& name, const GainTable& table,
   return {name, [table, told](const JointPlantConfig& plant, const SmoothPath& path, double shift_C) {
             StreamedController::Told now = told;
             now.shift_C += shift_C;
-            return std::make_unique<StreamedController>(extended_config(plant, table), table, path,
-                                                        now);
+            return std::make_unique<StreamedController>(extended_config(plant, table), table, path, now);
           }};
 }
 

@@ -58,7 +58,7 @@ struct PathError {
 };
 
 struct PathRun {
-  std::vector<PathError> stretches;                ///< one per stretch that was asked for
+  std::vector<PathError> stretches;  ///< one per stretch that was asked for
   bool switched_off = false;
 };
 

@@ -112,17 +112,18 @@ void stall_anywhere(const BenchJoint& joint, const OverrunLimits& limits, int pe
     EXPECT_LT(fastest_seen_rad_s, fastest_rad_s) << "seen, stall of " << periods << " at " << after_s << " s";
     EXPECT_LT(fastest_true_rad_s, fastest_rad_s) << "true, stall of " << periods << " at " << after_s << " s";
     EXPECT_NEAR(truth.position_rad, 3.0, 1e-3) << periods << ", " << after_s;
+    EXPECT_EQ(bench.mode(0), Mode::kHolding) << periods << ", " << after_s;
   }
 }
 
 TEST(StallThatIsTolerated, MakesNoOtherFaultWithWhatTheDemoTolerates) {
-    for (const int periods : {1, 5, 9, 10, 19, 49, 50, 80, 300, 1990})
-      stall_anywhere(watched_joint({4.0, 30.0, 30.0}, 8.0), {1000, 2.0, 1.0}, periods, 5.0);
+  for (const int periods : {1, 5, 9, 10, 19, 49, 50, 80, 300, 1990})
+    stall_anywhere(watched_joint({4.0, 30.0, 30.0}, 8.0), {1000, 2.0, 1.0}, periods, 5.0);
 }
 
 TEST(StallThatIsTolerated, MakesNoOtherFaultWithWhatIsToleratedByDefault) {
-    for (const int periods : {1, 5, 9, 10, 15, 19})
-      stall_anywhere(watched_joint({6.0, 150.0, 150.0}, 7.6), {}, periods, 7.5);
+  for (const int periods : {1, 5, 9, 10, 15, 19})
+    stall_anywhere(watched_joint({6.0, 150.0, 150.0}, 7.6), {}, periods, 7.5);
 }
 
 TEST_F(StalledLoop, IsNoFaultWhileAllJointsAreOff) {

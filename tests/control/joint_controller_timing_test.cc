@@ -63,7 +63,7 @@ TEST(JointControllerTiming, ArrivesToTheCountAlthoughPeriodsWereSkippedOnTheWay)
   }
 }
 
-TEST(JointControllerTiming, ComesToRestFromWhereTheJointIsAfterALongGap) {
+TEST(JointControllerTiming, GoesOnFromWhereTheJointIsAfterALongGap) {
   for (const int skipped : {20, 80}) {
     ControlledJoint loop;
     loop.controller().set_target(10.0, 2.0);
@@ -72,9 +72,8 @@ TEST(JointControllerTiming, ComesToRestFromWhereTheJointIsAfterALongGap) {
     const double from_rad = loop.position_rad();
     const JointStep after = loop.step();
     EXPECT_NEAR(after.reference.position_rad, from_rad, 0.01) << skipped;
-    loop.run(2.0);
-    EXPECT_LT(loop.position_rad(), from_rad + 0.5) << skipped << ": it does not go on to its target";
-    EXPECT_EQ(loop.step().phase, MotionPhase::kResting) << skipped;
+    loop.run(6.0);
+    EXPECT_NEAR(loop.position_rad(), 10.0, 1e-3) << skipped;
   }
 }
 

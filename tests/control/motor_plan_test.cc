@@ -199,35 +199,6 @@ TEST(MotorPlanner, SwingsNothingUpWhereTheMotionAsksForMoreThanThereIs) {
   }
 }
 
-// A stream that is joined at speed, or whose samples jump: what the torque cannot do saturates the regulator, which must not swing the
-// model up for ever between the torque's limits.
-TEST(MotorPlanner, ComesBackToAMotionThatJumpedAway) {
-  for (const double link : {0.03, 0.089, 0.267})
-    for (const double damping : {0.0, 0.01, 0.1})
-      for (const double jump_rad : {0.0, 3e-3, 2e-2})
-        for (const double speed_rad_s : {0.5, 1.57, 4.0}) {
-          MotorPlannerConfig config = config_for(link, 1.0);
-          config.joint.spring = find_gear("csf-17-50")->spring;
-          config.joint.damping_Nms_rad = structural_damping_Nms_rad(0.089, link, 10000.0, damping);
-          MotorPlanner motion(config);
-          double planned_rad = jump_rad;
-          double off_rad = 0.0;
-          int reversals = 0;
-          double last_Nm = 0.0;
-          for (int k = 0; k < 600; ++k) {
-            const MotorPlan plan = step(motion, {planned_rad, speed_rad_s, 0.0});
-            planned_rad += speed_rad_s * kPeriod_s;
-            if (k < 400) continue;
-            off_rad = std::max(off_rad, std::abs(plan.velocity_rad_s - speed_rad_s) * kPeriod_s);
-            reversals += plan.torque_Nm * last_Nm < -1.0 ? 1 : 0;
-            last_Nm = plan.torque_Nm;
-          }
-          EXPECT_LT(off_rad, kBand_rad) << link << " kg m2, damping " << damping << ", " << jump_rad
-                                        << " rad, " << speed_rad_s << " rad/s";
-          EXPECT_EQ(reversals, 0) << link << ", " << damping << ", " << jump_rad << ", " << speed_rad_s;
-        }
-}
-
 TEST(MotorPlanner, AsksForNoMoreThanThereIs) {
   const MotorPlannerConfig config = config_for(0.089, 10000.0);
   MotorPlanner motion(config);
@@ -244,7 +215,7 @@ TEST(MotorPlanner, AsksForNoMoreThanThereIs) {
 TEST(MotorPlanner, GoesOnFromAJointThatMoves) {
   MotorPlanner motion(config_for(0.089, 10000.0, 1));
   double planned_rad = motion.reset(0.5, 2.0);
-  double last_rad = 0.5 - 2.0 * 2.0 * kPeriod_s;
+  double last_rad = 0.5 - 2.0 * kPeriod_s;
   for (int k = 0; k < 50; ++k) {
     const MotorPlan plan = step(motion, {planned_rad, 2.0, 0.0});
     planned_rad += 2.0 * kPeriod_s;

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "control/joint_measurement.h"
 #include "control/link_velocity.h"
 #include "control/scheduled_controller.h"
-#include "control/joint_measurement.h"
 #include "control/ts_plant.h"
 
 namespace strainwave {

@@ -14,14 +14,14 @@ DesignRequest boxed_request() {
   return request;
 }
 
-Trajectory worst_of_all_vertices(const FeedbackGains& gains, const DesignRequest& request) {
+WorstCase worst_of_all_vertices(const FeedbackGains& gains, const DesignRequest& request) {
   std::mt19937_64 random(1);
-  Trajectory worst;
+  WorstCase worst;
   for (const StateVector& vertex : request.initial_states) {
     for (int run = 0; run < 10; ++run) {
       StateVector start = vertex;
       if (!gains.has_integrator) start(0) = 0.0;
-      const Trajectory trajectory = simulate_worst_case(gains, request, start, 2000, random);
+      const WorstCase trajectory = simulate_worst_case(gains, request, start, 2000, random);
       EXPECT_LE(trajectory.cost, gains.cost_bound);
       worst.largest_torque_Nm = std::max(worst.largest_torque_Nm, trajectory.largest_torque_Nm);
       worst.largest = worst.largest.cwiseMax(trajectory.largest);

@@ -58,7 +58,7 @@ TEST(ControllerDesign, TheCostBoundCoversWorstCaseSimulations) {
   for (const Controller controller : kAllControllers) {
     const FeedbackGains gains = design_gains(controller, request).gains;
     for (int run = 0; run < 20; ++run) {
-      const Trajectory trajectory =
+      const WorstCase trajectory =
           simulate_worst_case(gains, request, request.initial_states[0], 3000, random);
       EXPECT_LE(trajectory.cost, gains.cost_bound) << name_of(controller);
       EXPECT_GT(trajectory.cost, 0.5 * gains.cost_bound) << "the bound says nothing";
@@ -130,7 +130,7 @@ TEST(ControllerDesign, ADecayRateIsKeptBySimulations) {
   request.decay_rate = 0.999;
   const FeedbackGains gains = design_gains(Controller::kC4, request).gains;
   const int samples = 5000;
-  const Trajectory trajectory =
+  const WorstCase trajectory =
       simulate_worst_case(gains, request, request.initial_states[0], samples, random);
   // |x|^2 falls with V, up to the condition of P.
   EXPECT_LT(trajectory.final_ratio, 1e4 * std::pow(request.decay_rate, samples));

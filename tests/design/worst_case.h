@@ -9,21 +9,21 @@
 
 namespace strainwave {
 
-struct Trajectory {
+struct WorstCase {
   double cost = 0.0;
   double largest_torque_Nm = 0.0;
   StateVector largest = StateVector::Zero();  ///< of each state
   double final_ratio = 0.0;                   ///< |x| at the end over |x| at the start
 };
 
-inline Trajectory simulate_worst_case(const FeedbackGains& gains, const DesignRequest& request,
-                                      const StateVector& start, int samples, std::mt19937_64& random) {
+inline WorstCase simulate_worst_case(const FeedbackGains& gains, const DesignRequest& request,
+                                     const StateVector& start, int samples, std::mt19937_64& random) {
   const int rules = plant_rule_count(request.friction);
   const StateMatrix W =
       StateVector(gains.weights.integral, gains.weights.position, gains.weights.velocity).asDiagonal();
   std::exponential_distribution<double> exponential;
   std::uniform_int_distribution<int> pick(0, rules - 1);
-  Trajectory trajectory;
+  WorstCase trajectory;
   StateVector x = start;
   for (int k = 0; k < samples; ++k) {
     Eigen::VectorXd alpha = Eigen::VectorXd::Unit(rules, pick(random));

@@ -12,8 +12,7 @@ inline void put_on_spring(BenchJoint& joint, const JointPlantConfig& plant) {
   joint.drive.plant = plant;
   JointControllerConfig& controller = joint.loop.controller;
   const Transmission& gear = *plant.effects.transmission;
-  controller.link = {
-      plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
+  controller.link = {plant.joint.inertia_kgm2, gear.link_inertia_kgm2, gear.spring, gear.damping_Nms_rad, {}};
 }
 
 /// A link as heavy as the motor on the gear's spring, and a load besides that is not configured.

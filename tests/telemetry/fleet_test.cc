@@ -94,8 +94,8 @@ TEST(JointMetrics, SayNothingOfWhatIsNotKnown) {
   state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
   fleet.take(kElbow, state, kNow_s);
   const std::string page = page_of(fleet);
-  for (const char* name : {"friction", "torque_limit", "tracking_error", "temperature_celsius",
-                           "temperature_used_celsius", "joint_fault{", "notice"})
+  for (const char* name : {"friction_modelled", "friction_excess", "torque_limit", "tracking_error",
+                           "temperature_celsius", "temperature_used_celsius", "joint_fault{", "notice"})
     EXPECT_EQ(page.find(name), std::string::npos) << name;
 }
 
@@ -109,10 +109,8 @@ TEST(JointMetrics, NameFaultAndNoticesWhileTheyLast) {
   const std::string page = page_of(fleet);
   EXPECT_EQ(sample(page, R"(strainwave_joint_fault{prefix="SW",joint="elbow",fault="following error"})"),
             1.0);
-  EXPECT_EQ(
-      sample(page,
-             R"(strainwave_joint_notice{prefix="SW",joint="elbow",notice="off the stream"})"),
-      1.0);
+  EXPECT_EQ(sample(page, R"(strainwave_joint_notice{prefix="SW",joint="elbow",notice="off the stream"})"),
+            1.0);
   EXPECT_EQ(sample(page, R"(strainwave_joint_notice{prefix="SW",joint="elbow",notice="torque limited"})"),
             1.0);
   EXPECT_EQ(page.find("unknown"), std::string::npos) << "bits without a meaning";

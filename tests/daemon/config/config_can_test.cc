@@ -157,7 +157,6 @@ TEST_F(CanConfigTest, WarnsOfNumbersThatContradictEachOtherWithTheValueThatIsLik
   };
   for (const Row& row : std::initializer_list<Row>{
            {"= 320000", "= 6400", {"counts_per_output_revolution = 6400", "128", "write 320000"}},
-           {"gear_ratio = 50", "gear_ratio = 100", {"supply_V = 48", "2.5 rad/s", "joint.gear_ratio = 50"}},
            {"supply_V = 48", "supply_V = 4.8", {"supply_V = 4.8", "38.4 V", "supply_V = 48"}},
            {"torque_constant_Nm_A = 0.192",
             "torque_constant_Nm_A = 9.6",

@@ -110,20 +110,6 @@ TEST_F(ModelConfigTest, TakesDampingUpToHalfOfCriticalAndElseDoesNotKnowIt) {
   expect_mentions(error_of(damped("-1.0")), {"joint[0].damping_Nms_rad = -1", "from 0"});
 }
 
-TEST_F(ModelConfigTest, TakesAWeightOnlyOfAFlexibleJoint) {
-  const std::string weight = "gravity_Nm = 3.0\ngravity_zero_rad = -0.5";
-  const GravityLoad gravity = joint_of(controlled(flexible(), weight)).loop.controller.gravity;
-  EXPECT_EQ(gravity.torque_Nm, 3.0);
-  EXPECT_EQ(gravity.zero_rad, -0.5);
-  expect_mentions(error_of(controlled(rigid(), weight)),
-                  {"joint[0].control.gravity_Nm", "model = \"flexible\"", "observer"});
-  expect_mentions(error_of(controlled(flexible(), "gravity_Nm = 3.0")), {"gravity_zero_rad", "missing"});
-  expect_mentions(error_of(controlled(flexible(), "gravity_zero_rad = 3.0")),
-                  {"gravity_zero_rad", "gravity_Nm"});
-  expect_mentions(error_of(controlled(flexible(), "gravity_Nm = 1e3\ngravity_zero_rad = 0")),
-                  {"gravity_Nm", "1000", "0 to 34"});
-}
-
 // The controller counts as the drive does; homing moves what comes from outside, and not the weight.
 TEST_F(ModelConfigTest, RefusesAWeightWherePositionsAreFoundByHoming) {
   const std::string homing = "\n[joint.homing]\nto = \"positive_stop\"\nstop_torque_Nm = 3.0\n";

@@ -25,7 +25,9 @@ BenchJoint sticky_joint(double times) {
   return joint;
 }
 
+/// Without learning, which would take the load over.
 void bring_to_rest(JointBench& bench) {
+  ASSERT_EQ(bench.order(0, OrderKind::kFreezeLearning), Reason::kAccepted);
   bench.bring_to_hold(0);
   ASSERT_EQ(bench.move(0, kTarget_rad), Reason::kAccepted);
   ASSERT_GE(bench.step_until([&] { return bench.mode(0) == Mode::kHolding; }, 1000), 0);

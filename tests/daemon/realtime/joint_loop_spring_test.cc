@@ -32,8 +32,7 @@ const GainTable& table_of(const FlexibleCell& cell) {
 
 Figures by_the_study(const FlexibleCell& cell) {
   Figures figures;
-  for (const TracePoint& point :
-       run_cell(cell, extended_contender("daemon", table_of(cell))).trace)
+  for (const TracePoint& point : run_cell(cell, extended_contender("daemon", table_of(cell))).trace)
     figures.add(point.link_position_rad, point.wanted_torque_Nm, cell.step_rad);
   return figures;
 }

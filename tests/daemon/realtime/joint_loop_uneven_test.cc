@@ -92,8 +92,7 @@ class UnevenJoint {
     for (int k = 0; k < 1000; ++k) {
       step(stall_periods_ > 0 && k == stall_at ? stall_periods_ : 0);
       moves.overshoot_rad = std::max(moves.overshoot_rad, side * (position_rad() - target_rad));
-      fell_back =
-          fell_back || loop_->record().state.fault == static_cast<std::int32_t>(Fault::kChatter);
+      fell_back = fell_back || loop_->record().state.fault == static_cast<std::int32_t>(Fault::kChatter);
     }
     moves.fallbacks += fell_back ? 1 : 0;
     moves.faults += loop_->mode() == Mode::kFaulted ? 1 : 0;

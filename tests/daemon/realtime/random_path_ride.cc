@@ -122,11 +122,8 @@ void RandomPathRide::look(const DrawnPath& path, int cycle, bool full_rate, Ride
     if (i == 0 && on_path && path_time_s > 0.0 && !goes_on) ++record.rested;
     all_say_paused = all_say_paused && bench_.has_notice(i, Notice::kPathPaused);
     if (goes_on) record.setpoint_off_rad.see(std::abs(state.setpoint_position_rad - setpoint_rad), here);
-    // By the delay of its torque a joint is a period behind its setpoint; a motor before a spring is told where it is read now.
-    const bool linked = configs_[i].loop.controller.link.has_value();
-    const DrawnPoint before = evaluate(path.parts[i], linked ? path_time_s : last.path_time_s);
     const JointPlant& plant = bench_.drive(i).simulated().plant();
-    record.off_rad.see(std::abs(plant.link_state().position_rad - before.position_rad), here);
+    record.off_rad.see(std::abs(plant.link_state().position_rad - point.position_rad), here);
     if (on_path && full_rate && path_time_s > 0.0)
       record.time_off_s.see(std::abs(path_time_s - last.path_time_s - kPeriod_s), here);
     record.time_apart_s.see(std::abs(path_time_s - last_[0].path_time_s) * (i == 0 ? 0.0 : 1.0), here);

@@ -27,8 +27,8 @@ constexpr double kWeak_Nm = 12.0;
 constexpr double kKept = 1.0 + 1e-6;
 /// As far as a joint is to be from its path at most, at moderate speed.
 constexpr double kFarOff_rad = 0.5e-3;
-/// Half a second after its end: half a count of a joint that lands, and what a spring leaves.
-constexpr double kLeft_rad = 1e-5;
+/// Half a second after its end: two counts, and what a spring leaves.
+constexpr double kLeft_rad = 4e-5;
 constexpr double kLeftOnSpring_rad = 6e-5;
 constexpr double kPause_s = 0.4;
 /// For coming to rest, and for going on, along the path.

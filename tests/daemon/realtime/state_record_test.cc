@@ -12,7 +12,7 @@ class StateRecordTest : public ::testing::Test {
   StateRecordTest() {
     reading_.joint_position_rad = 0.5;
     reading_.torque_applied_Nm = 3.0;
-    motion_.reference = {0.6, 0.2, 0.0};
+    motion_.ordered_reference = {0.6, 0.2, 0.0};
     motion_.output.torque_Nm = 4.0;
     zero_.set(0.0, 1.0);
     rules_.rule_count = 2;
