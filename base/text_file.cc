@@ -16,7 +16,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = 16u << 20;
+constexpr std::uintmax_t kMaxFileBytes = 128u << 20;
 
 // A name that was given wrongly is one thing, a disk that is full or fails another.
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
@@ -105,7 +105,7 @@ std::string read_text_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path, "cannot be read", errno);
   if (std::filesystem::file_size(path, error) > kMaxFileBytes) {
-    throw InputError(path.string() + ": is larger than 16 MiB: not a file of this program");
+    throw InputError(path.string() + ": is larger than 128 MiB: not a file of this program");
   }
   std::ostringstream text;
   text << file.rdbuf();

@@ -7,7 +7,7 @@
 
 namespace strainwave {
 
-/// The file's bytes. Throws InputError when it cannot be read, is no regular file, or is larger than 16 MiB (no
+/// The file's bytes. Throws InputError when it cannot be read, is no regular file, or is larger than 128 MiB (no
 /// file of ours is).
 std::string read_text_file(const std::filesystem::path& path);
 

@@ -463,7 +463,7 @@ TEST_F(WrongInput, AnAccelerationOfAFlexibleJointIsDoubtedByItsOwnInertias) {
           "model = \"flexible\"\ngear = \"csf-17-50\"\nload_inertia_kgm2 = 0.1\ntable = \"t.json\"\n");
     return check().said;
   };
-  EXPECT_NE(with("181").find("gives 0.189 kg m2 at most 179.9 rad/s2"), std::string::npos) << with("181");
+  EXPECT_NE(with("181").find("at most 179.9 rad/s2"), std::string::npos) << with("181");
   EXPECT_EQ(with("179").find("warning"), std::string::npos) << with("179");
 }
 

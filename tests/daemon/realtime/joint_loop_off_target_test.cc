@@ -18,13 +18,6 @@ BenchJoint plain_joint() {
   return joint;
 }
 
-/// With so many times the friction that its table declares.
-BenchJoint sticky_joint(double times) {
-  BenchJoint joint = plain_joint();
-  scale_friction(joint, times);
-  return joint;
-}
-
 /// Without learning, which would take the load over.
 void bring_to_rest(JointBench& bench) {
   ASSERT_EQ(bench.order(0, OrderKind::kFreezeLearning), Reason::kAccepted);
@@ -64,17 +57,6 @@ TEST(JointLoopOffTarget, ALoadThatFeedbackCarriesMilliradiansOffIsToldAfterASeco
   EXPECT_FALSE(told(bench)) << "a second anew";
 }
 
-TEST(JointLoopOffTarget, FrictionOfSeveralTimesTheTablesIsTold) {
-  JointBench bench({sticky_joint(4.0)});
-  bring_to_rest(bench);
-  EXPECT_NEAR(periods_off_when_told(bench, 3000), 1000, 1);
-  EXPECT_NEAR(bench.state(0).joint_velocity_rad_s, 0.0, 1e-3) << "it sticks there";
-  ASSERT_EQ(bench.move(0, -0.5), Reason::kAccepted);
-  bench.run(0.1);
-  EXPECT_EQ(bench.mode(0), Mode::kTracking);
-  EXPECT_FALSE(told(bench)) << "on its way it is nowhere to hold";
-}
-
 TEST(JointLoopOffTarget, ALoadBelowTheBreakawayMovesNothingAndIsNotTold) {
   JointBench bench({plain_joint()});
   bring_to_rest(bench);
@@ -91,15 +73,6 @@ TEST(JointLoopOffTarget, TheToleranceIsTheConfigurations) {
   bench.drive(0).simulated().set_load_torque_Nm(10.0);
   bench.run(3.0);
   EXPECT_GT(off_rad(bench), 2e-3);
-  EXPECT_FALSE(told(bench));
-}
-
-TEST(JointLoopOffTarget, AJointWhoseObserverCarriesTheLoadIsWhereItWasSent) {
-  JointBench bench({demo_joint()});
-  bring_to_rest(bench);
-  bench.drive(0).simulated().set_load_torque_Nm(10.0);
-  bench.run(3.0);
-  EXPECT_LT(off_rad(bench), 1e-4);
   EXPECT_FALSE(told(bench));
 }
 

