@@ -248,10 +248,11 @@ class EndAndBeginning(unittest.TestCase):
         lost_us = drive.wait_for('heartbeat-lost', killed_us)
         self.assertLessEqual(lost_us - killed_us, MASTER_TIMEOUT_US)
         self.assertGreaterEqual(lost_us - killed_us, MASTER_TIMEOUT_US - HEARTBEAT_US - PERIOD_US)
+        # The deadline of RPDO1 is shorter than the heartbeat's.
         self.assertLessEqual(drive.wait_for('power QuickStopActive', killed_us) - lost_us, PERIOD_US)
         at_rest_us = drive.wait_for('at-rest', killed_us)
         self.assertLessEqual(at_rest_us - lost_us, 200000)
-        drive.wait_for('power SwitchOnDisabled', lost_us)  # a period after it came to rest
+        drive.wait_for('power SwitchOnDisabled', killed_us)  # a period after it came to rest
         report = drive.report()
         self.assertEqual((report['power'], float(report['torque_Nm'])), ('SwitchOnDisabled', 0.0))
 
