@@ -101,7 +101,7 @@ class MotorPlanner {
   bool moves() const noexcept { return rest_periods_ <= config_.delay_periods; }
   /// The plan's motor and link so many periods before now, 0..kMaxControlDelay.
   LinkState before(int periods) const noexcept {
-    return states_[static_cast<std::size_t>(config_.delay_periods + periods)];
+    return states_[static_cast<std::size_t>(config_.delay_periods) + static_cast<std::size_t>(periods)];
   }
   /// Where the motor rests while the link does so at `link_position_rad`.
   double motor_rest_rad(double link_position_rad) const noexcept {
