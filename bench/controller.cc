@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "control/gain_table_json.h"
 #include "control/scheduled_controller.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/contenders.h"
 #include "sim/studies/loop_controllers.h"

@@ -7,7 +7,7 @@
 //                       "Control modes", "Trajectory control")
 //   linear              from one sample to the next along a line, an interval later, its slope as the velocity fed forward: CiA 402's
 //                       interpolated position mode with submode 0 (CiA 402-2, "Interpolated position mode")
-//   stream              control/stream_target.h, confined, followed by control/reference_shaper.h, with the samples' velocities
+//   stream              control/trajectory/stream_target.h, confined, followed by control/trajectory/reference_shaper.h, with the samples' velocities
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,8 +15,8 @@
 #include <numbers>
 #include <vector>
 
-#include "control/gain_table_json.h"
-#include "control/stream_target.h"
+#include "control/table/gain_table_json.h"
+#include "control/trajectory/stream_target.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/peers/cascade.h"
 #include "tests/control/controlled_joint.h"

@@ -18,7 +18,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "daemon/assembly.h"
 #include "daemon/realtime/realtime_loop.h"
 #include "drivers/simulated_actuator.h"

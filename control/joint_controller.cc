@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "control/link_velocity.h"
+#include "control/joint/link_velocity.h"
 #include "control/units.h"
 
 namespace strainwave {

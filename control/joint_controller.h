@@ -1,6 +1,6 @@
 // Everything that one joint needs each period, in one object that the daemon and the simulator both run.
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Only the constructor is not: it solves for a
-// regulator (control/link_model.h). Joint side, SI.
+// regulator (control/joint/link_model.h). Joint side, SI.
 //
 //   trajectory   p, v, a of the link at the instant at which the torque of now acts      (control/trajectory/trajectory.h)
 //   plan         thm*, wm*, T* of the motor, by the gear's spring                        (control/trajectory/motor_plan.h)
@@ -18,14 +18,14 @@
 #include <optional>
 
 #include "control/friction/friction_learning.h"
-#include "control/gain_table.h"
-#include "control/gains_in_use.h"
+#include "control/joint/joint_measurement.h"
+#include "control/joint/joint_model.h"
 #include "control/joint_controller_config.h"
-#include "control/joint_measurement.h"
-#include "control/joint_model.h"
 #include "control/law_in_use.h"
 #include "control/oscillation_detector.h"
 #include "control/rest_corrections.h"
+#include "control/table/gain_table.h"
+#include "control/table/gains_in_use.h"
 #include "control/trajectory/motor_plan.h"
 #include "control/trajectory/trajectory.h"
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "control/encoder_side.h"
-#include "control/gain_table.h"
-#include "control/gravity_load.h"
-#include "control/link_model.h"
-#include "control/motor_limits.h"
-#include "control/reference_shaper.h"
+#include "control/joint/encoder_side.h"
+#include "control/joint/gravity_load.h"
+#include "control/joint/link_model.h"
+#include "control/joint/motor_limits.h"
+#include "control/table/gain_table.h"
+#include "control/trajectory/reference_shaper.h"
 
 namespace strainwave {
 

@@ -8,8 +8,8 @@
 
 #include <optional>
 
-#include "control/gains_in_use.h"
 #include "control/scheduled_controller.h"
+#include "control/table/gains_in_use.h"
 
 namespace strainwave {
 

@@ -28,7 +28,7 @@
 // new setpoint and a saturated torque therefore keep `slow`: neither winds up, neither raises V, and the
 // certificate still holds.
 //
-// A lead makes up for the periods by which a torque acts late (control/spring_plant.h has it in the loop that is certified). The first
+// A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h has it in the loop that is certified). The first
 // sample, and the first after any at which x or F jumped, has no l one period ago: there u = l. Over periods that were left out l is taken
 // to have changed evenly.
 #pragma once
@@ -37,7 +37,7 @@
 #include <limits>
 #include <optional>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 
 namespace strainwave {
 

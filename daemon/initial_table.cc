@@ -2,7 +2,7 @@
 
 #include "base/input_error.h"
 #include "base/protected_file.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
 #include "daemon/config/config_doubts.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "daemon/config/config.h"
 
 namespace strainwave {

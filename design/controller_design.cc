@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "base/input_error.h"
-#include "control/ts_plant.h"
+#include "control/table/ts_plant.h"
 #include "design/controller_lmi.h"
 #include "design/euler_plant.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "control/certificate.h"
-#include "control/gain_table.h"
+#include "control/table/certificate.h"
+#include "control/table/gain_table.h"
 #include "design/sdp_solver.h"
 
 namespace strainwave {

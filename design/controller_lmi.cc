@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/riccati.h"
+#include "control/joint/riccati.h"
 
 namespace strainwave {
 

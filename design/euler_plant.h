@@ -1,12 +1,12 @@
 // The joint sampled by forward Euler, as the source does it: for reproducing the source. No machine moves like
-// this between samples; control/ts_plant.h has what the loop does. Offline.
+// this between samples; control/table/ts_plant.h has what the loop does. Offline.
 #pragma once
 
-#include "control/ts_plant.h"
+#include "control/table/ts_plant.h"
 
 namespace strainwave {
 
-/// One rule: [theta, w] -> (I + ts Ac, ts Bc), the integral as in control/ts_plant.h. Zhao (2006), (3-14).
+/// One rule: [theta, w] -> (I + ts Ac, ts Bc), the integral as in control/table/ts_plant.h. Zhao (2006), (3-14).
 BoundedDynamics euler_dynamics(const PlantIdentity& plant, double viscous_Nms_rad,
                                bool has_integrator) noexcept;
 

@@ -9,7 +9,7 @@
 #include "base/printable.h"
 #include "base/strict_json.h"
 #include "base/text_file.h"
-#include "control/fuzzy_friction_json.h"
+#include "control/friction/fuzzy_friction_json.h"
 #include "control/units.h"
 #include "design/friction_fit.h"
 #include "design/sha256.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "control/friction.h"
-#include "control/fuzzy_friction.h"
+#include "control/friction/friction.h"
+#include "control/friction/fuzzy_friction.h"
 #include "design/identification_record.h"
 
 namespace strainwave {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "control/friction.h"
-#include "control/fuzzy_friction.h"
+#include "control/friction/friction.h"
+#include "control/friction/fuzzy_friction.h"
 #include "design/linear_fit.h"
 
 namespace strainwave {

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "control/friction.h"
+#include "control/friction/friction.h"
 #include "design/steady_speed.h"
 
 namespace strainwave {

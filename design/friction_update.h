@@ -18,7 +18,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "control/fuzzy_friction.h"
+#include "control/friction/fuzzy_friction.h"
 #include "design/friction_regression.h"
 
 namespace strainwave {

@@ -1,10 +1,10 @@
-// What gains and verify need not be told of a joint whose gear's actuator the catalogue knows (control/joint_catalogue.h). Offline.
+// What gains and verify need not be told of a joint whose gear's actuator the catalogue knows (control/joint/joint_catalogue.h). Offline.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "control/joint_catalogue.h"
+#include "control/joint/joint_catalogue.h"
 #include "design/friction_file.h"
 
 namespace strainwave {

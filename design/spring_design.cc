@@ -5,7 +5,7 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
-#include "control/box_certificate.h"
+#include "control/table/box_certificate.h"
 
 namespace strainwave {
 

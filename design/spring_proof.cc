@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "base/input_error.h"
-#include "control/gear_catalogue.h"
-#include "control/ts_plant.h"
+#include "control/joint/gear_catalogue.h"
+#include "control/table/ts_plant.h"
 #include "design/lmi.h"
 
 namespace strainwave {

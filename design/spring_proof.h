@@ -1,4 +1,4 @@
-// Finds what control/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints with a spring. Offline.
+// Finds what control/table/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints with a spring. Offline.
 //
 // P is the least in trace of   P - H' P H / r^2 >= W,   every corner and every gain,   W diagonal,
 // in states that are balanced by the corners' own Lyapunov matrices.
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "control/spring_certificate.h"
+#include "control/table/spring_certificate.h"
 #include "design/sdp_solver.h"
 
 namespace strainwave {

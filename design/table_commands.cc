@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/input_error.h"
-#include "control/box_certificate.h"
-#include "control/certificate.h"
-#include "control/gain_table_json.h"
+#include "control/table/box_certificate.h"
+#include "control/table/certificate.h"
+#include "control/table/gain_table_json.h"
 #include "design/commands.h"
 #include "design/joint_defaults.h"
 #include "design/spring_options.h"

@@ -5,7 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "control/box_certificate.h"
+#include "control/table/box_certificate.h"
 
 namespace strainwave {
 

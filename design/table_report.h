@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "control/certificate.h"
-#include "control/gain_table.h"
+#include "control/table/certificate.h"
+#include "control/table/gain_table.h"
 
 namespace strainwave {
 

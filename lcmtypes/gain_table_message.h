@@ -4,7 +4,7 @@
 
 #include <strainwave/gain_table_v2.hpp>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "control/gains_in_use.h"
+#include "control/table/gains_in_use.h"
 
 namespace strainwave {
 

@@ -78,8 +78,8 @@ TEST(Types, AreFoundAtNamespaceLevelAlone) {
 }
 
 TEST(Layering, FollowsTheArrows) {
-  EXPECT_TRUE(allowed("control/friction.cc", "#include \"control/friction.h\""));
-  EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/gain_table.h\""));
+  EXPECT_TRUE(allowed("control/friction/friction.cc", "#include \"control/friction/friction.h\""));
+  EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/table/gain_table.h\""));
   EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
   EXPECT_TRUE(allowed("client/link/client.h", "#include \"lcmtypes/channels.h\""));
@@ -92,8 +92,8 @@ TEST(Layering, RefusesEveryArrowThatIsNotThere) {
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"design/lmi.h\""));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/link/client.h\""));
-  EXPECT_FALSE(allowed("control/friction.cc", "#include \"drivers/actuator.h\""));
-  EXPECT_FALSE(allowed("control/friction.cc", "#include \"design/lmi.h\""));
+  EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"drivers/actuator.h\""));
+  EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"design/lmi.h\""));
   EXPECT_FALSE(allowed("sim/joint/joint_plant.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config/config.h\""));
@@ -182,8 +182,8 @@ TEST(Layering, KeepsControlFreeOfThreadsSocketsAndClocks) {
   for (const char* line : {"#include <Eigen/Core>", "#include <array>", "#include <cmath>"}) {
     EXPECT_TRUE(allowed("control/a.cc", line)) << line;
   }
-  EXPECT_TRUE(allowed("control/gain_table_json.cc", "#include <nlohmann/json.hpp>"));
-  EXPECT_FALSE(allowed("control/friction.cc", "#include <nlohmann/json.hpp>"));
+  EXPECT_TRUE(allowed("control/table/gain_table_json.cc", "#include <nlohmann/json.hpp>"));
+  EXPECT_FALSE(allowed("control/friction/friction.cc", "#include <nlohmann/json.hpp>"));
 }
 
 /// A small tree of sources that is gone at the end.

@@ -12,7 +12,7 @@
 #include "client/link/motion.h"
 #include "client/link/orders.h"
 #include "client/link/published_limits.h"
-#include "control/knot_path.h"
+#include "control/trajectory/knot_path.h"
 #include "lcmtypes/calm_speed.h"
 
 namespace strainwave {

@@ -11,8 +11,8 @@
 
 #include <algorithm>
 
+#include "control/friction/fuzzy_friction.h"
 #include "control/friction/learned_friction.h"
-#include "control/fuzzy_friction.h"
 
 namespace strainwave {
 

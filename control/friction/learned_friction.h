@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "control/fuzzy_friction.h"
+#include "control/friction/fuzzy_friction.h"
 
 namespace strainwave {
 

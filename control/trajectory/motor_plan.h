@@ -2,14 +2,14 @@
 // and that into position and torque of the motor. Real-time safe, step() included; the constructor is not: it solves
 // for a regulator. Joint side, SI.
 //
-// The planned motion passes through two moving means (control/moving_mean.h) that together last tau. The link's jerk is then
+// The planned motion passes through two moving means (control/trajectory/moving_mean.h) that together last tau. The link's jerk is then
 // bounded and continuous, and the link's position is a flat output of the joint:
 //   ts  = Jl thl'' + gravity(thl)                            the torque that the gear transmits
 //   thm = thl + wind-up(ts - D wind-up'),    wind-up' = C (ts' - D C ts''),    C: compliance
 //   Tm  = Jm thm'' + Jl thl'' + gravity(thl)
 //
 // Held over whole periods, and through slopes that change, that torque does not quite make that motion: some tens of microradians, as
-// much as a joint at rest may be off. A model of the joint (control/link_model.h) therefore makes the motion along with it, regulated towards
+// much as a joint at rest may be off. A model of the joint (control/joint/link_model.h) therefore makes the motion along with it, regulated towards
 // it without delay or noise, within the torque that there is. The model's torque is the plan, and its motor is the reference.
 //
 // tau: half-way through a step A of the acceleration the wind-up takes Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl) besides half of
@@ -24,9 +24,9 @@
 #include <array>
 #include <optional>
 
-#include "control/link_model.h"
-#include "control/moving_mean.h"
-#include "control/reference_shaper.h"
+#include "control/joint/link_model.h"
+#include "control/trajectory/moving_mean.h"
+#include "control/trajectory/reference_shaper.h"
 
 namespace strainwave {
 

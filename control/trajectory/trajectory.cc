@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/joint_measurement.h"
+#include "control/joint/joint_measurement.h"
 
 namespace strainwave {
 

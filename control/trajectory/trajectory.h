@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "control/reference_shaper.h"
-#include "control/stream_target.h"
+#include "control/trajectory/reference_shaper.h"
+#include "control/trajectory/stream_target.h"
 
 namespace strainwave {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "daemon/admission/authorized_keys.h"
 #include "daemon/admission/challenges.h"
 #include "daemon/admission/fair_share.h"

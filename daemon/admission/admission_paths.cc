@@ -3,7 +3,7 @@
 #include <sstream>
 #include <strainwave/path_v1.hpp>
 
-#include "control/knot_path.h"
+#include "control/trajectory/knot_path.h"
 #include "daemon/admission/admission.h"
 #include "daemon/admission/verdict.h"
 #include "lcmtypes/wire.h"

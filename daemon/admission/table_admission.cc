@@ -12,10 +12,10 @@
 #include <sstream>
 #include <vector>
 
-#include "control/box_certificate.h"
-#include "control/certificate.h"
-#include "control/joint_catalogue.h"
-#include "control/spring_certificate.h"
+#include "control/joint/joint_catalogue.h"
+#include "control/table/box_certificate.h"
+#include "control/table/certificate.h"
+#include "control/table/spring_certificate.h"
 #include "lcmtypes/gain_table_message.h"
 #include "lcmtypes/wire.h"
 

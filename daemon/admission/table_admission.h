@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "control/encoder_side.h"
-#include "control/gain_table.h"
-#include "control/link_model.h"
+#include "control/joint/encoder_side.h"
+#include "control/joint/link_model.h"
+#include "control/table/gain_table.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {

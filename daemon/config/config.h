@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/protected_file.h"
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "daemon/admission/authorized_keys.h"
 #include "daemon/gateway/gateway_user.h"
 #include "daemon/realtime/joint_loop.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/toml_section.h"
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "control/units.h"
 #include "daemon/config/config.h"
 #include "daemon/realtime/joint_loop.h"

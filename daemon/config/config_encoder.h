@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/toml_section.h"
-#include "control/encoder_side.h"
+#include "control/joint/encoder_side.h"
 #include "control/joint_controller.h"
 
 namespace strainwave {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/printable.h"
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 #include "control/units.h"
 
 namespace strainwave {

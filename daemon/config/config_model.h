@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/toml_section.h"
-#include "control/gain_table.h"
 #include "control/joint_controller.h"
+#include "control/table/gain_table.h"
 
 namespace strainwave {
 

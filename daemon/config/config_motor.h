@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/toml_section.h"
-#include "control/motor_limits.h"
+#include "control/joint/motor_limits.h"
 
 namespace strainwave {
 

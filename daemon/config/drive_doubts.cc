@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/printable.h"
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
 

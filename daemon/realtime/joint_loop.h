@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "control/inertia_estimate.h"
+#include "control/joint/inertia_estimate.h"
 #include "control/joint_controller.h"
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/cycle_time.h"

@@ -1,4 +1,4 @@
-// Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock (control/path_clock.h), so
+// Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock (control/trajectory/path_clock.h), so
 // that they leave, pause, go on and arrive in the same cycle, and are on the path in between. A joint may follow its plan later than another,
 // by its delay, its jerk limit or its spring: the slowest gets the clock's own time, each other an earlier one, so that the joints are
 // together, where their setpoints are not. Real-time safe.
@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-#include "control/path_clock.h"
+#include "control/trajectory/path_clock.h"
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/orders.h"
 

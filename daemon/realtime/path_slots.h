@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "control/knot_path.h"
+#include "control/trajectory/knot_path.h"
 
 namespace strainwave {
 

@@ -1,5 +1,5 @@
 // From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
-// real-time safe. Joint side. Source of the motor's line: control/motor_limits.h.
+// real-time safe. Joint side. Source of the motor's line: control/joint/motor_limits.h.
 //
 // The amplifier makes a current from the duty:
 //   T = full scale * share
@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-#include "control/motor_limits.h"
+#include "control/joint/motor_limits.h"
 
 namespace strainwave {
 

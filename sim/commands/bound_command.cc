@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/studies/physical_limit.h"
 #include "sim/studies/scenarios.h"

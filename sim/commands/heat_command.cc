@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "base/text_file.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/commands/study_output.h"
 #include "sim/joint/plant_file.h"

@@ -7,7 +7,7 @@
 
 #include "base/input_error.h"
 #include "base/text_file.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/commands/commands.h"
 #include "sim/studies/physical_limit.h"
 #include "sim/studies/text_table.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/printable.h"
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
 

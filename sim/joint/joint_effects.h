@@ -8,8 +8,8 @@
 #include <numbers>
 #include <optional>
 
-#include "control/gravity_load.h"
-#include "control/torsion_spring.h"
+#include "control/joint/gravity_load.h"
+#include "control/joint/torsion_spring.h"
 
 namespace strainwave {
 

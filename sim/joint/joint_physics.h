@@ -6,7 +6,7 @@
 //            d(theta)/dt = w
 //   w  = 0:  stuck while |Tm(0) - load| <= Fs(T),
 //            else the joint breaks away in the direction of Tm(0) - load
-//   F: control/friction.h; Zhao (2006), (2-1)..(2-10)
+//   F: control/friction/friction.h; Zhao (2006), (2-1)..(2-10)
 //
 // Between events: classical Runge-Kutta of order 4 with friction continued smoothly through w = 0. For
 // constant torque the velocity obeys a scalar autonomous equation, so it is monotone: a step holds at most
@@ -14,8 +14,8 @@
 // joint is at rest, and only then it stays stuck or breaks away for the remaining time. The sign is never smoothed.
 #pragma once
 
-#include "control/friction.h"
-#include "control/motor_limits.h"
+#include "control/friction/friction.h"
+#include "control/joint/motor_limits.h"
 
 namespace strainwave {
 

@@ -2,7 +2,7 @@
 // at a time. Real-time safe except for the constructor.
 #pragma once
 
-#include "control/encoder_side.h"
+#include "control/joint/encoder_side.h"
 #include "sim/joint/delay_line.h"
 #include "sim/joint/encoder.h"
 #include "sim/joint/flexible_physics.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "control/fuzzy_friction.h"
+#include "control/friction/fuzzy_friction.h"
 #include "sim/studies/chapter6.h"
 #include "sim/studies/figure.h"
 

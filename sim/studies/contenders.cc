@@ -5,8 +5,8 @@
 
 #include "base/input_error.h"
 #include "base/printable.h"
-#include "control/gain_table_json.h"
 #include "control/scheduled_controller.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table.h"
 #include "control/joint_controller.h"
+#include "control/table/gain_table.h"
 #include "sim/studies/closed_loop.h"
 #include "sim/studies/loop_controllers.h"
 

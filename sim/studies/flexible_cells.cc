@@ -5,7 +5,7 @@
 #include <functional>
 #include <random>
 
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave {

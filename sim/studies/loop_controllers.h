@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "control/joint_measurement.h"
+#include "control/joint/joint_measurement.h"
 #include "control/scheduled_controller.h"
 #include "sim/studies/closed_loop.h"
 

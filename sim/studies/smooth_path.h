@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "control/reference_shaper.h"
+#include "control/trajectory/reference_shaper.h"
 
 namespace strainwave {
 

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "base/input_error.h"
-#include "control/joint_model.h"
+#include "control/joint/joint_model.h"
 #include "control/scheduled_controller.h"
 #include "sim/studies/statistics.h"
 

@@ -1,4 +1,4 @@
-#include "control/bounded_matrix.h"
+#include "control/table/bounded_matrix.h"
 
 #include <gtest/gtest.h>
 

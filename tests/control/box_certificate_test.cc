@@ -1,13 +1,13 @@
-#include "control/box_certificate.h"
+#include "control/table/box_certificate.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "base/input_error.h"
-#include "control/gain_table_json.h"
-#include "control/gear_catalogue.h"
-#include "control/ts_plant.h"
+#include "control/joint/gear_catalogue.h"
+#include "control/table/gain_table_json.h"
+#include "control/table/ts_plant.h"
 #include "tests/support/eigenvalues.h"
 
 namespace strainwave {

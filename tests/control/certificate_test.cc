@@ -1,11 +1,11 @@
-#include "control/certificate.h"
+#include "control/table/certificate.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "control/gain_table_json.h"
-#include "control/ts_plant.h"
+#include "control/table/gain_table_json.h"
+#include "control/table/ts_plant.h"
 
 namespace strainwave {
 namespace {

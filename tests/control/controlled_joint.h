@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "control/gain_table_json.h"
 #include "control/joint_controller.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave::testing {

@@ -1,4 +1,4 @@
-#include "control/encoder_side.h"
+#include "control/joint/encoder_side.h"
 
 #include <gtest/gtest.h>
 

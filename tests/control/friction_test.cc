@@ -1,4 +1,4 @@
-#include "control/friction.h"
+#include "control/friction/friction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "control/fuzzy_friction_json.h"
+#include "control/friction/fuzzy_friction_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "control/fuzzy_friction.h"
+#include "control/friction/fuzzy_friction.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

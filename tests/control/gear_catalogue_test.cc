@@ -1,4 +1,4 @@
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 
 #include <gtest/gtest.h>
 

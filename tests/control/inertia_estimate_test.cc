@@ -1,4 +1,4 @@
-#include "control/inertia_estimate.h"
+#include "control/joint/inertia_estimate.h"
 
 #include <gtest/gtest.h>
 

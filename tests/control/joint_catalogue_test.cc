@@ -1,12 +1,12 @@
-#include "control/joint_catalogue.h"
+#include "control/joint/joint_catalogue.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <string>
 
-#include "control/gain_table_json.h"
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

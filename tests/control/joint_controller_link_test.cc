@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table_json.h"
 #include "control/joint_controller.h"
+#include "control/table/gain_table_json.h"
 #include "control/units.h"
 #include "sim/joint/reference_plant.h"
 #include "tests/support/allocation_trap.h"

@@ -1,4 +1,4 @@
-#include "control/joint_model.h"
+#include "control/joint/joint_model.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A reading beside its plan.
-#include "control/joint_measurement.h"
+#include "control/joint/joint_measurement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "control/knot_path.h"
+#include "control/trajectory/knot_path.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

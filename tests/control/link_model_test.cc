@@ -1,11 +1,11 @@
 // The two masses against what mechanics says of them: momentum, energy, and the swing of a linear spring.
-#include "control/link_model.h"
+#include "control/joint/link_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "control/memberships.h"
+#include "control/friction/memberships.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "control/fuzzy_friction.h"
-#include "control/gain_table_json.h"
+#include "control/friction/fuzzy_friction.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

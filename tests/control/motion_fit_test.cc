@@ -1,4 +1,4 @@
-#include "control/motion_fit.h"
+#include "control/trajectory/motion_fit.h"
 
 #include <gtest/gtest.h>
 

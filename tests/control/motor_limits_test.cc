@@ -1,4 +1,4 @@
-#include "control/motor_limits.h"
+#include "control/joint/motor_limits.h"
 
 #include <gtest/gtest.h>
 

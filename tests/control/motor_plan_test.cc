@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "control/moving_mean.h"
+#include "control/trajectory/moving_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "control/node_weights.h"
+#include "control/trajectory/node_weights.h"
 
 #include <gtest/gtest.h>
 

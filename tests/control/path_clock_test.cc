@@ -1,4 +1,4 @@
-#include "control/path_clock.h"
+#include "control/trajectory/path_clock.h"
 
 #include <gtest/gtest.h>
 

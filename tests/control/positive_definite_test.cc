@@ -1,4 +1,4 @@
-#include "control/positive_definite.h"
+#include "control/table/positive_definite.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "tests/support/eigenvalues.h"
 
 namespace strainwave {

@@ -1,4 +1,4 @@
-#include "control/reference_shaper.h"
+#include "control/trajectory/reference_shaper.h"
 
 #include <gtest/gtest.h>
 

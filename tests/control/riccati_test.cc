@@ -1,4 +1,4 @@
-#include "control/riccati.h"
+#include "control/joint/riccati.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "control/sender_clock.h"
+#include "control/trajectory/sender_clock.h"
 
 #include <gtest/gtest.h>
 

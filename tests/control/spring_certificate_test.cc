@@ -1,4 +1,4 @@
-#include "control/spring_certificate.h"
+#include "control/table/spring_certificate.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "control/gain_table_json.h"
-#include "control/positive_definite.h"
+#include "control/table/gain_table_json.h"
+#include "control/table/positive_definite.h"
 #include "tests/support/eigenvalues.h"
 
 namespace strainwave {

@@ -1,4 +1,4 @@
-#include "control/spring_plant.h"
+#include "control/table/spring_plant.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "control/joint_measurement.h"
-#include "control/link_velocity.h"
+#include "control/joint/joint_measurement.h"
+#include "control/joint/link_velocity.h"
 #include "control/scheduled_controller.h"
-#include "control/ts_plant.h"
+#include "control/table/ts_plant.h"
 
 namespace strainwave {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "control/reference_shaper.h"
-#include "control/stream_target.h"
+#include "control/trajectory/reference_shaper.h"
+#include "control/trajectory/stream_target.h"
 
 namespace strainwave {
 namespace {

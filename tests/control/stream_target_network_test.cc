@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "control/reference_shaper.h"
-#include "control/stream_target.h"
+#include "control/trajectory/reference_shaper.h"
+#include "control/trajectory/stream_target.h"
 
 namespace strainwave {
 namespace {

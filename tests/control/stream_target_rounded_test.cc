@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "control/stream_target.h"
+#include "control/trajectory/stream_target.h"
 
 namespace strainwave {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "control/stream_target.h"
+#include "control/trajectory/stream_target.h"
 
 namespace strainwave {
 namespace {

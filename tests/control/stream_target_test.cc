@@ -1,6 +1,6 @@
 // Streams as motions, and the reference that follows them: a sine at every rate with all that a network does to it. Above 300 lines: so is
 // what senders and networks do.
-#include "control/stream_target.h"
+#include "control/trajectory/stream_target.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "control/reference_shaper.h"
+#include "control/trajectory/reference_shaper.h"
 
 namespace strainwave {
 namespace {

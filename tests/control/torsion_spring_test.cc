@@ -1,10 +1,10 @@
-#include "control/torsion_spring.h"
+#include "control/joint/torsion_spring.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 
 namespace strainwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "control/ts_plant.h"
+#include "control/table/ts_plant.h"
 
 #include <gtest/gtest.h>
 

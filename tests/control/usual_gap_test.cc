@@ -1,4 +1,4 @@
-#include "control/usual_gap.h"
+#include "control/trajectory/usual_gap.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "base/input_error.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "design/controller_lmi.h"
 #include "tests/design/reference_case.h"
 #include "tests/design/worst_case.h"

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "base/text_file.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "control/units.h"
 #include "design/friction_file.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/certificate.h"
+#include "control/table/certificate.h"
 #include "tests/support/eigenvalues.h"
 
 namespace strainwave {

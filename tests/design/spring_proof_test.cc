@@ -5,7 +5,7 @@
 #include <random>
 
 #include "base/input_error.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

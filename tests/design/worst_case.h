@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "control/ts_plant.h"
+#include "control/table/ts_plant.h"
 #include "design/controller_design.h"
 
 namespace strainwave {

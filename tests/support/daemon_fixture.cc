@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "tests/support/private_network.h"
 
 namespace strainwave::testing {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_client.h"
 

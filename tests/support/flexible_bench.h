@@ -1,7 +1,7 @@
 // The joint of the demo on a spring, for tests of the loop.
 #pragma once
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 #include "tests/support/joint_bench.h"
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 
 namespace strainwave::testing {

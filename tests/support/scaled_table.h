@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave::testing {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table.h"
+#include "control/table/gain_table.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave::testing {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/plant_file.h"
 #include "sim/studies/contenders.h"
 #include "tests/support/daemon_fixture.h"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/utime.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "tests/support/daemon_fixture.h"
 
 namespace strainwave::testing {

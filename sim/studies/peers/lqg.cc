@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/input_error.h"
-#include "control/riccati.h"
-#include "control/spring_plant.h"
+#include "control/joint/riccati.h"
+#include "control/table/spring_plant.h"
 
 namespace strainwave {
 

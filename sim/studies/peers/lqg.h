@@ -3,7 +3,7 @@
 // Sources: Anderson and Moore, "Optimal Control: Linear Quadratic Methods" (1990), chapters 7 and 8; weights as Bryson and Ho (1975) set
 // them, each one over the square of what is acceptable.
 //
-//   x  = [ thm, wm, s, v ],   s = thl - thm,   v = s'         sampled and held as in control/spring_plant.h, without friction
+//   x  = [ thm, wm, s, v ],   s = thl - thm,   v = s'         sampled and held as in control/table/spring_plant.h, without friction
 //   x+ = A x + B (u(d periods ago) + f),   f+ = f             f: minus what friction and load take
 //   y  = thm
 //   planned   [ p - s_r, v_r - s_r', s_r, s_r' ],   s_r = -Jl a_r / K       the link on the reference, the motor ahead by the wind-up

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "control/moving_mean.h"
+#include "control/trajectory/moving_mean.h"
 #include "sim/studies/contenders.h"
 #include "sim/studies/peers/servo_peer.h"
 

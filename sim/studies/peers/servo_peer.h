@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "control/reference_shaper.h"
+#include "control/trajectory/reference_shaper.h"
 #include "sim/joint/joint_plant.h"
 
 namespace strainwave {

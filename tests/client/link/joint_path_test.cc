@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "control/knot_path.h"
+#include "control/trajectory/knot_path.h"
 
 namespace strainwave {
 namespace {

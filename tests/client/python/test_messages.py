@@ -123,7 +123,7 @@ class Vocabulary(unittest.TestCase):
             self.assertEqual(str(vocabulary.Notice(int(number))), text)
 
     def test_has_the_names_of_the_header(self):
-        header = (SOURCE / "lcmtypes/vocabulary.h").read_text() + (SOURCE / "control/gains_in_use.h").read_text()
+        header = (SOURCE / "lcmtypes/vocabulary.h").read_text() + (SOURCE / "control/table/gains_in_use.h").read_text()
         for name in (*self.PAGE, "Notice"):
             body = re.search(rf"enum class {name}\b[^{{]*{{(.*?)}};", header, re.S)[1]
             names = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", word).upper() for word in re.findall(r"\bk(\w+) =", body)]

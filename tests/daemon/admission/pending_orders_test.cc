@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/joint_bench.h"
 

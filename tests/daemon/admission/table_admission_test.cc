@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "control/gain_table_json.h"
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
+#include "control/table/gain_table_json.h"
 
 namespace strainwave {
 namespace {

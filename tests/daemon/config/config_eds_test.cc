@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
 #include "daemon/config/config.h"

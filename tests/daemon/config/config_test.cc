@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
 #include "tests/daemon/config/config_file_test.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "daemon/realtime/path_follower.h"
 #include "sim/joint/reference_plant.h"
 #include "tests/support/flexible_bench.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/gain_table_json.h"
-#include "control/gear_catalogue.h"
+#include "control/joint/gear_catalogue.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/flexible_study.h"
 

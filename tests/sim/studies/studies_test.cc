@@ -6,7 +6,7 @@
 
 #include "base/input_error.h"
 #include "base/text_file.h"
-#include "control/gain_table_json.h"
+#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/chapter6.h"
 #include "sim/studies/chapter6_figures.h"

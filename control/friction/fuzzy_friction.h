@@ -1,0 +1,60 @@
+// The cascaded Takagi-Sugeno friction model that the controller carries. Joint side, SI. Real-time safe.
+//
+// Layer 1 (temperature, may run slowly): Gaussian memberships mu_i(T) = exp(-((T - center_i)/width_i)^2)
+// blend the rules' friction parameters. Layer 2 (velocity, every sample): two memberships, "zero" and "high",
+// blend static friction with Coulomb plus viscous friction. Source: Zhao (2006), (3-1)..(3-8).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "control/friction/friction.h"
+#include "control/friction/memberships.h"
+
+namespace strainwave {
+
+/// One rule of layer 1: "if T is about center_C, friction is ...". width_C > 0.
+struct TemperatureRule {
+  double center_C = 0.0;
+  double width_C = 1.0;
+  FrictionParameters friction;
+};
+
+/// Layer 2, joint side. mu_zero is 1 up to zero_center and falls as exp(-((|w|-zero_center)/zero_width)^2)
+/// beyond it; mu_high is 1 from high_center and falls likewise below it. Widths > 0, centres >= 0.
+struct VelocityMemberships {
+  double zero_center_rad_s = 0.0;
+  double zero_width_rad_s = 1.0;
+  double high_center_rad_s = 1.0;
+  double high_width_rad_s = 1.0;
+
+  /// The Stribeck curve that these memberships stand for: half of the width of "zero", squared in the exponent. With Zhao's memberships
+  /// (2006, section 3) that is the catalogue's Stribeck velocity, 20 RPM of the motor.
+  constexpr StribeckShape stribeck() const noexcept { return {0.5 * zero_width_rad_s, 2.0}; }
+  /// alpha_0; see ZeroVelocityWeight, which the loop keeps prepared.
+  double zero_weight(double velocity_rad_s) const noexcept;
+};
+
+/// The whole model, as it travels in a gain table. 1 <=
+/// rule_count <= kMaxTemperatureRules, centres ascending.
+struct FuzzyFriction {
+  std::int32_t rule_count = 0;
+  std::array<TemperatureRule, kMaxTemperatureRules> rules{};
+  VelocityMemberships velocity;
+  double temperature_min_C = 0.0;  ///< Range the rules were fitted over; temperatures are clamped to it.
+  double temperature_max_C = 0.0;
+
+  /// The smallest static friction of all rules, N.m. Needs a rule.
+  double least_static_Nm() const noexcept;
+
+  /// Memberships at `temperature_C`; see TemperatureMemberships, which the loop keeps prepared.
+  TemperatureWeights weights(double temperature_C) const noexcept;
+
+  /// Layer 1: the friction parameters blended by `weights`.
+  FrictionParameters blend(const TemperatureWeights& weights) const noexcept;
+
+  /// Layer 2: friction torque in N.m at `velocity_rad_s`, odd in velocity, 0 at rest.
+  double torque_Nm(const FrictionParameters& friction, double velocity_rad_s) const noexcept;
+};
+
+}  // namespace strainwave

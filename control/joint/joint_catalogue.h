@@ -1,0 +1,45 @@
+// The joints whose friction the catalogue knows, by the name of their model or their gear's, and whether a table declares more than they
+// have. The catalogue's files are compiled in, so that the daemon needs none. Not real-time. Source: data/friction_parameters.csv, Zhao
+// (2006), Table 2; data/rhs17_datasheet.csv, his Appendix A.
+//
+// Friction is compensated towards the target, from either side: more of it than the joint has drives the joint instead of freeing it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "control/friction/friction.h"
+#include "control/friction/fuzzy_friction.h"
+
+namespace strainwave {
+
+struct CatalogueJoint {
+  /// Friction at one temperature, motor side.
+  struct Point {
+    double temperature_C = 0.0;
+    FrictionParameters motor_friction;
+  };
+  std::string model;                ///< "rhs17-6006"
+  std::string gear;                 ///< "csf-17-50", of gear_catalogue.h
+  double motor_inertia_kgm2 = 0.0;  ///< the actuator's own, at the joint
+  std::vector<Point> points;        ///< temperatures ascending
+
+  /// Joint side of a gear of `gear_ratio`, straight between the catalogue's temperatures, and the nearest of them beyond the last.
+  FrictionParameters friction_at(double temperature_C, double gear_ratio) const noexcept;
+};
+
+/// Every joint; the source's, the reference of the design, is the first.
+const std::vector<CatalogueJoint>& joint_catalogue();
+
+/// The joint of this model, or with this gear; null when the catalogue has none.
+const CatalogueJoint* find_catalogue_joint(std::string_view model);
+const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear);
+
+/// Where between rest and 10 rad/s, at a temperature of its range, `friction` (which must have passed find_defect()) is more than twice
+/// `joint`'s: the worst such place by temperature, velocity, torque and what is allowed, in words; or nothing.
+std::optional<std::string> find_excess_friction(const FuzzyFriction& friction, const CatalogueJoint& joint,
+                                                double gear_ratio);
+
+}  // namespace strainwave

@@ -1,0 +1,22 @@
+// The joint's inertia and friction at the present temperature. Real-time safe. Source: Zhao (2006), (2-1)..(2-4).
+//
+//   F(w) = Fc + Fv w + (Fs - Fc) exp(-(w/ws)^2)
+#pragma once
+
+#include "control/friction/friction.h"
+
+namespace strainwave {
+
+struct JointModel {
+  double inertia_kgm2 = 1.0;  ///< > 0
+  FrictionParameters friction;
+  StribeckShape stribeck;
+
+  /// F(|w|) > 0, and Fs for w -> 0.
+  double friction_Nm(double velocity_rad_s) const noexcept;
+  /// Mean torque against friction over a time in which the velocity changes evenly from `begin_rad_s` to `end_rad_s`: of its sign
+  /// where it goes on, and of either for as long as it lasts where the joint turns round. 0 at rest.
+  double friction_along_Nm(double begin_rad_s, double end_rad_s) const noexcept;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,61 @@
+// Motor and link with the gear's spring between them, as the controller is told of them, and the torque that brings the two to where
+// they should be. Friction is none of it: it is compensated beside. Real-time safe but for regulate(). Joint side, SI.
+//
+//   Jm wm' = u - ts
+//   Jl wl' = ts - load(thl)
+//   ts     = spring(thm - thl) + D (wm - wl)
+#pragma once
+
+#include <limits>
+
+#include "control/joint/gravity_load.h"
+#include "control/joint/torsion_spring.h"
+
+namespace strainwave {
+
+struct LinkState {
+  double link_position_rad = 0.0, link_velocity_rad_s = 0.0;
+  double motor_position_rad = 0.0, motor_velocity_rad_s = 0.0;
+};
+
+/// `from` and `share` times `by`, which may be a slope in time or the way to another state.
+LinkState moved(const LinkState& from, const LinkState& by, double share) noexcept;
+
+/// N.m over a period for each error of the LinkState at its end.
+struct LinkGains {
+  double link_position = 0.0, link_velocity = 0.0, motor_position = 0.0, motor_velocity = 0.0;
+};
+
+struct LinkModel {
+  double motor_inertia_kgm2 = 0.0;  ///< Jm > 0
+  double link_inertia_kgm2 = 0.0;   ///< Jl > 0; 0: rigid
+  TorsionSpring spring;
+  double damping_Nms_rad = 0.0;  ///< D >= 0
+  GravityLoad gravity;
+
+  /// Motor and link are one, of the inertias' sum: no gear between them.
+  static LinkModel rigid_joint(double inertia_kgm2) noexcept {
+    return {inertia_kgm2, 0.0, TorsionSpring::linear(std::numeric_limits<double>::infinity()), 0.0, {}};
+  }
+  bool rigid() const noexcept { return link_inertia_kgm2 == 0.0; }
+  double inertia_kgm2() const noexcept { return motor_inertia_kgm2 + link_inertia_kgm2; }
+
+  /// A period of `period_s` under `torque_Nm`.
+  struct Period {
+    LinkState end;
+    double middle_velocity_rad_s = 0.0;  ///< of the motor, half-way
+  };
+  Period advance(const LinkState& from, double torque_Nm, double period_s) const noexcept;
+
+  /// The linear quadratic regulator of the joint with the spring's second slope, sampled and held:
+  ///   u = (R + B'PB)^-1 B'P e,    e: what the period's end would be off without u
+  /// which for a plan that the joint keeps to is -F of the state (control/joint/riccati.h), and for one that it does not counts what the
+  /// period itself adds. What a share of `torque_limit_Nm`
+  /// may be used for is a small part of the wind-up that it makes (link_model.cc). Not real-time safe.
+  LinkGains regulate(double torque_limit_Nm, double period_s) const noexcept;
+};
+
+/// What `gains` make of the way from where a period would end, `is`, to `should_be`.
+double regulated_torque_Nm(const LinkGains& gains, const LinkState& should_be, const LinkState& is) noexcept;
+
+}  // namespace strainwave

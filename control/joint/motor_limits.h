@@ -1,0 +1,69 @@
+// What motor, supply and friction leave for motion. Joint side, SI. Real-time safe. Source: data/rhs17_datasheet.csv.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "control/joint/joint_model.h"
+#include "control/joint/motion_limits.h"
+
+namespace strainwave {
+
+/// What data sheets tell of motor and supply, seen at the joint: with a gear of ratio N and efficiency n,
+///   Kt = N n Kt_motor
+///   Ke = N Ke_motor
+struct MotorData {
+  double peak_torque_Nm = std::numeric_limits<double>::infinity();
+  double torque_constant_Nm_A = 0.0;  ///< Kt > 0
+  double back_emf_Vs_rad = 0.0;       ///< Ke >= 0
+  double resistance_ohm = 0.0;        ///< R; 0: not known
+  double supply_V = 0.0;              ///< V; 0: not known
+
+  /// Heat of holding a torque, R / Kt^2.
+  constexpr double winding_loss_W_Nm2() const noexcept {
+    return resistance_ohm / (torque_constant_Nm_A * torque_constant_Nm_A);
+  }
+};
+
+/// The motor's limits as a line over speed; by default none. The winding's inductance is not in it.
+///   driving:  |Tm| <= min(peak, stall - slope |w|)
+///   braking:  the back-EMF adds to the supply, so |Tm| <= min(peak, stall + slope |w|)
+struct MotorLimits {
+  double peak_torque_Nm = std::numeric_limits<double>::infinity();   ///< > 0
+  double stall_torque_Nm = std::numeric_limits<double>::infinity();  ///< Kt V / R > 0
+  double torque_per_speed_Nms_rad = 0.0;                             ///< Kt Ke / R >= 0
+
+  /// The peak torque, and the line where resistance and supply are known.
+  static constexpr MotorLimits from_motor(const MotorData& motor) noexcept {
+    MotorLimits limits;
+    limits.peak_torque_Nm = motor.peak_torque_Nm;
+    if (motor.resistance_ohm > 0.0 && motor.supply_V > 0.0) {
+      limits.stall_torque_Nm = motor.torque_constant_Nm_A * motor.supply_V / motor.resistance_ohm;
+      limits.torque_per_speed_Nms_rad =
+          motor.torque_constant_Nm_A * motor.back_emf_Vs_rad / motor.resistance_ohm;
+    }
+    return limits;
+  }
+
+  /// Largest torque, >= 0, along a motion with `velocity_rad_s` (< 0: against it, where back-EMF helps).
+  double available_Nm(double velocity_rad_s) const noexcept {
+    return std::max(0.0,
+                    std::min(peak_torque_Nm, stall_torque_Nm - torque_per_speed_Nms_rad * velocity_rad_s));
+  }
+  /// `torque_Nm` as far as it is available at `velocity_rad_s`.
+  double limit_Nm(double torque_Nm, double velocity_rad_s) const noexcept {
+    const double along_rad_s = torque_Nm < 0.0 ? -velocity_rad_s : velocity_rad_s;
+    return std::copysign(std::min(std::abs(torque_Nm), available_Nm(along_rad_s)), torque_Nm);
+  }
+};
+
+/// Acceleration and deceleration that `torque_limit_Nm` and the motor leave, less the share `reserve` of the
+/// torque, to a joint that moves at `speed_rad_s` >= 0 under friction and load: friction slows acceleration
+/// down and helps deceleration, the load may do either and counts against both. Never more than `motion`,
+/// never less than a trickle.
+MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
+                              double load_Nm, double torque_limit_Nm, double reserve, double speed_rad_s,
+                              double period_s) noexcept;
+
+}  // namespace strainwave

@@ -1,0 +1,50 @@
+#include "control/joint/riccati.h"
+
+#include <Eigen/LU>
+
+namespace strainwave {
+
+namespace {
+
+// Each step doubles the horizon: 2^60 samples are more than any joint lives.
+constexpr int kMostDoublings = 60;
+constexpr double kConverged = 1e-12;
+
+}  // namespace
+
+template <int n>
+std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<double, n, n>& A,
+                                                         const Eigen::Matrix<double, n, 1>& B,
+                                                         const Eigen::Matrix<double, n, 1>& W, double R) {
+  using Matrix = Eigen::Matrix<double, n, n>;
+  using Vector = Eigen::Matrix<double, n, 1>;
+  const Eigen::Index size = W.size();
+  // In z, x = W^(-1/2) z, where the weights are one.
+  const Vector root = W.cwiseSqrt();
+  const Vector inverse = root.cwiseInverse();
+  Matrix step = root.asDiagonal() * A * inverse.asDiagonal();
+  const Vector input = root.asDiagonal() * B;
+  Matrix G = input * input.transpose() / R;
+  Matrix H = Matrix::Identity(size, size);
+  for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+    const Eigen::PartialPivLU<Matrix> lu(Matrix::Identity(size, size) + G * H);
+    const Matrix solved = lu.solve(step);
+    const Matrix grown = step.transpose() * H * solved;
+    G += step * lu.solve(G) * step.transpose();
+    step *= solved;
+    H += 0.5 * (grown + grown.transpose());
+    G = (0.5 * (G + G.transpose())).eval();
+    if (!H.allFinite() || !G.allFinite()) return std::nullopt;
+    if (grown.cwiseAbs().maxCoeff() <= kConverged * H.cwiseAbs().maxCoeff())
+      return Matrix(root.asDiagonal() * H * root.asDiagonal());
+  }
+  return std::nullopt;
+}
+
+template std::optional<Eigen::Matrix4d> solve_riccati<4>(const Eigen::Matrix4d&, const Eigen::Vector4d&,
+                                                         const Eigen::Vector4d&, double);
+template std::optional<Eigen::MatrixXd> solve_riccati<Eigen::Dynamic>(const Eigen::MatrixXd&,
+                                                                      const Eigen::VectorXd&,
+                                                                      const Eigen::VectorXd&, double);
+
+}  // namespace strainwave

@@ -1,0 +1,156 @@
+#include "control/table/box_certificate.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <span>
+#include <sstream>
+#include <vector>
+
+#include "control/table/ts_plant.h"
+
+namespace strainwave {
+
+namespace {
+
+std::string text_of(const BoxRange& range) {
+  std::ostringstream text;
+  text << std::setprecision(10) << range.from;
+  if (range.to != range.from) text << ".." << range.to;
+  return text.str();
+}
+
+std::string periods_text(const BoxRange& range) {
+  return text_of(range) + (range.to == 1.0 ? " period" : " periods");
+}
+
+ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods) {
+  const int n = spring_loop_states(cell.delay_periods, lead_periods);
+  ProofMatrix P(n, n);
+  std::size_t entry = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) P(i, j) = P(j, i) = cell.P[entry++];
+  return P;
+}
+
+std::span<const BoxCell> cells_of(const CertifiedBox& box) {
+  return std::span(box.cells).first(static_cast<std::size_t>(box.cell_count));
+}
+
+// Where a cell begins or ends within `whole`, whose ends are the first and the last.
+std::vector<double> edges(const BoxRange& whole, std::span<const BoxCell> cells, BoxRange BoxCell::*range) {
+  std::vector<double> all{whole.from, whole.to};
+  for (const BoxCell& cell : cells)
+    for (const double edge : {(cell.*range).from, (cell.*range).to})
+      if (whole.holds(edge)) all.push_back(edge);
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin() + 1, all.end()), all.end());
+  if (all.size() > 2 && all[0] == all[1]) all.erase(all.begin());
+  return all;
+}
+
+bool holds(const BoxRange& range, const BoxRange& part) {
+  return range.from <= part.from && range.to >= part.to;
+}
+
+// The first rectangle between edges that no cell of this delay holds.
+std::optional<std::string> find_gap(const CertifiedBox& box, int delay_periods) {
+  const std::span<const BoxCell> cells = cells_of(box);
+  const std::vector<double> K = edges(box.stiffness_Nm_rad, cells, &BoxCell::stiffness_Nm_rad);
+  const std::vector<double> J = edges(box.link_inertia_kgm2, cells, &BoxCell::link_inertia_kgm2);
+  for (std::size_t k = 1; k < K.size(); ++k) {
+    for (std::size_t j = 1; j < J.size(); ++j) {
+      const BoxRange stiffness{K[k - 1], K[k]};
+      const BoxRange inertia{J[j - 1], J[j]};
+      const bool covered = std::ranges::any_of(cells, [&](const BoxCell& cell) {
+        return cell.delay_periods == delay_periods && holds(cell.stiffness_Nm_rad, stiffness) &&
+               holds(cell.link_inertia_kgm2, inertia);
+      });
+      if (!covered)
+        return "no cell for a delay of " + std::to_string(delay_periods) + ", stiffness " +
+               text_of(stiffness) + " N m/rad, link " + text_of(inertia) + " kg m2";
+    }
+  }
+  return std::nullopt;
+}
+
+std::string outside(const char* quantity, const std::string& value, const std::string& allowed) {
+  return std::string(quantity) + " = " + value + ": the table is certified for " + allowed;
+}
+
+}  // namespace
+
+SpringBox spring_box(const GainTable& table, const BoxCell& cell) {
+  return {table.box.motor_inertia_kgm2,
+          cell.link_inertia_kgm2,
+          cell.stiffness_Nm_rad,
+          table.box.damping_Nms_rad,
+          {0.0, largest_viscous_Nms_rad(table.friction)}};
+}
+
+BoxReport certify_box(const GainTable& table) {
+  BoxReport report;
+  const CertifiedBox& box = table.box;
+  for (int delay = box.least_delay; delay <= box.most_delay; ++delay) {
+    if (const auto gap = find_gap(box, delay)) {
+      report.text = *gap;
+      return report;
+    }
+  }
+  const std::vector<GainRow> gains = gains_of(table);
+  double margin = std::numeric_limits<double>::infinity();
+  for (const BoxCell& cell : cells_of(box)) {
+    const SpringReport proof =
+        certify(gains, spring_box(table, cell),
+                {table.plant.period_s, cell.delay_periods, 1.0, box.encoder_side, box.lead_periods},
+                lyapunov_of(cell, box.lead_periods), kMostBoxInequalities - report.inequalities);
+    report.inequalities += proof.inequalities;
+    if (proof.certified && proof.margin >= margin) continue;
+    margin = proof.margin;
+    report.text = "margin " + describe(proof) + ", delay " + std::to_string(cell.delay_periods);
+    if (!proof.certified) return report;
+  }
+  report.certified = true;
+  return report;
+}
+
+std::optional<std::string> find_outside_box(const GainTable& table, const LinkModel& link,
+                                            int delay_periods) {
+  const CertifiedBox& box = table.box;
+  if (box.rigid())
+    return "the table is of a rigid joint: a flexible joint takes one that is certified on "
+           "it, from "
+           "strainwave-design gains --gear --motor-inertia_kgm2 --load-inertia_kgm2 --delay";
+  const TorsionSpring& spring = link.spring;
+  const auto [least, most] =
+      std::minmax({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
+  if (!is_same_number(link.motor_inertia_kgm2, box.motor_inertia_kgm2))
+    return outside("joint.motor_inertia_kgm2", text_of({link.motor_inertia_kgm2, link.motor_inertia_kgm2}),
+                   text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2");
+  if (!box.link_inertia_kgm2.holds(link.link_inertia_kgm2))
+    return outside("joint.load_inertia_kgm2", text_of({link.link_inertia_kgm2, link.link_inertia_kgm2}),
+                   text_of(box.link_inertia_kgm2) + " kg m2");
+  if (!holds(box.stiffness_Nm_rad, {least, most}))
+    return outside("the stiffness of joint.gear", text_of({least, most}),
+                   text_of(box.stiffness_Nm_rad) + " N m/rad");
+  if (link.damping_Nms_rad > 0.0 && !box.damping_Nms_rad.holds(link.damping_Nms_rad))
+    return outside("joint.damping_Nms_rad", text_of({link.damping_Nms_rad, link.damping_Nms_rad}),
+                   text_of(box.damping_Nms_rad) + " N m s/rad");
+  if (delay_periods < box.least_delay || delay_periods > box.most_delay)
+    return outside("delay_periods", std::to_string(delay_periods),
+                   periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}));
+  return std::nullopt;
+}
+
+std::string describe(const CertifiedBox& box) {
+  if (box.rigid())
+    return std::string("rigid: one inertia, no spring; encoder on the ") + to_text(box.encoder_side);
+  return "motor " + text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2, link " +
+         text_of(box.link_inertia_kgm2) + " kg m2, stiffness " + text_of(box.stiffness_Nm_rad) +
+         " N m/rad, damping " + text_of(box.damping_Nms_rad) + " N m s/rad, delay " +
+         periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +
+         ", encoder on the " + to_text(box.encoder_side) +
+         (box.lead_periods == 0.0 ? "" : ", lead " + periods_text({box.lead_periods, box.lead_periods}));
+}
+
+}  // namespace strainwave

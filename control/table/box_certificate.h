@@ -1,0 +1,43 @@
+// The certificate of a table that carries a box of joints with a spring: whoever receives it proves anew, without a solver, that every
+// gain rule, every blend of them and the fallback are stable on every joint of the box, and that the cells leave nothing of it out.
+// Not real-time. Source: spring_certificate.h, of each cell.
+//
+// Proved is the feedback in the loop that the daemon closes around the encoder on the box's side (its velocity from the readings, its lead,
+// torques under way), for every delay of the box, any temperature taken for any other, viscous friction from 0 to the largest of the rules; stiffness
+// and link inertia may vary within a cell from sample to sample, damping and friction within the box. Not proved: what varies across
+// cells, as a wind-up over several slopes does where those have cells of their own; observer, planned motion and friction that is fed
+// forward; counts, stiction, a torque at its limit.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "control/joint/link_model.h"
+#include "control/table/gain_table.h"
+#include "control/table/spring_certificate.h"
+
+namespace strainwave {
+
+struct BoxReport {
+  bool certified = false;
+  int inequalities = 0;
+  /// The smallest margin with its corner, or what is missing: the part of the box without a cell, the corner that fails.
+  std::string text;
+};
+
+/// A proof that needs more inequalities than these, of all cells together, is refused: who receives a table pays for it.
+inline constexpr int kMostBoxInequalities = 120000;
+
+/// Proves the box of `table`, in which find_defect() finds nothing and which is not rigid.
+BoxReport certify_box(const GainTable& table);
+
+/// The joints of `cell`, with the box's motor, damping and rules.
+SpringBox spring_box(const GainTable& table, const BoxCell& cell);
+
+/// Which quantity of a flexible joint is outside the table's box, its value and what is allowed, or nothing.
+std::optional<std::string> find_outside_box(const GainTable& table, const LinkModel& link, int delay_periods);
+
+/// The box in words, without its cells.
+std::string describe(const CertifiedBox& box);
+
+}  // namespace strainwave

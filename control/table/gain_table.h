@@ -1,0 +1,117 @@
+// The gain table: everything that the loop needs to control one kind of joint, and what proves it. A plain
+// struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see docs/theory.md.
+//
+// State of the error dynamics, in this order:
+//
+//   x = [ integral of error (rad.s), error (rad), velocity (rad/s) ]
+//   error = joint position - setpoint
+//   u = F x, feedback torque (N.m, joint side), so stabilising gains are negative
+//
+// Controllers without an integrator keep the same layout with zeros in the integral's row and column.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/fixed_string.h"
+#include "control/friction/fuzzy_friction.h"
+#include "control/table/certified_box.h"
+
+namespace strainwave {
+
+inline constexpr int kMaxStates = 3;
+/// The zero-velocity rule and one high-velocity rule per temperature rule.
+inline constexpr int kMaxRules = 1 + kMaxTemperatureRules;
+inline constexpr int kGainTableFormat = 4;
+
+using StateVector = Eigen::Vector3d;
+using StateMatrix = Eigen::Matrix3d;
+using GainRow = Eigen::RowVector3d;
+
+/// What a table was designed for. The daemon refuses a table whose identity is not its joint's.
+struct PlantIdentity {
+  FixedString<32> joint_model;  ///< e.g. "rhs17-6006"
+  FixedString<32> gear;         ///< its name in data/gears.csv, e.g. "csf-17-50"; empty: not said
+  double inertia_kgm2 = 0.0;    ///< J > 0, at the joint side
+  double gear_ratio = 0.0;      ///< N > 0
+  double period_s = 0.0;        ///< ts > 0
+};
+
+/// Weights of the quadratic cost sum x'Wx + u'Ru with W = diag(integral, position, velocity), R = torque.
+struct CostWeights {
+  double integral = 0.0;  ///< 0 exactly when the controller has no integrator
+  double position = 0.0;
+  double velocity = 0.0;
+  double torque = 0.0;
+};
+
+/// Gains of one controller with their Lyapunov matrices. Rule 0 is "zero velocity", rule i the i-th
+/// temperature rule at high velocity. A temperature-free controller has rule_count 1: one gain for every rule
+/// of the plant.
+struct FeedbackGains {
+  FixedString<8> controller;  ///< "C1".."C4"
+  std::int32_t has_integrator = 0;
+  std::int32_t rule_count = 0;
+  CostWeights weights;
+  double decay_rate = 1.0;  ///< in (0, 1]: V falls at least by its square each sample
+  double cost_bound = 0.0;  ///< lambda: bound on the cost from the declared initial states
+  std::array<std::array<double, kMaxStates>, kMaxRules> F{};  ///< F_j, 1x3 rows
+  std::array<std::array<double, std::size_t{kMaxStates} * kMaxStates>, kMaxRules>
+      P{};  ///< P_j, 3x3, symmetric, row by row
+
+  GainRow gain(int rule) const noexcept { return GainRow::Map(F[static_cast<std::size_t>(rule)].data()); }
+  StateMatrix lyapunov(int rule) const noexcept {
+    return Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(P[static_cast<std::size_t>(rule)].data());
+  }
+  void set(int rule, const GainRow& gain, const StateMatrix& lyapunov) noexcept {
+    GainRow::Map(F[static_cast<std::size_t>(rule)].data()) = gain;
+    Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(P[static_cast<std::size_t>(rule)].data()) = lyapunov;
+  }
+  bool scheduled() const noexcept { return rule_count > 1; }
+};
+
+/// How the plant was sampled for the design: as the loop does it, or as the source did.
+enum class Sampling : std::int32_t { kForwardEuler = 0, kZeroOrderHold = 1 };
+
+/// Where a table came from. Nothing in the loop reads it, and no proof does.
+struct Provenance {
+  Sampling sampling = Sampling::kZeroOrderHold;
+  FixedString<32> created_utc;      ///< ISO 8601
+  FixedString<32> tool;             ///< program and version
+  FixedString<72> friction_sha256;  ///< of the friction file that the rules came from, in hex
+  FixedString<64> note;
+};
+
+/// One table: the controller in use and the temperature-free one that replaces it when temperature is not known.
+struct GainTable {
+  std::int32_t format = kGainTableFormat;
+  FixedString<48> name;
+  PlantIdentity plant;  ///< the one inertia that the gains are designed for
+  CertifiedBox box;     ///< the joints with a spring that they are certified on besides
+  FuzzyFriction friction;
+  double torque_limit_Nm = 0.0;  ///< symmetric, joint side; the joint's own limit applies as well
+  FeedbackGains primary;         ///< C4 (or C2, C1)
+  FeedbackGains fallback;        ///< C3 (or C1), rule_count 1, same states as primary
+  Provenance provenance;
+};
+
+/// Structural check: counts, finite numbers, signs and ranges of every field. The first defect in words (key,
+/// value, what is allowed), or nothing. Whether the gains stabilise the plant is certificate.h's question.
+/// Not real-time.
+std::optional<std::string> find_defect(const GainTable& table);
+
+/// Whether two of a joint's numbers are one, however they were written and read: |a - b| <= 1e-9 |b|. False with NaN.
+bool is_same_number(double a, double b) noexcept;
+
+/// Whether the joint's inertia must be the one that the table is designed for, or may be any that its box holds.
+enum class InertiaCheck { kSame, kOfTheBox };
+
+/// Why `table` is not for the joint that `expected` describes (model; ratio, period and, if asked for, inertia, each as
+/// is_same_number() has it; the gear where both name one), or nothing.
+std::optional<std::string> find_identity_mismatch(const GainTable& table, const PlantIdentity& expected,
+                                                  InertiaCheck inertia = InertiaCheck::kSame);
+
+}  // namespace strainwave

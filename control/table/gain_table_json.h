@@ -1,0 +1,24 @@
+// The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Not real-time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "control/table/gain_table.h"
+
+namespace strainwave {
+
+/// Pretty-printed JSON that reads back to the same bits.
+std::string to_json(const GainTable& table);
+
+/// Reads what to_json wrote. Throws InputError naming `source`, the key, the value and what is allowed:
+/// malformed JSON, unknown, missing or repeated keys, wrong types and sizes, another format, and everything
+/// find_defect() finds.
+GainTable gain_table_from_json(std::string_view text, const std::string& source);
+
+/// The same from and to a file. Writing replaces the file only once the new text is whole.
+GainTable read_gain_table(const std::filesystem::path& path);
+void write_gain_table(const GainTable& table, const std::filesystem::path& path);
+
+}  // namespace strainwave

@@ -1,0 +1,147 @@
+#include "control/table/positive_definite.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kHalfUlp = 0.5 * std::numeric_limits<double>::epsilon();
+
+// Powers of two are exact only away from underflow and overflow; a matrix beyond this range is not a design
+// of ours.
+constexpr double kLargestEntry = 0x1p400;
+constexpr double kSmallestDiagonal = 0x1p-400;
+
+// Each sweep squares what is left beside the diagonal: a handful does.
+constexpr int kMostSweeps = 30;
+// Beside a diagonal near 1: less than its rounding.
+constexpr double kNegligible = 0x1p-6 * kHalfUlp;
+
+struct Balanced {
+  ProofMatrix matrix;
+  double error_norm = 0.0;  // bound on the spectral norm of the balanced error
+};
+
+bool balanceable(const ProofMatrix& matrix, const ProofMatrix& error, int size) noexcept {
+  for (int i = 0; i < size; ++i) {
+    if (!(matrix(i, i) >= kSmallestDiagonal)) return false;
+    for (int j = 0; j < size; ++j) {
+      // Written so that NaN fails.
+      if (!(std::abs(matrix(i, j)) <= kLargestEntry) || !(error(i, j) >= 0.0) ||
+          !(error(i, j) <= kLargestEntry))
+        return false;
+    }
+  }
+  return true;
+}
+
+// D * matrix * D with D = diag(2^-round(log2(a_ii)/2)), which brings the diagonal to [0.5, 2).
+Balanced balance(const ProofMatrix& matrix, const ProofMatrix& error, int size) noexcept {
+  std::array<int, kMaxProofStates> exponent{};
+  for (int i = 0; i < size; ++i) {
+    exponent[static_cast<std::size_t>(i)] = -((std::ilogb(matrix(i, i)) + 1) >> 1);
+  }
+  Balanced balanced;
+  balanced.matrix.resize(size, size);
+  for (int i = 0; i < size; ++i) {
+    double row_error = 0.0;
+    for (int j = 0; j < size; ++j) {
+      const int power = exponent[static_cast<std::size_t>(i)] + exponent[static_cast<std::size_t>(j)];
+      const double sum = matrix(i, j) + matrix(j, i);
+      balanced.matrix(i, j) = std::ldexp(0.5 * sum, power);
+      // The symmetric part costs one rounding unless the two entries were equal.
+      const double symmetrising = matrix(i, j) == matrix(j, i) ? 0.0 : kHalfUlp * std::abs(sum);
+      row_error += std::ldexp(std::max(error(i, j), error(j, i)) + symmetrising, power);
+    }
+    balanced.error_norm = std::max(balanced.error_norm, row_error);
+  }
+  return balanced;
+}
+
+// Plain Cholesky, in the order that Rump's bound assumes; true when every pivot is positive.
+bool cholesky_succeeds(const ProofMatrix& matrix, int size) noexcept {
+  ProofMatrix factor = ProofMatrix::Zero(size, size);
+  for (int j = 0; j < size; ++j) {
+    double pivot = matrix(j, j);
+    for (int k = 0; k < j; ++k) pivot -= factor(j, k) * factor(j, k);
+    if (!(pivot > 0.0)) return false;
+    factor(j, j) = std::sqrt(pivot);
+    for (int i = j + 1; i < size; ++i) {
+      double entry = matrix(i, j);
+      for (int k = 0; k < j; ++k) entry -= factor(i, k) * factor(j, k);
+      factor(i, j) = entry / factor(j, j);
+    }
+  }
+  return true;
+}
+
+// The rotation that makes (p, q) zero.
+void rotate(ProofMatrix& matrix, int p, int q) noexcept {
+  const double beside = matrix(p, q);
+  const double cotangent = (matrix(q, q) - matrix(p, p)) / (2.0 * beside);  // of twice the angle
+  const double tangent =
+      std::copysign(1.0, cotangent) / (std::abs(cotangent) + std::sqrt(1.0 + cotangent * cotangent));
+  const double c = 1.0 / std::sqrt(1.0 + tangent * tangent);
+  const double s = tangent * c;
+  matrix(p, p) -= tangent * beside;
+  matrix(q, q) += tangent * beside;
+  matrix(p, q) = matrix(q, p) = 0.0;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i == p || i == q) continue;
+    const double at_p = matrix(i, p);
+    const double at_q = matrix(i, q);
+    matrix(i, p) = matrix(p, i) = c * at_p - s * at_q;
+    matrix(i, q) = matrix(q, i) = s * at_p + c * at_q;
+  }
+}
+
+// Jacobi's cyclic method. Compiling Eigen's solver takes longer than the rest of the proofs. Source: Golub and Van Loan, "Matrix
+// Computations", section 8.5.
+double smallest_eigenvalue(ProofMatrix matrix, int size) noexcept {
+  bool diagonal = false;
+  for (int sweep = 0; !diagonal && sweep < kMostSweeps; ++sweep) {
+    diagonal = true;
+    for (int p = 0; p < size; ++p) {
+      for (int q = p + 1; q < size; ++q) {
+        if (std::abs(matrix(p, q)) <= kNegligible) continue;
+        diagonal = false;
+        rotate(matrix, p, q);
+      }
+    }
+  }
+  double smallest = matrix(0, 0);
+  for (int i = 1; i < size; ++i) smallest = std::min(smallest, matrix(i, i));
+  return smallest;
+}
+
+}  // namespace
+
+PositiveDefiniteResult test_positive_definite(const ProofMatrix& matrix, const ProofMatrix& error,
+                                              int size) noexcept {
+  PositiveDefiniteResult result;
+  result.margin = -std::numeric_limits<double>::infinity();
+  if (!balanceable(matrix, error, size)) return result;
+  const Balanced balanced = balance(matrix, error, size);
+  double trace = 0.0;
+  for (int i = 0; i < size; ++i) trace += balanced.matrix(i, i);
+  // When Cholesky succeeds, the matrix it was given is no further than gamma_k/(1 - gamma_k) * trace, k = n + 1
+  // (about k half ulps of the trace), from one that is positive definite (Rump, 2006). 4 k also covers the
+  // rounding of the shift and of this line; the balanced entries are near 1, so that underflow is far below it.
+  const double shift = (1.0 + 64.0 * kHalfUlp) * balanced.error_norm + 4.0 * (size + 1) * kHalfUlp * trace;
+  ProofMatrix shifted = balanced.matrix;
+  for (int i = 0; i < size; ++i) shifted(i, i) -= shift;
+  if (!shifted.allFinite()) return result;
+
+  result.certain = cholesky_succeeds(shifted, size);
+  const double estimate = smallest_eigenvalue(balanced.matrix, size) - shift;
+  // The estimate has its own rounding; Cholesky decides the sign.
+  result.margin =
+      result.certain ? std::max(estimate, std::numeric_limits<double>::min()) : std::min(estimate, 0.0);
+  return result;
+}
+
+}  // namespace strainwave

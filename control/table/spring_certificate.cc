@@ -1,0 +1,282 @@
+#include "control/table/spring_certificate.h"
+
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+#include "control/table/positive_definite.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::size_t kDimensions = 4;  // stiffness, 1 / Jl, damping, viscous friction
+constexpr std::size_t kCorners = std::size_t{1} << kDimensions;
+
+constexpr double kTiny = 1e-300;
+// Of a norm in the radius: what is left out of that is below 1e-10.
+constexpr double kSmallestShare = 0x1p-40;
+// A box is cut into at most 2^kMostCuts parts.
+constexpr int kMostCuts = 8;
+
+template <typename Box>
+auto& range_of(Box& box, std::size_t dimension) {
+  switch (dimension) {
+    case 0:
+      return box.stiffness_Nm_rad;
+    case 1:
+      return box.link_inertia_kgm2;
+    case 2:
+      return box.damping_Nms_rad;
+    default:
+      return box.viscous_Nms_rad;
+  }
+}
+
+// Bit d of `corner` says which end of dimension d it is at.
+SpringPlant corner_of(const SpringBox& box, std::size_t corner) {
+  const auto end = [&](std::size_t d) {
+    return (corner >> d & 1U) != 0 ? range_of(box, d).to : range_of(box, d).from;
+  };
+  return {box.motor_inertia_kgm2, end(1), end(0), end(2), end(3)};
+}
+
+bool is_wide(const SpringBox& box, std::size_t dimension) {
+  const BoxRange& range = range_of(box, dimension);
+  return range.from != range.to;
+}
+
+// Of directions without width only one end counts.
+bool is_new(const SpringBox& box, std::size_t corner) {
+  for (std::size_t d = 0; d < kDimensions; ++d)
+    if ((corner >> d & 1U) != 0 && !is_wide(box, d)) return false;
+  return true;
+}
+
+}  // namespace
+
+SpringCorners spring_corners(const SpringBox& box, double period_s) {
+  SpringCorners result;
+  std::array<BoundedMatrix, kCorners> generators;
+  ProofMatrix size = ProofMatrix::Zero(kSpringPlantStates + 1, kSpringPlantStates + 1);
+  for (std::size_t c = 0; c < kCorners; ++c) {
+    generators[c] = spring_generator(corner_of(box, c), period_s);
+    size = size.cwiseMax(generators[c].magnitude());
+    if (!is_new(box, c)) continue;
+    result.corners.push_back({corner_of(box, c), spring_exponential(generators[c])});
+  }
+  std::array<ProofMatrix, kDimensions> errors;
+  result.interpolation = ProofMatrix::Zero(size.rows(), size.cols());
+  for (std::size_t d = 0; d < kDimensions; ++d) {
+    ProofMatrix change = ProofMatrix::Zero(size.rows(), size.cols());
+    for (std::size_t c = 0; c < kCorners; ++c) {
+      if ((c >> d & 1U) != 0) continue;
+      change = change.cwiseMax((generators[c | std::size_t{1} << d] - generators[c]).magnitude());
+    }
+    errors[d] = is_wide(box, d) ? interpolation_error(size, change) : result.interpolation * 0.0;
+    result.interpolation += errors[d];
+  }
+  double largest = 0.0;
+  for (std::size_t d = 0; d < kDimensions; ++d) {
+    const double share = (errors[d].array() / (result.interpolation.array() + kTiny)).sum();
+    if (share <= largest) continue;
+    largest = share;
+    result.widest = d;
+  }
+  return result;
+}
+
+namespace {
+
+// Gauss and Jordan, without pivots: of a matrix that is positive definite. Approximate.
+ProofMatrix inverse(ProofMatrix matrix) {
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    const double pivot = matrix(k, k);
+    matrix(k, k) = 1.0;
+    matrix.row(k) /= pivot;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      if (i == k) continue;
+      const double share = matrix(i, k);
+      matrix(i, k) = 0.0;
+      matrix.row(i) -= share * matrix.row(k);
+    }
+  }
+  return matrix;
+}
+
+}  // namespace
+
+// Any l > 0 proves; this one makes both terms as large, in the fall's own norm.
+BoundedMatrix least_fall(const BoundedMatrix& P, const BoundedMatrix& H, const Bounded& by_rate) {
+  const Eigen::Index n = P.value.rows();
+  const BoundedMatrix middle(H.value);
+  const BoundedMatrix PH = P * middle;
+  const ProofMatrix by_fall = inverse(P.value - by_rate.value * H.value.transpose().lazyProduct(PH.value));
+  ProofMatrix a = ProofMatrix::Zero(n, n);
+  ProofMatrix b = ProofMatrix::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ProofMatrix row = PH.value.row(i);
+    const double of_row = std::sqrt(row.lazyProduct(by_fall).lazyProduct(row.transpose())(0, 0));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (H.error(i, j) == 0.0) continue;
+      const double l = std::sqrt(by_fall(j, j)) / of_row;
+      a(i, i) += BoundedMatrix::kUp * H.error(i, j) * l;
+      b(j, j) += BoundedMatrix::kUp * H.error(i, j) / l;
+    }
+  }
+  const BoundedMatrix twice = middle.transpose() + PH.transpose() * BoundedMatrix(BoundedMatrix::kUp * a);
+  BoundedMatrix fall = P - by_rate * (twice * PH + BoundedMatrix(BoundedMatrix::kUp * b));
+  const ProofMatrix of_P = P.magnitude().lazyProduct(H.error);
+  const ProofMatrix second = H.error.transpose().lazyProduct(of_P);
+  fall.error = BoundedMatrix::kUp * (fall.error + BoundedMatrix::kUp * by_rate.value * second);
+  return fall;
+}
+
+namespace {
+
+enum class Outcome { kProved, kLostBetweenCorners, kRefused };
+
+class BoxProof {
+ public:
+  BoxProof(std::span<const GainRow> gains, const SpringLoop& loop, const ProofMatrix& P,
+           int most_inequalities)
+      : gains_(gains), loop_(loop), P_(P), most_inequalities_(most_inequalities) {
+    const PositiveDefiniteResult positive = test_positive_definite(P, P_.error, states());
+    report_.certified = positive.certain;
+    report_.margin = positive.margin;
+    report_.inequalities = 1;
+  }
+
+  void prove(const SpringBox& box, int cuts) {
+    const SpringCorners corners = spring_corners(box, loop_.period_s);
+    const Outcome outcome = test(corners);
+    if (outcome == Outcome::kProved || !report_.certified) return;
+    if (outcome == Outcome::kRefused || cuts == 0 || report_.inequalities > most_inequalities_) {
+      report_.certified = false;
+      return;
+    }
+    SpringBox half = box;
+    const BoxRange whole = range_of(box, corners.widest);
+    const double middle = 0.5 * (whole.from + whole.to);
+    range_of(half, corners.widest) = {whole.from, middle};
+    prove(half, cuts - 1);
+    range_of(half, corners.widest) = {middle, whole.to};
+    prove(half, cuts - 1);
+  }
+
+  const SpringReport& report() const { return report_; }
+
+ private:
+  int states() const { return static_cast<int>(P_.value.rows()); }
+
+  PositiveDefiniteResult test(const BoundedMatrix& sampled, const GainRow& gain) {
+    const Bounded by_rate = Bounded(1.0) / (Bounded(loop_.decay_rate) * loop_.decay_rate);
+    const BoundedMatrix fall = least_fall(P_, spring_loop(sampled, gain, loop_), by_rate);
+    ++report_.inequalities;
+    return test_positive_definite(fall.value, fall.error, states());
+  }
+
+  // The margins that count are those of the parts that are proved; of a refusal that of the corner itself.
+  Outcome test(const SpringCorners& box) {
+    SpringReport found = report_;
+    for (const SpringCorner& corner : box.corners) {
+      BoundedMatrix sampled = corner.sampled;
+      sampled.error = BoundedMatrix::kUp * (sampled.error + box.interpolation);
+      for (std::size_t j = 0; j < gains_.size(); ++j) {
+        PositiveDefiniteResult result = test(sampled, gains_[j]);
+        const bool lost = !result.certain;
+        if (lost) result = test(corner.sampled, gains_[j]);
+        if (result.margin < found.margin) {
+          found.margin = result.margin;
+          found.worst = corner.plant;
+          found.worst_gain = static_cast<int>(j);
+        }
+        if (!lost) continue;
+        found.inequalities = report_.inequalities;
+        if (!result.certain) report_ = found;
+        return result.certain ? Outcome::kLostBetweenCorners : Outcome::kRefused;
+      }
+    }
+    found.inequalities = report_.inequalities;
+    report_ = found;
+    return Outcome::kProved;
+  }
+
+  std::span<const GainRow> gains_;
+  SpringLoop loop_;
+  BoundedMatrix P_;
+  int most_inequalities_;
+  SpringReport report_;
+};
+
+}  // namespace
+
+SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
+                     const ProofMatrix& P, int most_inequalities) {
+  BoxProof proof(gains, loop, P, most_inequalities);
+  if (proof.report().certified) proof.prove(box, kMostCuts);
+  return proof.report();
+}
+
+double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
+  const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
+  const ProofMatrix H = spring_loop(sampled, gain, loop).value;
+  if (!H.allFinite()) return std::numeric_limits<double>::infinity();
+  // Gelfand: the limit of |H^n|^(1/n), n = 2^k. Compiling Eigen's solver takes ten seconds.
+  ProofMatrix power = H;
+  double log_radius = 0.0;
+  for (double share = 1.0; share > kSmallestShare; share *= 0.5) {
+    const double norm = power.cwiseAbs().maxCoeff();
+    if (norm == 0.0) return 0.0;
+    log_radius += share * std::log(norm);
+    power /= norm;
+    power = power.lazyProduct(power).eval();
+  }
+  return std::exp(log_radius);
+}
+
+WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop) {
+  WorstCorner worst;
+  for (const SpringCorner& corner : spring_corners(box, loop.period_s).corners) {
+    for (std::size_t j = 0; j < gains.size(); ++j) {
+      const double radius = spring_loop_radius(corner.plant, gains[j], loop);
+      if (!(radius <= worst.radius)) worst = {corner.plant, static_cast<int>(j), radius};
+    }
+  }
+  return worst;
+}
+
+std::vector<GainRow> gains_of(const GainTable& table) {
+  std::vector<GainRow> gains;
+  for (const FeedbackGains* controller : {&table.primary, &table.fallback})
+    for (int rule = 0; rule < controller->rule_count; ++rule) gains.push_back(controller->gain(rule));
+  return gains;
+}
+
+std::string describe(const SpringPlant& plant) {
+  std::ostringstream text;
+  text << std::setprecision(5) << "link " << plant.link_inertia_kgm2 << " kg m2, stiffness "
+       << plant.stiffness_Nm_rad << " N m/rad, damping " << plant.damping_Nms_rad
+       << " N m s/rad, viscous friction " << plant.viscous_Nms_rad << " N m s/rad";
+  return text.str();
+}
+
+std::string describe(const SpringReport& report) {
+  std::ostringstream text;
+  text << std::setprecision(3);
+  if (std::isfinite(report.margin)) {
+    text << report.margin;
+  } else {
+    text << "none (not positive on its diagonal)";
+  }
+  if (report.worst.motor_inertia_kgm2 == 0.0) {
+    text << " of P itself";
+  } else {
+    text << " at " << describe(report.worst) << ", gain rule " << report.worst_gain;
+  }
+  return text.str();
+}
+
+}  // namespace strainwave

@@ -1,0 +1,280 @@
+#include "control/trajectory/knot_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "base/printable.h"
+
+namespace strainwave {
+
+namespace {
+
+// Knots are computed: one that is at a limit is not beyond it for its last bits.
+constexpr double kRounding = 1.0 + kAtBound;
+constexpr double kOnBound_rad = 1e-9;
+constexpr double kRest_rad_s = 1e-9;
+// An instant this close to a knot, as a share of the segment, is the knot's.
+constexpr double kAtKnot = 1e-9;
+
+/// One cubic.
+struct Segment {
+  double duration_s = 0.0;
+  PathKnot from;
+  double acceleration_rad_s2 = 0.0;  ///< at its begin
+  double jerk_rad_s3 = 0.0;
+
+  PathPoint at(double since_s) const noexcept {
+    return {from.position_rad + since_s * (from.velocity_rad_s + since_s * (0.5 * acceleration_rad_s2 +
+                                                                            since_s * jerk_rad_s3 / 6.0)),
+            from.velocity_rad_s + since_s * (acceleration_rad_s2 + 0.5 * since_s * jerk_rad_s3),
+            acceleration_rad_s2 + since_s * jerk_rad_s3};
+  }
+};
+
+Segment segment_between(const PathKnot& from, const PathKnot& to) noexcept {
+  const double T = to.time_s - from.time_s;
+  const double mean_rad_s = (to.position_rad - from.position_rad) / T;
+  return {T, from, (6.0 * mean_rad_s - 4.0 * from.velocity_rad_s - 2.0 * to.velocity_rad_s) / T,
+          6.0 * (from.velocity_rad_s + to.velocity_rad_s - 2.0 * mean_rad_s) / (T * T)};
+}
+
+/// Instants inside a segment, at most two.
+struct Instants {
+  std::array<double, 2> since_s{};
+  std::size_t count = 0;
+  void add_inside(double candidate_s, double duration_s) noexcept {
+    if (candidate_s > kAtKnot * duration_s && candidate_s < (1.0 - kAtKnot) * duration_s)
+      since_s[count++] = candidate_s;
+  }
+};
+
+// Where it turns round: v0 + a0 u + j u^2 / 2 = 0, in the form that loses no digits.
+Instants turns_of(const Segment& segment) noexcept {
+  Instants turns;
+  const double a = segment.acceleration_rad_s2;
+  const double j = segment.jerk_rad_s3;
+  const double v = segment.from.velocity_rad_s;
+  const double discriminant = a * a - 2.0 * j * v;
+  if (discriminant < 0.0) return turns;
+  const double q = -(a + std::copysign(std::sqrt(discriminant), a));
+  if (q == 0.0) return turns;
+  if (j != 0.0) turns.add_inside(q / j, segment.duration_s);
+  turns.add_inside(2.0 * v / q, segment.duration_s);
+  return turns;
+}
+
+using Found = std::optional<PathDefect>;
+
+/// The limits, one by one, at one place of a path.
+class Judge {
+ public:
+  Judge(const PathLimits& limits, std::size_t knot) : limits_(limits), knot_(knot) {}
+
+  Found position(double position_rad, double time_s) const {
+    if (position_rad < limits_.range.min_rad - kOnBound_rad)
+      return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad, limits_.range.min_rad};
+    if (position_rad > limits_.range.max_rad + kOnBound_rad)
+      return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad, limits_.range.max_rad};
+    return std::nullopt;
+  }
+  Found speed(double velocity_rad_s, double time_s) const {
+    return above(PathDefect::Kind::kSpeed, std::abs(velocity_rad_s), limits_.motion.velocity_rad_s, time_s);
+  }
+  /// `growing`, `falling`: what the speed does beside this instant.
+  Found acceleration(double acceleration_rad_s2, bool growing, bool falling, double time_s) const {
+    const double size_rad_s2 = std::abs(acceleration_rad_s2);
+    if (auto found =
+            above(PathDefect::Kind::kTorque, limits_.inertia_kgm2 * size_rad_s2, limits_.torque_Nm, time_s))
+      return found;
+    const MotionLimits& motion = limits_.motion;
+    if (growing)
+      if (auto found =
+              above(PathDefect::Kind::kAcceleration, size_rad_s2, motion.acceleration_rad_s2, time_s))
+        return found;
+    if (!falling) return std::nullopt;
+    return above(PathDefect::Kind::kDeceleration, size_rad_s2, motion.deceleration_rad_s2, time_s);
+  }
+
+ private:
+  Found above(PathDefect::Kind kind, double value, double bound, double time_s) const {
+    if (value <= bound * kRounding) return std::nullopt;
+    return PathDefect{kind, knot_, time_s, value, bound};
+  }
+  const PathLimits& limits_;
+  std::size_t knot_;
+};
+
+// At its begin a segment's speed does what it does afterwards, at its end what it did before.
+Found judge_ends(const Segment& segment, const Judge& judge) {
+  const PathPoint begin = segment.at(0.0);
+  const double begins_by = begin.velocity_rad_s * begin.acceleration_rad_s2;
+  if (auto found =
+          judge.acceleration(begin.acceleration_rad_s2, begins_by > 0.0 || begin.velocity_rad_s == 0.0,
+                             begins_by < 0.0, segment.from.time_s))
+    return found;
+  const PathPoint end = segment.at(segment.duration_s);
+  const bool at_rest = std::abs(end.velocity_rad_s) <= kRest_rad_s;
+  const double ends_by = end.velocity_rad_s * end.acceleration_rad_s2;
+  return judge.acceleration(end.acceleration_rad_s2, !at_rest && ends_by > 0.0, at_rest || ends_by < 0.0,
+                            segment.from.time_s + segment.duration_s);
+}
+
+Found judge_inside(const Segment& segment, const Judge& judge) {
+  const Instants turns = turns_of(segment);
+  for (std::size_t i = 0; i < turns.count; ++i) {
+    const PathPoint turn = segment.at(turns.since_s[i]);
+    const double time_s = segment.from.time_s + turns.since_s[i];
+    if (auto found = judge.position(turn.position_rad, time_s)) return found;
+    if (auto found = judge.acceleration(turn.acceleration_rad_s2, true, true, time_s)) return found;
+  }
+  if (segment.jerk_rad_s3 == 0.0) return std::nullopt;
+  Instants fastest;
+  fastest.add_inside(-segment.acceleration_rad_s2 / segment.jerk_rad_s3, segment.duration_s);
+  if (fastest.count == 0) return std::nullopt;
+  return judge.speed(segment.at(fastest.since_s[0]).velocity_rad_s, segment.from.time_s + fastest.since_s[0]);
+}
+
+Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s) {
+  const PathKnot& here = path.knots[knot];
+  for (const auto& [name, number] :
+       {std::pair{"time_s = ", here.time_s}, std::pair{"position_rad = ", here.position_rad},
+        std::pair{"velocity_rad_s = ", here.velocity_rad_s}})
+    if (!std::isfinite(number))
+      return PathDefect{PathDefect::Kind::kNotFinite, knot, here.time_s, number, 0.0, name};
+  const double earliest_s = knot == 0 ? 0.0 : path.knots[knot - 1].time_s + period_s;
+  const bool first_is_late = knot == 0 && here.time_s > 0.0;
+  // A path is made in decimals: a knot that is a period later may be so but for its last bits.
+  if (first_is_late || here.time_s * kRounding < earliest_s)
+    return PathDefect{PathDefect::Kind::kTime, knot, here.time_s, here.time_s, earliest_s};
+  if (here.time_s > kLongestPath_s)
+    return PathDefect{PathDefect::Kind::kDuration, knot, here.time_s, here.time_s, kLongestPath_s};
+  const bool end = knot == 0 || knot + 1 == path.count;
+  if (end && std::abs(here.velocity_rad_s) > kRest_rad_s)
+    return PathDefect{PathDefect::Kind::kNotAtRest, knot, here.time_s, here.velocity_rad_s, 0.0};
+  return std::nullopt;
+}
+
+// Of the number that is wrong.
+const char* name_of(const PathDefect& defect) {
+  switch (defect.kind) {
+    case PathDefect::Kind::kCount:
+      return "knot_count = ";
+    case PathDefect::Kind::kNotFinite:
+      return defect.number;
+    case PathDefect::Kind::kTime:
+    case PathDefect::Kind::kDuration:
+      return "time_s = ";
+    case PathDefect::Kind::kNotAtRest:
+      return "velocity_rad_s = ";
+    case PathDefect::Kind::kPosition:
+      return "position_rad = ";
+    case PathDefect::Kind::kSpeed:
+      return "speed in rad/s = ";
+    case PathDefect::Kind::kAcceleration:
+      return "acceleration in rad/s^2 = ";
+    case PathDefect::Kind::kDeceleration:
+      return "deceleration in rad/s^2 = ";
+    case PathDefect::Kind::kTorque:
+      return "torque of the inertia alone in N.m = ";
+  }
+  return "";
+}
+
+// What would be right, and where the limit is set.
+std::string what_is_allowed(const PathDefect& defect) {
+  const bool above = defect.value > defect.bound;
+  const std::string bound = bound_text(defect.bound);
+  std::ostringstream text;
+  const auto at_most = [&](const char* key) {
+    text << "at most " << bound << " is allowed (joint.limits." << key << ")";
+  };
+  switch (defect.kind) {
+    case PathDefect::Kind::kCount:
+    case PathDefect::Kind::kNotFinite:
+      text << "a finite number is allowed";
+      break;
+    case PathDefect::Kind::kTime:
+      if (defect.knot == 0)
+        text << "0 is allowed, the first knot begins the path";
+      else
+        text << "at least " << bound << " is allowed, a period after the knot before";
+      break;
+    case PathDefect::Kind::kDuration:
+      text << "at most " << bound << " is allowed";
+      break;
+    case PathDefect::Kind::kNotAtRest:
+      text << "0 is allowed, a path begins and ends at rest";
+      break;
+    case PathDefect::Kind::kPosition:
+      if (above) at_most("position_max_rad");
+      if (!above) text << "at least " << bound << " is allowed (joint.limits.position_min_rad)";
+      break;
+    case PathDefect::Kind::kSpeed:
+      at_most("speed_limit_rad_s");
+      break;
+    case PathDefect::Kind::kAcceleration:
+      at_most("acceleration_rad_s2");
+      break;
+    case PathDefect::Kind::kDeceleration:
+      at_most("deceleration_rad_s2");
+      break;
+    case PathDefect::Kind::kTorque:
+      at_most("torque_limit_Nm");
+      break;
+  }
+  return text.str();
+}
+
+}  // namespace
+
+PathPoint PathReader::at(const KnotPath& path, double time_s) noexcept {
+  while (segment_ + 1 < path.count && time_s >= path.knots[segment_ + 1].time_s) ++segment_;
+  if (segment_ + 1 >= path.count) return {path.last().position_rad, 0.0, 0.0};
+  const PathKnot& from = path.knots[segment_];
+  return segment_between(from, path.knots[segment_ + 1]).at(std::max(0.0, time_s - from.time_s));
+}
+
+PathDefect wrong_count(double count) {
+  return {PathDefect::Kind::kCount, 0, 0.0, count, static_cast<double>(KnotPath::kMostKnots)};
+}
+
+std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits) {
+  if (path.count < 2 || path.count > KnotPath::kMostKnots)
+    return wrong_count(static_cast<double>(path.count));
+  for (std::size_t knot = 0; knot < path.count; ++knot)
+    if (auto found = find_number_defect(path, knot, limits.period_s)) return found;
+  // Places before the ways there: who gives degrees is not told of their accelerations.
+  for (std::size_t knot = 0; knot < path.count; ++knot) {
+    const PathKnot& here = path.knots[knot];
+    if (auto found = Judge(limits, knot).position(here.position_rad, here.time_s)) return found;
+  }
+  // Speeds, too: between two that no joint has no acceleration is a number.
+  for (std::size_t knot = 0; knot < path.count; ++knot) {
+    const PathKnot& here = path.knots[knot];
+    if (auto found = Judge(limits, knot).speed(here.velocity_rad_s, here.time_s)) return found;
+  }
+  for (std::size_t knot = 0; knot + 1 < path.count; ++knot) {
+    const Judge judge(limits, knot);
+    const Segment segment = segment_between(path.knots[knot], path.knots[knot + 1]);
+    if (auto found = judge_ends(segment, judge)) return found;
+    if (auto found = judge_inside(segment, judge)) return found;
+  }
+  return std::nullopt;
+}
+
+std::string describe(const PathDefect& defect) {
+  std::ostringstream text;
+  if (defect.kind == PathDefect::Kind::kCount) {
+    text << "knot_count = " << defect.value << ": from 2 to " << defect.bound << " are allowed";
+    return text.str();
+  }
+  text << "knot " << defect.knot;
+  if (std::isfinite(defect.time_s)) text << " (at " << defect.time_s << " s)";
+  text << ": " << name_of(defect) << beyond_text(defect.value, defect.bound) << ": "
+       << what_is_allowed(defect);
+  return text.str();
+}
+
+}  // namespace strainwave

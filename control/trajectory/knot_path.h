@@ -1,0 +1,106 @@
+// The path of one joint: knots with time, position and velocity, and the cubics of Hermite between them. Evaluated in constant time while
+// time goes on, and checked as a whole before anything moves. Joint side, SI. at() is real-time safe; a path is a plain struct that can be
+// copied as bytes. Source: the cubic that has two positions and two velocities, and the extremes of polynomials.
+//
+// Between two knots, T apart, with the mean rate d = (p1 - p0) / T and u the time since the first:
+//
+//   a0 = (6 d - 4 v0 - 2 v1) / T
+//   j  = 6 (v0 + v1 - 2 d) / T^2
+//   p  = p0 + u v0 + u^2 a0 / 2 + u^3 j / 6
+//   v  = v0 + u a0 + u^2 j / 2
+//   a  = a0 + u j
+//
+// Position and velocity have no step; the acceleration has one at knots, unless they were chosen so that it has none. Positions are
+// extreme at knots and where v = 0, velocities where a = 0, accelerations at knots.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "control/trajectory/reference_shaper.h"
+
+namespace strainwave {
+
+struct PathKnot {
+  double time_s = 0.0;
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+};
+
+/// Where a path is at an instant.
+struct PathPoint {
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  double acceleration_rad_s2 = 0.0;
+  PathPoint operator+(const PathPoint& other) const noexcept {
+    return {position_rad + other.position_rad, velocity_rad_s + other.velocity_rad_s,
+            acceleration_rad_s2 + other.acceleration_rad_s2};
+  }
+};
+
+struct KnotPath {
+  static constexpr std::size_t kMostKnots = 320;
+  std::array<PathKnot, kMostKnots> knots{};
+  std::size_t count = 0;  ///< 2..kMostKnots
+
+  const PathKnot& last() const noexcept { return knots[count - 1]; }
+  double duration_s() const noexcept { return last().time_s; }
+};
+
+/// Reads a path forwards. A path that is read has no defect (below).
+class PathReader {
+ public:
+  /// The path at `time_s`, not before that of the last call (a new reader begins at 0); at its end from there on, at rest. The knot that
+  /// it is at moves on with the time, so that a period costs the same whatever the number of knots.
+  PathPoint at(const KnotPath& path, double time_s) noexcept;
+
+ private:
+  std::size_t segment_ = 0;  ///< from this knot to the next
+};
+
+/// What a joint can do on a path. All finite, speeds and accelerations > 0.
+struct PathLimits {
+  PositionRange range;
+  MotionLimits motion;
+  double torque_Nm = 0.0;     ///< > 0, for the inertia alone: friction and load take theirs besides
+  double inertia_kgm2 = 0.0;  ///< > 0
+  double period_s = 0.0;      ///< > 0: knots are not closer
+};
+
+/// What is wrong with a path: a knot, what it exceeds, by what, and where.
+struct PathDefect {
+  enum class Kind {
+    kCount,      ///< too few or too many knots
+    kNotFinite,  ///< value is the number itself
+    kTime,       ///< the first is not at 0, or another not a period after the one before
+    kDuration,   ///< longer than kLongestPath_s
+    kNotAtRest,  ///< it begins or ends with a velocity
+    kPosition,   ///< leaves the range
+    kSpeed,
+    kAcceleration,  ///< while the speed grows
+    kDeceleration,  ///< while it falls
+    kTorque,        ///< of the inertia
+  };
+  Kind kind = Kind::kCount;
+  std::size_t knot = 0;  ///< from 0: at it, or between it and the next
+  double time_s = 0.0;   ///< where; of a knot its own
+  double value = 0.0;
+  double bound = 0.0;
+  const char* number = "";  ///< of kNotFinite, which of the knot's
+};
+
+inline constexpr double kLongestPath_s = 3600.0;
+
+/// Of a path of so many knots. Not real-time.
+PathDefect wrong_count(double count);
+
+/// The first defect of `path` for a joint with these limits, knot by knot: of its numbers, then of its places, of its speeds, then of the
+/// ways between them; nothing: it can be followed. Not real-time.
+std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& limits);
+
+/// "knot 3 (1.2 s): ..." with the number, and what is allowed by which limit. Not real-time.
+std::string describe(const PathDefect& defect);
+
+}  // namespace strainwave

@@ -1,0 +1,151 @@
+#include "control/trajectory/reference_shaper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+// A speed this far below one sample's deceleration is the rounding of a motion that has ended.
+constexpr double kRelativeRounding = 1e-9;
+// What thousands of samples may add up to; far below any encoder's count.
+constexpr double kPositionRounding_rad = 1e-12;
+// What a target that accelerates leaves at least of a limit, to come up with it or to brake.
+constexpr double kLeastLeft = 0.2;
+// Farther than what the acceleration covers in this time from rest, a target that moves is far away.
+constexpr double kFar_s = 0.1;
+}  // namespace
+
+void ReferenceShaper::reset(double position_rad, double velocity_rad_s) noexcept {
+  position_rad_ = position_rad;
+  velocity_rad_s_ = velocity_rad_s;
+  target_rad_ = position_rad;
+  stopping_ = velocity_rad_s != 0.0;
+}
+
+void ReferenceShaper::set_target(double position_rad) noexcept {
+  target_rad_ = position_rad;
+  stopping_ = false;
+}
+
+// Towards zero by at most one sample's deceleration.
+double ReferenceShaper::brake_to_rest(double velocity_rad_s) const noexcept {
+  const double speed = std::max(0.0, std::abs(velocity_rad_s) - period_s_ * limits_.deceleration_rad_s2);
+  return std::copysign(speed, velocity_rad_s);
+}
+
+// Inverse of G(v') = S(v') + h v' / 2, which is piecewise linear with G(n D h) = D h^2 n (n + 1) / 2.
+double ReferenceShaper::largest_stoppable_velocity(double distance_rad,
+                                                   double deceleration_rad_s2) const noexcept {
+  if (distance_rad <= 0.0) return 0.0;
+  if (!std::isfinite(distance_rad)) return distance_rad;
+  const double speed_step = period_s_ * deceleration_rad_s2;
+  const double scaled = distance_rad / (period_s_ * speed_step);
+  const double whole = std::floor(0.5 * (std::sqrt(1.0 + 8.0 * scaled) - 1.0));
+  const double beyond = scaled - 0.5 * whole * (whole + 1.0);
+  return speed_step * (whole + beyond / (whole + 1.0));
+}
+
+// In the direction of the target: `velocity` < 0 moves away from it.
+double ReferenceShaper::next_velocity_rad_s(double to_target_rad) const noexcept {
+  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(velocity_rad_s_);
+  const double velocity = direction * velocity_rad_s_;
+  const double speed_up = period_s_ * limits_.acceleration_rad_s2;
+  const double slow_down = period_s_ * limits_.deceleration_rad_s2;
+
+  if (velocity < 0.0) {
+    // A sample that turns round has one acceleration, so both limits hold in it.
+    const double turned = velocity + std::min(speed_up, slow_down);
+    if (turned <= 0.0) return direction * std::min(0.0, velocity + slow_down);
+    const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
+                                                        limits_.deceleration_rad_s2);
+    return direction * std::min({turned, limits_.velocity_rad_s, stoppable});
+  }
+  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
+                                                      limits_.deceleration_rad_s2);
+  const double wanted = std::min({velocity + speed_up, limits_.velocity_rad_s, stoppable});
+  return direction * std::max({wanted, velocity - slow_down, 0.0});
+}
+
+// What the limits allow of a wanted velocity: accelerations, the range, the speed, in the order in which they give way.
+double ReferenceShaper::possible_velocity_rad_s(double wanted_rad_s,
+                                                const PositionRange& range) const noexcept {
+  const double decelerating = period_s_ * limits_.deceleration_rad_s2;
+  const double accelerating = period_s_ * limits_.acceleration_rad_s2;
+  const double middle_rad = position_rad_ + 0.5 * period_s_ * velocity_rad_s_;
+  const double up = std::min(limits_.velocity_rad_s, largest_stoppable_velocity(range.max_rad - middle_rad,
+                                                                                limits_.deceleration_rad_s2));
+  const double down =
+      std::min(limits_.velocity_rad_s,
+               largest_stoppable_velocity(middle_rad - range.min_rad, limits_.deceleration_rad_s2));
+  const double inside = std::clamp(wanted_rad_s, -down, up);
+  // A sample that turns round has one acceleration, so both limits hold in it.
+  const double turning = std::min(accelerating, decelerating);
+  const bool forward = velocity_rad_s_ > 0.0;
+  const bool backward = velocity_rad_s_ < 0.0;
+  const double slowest =
+      velocity_rad_s_ - (forward ? std::max(turning, std::min(decelerating, velocity_rad_s_)) : accelerating);
+  const double fastest =
+      velocity_rad_s_ +
+      (backward ? std::max(turning, std::min(decelerating, -velocity_rad_s_)) : accelerating);
+  return std::clamp(inside, slowest, fastest);
+}
+
+Reference ReferenceShaper::advance_to(double velocity_rad_s) noexcept {
+  const Reference reference{position_rad_, velocity_rad_s_, (velocity_rad_s - velocity_rad_s_) / period_s_};
+  position_rad_ += 0.5 * period_s_ * (velocity_rad_s_ + velocity_rad_s);
+  velocity_rad_s_ = velocity_rad_s;
+  return reference;
+}
+
+// Of a target that is far away the own acceleration is not gone along with: one that brakes would brake who has yet to come up with it.
+// How fast the way may be, possible_velocity_rad_s() says.
+double ReferenceShaper::nearing_rad_s(const MovingTarget& target) const noexcept {
+  // From where the target, were its motion the mean of its two velocities, would reach its end exactly.
+  const double to_target_rad = target.next_position_rad - position_rad_ -
+                               0.5 * period_s_ * (target.velocity_rad_s + target.next_velocity_rad_s);
+  const double relative_rad_s = velocity_rad_s_ - target.velocity_rad_s;
+  const double direction = to_target_rad != 0.0 ? sign(to_target_rad) : -sign(relative_rad_s);
+  const double velocity = direction * relative_rad_s;
+  const double flees_rad_s2 = direction * (target.next_velocity_rad_s - target.velocity_rad_s) / period_s_;
+  const auto left = [](double limit, double taken) {
+    return std::max(kLeastLeft * limit, limit - std::max(0.0, taken));
+  };
+  const double braking_rad_s2 = left(limits_.deceleration_rad_s2, -flees_rad_s2);
+  const double stoppable =
+      largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity, braking_rad_s2);
+  if (std::abs(to_target_rad) > 0.5 * limits_.acceleration_rad_s2 * kFar_s * kFar_s)
+    return direction * stoppable;
+  const double speed_up = period_s_ * left(limits_.acceleration_rad_s2, flees_rad_s2);
+  return direction *
+         std::max(std::min(velocity + speed_up, stoppable), velocity - period_s_ * braking_rad_s2);
+}
+
+Reference ReferenceShaper::follow(const MovingTarget& target, const PositionRange& range) noexcept {
+  set_target(target.next_position_rad);
+  if (target.rests()) return step();
+  return advance_to(possible_velocity_rad_s(target.next_velocity_rad_s + nearing_rad_s(target), range));
+}
+
+Reference ReferenceShaper::step() noexcept {
+  double velocity =
+      stopping_ ? brake_to_rest(velocity_rad_s_) : next_velocity_rad_s(target_rad_ - position_rad_);
+  double position = position_rad_ + 0.5 * period_s_ * (velocity_rad_s_ + velocity);
+
+  if (std::abs(velocity) <= kRelativeRounding * period_s_ * limits_.deceleration_rad_s2) {
+    velocity = 0.0;
+    if (stopping_) target_rad_ = position;
+    const double rounding_rad =
+        kPositionRounding_rad + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(target_rad_);
+    if (std::abs(position - target_rad_) <= rounding_rad) position = target_rad_;
+  }
+  const Reference reference{position_rad_, velocity_rad_s_, (velocity - velocity_rad_s_) / period_s_};
+  position_rad_ = position;
+  velocity_rad_s_ = velocity;
+  return reference;
+}
+
+}  // namespace strainwave

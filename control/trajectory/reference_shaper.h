@@ -1,0 +1,94 @@
+// Reference shaping: turns targets, which may change at any moment, into a reference that the joint can
+// follow. Real-time safe: allocates nothing, throws nothing, one square root per sample.
+//
+// Time-optimal in discrete time. With period h the acceleration a is constant over a sample, so that
+//   v' = v + h a
+//   x' = x + h (v + v') / 2
+// hold exactly, and J a is the torque to feed forward.
+//
+// From speed v the joint can stop within S(v): full deceleration D for whole samples, the remainder in the
+// last one; S is the chord polygon of v^2 / 2D with nodes at v = n D h. Each sample takes the largest v' with
+//   v' <= v + A h
+//   v' <= V
+//   S(v') + h v' / 2 <= d - h v / 2,    d: distance to the target
+// which keeps the target reachable exactly, at rest, on a sample: no overshoot, no chatter around the target.
+//
+// A target that moves (p0 to p1 at v0 to v1 in a sample) is followed in its own frame by the same rule: x = p - x',
+// w = v' - v1. Of the limits it takes, by its own acceleration, what it flees by to come up with it and what it comes by to brake, as far as
+// it leaves some; what helps is not counted on, because it need not last. The speed limit is the follower's own. On the target nothing is
+// left but its motion. A target that is farther away than A (0.1 s)^2 / 2 is gone after with all of the acceleration.
+#pragma once
+
+#include <limits>
+
+#include "control/joint/motion_limits.h"
+#include "control/trajectory/stream_sample.h"
+
+namespace strainwave {
+
+/// Where a reference that follows a moving target may be.
+struct PositionRange {
+  double min_rad = -std::numeric_limits<double>::infinity();
+  double max_rad = std::numeric_limits<double>::infinity();
+};
+
+/// The reference at a sample. The acceleration is that of the period that follows it.
+struct Reference {
+  double position_rad = 0.0;
+  double velocity_rad_s = 0.0;
+  double acceleration_rad_s2 = 0.0;
+};
+
+class ReferenceShaper {
+ public:
+  /// `period_s` > 0. At rest at 0.
+  explicit ReferenceShaper(double period_s) noexcept : period_s_(period_s) {}
+
+  /// Continues from here; the target is here, or of a motion the nearest point where it can stop.
+  void reset(double position_rad, double velocity_rad_s) noexcept;
+  /// Continues from here to the target it has.
+  void restart(double position_rad, double velocity_rad_s) noexcept {
+    position_rad_ = position_rad;
+    velocity_rad_s_ = velocity_rad_s;
+  }
+  /// Takes the target at once, as a step.
+  void jump() noexcept {
+    position_rad_ = target_rad_;
+    velocity_rad_s_ = 0.0;
+  }
+  /// In force from the next step. When they shrink while moving, the speed falls with the new deceleration.
+  void set_limits(const MotionLimits& limits) noexcept { limits_ = limits; }
+  void set_target(double position_rad) noexcept;
+  /// Decelerates to rest and stays where that ends, until the next target.
+  void stop() noexcept { stopping_ = true; }
+
+  /// The reference for this sample; the motion then advances by one period.
+  Reference step() noexcept;
+  /// The same, towards a target that moves: on it as soon as the limits allow, and never beyond where it can still
+  /// stop inside `range`. Afterwards at_target() says whether the target rests and is reached.
+  Reference follow(const MovingTarget& target, const PositionRange& range) noexcept;
+
+  /// Whether the motion has ended, exactly on the target.
+  bool at_target() const noexcept { return position_rad_ == target_rad_ && velocity_rad_s_ == 0.0; }
+  double target_rad() const noexcept { return target_rad_; }
+  /// Where the next sample begins.
+  double position_rad() const noexcept { return position_rad_; }
+  double velocity_rad_s() const noexcept { return velocity_rad_s_; }
+
+ private:
+  double next_velocity_rad_s(double to_target_rad) const noexcept;
+  double nearing_rad_s(const MovingTarget& target) const noexcept;
+  double brake_to_rest(double velocity_rad_s) const noexcept;
+  double largest_stoppable_velocity(double distance_rad, double deceleration_rad_s2) const noexcept;
+  double possible_velocity_rad_s(double wanted_rad_s, const PositionRange& range) const noexcept;
+  Reference advance_to(double velocity_rad_s) noexcept;
+
+  double period_s_;
+  MotionLimits limits_;
+  double position_rad_ = 0.0;
+  double velocity_rad_s_ = 0.0;
+  double target_rad_ = 0.0;
+  bool stopping_ = false;
+};
+
+}  // namespace strainwave
