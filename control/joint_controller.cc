@@ -39,7 +39,7 @@ MotorPlannerConfig planner_config(const JointControllerConfig& config) noexcept 
 
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config),
-      trajectory_(config.period_s, config.stream_bridge_s, count_of(config)),
+      trajectory_({config.period_s, config.stream_bridge_s, config.stream_delay_s, count_of(config)}),
       planner_(planner_config(config)),
       law_(config.period_s, config.encoder_resolution_rad, share_of_velocity(config),
            config.link.has_value()),
@@ -102,14 +102,17 @@ void JointController::set_target(double position_rad, double speed_limit_rad_s) 
   pace_ = 1.0;
 }
 
-void JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
-                             const PositionRange& range, OnTime on_time) noexcept {
+SampleFate JointController::follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
+                                   const PositionRange& range) noexcept {
   begin_order(speed_limit_rad_s);
-  const double lead_periods = on_time == OnTime::kJoint ? lead_s() / config_.period_s : 0.0;
-  StreamSample taken = sample;
-  taken.computed_here = on_time == OnTime::kPlan;
-  trajectory_.follow(taken, begins, lead_periods, motion_, range);
   if (begins) pace_ = 1.0;
+  return trajectory_.follow(sample, begins, lead_s() / config_.period_s, motion_, range);
+}
+
+void JointController::follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
+                                  const PositionRange& range) noexcept {
+  begin_order(0.0);
+  trajectory_.follow_path(position_rad, velocity_rad_s, in_periods, range);
 }
 
 // What a stream had named of the load is what the joint carries from now on, as far as is known.

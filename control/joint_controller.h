@@ -75,8 +75,11 @@ class JointController {
   void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
   /// One setpoint of a stream, which it `begins` or goes on with. Speed as above, and inside `range`. Until set_target(), stop(),
   /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
-  void follow(const StreamSample& sample, bool begins, double speed_limit_rad_s, const PositionRange& range,
-              OnTime on_time = OnTime::kJoint) noexcept;
+  SampleFate follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
+                    const PositionRange& range) noexcept;
+  /// A path leads here in so many periods, > 0. The joint is later than this by lead_s().
+  void follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
+                   const PositionRange& range) noexcept;
   /// Decelerates to rest and holds.
   void stop() noexcept { trajectory_.stop(); }
   /// Lets go: until it stands, the torque is what holds `load_Nm`, gravity and what a stream says. Then it decelerates to rest and holds.
@@ -89,8 +92,8 @@ class JointController {
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
-  /// The plan is so much ahead of the joint: the delay, and half of what the link's motion lasts longer. A sample of a stream on time that
-  /// comes later than this before its time is carried forward; with OnTime::kPlan the joint is so much later than the samples say.
+  /// The plan is so much ahead of the joint: the delay, and half of what the link's motion lasts longer. A sample that comes later than this
+  /// before its instant is late.
   double lead_s() const noexcept;
   const Trajectory& trajectory() const noexcept { return trajectory_; }
   /// What the encoder reads once the joint rests at its target: a motor's is beside it by the wind-up under gravity.

@@ -109,6 +109,7 @@ void visit_fields(const setpoint_v2& message, Visit&& visit) {
   visit("valid_for_s", message.valid_for_s);
   visit("speed_limit_rad_s", message.speed_limit_rad_s);
   visit("begins_stream", message.begins_stream);
+  visit("approach", message.approach);
   visit("acknowledge", message.acknowledge);
 }
 

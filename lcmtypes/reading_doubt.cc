@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "lcmtypes/oscillation_evidence.h"
+
 namespace strainwave {
 
 namespace {
@@ -33,7 +35,9 @@ std::string doubt_words(std::int64_t number) {
 
 std::string fault_words(Fault fault, std::int64_t drive_error) {
   std::string words(to_text(fault));
-  if (fault != Fault::kImplausibleReading || drive_error < 0 || drive_error > 0xFFFFFFFF) return words;
+  if (drive_error <= 0 || drive_error > 0xFFFFFFFF) return words;
+  if (fault == Fault::kChatter) return words + ": " + evidence_words(static_cast<std::uint32_t>(drive_error));
+  if (fault != Fault::kImplausibleReading) return words;
   const std::string doubt = doubt_words(drive_error);
   return doubt.empty() ? words : words + ": " + doubt;
 }

@@ -35,6 +35,7 @@ void visit_state_fields(const state_v1& state, Visit&& visit) {
   visit("friction_frozen", state.friction_frozen);
   visit("friction_rule_C", std::span<const double>(state.friction_rule_C));
   visit("friction_scales", std::span<const double>(state.friction_scales));
+  visit("late_samples", state.late_samples);
   visit("learned_load_Nm", state.learned_load_Nm);
 }
 

@@ -123,6 +123,8 @@ std::string_view to_text(Notice notice) noexcept {
       return "samples missing";
     case Notice::kFrictionDiffers:
       return "friction differs from the table";
+    case Notice::kVelocitiesContradict:
+      return "velocities contradict positions";
   }
   return "unknown";
 }
@@ -194,6 +196,10 @@ std::string_view to_text(Reason reason) noexcept {
       return "order is too old";
     case Reason::kNotOwner:
       return "somebody else has the joint";
+    case Reason::kFarFromJoint:
+      return "stream begins far from the joint";
+    case Reason::kVelocitiesContradict:
+      return "velocities contradict positions";
   }
   return "unknown";
 }
@@ -348,6 +354,8 @@ std::string_view configuration_key(Notice notice) noexcept {
       return "joint.control.stream_bridge_s";
     case Notice::kFrictionDiffers:
       return "joint.table";
+    case Notice::kVelocitiesContradict:
+      return "";
   }
   return "";
 }

@@ -73,6 +73,7 @@ enum class Notice : std::int32_t {
   kYielded = 1 << 16,
   kSamplesMissing = 1 << 17,
   kFrictionDiffers = 1 << 18,
+  kVelocitiesContradict = 1 << 19,
 };
 
 /// ack_v1.reason; also the index into timing_v1.rejects (< 32).
@@ -109,8 +110,10 @@ enum class Reason : std::int32_t {
   kEnding = 29,
   kTooOld = 30,
   kNotOwner = 31,
+  kFarFromJoint = 32,
+  kVelocitiesContradict = 33,
 };
-inline constexpr int kReasonCount = 32;
+inline constexpr int kReasonCount = 34;
 
 /// command_v1.action
 enum class Action : std::int32_t {

@@ -68,6 +68,7 @@ class Identification {
   /// A stream begins with a setpoint that is answered, so that it cannot be lost.
   void begin(setpoint_v2 setpoint) {
     setpoint.begins_stream = 1;
+    setpoint.approach = 1;
     setpoint.acknowledge = 1;
     require_accepted(client_.request(joint_, channel_kind::kSetpoint, setpoint), joint_, "a setpoint");
     guarded_.accepted();

@@ -60,6 +60,7 @@ setpoint_v2 order_of(const setpoint_v2& recorded) {
 void require_order(Client& client, const std::string& joint, setpoint_v2 order) {
   order.acknowledge = 1;
   order.begins_stream = order.stream_id != 0 ? 1 : 0;
+  order.approach = order.begins_stream;
   require_accepted(client.request(joint, channel_kind::kSetpoint, order), joint,
                    "the first setpoint of a motion");
 }

@@ -28,7 +28,7 @@ bool tells_less_than_the_state(Reason refusal) {
 
 bool ends_stream(Reason refusal) {
   return refusal == Reason::kStreamEnded || refusal == Reason::kSuperseded ||
-         refusal == Reason::kWrongSession;
+         refusal == Reason::kWrongSession || refusal == Reason::kVelocitiesContradict;
 }
 
 StreamOptions checked(const std::string& joint, const StreamOptions& options) {
@@ -193,6 +193,7 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
 void Stream::begin(double t_s, setpoint_v2 message) {
   message.begins_stream = 1;
   message.acknowledge = 1;
+  message.approach = options_.approach ? 1 : 0;
   const bool sets_the_base = !base_->origin_t_s;
   const auto prepare = [&](setpoint_v2& next) {
     if (sets_the_base) {

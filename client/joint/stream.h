@@ -17,6 +17,8 @@ struct StreamOptions {
   /// The stream ends when no sample comes for so long; the joint comes to rest before that. Above 0 to 10.
   double valid_for_s = 2.0;
   double speed_limit_rad_s = 0.0;  ///< 0: as fast as the joint may
+  /// A stream that begins far from the joint is approached at the speed of a move; else the daemon refuses it.
+  bool approach = false;
   /// The stream of another joint of this daemon: the same time is the same cycle then.
   const Stream* beside = nullptr;
 };

@@ -1,7 +1,7 @@
 #include "control/joint/gear_catalogue.h"
 
 #include "base/csv.h"
-#include "control/gears_csv.h"
+#include "control/joint/gears_csv.h"
 
 namespace strainwave {
 

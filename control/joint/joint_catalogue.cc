@@ -7,8 +7,8 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
-#include "control/datasheet_csv.h"
-#include "control/friction_csv.h"
+#include "control/joint/datasheet_csv.h"
+#include "control/joint/friction_csv.h"
 #include "control/units.h"
 
 namespace strainwave {

@@ -1,29 +1,33 @@
-// What goes into StreamTarget and what comes out of it. Real-time safe. Joint side, SI.
+// What goes into StreamBuffer and what comes out of it. Real-time safe. Joint side, SI.
 #pragma once
 
 #include <cstdint>
 
 namespace strainwave {
 
-/// What who streams knows of the load and the joint does not: a torque to add to the planned one, and an inertia that is carried
-/// besides the joint's own.
+/// What a sender knows of the load and the joint does not: a torque to add to the planned one, and an inertia that the joint carries
+/// besides its own.
 struct ToldLoad {
   double torque_Nm = 0.0;
   double inertia_kgm2 = 0.0;  ///< >= 0
 };
 
-/// One setpoint of a stream. All finite.
+/// One setpoint of a stream. All finite. Either `in_periods` or `sent_us` is above 0.
 struct StreamSample {
   double position_rad = 0.0;
   double velocity_rad_s = 0.0;       ///< with derivatives >= 1
   double acceleration_rad_s2 = 0.0;  ///< with derivatives == 2
   int derivatives = 0;               ///< how many of the position's are given: 0, 1 or 2
-  /// Periods from now to the instant that it is for, > 0; 0: none is given.
-  std::int64_t in_periods = 0;
+  std::int64_t in_periods = 0;  ///< from now to the instant that it is for, > 0; 0: it says when it was sent
   ToldLoad load{};
-  std::int64_t sent_us = 0;  ///< when it was sent, on the sender's clock; 0: not told
-  /// Its derivatives are those of its positions, whatever the samples around it show.
-  bool computed_here = false;
+  std::int64_t sent_us = 0;  ///< on the sender's clock, used where in_periods is 0
+};
+
+/// What became of a sample.
+enum class SampleFate {
+  kInTime,
+  kLate,                  ///< its instant had passed; the motion is led on by it
+  kVelocitiesContradict,  ///< like several before it, its velocity is not that of the positions: the stream is to end
 };
 
 /// Target of a period: at its begin and at its end.

@@ -18,34 +18,42 @@ constexpr double kOnStream_rad = 1e-6;
 
 void Trajectory::start(double position_rad, double velocity_rad_s) noexcept {
   shaper_.reset(position_rad, velocity_rad_s);
-  streamed_ = false;
+  source_ = Source::kMove;
   load_ = {};
 }
 
 void Trajectory::set_target(double position_rad) noexcept {
-  streamed_ = false;
+  source_ = Source::kMove;
   shaper_.set_target(position_rad);
 }
 
-void Trajectory::follow(const StreamSample& sample, bool begins, double lead_periods,
-                        const MotionLimits& reach, const PositionRange& range) noexcept {
+SampleFate Trajectory::follow(const StreamSample& sample, bool begins, double lead_periods,
+                              const MotionLimits& reach, const PositionRange& range) noexcept {
   range_ = range;
-  if (!streamed_ || begins) {
-    const bool resumes = !begins && stream_.ended() && stream_.lead_periods() == lead_periods;
-    if (resumes)
-      stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), load_);
-    else
-      stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_periods, load_);
-  }
-  streamed_ = true;
-  exact_ = sample.computed_here;
+  const bool ended = stream_.ended() && stream_.lead_periods() == lead_periods;
+  if (begins || (source_ != Source::kStream && !ended))
+    stream_.begin(shaper_.position_rad(), shaper_.velocity_rad_s(), lead_periods, load_);
+  else if (source_ != Source::kStream)
+    stream_.resume(shaper_.position_rad(), shaper_.velocity_rad_s(), load_);
+  source_ = Source::kStream;
   sample_rad_ = sample.position_rad;
-  stream_.take(sample,
-               {reach.velocity_rad_s, std::min(reach.acceleration_rad_s2, reach.deceleration_rad_s2)});
+  return stream_.take(sample, reach);
+}
+
+void Trajectory::follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
+                             const PositionRange& range) noexcept {
+  range_ = range;
+  if (source_ != Source::kPath) {
+    on_path_rad_ = shaper_.position_rad();
+    on_path_rad_s_ = shaper_.velocity_rad_s();
+  }
+  source_ = Source::kPath;
+  sample_rad_ = position_rad;
+  path_ = {position_rad, velocity_rad_s, static_cast<double>(in_periods)};
 }
 
 void Trajectory::stop() noexcept {
-  streamed_ = false;
+  source_ = Source::kMove;
   shaper_.stop();
 }
 
@@ -53,28 +61,46 @@ void Trajectory::stop() noexcept {
 void Trajectory::begin_period(std::int64_t elapsed_periods) noexcept {
   if (elapsed_periods <= kMaxElapsedPeriods)
     stream_.leave_out(elapsed_periods - 1);
-  else if (streamed_)
+  else if (source_ == Source::kStream)
     stream_.skip(elapsed_periods - 1);
   else
     stream_.wait(elapsed_periods - 1);
 }
 
 bool Trajectory::off_stream() const noexcept {
-  return streamed_ && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
+  return streamed() && std::abs(shaper_.target_rad() - shaper_.position_rad()) > kOnStream_rad;
 }
 
 // A stream that stands may flicker by an encoder's count: a reference that rests does not follow it.
 bool Trajectory::flickers(const MovingTarget& target) const noexcept {
-  return !exact_ && shaper_.velocity_rad_s() == 0.0 &&
-         std::abs(target.next_position_rad - shaper_.position_rad()) <= kFlickerCounts * count_rad_;
+  return shaper_.velocity_rad_s() == 0.0 &&
+         std::abs(target.next_position_rad - shaper_.position_rad()) <= kFlickerCounts * config_.count_rad;
+}
+
+// Along the cubic (Hermite) to the path's next point; where that is over the path rests at it.
+MovingTarget Trajectory::next_on_path() noexcept {
+  MovingTarget target{on_path_rad_, on_path_rad_s_, path_.to_rad, path_.periods > 0.0 ? path_.to_rad_s : 0.0};
+  if (path_.periods > 1.0) {
+    const double duration_s = path_.periods * config_.period_s;
+    const double s = 1.0 / path_.periods;
+    const double way = path_.to_rad - on_path_rad_;
+    const double c1 = duration_s * on_path_rad_s_;
+    const double c2 = 3.0 * way - 2.0 * c1 - duration_s * path_.to_rad_s;
+    const double c3 = way - c1 - c2;
+    target.next_position_rad = on_path_rad_ + s * (c1 + s * (c2 + s * c3));
+    target.next_velocity_rad_s = (c1 + s * (2.0 * c2 + s * 3.0 * c3)) / duration_s;
+  }
+  path_.periods = std::max(0.0, path_.periods - 1.0);
+  on_path_rad_ = target.next_position_rad;
+  on_path_rad_s_ = target.next_velocity_rad_s;
+  return target;
 }
 
 Reference Trajectory::step(const MotionLimits& limits) noexcept {
   shaper_.set_limits(limits);
-  if (!streamed_) {
-    stream_.wait(1);
-    return shaper_.step();
-  }
+  if (source_ != Source::kStream) stream_.wait(1);
+  if (source_ == Source::kMove) return shaper_.step();
+  if (source_ == Source::kPath) return shaper_.follow(next_on_path(), range_);
   MovingTarget target = stream_.step();
   load_ = target.load;
   if (flickers(target)) target = {shaper_.position_rad(), 0.0, shaper_.position_rad(), 0.0, target.load};

@@ -2,8 +2,8 @@
 // mid-motion without a jump of position or velocity. Real-time safe; time is counted in periods. Joint side, SI.
 //
 //   move     -> ReferenceShaper to the target           time-optimal under the limits of now
-//   stream   -> StreamTarget -> ReferenceShaper         on the stream as soon as the limits allow
-//   path     -> likewise, with samples for every period that are exact
+//   stream   -> StreamBuffer -> ReferenceShaper         on the stream as soon as the limits allow
+//   path     -> a cubic from period to period -> ReferenceShaper
 //   stop     -> ReferenceShaper to rest
 #pragma once
 
@@ -11,18 +11,14 @@
 #include <utility>
 
 #include "control/trajectory/reference_shaper.h"
-#include "control/trajectory/stream_target.h"
+#include "control/trajectory/stream_buffer.h"
 
 namespace strainwave {
 
-/// What is where a stream is at a sample's time: the joint, or the plan, which the joint follows later.
-enum class OnTime { kJoint, kPlan };
-
 class Trajectory {
  public:
-  /// `period_s` > 0; `bridge_s` >= 0: how long a stream goes on without samples; `count_rad` > 0: what an encoder cannot tell.
-  Trajectory(double period_s, double bridge_s, double count_rad) noexcept
-      : count_rad_(count_rad), shaper_(period_s), stream_(period_s, bridge_s) {}
+  explicit Trajectory(const StreamConfig& config) noexcept
+      : config_(config), shaper_(config.period_s), stream_(config) {}
 
   /// Comes to rest from here and stays.
   void start(double position_rad, double velocity_rad_s) noexcept;
@@ -31,8 +27,11 @@ class Trajectory {
     shaper_.restart(position_rad, velocity_rad_s);
   }
   void set_target(double position_rad) noexcept;
-  void follow(const StreamSample& sample, bool begins, double lead_periods, const MotionLimits& reach,
-              const PositionRange& range) noexcept;
+  SampleFate follow(const StreamSample& sample, bool begins, double lead_periods, const MotionLimits& reach,
+                    const PositionRange& range) noexcept;
+  /// A path is here in so many periods, > 0.
+  void follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
+                   const PositionRange& range) noexcept;
   void stop() noexcept;
 
   /// So many periods, >= 1, after the last step() comes the next: before samples that have come since are followed.
@@ -41,13 +40,13 @@ class Trajectory {
   Reference step(const MotionLimits& limits) noexcept;
 
   /// A target is ordered, or where a stop ends; of a stream its last sample.
-  double target_rad() const noexcept { return streamed_ ? sample_rad_ : shaper_.target_rad(); }
+  double target_rad() const noexcept { return streamed() ? sample_rad_ : shaper_.target_rad(); }
   /// Where the reference is to end as far as is known: of a stream its target of this period.
   double present_target_rad() const noexcept { return shaper_.target_rad(); }
   bool rests() const noexcept { return shaper_.at_target(); }
   double position_rad() const noexcept { return shaper_.position_rad(); }
   double velocity_rad_s() const noexcept { return shaper_.velocity_rad_s(); }
-  bool streamed() const noexcept { return streamed_; }
+  bool streamed() const noexcept { return source_ != Source::kMove; }
   /// The stream is elsewhere: the limits do not let the reference be there, or not yet.
   bool off_stream() const noexcept;
   bool ran_out_of_samples() const noexcept { return stream_.ended(); }
@@ -57,16 +56,27 @@ class Trajectory {
   double take_load_Nm() noexcept { return std::exchange(load_, {}).torque_Nm; }
 
  private:
-  bool flickers(const MovingTarget& target) const noexcept;
+  enum class Source { kMove, kStream, kPath };
+  /// The path until its next point.
+  struct PathSegment {
+    double to_rad = 0.0;
+    double to_rad_s = 0.0;
+    double periods = 0.0;  ///< left
+  };
 
-  double count_rad_;
+  bool flickers(const MovingTarget& target) const noexcept;
+  MovingTarget next_on_path() noexcept;
+
+  StreamConfig config_;
   ReferenceShaper shaper_;
-  StreamTarget stream_;
+  StreamBuffer stream_;
   PositionRange range_;
   ToldLoad load_;
   double sample_rad_ = 0.0;
-  bool streamed_ = false;
-  bool exact_ = false;  ///< a path
+  Source source_ = Source::kMove;
+  PathSegment path_;
+  double on_path_rad_ = 0.0;
+  double on_path_rad_s_ = 0.0;
 };
 
 }  // namespace strainwave

@@ -51,12 +51,18 @@ std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
     text << "a move (stream_id 0) ends at rest, as soon as it can: derivatives and at_cycle must be 0";
   else if (setpoint.at_cycle < 0)
     text << "at_cycle = " << setpoint.at_cycle << ": a cycle to come, or 0 for none, is allowed";
+  else if (setpoint.approach != 0 && setpoint.begins_stream == 0)
+    text << "approach = " << setpoint.approach << ": 0 is allowed, but for the setpoint that begins a stream";
   else if (std::abs(setpoint.velocity_rad_s) > kMaxVelocity_rad_s)
     text << "velocity_rad_s = " << number_text(setpoint.velocity_rad_s) << ": from " << -kMaxVelocity_rad_s
          << " to " << kMaxVelocity_rad_s << " is allowed";
   else if (std::abs(setpoint.acceleration_rad_s2) > kMaxAcceleration_rad_s2)
     text << "acceleration_rad_s2 = " << number_text(setpoint.acceleration_rad_s2) << ": from "
          << -kMaxAcceleration_rad_s2 << " to " << kMaxAcceleration_rad_s2 << " is allowed";
+  else if (setpoint.stream_id != 0 && setpoint.at_cycle == 0 && setpoint.utime <= 0)
+    text << "at_cycle = 0 and utime = " << setpoint.utime
+         << ": a setpoint of a stream says which cycle it is for (at_cycle), or when it was sent (utime, us, "
+            "above 0)";
   else
     return std::nullopt;
   return text.str();
@@ -162,7 +168,8 @@ Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message)
   verdict.order.load_inertia_kgm2 = setpoint->load_inertia_kgm2;
   verdict.order.derivatives = setpoint->derivatives;
   verdict.order.at_cycle = setpoint->at_cycle;
-  verdict.order.sent_us = std::max<std::int64_t>(0, setpoint->utime);
+  verdict.order.sent_us = setpoint->utime;
+  verdict.order.approaches = setpoint->approach != 0;
   verdict.order.stream_id = setpoint->stream_id;
   verdict.order.begins_stream = setpoint->begins_stream != 0;
   verdict.order.position_rad = setpoint->position_rad;

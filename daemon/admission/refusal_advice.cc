@@ -42,6 +42,9 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
     text << " and yielded to a load of " << std::setprecision(kShownDigits) << reply.value
          << " N.m (joint.limits.load_Nm allows " << limit
          << "), which ended this stream of setpoints; begin a new one once it holds";
+  else if (reply.reason == Reason::kFarFromJoint)
+    text << ": the stream begins " << value << " rad from where the joint is to be, at most " << limit
+         << " rad are allowed (joint.limits.following_error_rad): move there before, or set approach";
   else if (kind == OrderKind::kUseTable)
     text << ": by the table's torque_limit_Nm the joint may carry " << value << " N.m, less than the "
          << limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "
@@ -119,6 +122,11 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
       return mode +
              ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
              "give it anew";
+    case Reason::kVelocitiesContradict:
+      return mode +
+             ": velocity_rad_s is not the rate at which position_rad changes, and the stream has ended; send "
+             "rad/s at "
+             "the joint, with the sign of the motion, or positions alone (derivatives 0)";
     case Reason::kNotHomed:
       return mode + ", and its position is not known: home it first";
     case Reason::kAtLimitSwitch:

@@ -83,6 +83,7 @@ void read_control(TomlSection section, JointLoopConfig& loop) {
   loop.initial_load_Nm =
       section.number_or("initial_load_Nm", loop.initial_load_Nm, {-torque_limit_Nm, torque_limit_Nm});
   controller.stream_bridge_s = section.number_or("stream_bridge_s", controller.stream_bridge_s, {0.0, 0.2});
+  controller.stream_delay_s = section.number_or("stream_delay_s", controller.stream_delay_s, {0.0, 0.5});
   controller.torque_reserve = section.number_or("torque_reserve", controller.torque_reserve, {0.0, 0.9});
   read_gravity(section, controller);
   section.refuse_unknown_keys();

@@ -208,9 +208,9 @@ void JointLoop::command_drive(const CycleTime& time) noexcept {
   actuator_->write({mode_.controlled() ? motion_.output.torque_Nm : 0.0, wants_drive_enabled(mode())});
 }
 
-void JointLoop::raise_fault(Fault fault, const CycleTime& time) noexcept {
+void JointLoop::latch(Fault fault, std::uint32_t drive_error, const CycleTime& time) noexcept {
   const Mode from = mode();
-  if (!mode_.latch(fault, reading().drive_error, time.now_ns)) return;
+  if (!mode_.latch(fault, drive_error, time.now_ns)) return;
   // Counts may be missing from now on.
   if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost ||
       fault == Fault::kDriveRestarted)
@@ -250,6 +250,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   if (ordered_.ends_path()) notice(Notice::kPathEnds);
   if (yield_) notice(Notice::kYielded);
   if (ordered_.streamed() && controller_.trajectory().ran_out_of_samples()) notice(Notice::kSamplesMissing);
+  if (ordered_.contradicts()) notice(Notice::kVelocitiesContradict);
   const double friction_factor = controller_.friction_factor();
   if (differs_from_table(friction_factor)) notice(Notice::kFrictionDiffers);
   JointCycle cycle{time,  mode_,    reading(),    motion_,
@@ -266,6 +267,7 @@ void JointLoop::tell(const CycleTime& time) noexcept {
   cycle.learned = controller_.learned();
   cycle.friction_factor = friction_factor;
   cycle.friction = friction_;
+  cycle.late_samples = late_samples_;
   fill_record(cycle, record_);
   if (recorder_ != nullptr)
     recorder_->write(flight_sample(record_, time, reading().drive_state, watch_.fresh()));

@@ -68,7 +68,7 @@ class JointLoop {
   // Real-time thread.
   void step(const CycleTime& time) noexcept;
   /// The fault of something outside this joint (overruns, group).
-  void raise_fault(Fault fault, const CycleTime& time) noexcept;
+  void raise_fault(Fault fault, const CycleTime& time) noexcept { latch(fault, reading().drive_error, time); }
   /// Zero torque and disable, at once; the last act of the loop.
   void stop_drive() noexcept { actuator_->stop(); }
   /// The loop ends: the joint comes to rest, and from now on every order that could set it moving is refused. May be repeated.
@@ -93,8 +93,8 @@ class JointLoop {
   double path_lead_s() const noexcept { return controller_.lead_s(); }
   /// The same of its setpoint, which a state shows as it was when the period began.
   double path_setpoint_lag_s() const noexcept { return controller_.lead_s(); }
-  /// Where it is to be `in_periods` after the begin of this one; the first `begins`.
-  void follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept;
+  /// Where it is to be `in_periods` after the begin of this one.
+  void follow_path(const PathPoint& point, std::int64_t in_periods) noexcept;
   void note_path(const OrderedTarget::PathProgress& progress) noexcept { ordered_.note(progress); }
   /// From begin_path() until end_path(), or until something else took the joint off it.
   bool on_path() const noexcept { return ordered_.on_path(); }
@@ -144,6 +144,11 @@ class JointLoop {
   Ruling reset_learning() noexcept;
   void forget_learned() noexcept;
   Ruling begin_setpoint(const Order& order, const CycleTime& time) noexcept;
+  Ruling judge_begin(const Order& order, double target_rad, double ahead_s) noexcept;
+  SampleFate follow_stream(const Order& order, double target_rad, std::int64_t in_periods) noexcept;
+  double move_speed_rad_s() const noexcept {
+    return config_.move_speed_share * config_.controller.motion.velocity_rad_s;
+  }
   Ruling stream_ended(std::int64_t stream_id) const noexcept;
   Ruling take_path(const Order& order) noexcept;
   void drop_path() noexcept;
@@ -160,6 +165,8 @@ class JointLoop {
   void refuse_torque_into_limit_switch() noexcept;
   void note_limits(const JointMeasurement& measurement) noexcept;
   bool change_mode(ModeEvent event, const CycleTime& time) noexcept;
+  void latch(Fault fault, std::uint32_t drive_error, const CycleTime& time) noexcept;
+  void raise_oscillation(const CycleTime& time) noexcept;
   void mode_changed(Mode from, const CycleTime& time) noexcept;
   void notice(Notice notice) noexcept { notices_ |= static_cast<std::int32_t>(notice); }
   const ActuatorReading& reading() const noexcept { return watch_.reading(); }
@@ -198,6 +205,8 @@ class JointLoop {
   HeldLoad held_;
   std::optional<Yield> yield_;       ///< since the last order that moved the joint, or cleared a fault
   std::int64_t yielded_stream_ = 0;  ///< which it ended; 0: none
+  bool approaches_ = false;          ///< the stream began far from the joint, which is not on it yet
+  std::int64_t late_samples_ = 0;    ///< of streams, since the start
   Service service_ = Service::kServing;
   std::int64_t faulted_cycle_ = -1;  ///< the last in which it faulted
   JointStep motion_;                 ///< of this period

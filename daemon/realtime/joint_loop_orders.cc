@@ -130,32 +130,57 @@ Ruling JointLoop::begin_setpoint(const Order& order, const CycleTime& time) noex
   if (!ordered_.takes(order.stream_id, order.begins_stream)) return stream_ended(order.stream_id);
   if (!zero_.known()) return Reason::kNotHomed;
   const std::int64_t in_periods = order.at_cycle == 0 ? 0 : order.at_cycle - time.cycle;
-  if (order.at_cycle != 0 && in_periods <= 0)
+  if (order.at_cycle != 0 && in_periods <= 0) {
+    ++late_samples_;
     return {Reason::kTooOld, static_cast<double>(order.at_cycle), static_cast<double>(time.cycle)};
+  }
   const double ahead_s = static_cast<double>(in_periods) * config_.controller.period_s;
   if (ahead_s > kFarthestAhead_s) return {Reason::kOutOfRange, ahead_s, kFarthestAhead_s};
   const double target_rad = zero_.to_drive_rad(order.position_rad);
   if (controller_.yields()) return Reason::kMoving;
+  if (order.begins_stream && mode_.controlled())
+    if (const Ruling ruling = judge_begin(order, target_rad, ahead_s); ruling.reason != Reason::kAccepted)
+      return ruling;
   if (into_limit_switch(target_rad - reading().joint_position_rad)) return Reason::kAtLimitSwitch;
   if (!change_mode(ModeEvent::kSetpointAccepted, time)) return Reason::kWrongMode;
+  SampleFate fate = SampleFate::kInTime;
   if (order.stream_id == 0)
     controller_.set_target(target_rad,
-                           order.speed_limit_rad_s > 0.0
-                               ? order.speed_limit_rad_s
-                               : config_.move_speed_share * config_.controller.motion.velocity_rad_s);
+                           order.speed_limit_rad_s > 0.0 ? order.speed_limit_rad_s : move_speed_rad_s());
   else
-    controller_.follow({target_rad,
-                        order.velocity_rad_s,
-                        order.acceleration_rad_s2,
-                        order.derivatives,
-                        in_periods,
-                        {order.torque_Nm, order.load_inertia_kgm2},
-                        order.sent_us},
-                       order.begins_stream, order.speed_limit_rad_s, reachable_range());
+    fate = follow_stream(order, target_rad, in_periods);
   if (on_path()) drop_path();
   yield_.reset();
   ordered_.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
+  if (fate == SampleFate::kLate) ++late_samples_;
+  if (fate != SampleFate::kVelocitiesContradict) return Reason::kAccepted;
+  controller_.stop();
+  ordered_.contradict();
+  return Reason::kVelocitiesContradict;
+}
+
+// From where the joint will be by then. One that is far away is approached, if the order says so.
+Ruling JointLoop::judge_begin(const Order& order, double target_rad, double ahead_s) noexcept {
+  const Trajectory& now = controller_.trajectory();
+  const double far_rad = std::abs(target_rad - now.position_rad() - ahead_s * now.velocity_rad_s());
+  const double limit_rad = config_.limits.following_error_rad;
+  approaches_ = far_rad > limit_rad;
+  if (approaches_ && !order.approaches) return {Reason::kFarFromJoint, far_rad, limit_rad};
   return Reason::kAccepted;
+}
+
+SampleFate JointLoop::follow_stream(const Order& order, double target_rad, std::int64_t in_periods) noexcept {
+  if (!order.begins_stream && !motion_.off_stream) approaches_ = false;
+  const bool at_move_speed = approaches_ && order.speed_limit_rad_s == 0.0;
+  const double speed_rad_s = at_move_speed ? move_speed_rad_s() : order.speed_limit_rad_s;
+  return controller_.follow({target_rad,
+                             order.velocity_rad_s,
+                             order.acceleration_rad_s2,
+                             order.derivatives,
+                             in_periods,
+                             {order.torque_Nm, order.load_inertia_kgm2},
+                             order.sent_us},
+                            order.begins_stream, speed_rad_s, reachable_range());
 }
 
 Ruling JointLoop::stream_ended(std::int64_t stream_id) const noexcept {

@@ -38,14 +38,9 @@ void JointLoop::begin_path(const CycleTime& time) noexcept {
   ordered_.begin_path(end_rad, zero_.to_drive_rad(end_rad));
 }
 
-void JointLoop::follow_path(const PathPoint& point, std::int64_t in_periods, bool begins) noexcept {
-  StreamSample sample;
-  sample.position_rad = zero_.to_drive_rad(point.position_rad);
-  sample.velocity_rad_s = point.velocity_rad_s;
-  sample.acceleration_rad_s2 = point.acceleration_rad_s2;
-  sample.derivatives = 2;
-  sample.in_periods = in_periods;
-  controller_.follow(sample, begins, 0.0, reachable_range(), OnTime::kPlan);
+void JointLoop::follow_path(const PathPoint& point, std::int64_t in_periods) noexcept {
+  controller_.follow_path(zero_.to_drive_rad(point.position_rad), point.velocity_rad_s, in_periods,
+                          reachable_range());
 }
 
 // The setpoint rests, or will where its limits kept it from resting by now.

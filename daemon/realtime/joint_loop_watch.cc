@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "daemon/realtime/joint_loop.h"
+#include "lcmtypes/oscillation_evidence.h"
 
 namespace strainwave {
 
@@ -47,6 +48,15 @@ void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
     notice(Notice::kSpeedLimited);
 }
 
+// With what was seen of it: who reads the fault need not guess.
+void JointLoop::raise_oscillation(const CycleTime& time) noexcept {
+  const OscillationDetector& seen = controller_.oscillation();
+  const double configured_kgm2 = controller_.loaded_model().inertia_kgm2;
+  const double shown_kgm2 = inertia_.inertia_kgm2().value_or(0.0);
+  latch(Fault::kChatter,
+        evidence_number({2.0 * seen.frequency_Hz(), seen.swing_Nm(), shown_kgm2 / configured_kgm2}), time);
+}
+
 void JointLoop::check_motion(const CycleTime& time) noexcept {
   if (!mode_.controlled()) return;
   const JointLimits& limits = config_.limits;
@@ -57,7 +67,7 @@ void JointLoop::check_motion(const CycleTime& time) noexcept {
     return raise_fault(Fault::kPositionLimit, time);
   if (!mode_.is(Mode::kHoming) && into_limit_switch(motion_.reference.velocity_rad_s))
     return raise_fault(Fault::kLimitSwitch, time);
-  if (motion_.oscillates) return raise_fault(Fault::kChatter, time);
+  if (motion_.oscillates) return raise_oscillation(time);
   // What it is yielding to pushes on as fast as it may be pushed.
   if (std::abs(motion_.joint_velocity_rad_s) > limits.overspeed_rad_s)
     return raise_fault(controller_.yields() ? Fault::kOverload : Fault::kSpeedLimit, time);

@@ -69,6 +69,9 @@ class OrderedTarget {
   bool goes_on() const noexcept { return streamed() || on_path(); }
   /// Until the next setpoint is accepted.
   bool shows_expiry() const noexcept { return stream_ == Stream::kExpired; }
+  /// Likewise: its velocities ended the stream.
+  void contradict() noexcept { stream_ = Stream::kContradicted; }
+  bool contradicts() const noexcept { return stream_ == Stream::kContradicted; }
   /// The target `drive_rad` of the controller at the joint: to the bit what was ordered, so that whoever ordered
   /// it knows it again.
   double shown_rad(double drive_rad, const JointZero& zero) const noexcept {
@@ -76,7 +79,7 @@ class OrderedTarget {
   }
 
  private:
-  enum class Stream { kNone, kLive, kExpired, kPath, kEndingPath };
+  enum class Stream { kNone, kLive, kExpired, kContradicted, kPath, kEndingPath };
   Stream stream_ = Stream::kNone;
   std::int64_t stream_id_ = 0;   ///< while live
   std::int64_t expires_ns_ = 0;  ///< while live

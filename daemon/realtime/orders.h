@@ -44,10 +44,10 @@ struct Order {
   double torque_Nm = 0.0;            ///< kSetpoint of a stream: added to what is planned
   double load_inertia_kgm2 = 0.0;    ///< kSetpoint of a stream: carried besides the joint's own
   std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
-  std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: as it comes
-  std::int64_t sent_us =
-      0;  ///< kSetpoint of a stream: when it was sent, on its sender's clock, > 0; 0: not told
-  std::int64_t expires_cycle = -1;  ///< in a later cycle it is refused as too old; -1: never
+  bool approaches = false;           ///< kSetpoint that begins a stream: from wherever the joint is
+  std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: when it was sent
+  std::int64_t sent_us = 0;          ///< likewise, with at_cycle 0: on its sender's clock, > 0
+  std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
   std::int64_t challenge_cycle =
       -1;  ///< its challenge is of this one: after a fault in it or later it is too old; -1: never
   std::int32_t path_slot = 0;  ///< kLoadPath
@@ -56,6 +56,7 @@ struct Order {
 /// What the loop makes of an order, and of a refusal by a number that number and the bound that it met; else both are 0:
 ///   kMoving of an enable            the joint's speed, rad/s, and joint.supervision.standstill_rad_s
 ///   kOutOfRange of a setpoint       how far its at_cycle is ahead, and how far it may be, s
+///   kFarFromJoint of a setpoint     how far from the joint its stream begins, and how far it may, rad
 ///   kOutOfRange of a table          its torque limit, and the torque that holds the joint, N.m
 ///   kOutOfRange of a path           how far from its setpoint it begins, and how far it may, rad
 ///   kWrongMode of a resume          joints that have their part of the path, and how many there must be

@@ -121,7 +121,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   for_each_member(index, [&](JointLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint on = in_path_time(member.reader.at(joint.path()->path, now.time_s), now);
-    joint.follow_path(on, time.elapsed_periods, begins);
+    joint.follow_path(on, time.elapsed_periods);
     // Of the setpoint that the same state shows: where the joint is told to be now its reference is a period later, or more.
     const double later_periods = 1.0 + joint.path_setpoint_lag_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);

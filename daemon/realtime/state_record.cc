@@ -49,6 +49,7 @@ void fill_friction(const JointCycle& cycle, state_v1& state) noexcept {
   state.friction_frozen = cycle.friction.frozen ? 1 : 0;
   std::copy(cycle.learned.scale.begin(), cycle.learned.scale.end(), state.friction_scales);
   state.learned_load_Nm = cycle.learned.load_Nm;
+  state.late_samples = cycle.late_samples;
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ struct JointCycle {
   LearnedFriction learned{};
   double friction_factor = 1.0;  ///< at the present temperature
   FrictionHistory friction{};
+  std::int64_t late_samples = 0;  ///< of streams, since the start
 };
 
 /// Every field but joint_index and those that the gateway adds (utime, session_id, challenge, owner_id, lease_s).

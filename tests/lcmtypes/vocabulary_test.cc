@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "lcmtypes/oscillation_evidence.h"
 #include "lcmtypes/reading_doubt.h"
 
 namespace strainwave {
@@ -52,24 +53,26 @@ constexpr Word<Fault> kFaults[] = {{0, Fault::kNone, "none"},
                                    {25, Fault::kTemperatureLost, "temperature lost"},
                                    {26, Fault::kChatter, "joint chatters"}};
 
-constexpr Word<Notice> kNotices[] = {{1, Notice::kTorqueLimited, "torque limited"},
-                                     {2, Notice::kTemperatureClamped, "temperature outside the table"},
-                                     {4, Notice::kFallbackGains, "temperature-free gains in use"},
-                                     {8, Notice::kSetpointExpired, "setpoint stream expired"},
-                                     {16, Notice::kReadingMissed, "reading missed"},
-                                     {32, Notice::kSpeedLimited, "speed limited"},
-                                     {64, Notice::kNotHomed, "not homed"},
-                                     {128, Notice::kAtLimitSwitch, "at a limit switch"},
-                                     {512, Notice::kOffStream, "off the stream"},
-                                     {1024, Notice::kPositionLate, "position late"},
-                                     {2048, Notice::kOffTarget, "off target"},
-                                     {4096, Notice::kLoadHigh, "load high"},
-                                     {8192, Notice::kOtherInertia, "inertia not as told"},
-                                     {16384, Notice::kPathPaused, "path paused"},
-                                     {32768, Notice::kPathEnds, "path ends early"},
-                                     {65536, Notice::kYielded, "yielded to a load"},
-                                     {131072, Notice::kSamplesMissing, "samples missing"},
-                                     {262144, Notice::kFrictionDiffers, "friction differs from the table"}};
+constexpr Word<Notice> kNotices[] = {
+    {1, Notice::kTorqueLimited, "torque limited"},
+    {2, Notice::kTemperatureClamped, "temperature outside the table"},
+    {4, Notice::kFallbackGains, "temperature-free gains in use"},
+    {8, Notice::kSetpointExpired, "setpoint stream expired"},
+    {16, Notice::kReadingMissed, "reading missed"},
+    {32, Notice::kSpeedLimited, "speed limited"},
+    {64, Notice::kNotHomed, "not homed"},
+    {128, Notice::kAtLimitSwitch, "at a limit switch"},
+    {512, Notice::kOffStream, "off the stream"},
+    {1024, Notice::kPositionLate, "position late"},
+    {2048, Notice::kOffTarget, "off target"},
+    {4096, Notice::kLoadHigh, "load high"},
+    {8192, Notice::kOtherInertia, "inertia not as told"},
+    {16384, Notice::kPathPaused, "path paused"},
+    {32768, Notice::kPathEnds, "path ends early"},
+    {65536, Notice::kYielded, "yielded to a load"},
+    {131072, Notice::kSamplesMissing, "samples missing"},
+    {262144, Notice::kFrictionDiffers, "friction differs from the table"},
+    {524288, Notice::kVelocitiesContradict, "velocities contradict positions"}};
 
 constexpr Word<Reason> kReasons[] = {
     {0, Reason::kAccepted, "accepted"},
@@ -103,7 +106,9 @@ constexpr Word<Reason> kReasons[] = {
     {28, Reason::kNoHoming, "no homing configured"},
     {29, Reason::kEnding, "daemon is ending"},
     {30, Reason::kTooOld, "order is too old"},
-    {31, Reason::kNotOwner, "somebody else has the joint"}};
+    {31, Reason::kNotOwner, "somebody else has the joint"},
+    {32, Reason::kFarFromJoint, "stream begins far from the joint"},
+    {33, Reason::kVelocitiesContradict, "velocities contradict positions"}};
 
 constexpr Word<Action> kActions[] = {{1, Action::kEnable, "enable"},
                                      {2, Action::kDisable, "disable"},
@@ -182,6 +187,22 @@ TEST(Vocabulary, HasOneBitPerNotice) {
     EXPECT_EQ(all & word.number, 0) << word.text;
     all |= word.number;
   }
+}
+
+TEST(FaultWords, SayWhatWasSeenOfAnOscillation) {
+  const auto words = [](const OscillationEvidence& evidence) {
+    return fault_words(Fault::kChatter, evidence_number(evidence));
+  };
+  EXPECT_EQ(
+      words({86.2, 20.0, 1.5}),
+      "joint chatters: the torque reversed 86 times within a second, by up to 20 N.m; motions show 1.5 times the "
+      "configured inertia: check load_inertia_kgm2 and motor_inertia_kgm2 (inertia_kgm2)");
+  EXPECT_EQ(
+      words({160.0, 34.0, 0.0}),
+      "joint chatters: the torque reversed 160 times within a second, by up to 34 N.m: check delay_periods, the "
+      "encoder's side, the gear and the load");
+  EXPECT_EQ(words({1e9, 1e9, 1e9}).find("4095 times"),
+            std::string("joint chatters: the torque reversed ").size());
 }
 
 TEST(FaultWords, SayWhichOfTheCausesOfFaultFiveItWas) {

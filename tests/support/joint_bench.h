@@ -89,7 +89,9 @@ class JointBench {
                               .position_rad = position_rad,
                               .valid_for_s = valid_for_s,
                               .stream_id = streamed ? 1 : 0,
-                              .begins_stream = streamed && begins});
+                              .begins_stream = streamed && begins,
+                              .approaches = true,
+                              .sent_us = sent_us()});
   }
   Reason inject(std::size_t joint, const Injection& injection) {
     return order(joint, Order{.kind = OrderKind::kInject, .injection = injection});
@@ -104,6 +106,8 @@ class JointBench {
   bool has_notice(std::size_t joint, Notice notice) const {
     return (state(joint).notices & static_cast<std::int32_t>(notice)) != 0;
   }
+  /// A sender's clock, now.
+  std::int64_t sent_us() const { return 1'700'000'000'000'000 + 1000 * time_.cycle; }
   WatchedActuator& drive(std::size_t joint) { return *drives_[joint]; }
   std::int64_t cycle() const { return time_.cycle; }
   const CycleTime& time() const { return time_; }

@@ -100,6 +100,7 @@ setpoint_v2 TestClient::make_setpoint(const std::string& joint, double position_
   if (valid_for_s > 0.0) {
     message.stream_id = stream_id_;
     message.begins_stream = std::exchange(stream_begins_, false) ? 1 : 0;
+    message.approach = message.begins_stream;
   }
   return message;
 }

@@ -161,14 +161,16 @@ class Joint:
                         lambda state: state.target_position_rad != position_rad, watch.observe)
         return watch.arrival
 
-    def stream(self, *, ahead_s=0.1, valid_for_s=2.0, speed_limit_rad_s=0.0, beside=None):
+    def stream(self, *, ahead_s=0.1, valid_for_s=2.0, speed_limit_rad_s=0.0, approach=False, beside=None):
         """A Stream of setpoints, for a with-statement. Nothing moves before its first put().
 
         ahead_s: how long before its time a sample is sent; what the network and this program may be late by
         valid_for_s: the stream ends when no sample comes for so long; the joint comes to rest before that
+        approach: a stream that begins far from the joint is approached at the speed of a move; else the daemon refuses it
         beside: the Stream of another joint of this daemon: the same t is the same cycle then
         """
-        return Stream(self, self._conversation, self.limits.period_s, ahead_s, valid_for_s, self._speed_limit(speed_limit_rad_s), beside)
+        return Stream(self, self._conversation, self.limits.period_s, ahead_s, valid_for_s, self._speed_limit(speed_limit_rad_s), approach,
+                      beside)
 
     def _speed_limit(self, speed_limit_rad_s):
         return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0, self.name)

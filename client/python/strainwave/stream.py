@@ -43,12 +43,13 @@ class TimeBase:
 class Stream:
     """Made by Joint.stream(); use it in a with-statement: at its end the joint comes to rest and holds."""
 
-    def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, beside):
+    def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, approach, beside):
         self.late = 0  # samples that came after their time, or after a later one, and were left out
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
         self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
         self._speed_limit_rad_s = speed_limit_rad_s
+        self._approach = bool(approach)
         if beside is not None and not isinstance(beside, Stream):
             raise InvalidInput(f"{joint.name}: beside = {shown(beside)}: a Stream is allowed, of another joint's stream()")
         if beside is not None:
@@ -150,6 +151,7 @@ class Stream:
     def _begin(self, t, message):
         message.begins_stream = 1
         message.acknowledge = 1
+        message.approach = int(self._approach)
         sets_the_base = self._base.origin_t is None
         self._conversation.forget_sent()
 
@@ -187,7 +189,7 @@ class Stream:
             if reason != Reason.TOO_OLD and not overtaken:
                 if reason in (Reason.FAULTED, Reason.STREAM_ENDED, Reason.WRONG_SESSION):
                     self._check_joint()
-                ends = reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED, Reason.WRONG_SESSION)
+                ends = reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED, Reason.WRONG_SESSION, Reason.VELOCITIES_CONTRADICT)
                 if ends:
                     self._lose()
                 raise Refused(self._joint.name, "a setpoint of the stream", reason, text, _ANOTHER_ONE if ends else "")

@@ -112,6 +112,8 @@ class Reason(_Word):
     ENDING = 29, "daemon is ending"
     TOO_OLD = 30, "order is too old"
     NOT_OWNER = 31, "somebody else has the joint"
+    FAR_FROM_JOINT = 32, "stream begins far from the joint"
+    VELOCITIES_CONTRADICT = 33, "velocities contradict positions"
 
 
 class Action(_Word):
@@ -172,6 +174,7 @@ class Notice(enum.IntFlag, boundary=enum.KEEP):
     YIELDED = 1 << 16
     SAMPLES_MISSING = 1 << 17
     FRICTION_DIFFERS = 1 << 18
+    VELOCITIES_CONTRADICT = 1 << 19
 
     @property
     def texts(self):
@@ -204,6 +207,7 @@ _NOTICE_TEXTS = {
     Notice.YIELDED: "yielded to a load",
     Notice.SAMPLES_MISSING: "samples missing",
     Notice.FRICTION_DIFFERS: "friction differs from the table",
+    Notice.VELOCITIES_CONTRADICT: "velocities contradict positions",
 }
 
 
@@ -217,8 +221,20 @@ _READING_DOUBTS = {
 }
 
 
+def _evidence_words(number):
+    ratio = (number >> 24) / 32
+    words = f"the torque reversed {number & 0xFFF} times within a second, by up to {(number >> 12 & 0xFFF) / 16:.3g} N.m"
+    if ratio > 0:
+        words += f"; motions show {ratio:.2g} times the configured inertia"
+    if ratio > 0 and abs(ratio - 1) > 0.3:
+        return words + ": check load_inertia_kgm2 and motor_inertia_kgm2 (inertia_kgm2)"
+    return words + ": check delay_periods, the encoder's side, the gear and the load"
+
+
 def fault_words(fault, drive_error):
-    """The fault in words, of fault 5 with its cause, which is in state_v1.drive_error (docs/faults.md)."""
+    """The fault in words, of faults 5 and 26 with what state_v1.drive_error says of them (docs/faults.md)."""
+    if fault == Fault.CHATTER and 0 < drive_error <= 0xFFFFFFFF:
+        return f"{fault.text}: {_evidence_words(drive_error)}"
     size_urad = drive_error & 0xFFFFFF
     doubt = _READING_DOUBTS.get(drive_error >> 24)
     if fault != Fault.IMPLAUSIBLE_READING or doubt is None:

@@ -56,6 +56,7 @@ setpoint_v2 setpoint() {
   message.valid_for_s = 0.5;
   message.speed_limit_rad_s = 2.0;
   message.begins_stream = 1;
+  message.approach = 1;
   message.acknowledge = 0;
   return message;
 }

@@ -25,7 +25,7 @@ def a_setpoint():
     message = messages.blank(strainwave.setpoint_v2)
     values = dict(utime=1, session_id=-2, challenge=3, sender_id=4, sequence=5, stream_id=6, position_rad=0.25, velocity_rad_s=-1.5,
                   acceleration_rad_s2=1e-300, torque_Nm=-3.5, load_inertia_kgm2=0.125, at_cycle=7, derivatives=2, valid_for_s=0.5,
-                  speed_limit_rad_s=2.0, begins_stream=1)
+                  speed_limit_rad_s=2.0, begins_stream=1, approach=1)
     for name, value in values.items():
         setattr(message, name, value)
     return message

@@ -95,6 +95,7 @@ TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefuse
   setpoint_v2 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 0.1;
+  sample.utime = 1;
   sample.torque_Nm = -kTorqueLimit_Nm;
   sample.load_inertia_kgm2 = 10.0 * kInertia_kgm2;
   const Verdict passed = consider(wire("SW.elbow.SETPOINT", sample));
@@ -128,7 +129,7 @@ TEST_F(AdmissionTest, TakesTheBoundThatItNamesAndPrintsWhatItRefusesApartFromIt)
   const auto refusal = [&](double position_rad, double speed_limit_rad_s, double load_kgm2) {
     setpoint_v2 message = setpoint(position_rad);
     message.speed_limit_rad_s = speed_limit_rad_s;
-    if (load_kgm2 > 0.0) message.stream_id = 7, message.valid_for_s = 0.1;
+    if (load_kgm2 > 0.0) message.stream_id = 7, message.valid_for_s = 0.1, message.utime = 1;
     message.load_inertia_kgm2 = load_kgm2;
     return consider(wire("SW.elbow.SETPOINT", message)).text;
   };
@@ -309,6 +310,7 @@ TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
   message = setpoint(0.5);
   message.stream_id = 7;
   message.valid_for_s = 0.1;
+  message.at_cycle = 1;
   message.begins_stream = 1;
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
   ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder);
@@ -316,23 +318,29 @@ TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
   EXPECT_TRUE(verdict.order.begins_stream);
 }
 
-TEST_F(AdmissionTest, PassesWhenASampleWasSentWhateverItsSendersClockShows) {
-  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
-  constexpr std::pair<std::int64_t, std::int64_t> kUtimesPassed[] = {
-      {1'700'000'000'000'000, 1'700'000'000'000'000},
-      {1, 1},
-      {0, 0},
-      {-1, 0},
-      {-kLast - 1, 0},
-      {kLast, kLast}};
-  for (const auto& [utime, passed] : kUtimesPassed) {
+TEST_F(AdmissionTest, WantsASampleToSayWhenItIsFor) {
+  const auto judged = [&](std::int64_t utime, std::int64_t at_cycle) {
     setpoint_v2 sample = setpoint(0.5);
     sample.stream_id = 7;
     sample.valid_for_s = 0.1;
     sample.utime = utime;
-    const Verdict verdict = consider(wire("SW.elbow.SETPOINT", sample));
+    sample.at_cycle = at_cycle;
+    return consider(wire("SW.elbow.SETPOINT", sample));
+  };
+  for (const std::int64_t utime :
+       {std::int64_t{1}, std::int64_t{1'700'000'000'000'000}, std::numeric_limits<std::int64_t>::max()}) {
+    const Verdict verdict = judged(utime, 0);
     ASSERT_EQ(verdict.kind, Verdict::Kind::kOrder) << utime;
-    EXPECT_EQ(verdict.order.sent_us, passed) << utime;
+    EXPECT_EQ(verdict.order.sent_us, utime);
+  }
+  EXPECT_EQ(judged(0, 5).kind, Verdict::Kind::kOrder);
+  for (const std::int64_t utime :
+       {std::int64_t{0}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
+    const Verdict verdict = judged(utime, 0);
+    EXPECT_EQ(verdict.reason, Reason::kOutOfRange) << utime;
+    EXPECT_NE(verdict.text.find("which cycle it is for (at_cycle), or when it was sent (utime"),
+              std::string::npos)
+        << verdict.text;
   }
 }
 
@@ -340,6 +348,7 @@ TEST_F(AdmissionTest, WantsAStreamToSaySomethingEveryTenSecondsAtLeast) {
   setpoint_v2 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 10.0;
+  sample.utime = 1;
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", sample)).kind, Verdict::Kind::kOrder);
   sample.sequence = ++sequence_;
   sample.valid_for_s = 10.1;

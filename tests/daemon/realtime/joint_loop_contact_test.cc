@@ -161,7 +161,9 @@ TEST(Contact, AJointThatYieldsTakesNoSetpointUntilItHolds) {
                .valid_for_s = 10.0,
                .speed_limit_rad_s = kSpeed_rad_s,
                .stream_id = 1,
-               .begins_stream = true};
+               .begins_stream = true,
+               .approaches = true,
+               .sent_us = bench.sent_us()};
   ASSERT_EQ(bench.order(0, sample), Reason::kAccepted);
   ASSERT_GE(bench.step_until([&] { return bench.has_notice(0, Notice::kLoadHigh); }, 2000), 0);
   ASSERT_GE(bench.step_until([&] { return bench.state(0).torque_feedback_Nm == 0.0; }, 100), 0);

@@ -78,10 +78,6 @@ const std::vector<Shape>& shapes() {
        [](double t) {
          return Place{2.9 * drawn(t, 2.0), 0.0};
        }},
-      {"steps with a velocity",
-       [](double t) {
-         return Place{2.0 * drawn(t, 4.0), 5.0 * drawn(t + 100.0, 4.0)};
-       }},
       {"noise of 1 rad",
        [](double t) {
          return Place{drawn(t, 1000.0), 0.0};
@@ -91,11 +87,6 @@ const std::vector<Shape>& shapes() {
          const Place smooth = sine(t, 0.5, 0.5);
          return Place{smooth.position_rad + 0.02 * drawn(t, 1000.0), smooth.velocity_rad_s};
        }},
-      {"velocities beyond the limit",
-       [](double t) {
-         return Place{0.5 * std::sin(t), 15.0};
-       },
-       false},
       {"chirp", [](double t) { return sine(t, 0.5, 0.5 + t); }},
   };
   return all;
@@ -121,7 +112,6 @@ BenchJoint bench_joint(const Joint& kind) {
 struct Outcome {
   Fault fault = Fault::kNone;
   int faulted_at = 0;
-  bool plain_law = false;
   bool off_stream = false;
   double fastest_rad_s = 0.0;  ///< the reference
   double hardest_rad_s2 = 0.0;
@@ -148,7 +138,8 @@ Outcome ride(const Joint& kind, const Shape& shape, int every, bool with_velocit
       Order order;
       order.kind = OrderKind::kSetpoint;
       order.stream_id = 1;
-      order.begins_stream = k == 0;
+      order.begins_stream = order.approaches = k == 0;
+      order.sent_us = bench.sent_us();
       order.valid_for_s = 0.2;
       order.position_rad = place.position_rad;
       order.derivatives = with_velocity ? 1 : 0;
@@ -159,7 +150,6 @@ Outcome ride(const Joint& kind, const Shape& shape, int every, bool with_velocit
     const state_v1& state = bench.state(0);
     outcome.fault = bench.fault(0);
     outcome.faulted_at = k;
-    outcome.plain_law = outcome.plain_law || bench.fault(0) == Fault::kChatter;
     outcome.off_stream = outcome.off_stream || bench.has_notice(0, Notice::kOffStream);
     outcome.fastest_rad_s = std::max(outcome.fastest_rad_s, std::abs(state.setpoint_velocity_rad_s));
     outcome.farthest_rad = std::max(outcome.farthest_rad, std::abs(state.setpoint_position_rad));
@@ -212,16 +202,11 @@ TEST(InfeasibleStreams, AreFollowedByARigidJointWithinItsLimitsAndSayTheyAreOff)
           const Outcome outcome = ride(kind, shape, every, with_velocity);
           const ::testing::Message message = what(shape, every, with_velocity);
           expect_calm(outcome, shape, message);
-          EXPECT_FALSE(outcome.plain_law) << message;
           EXPECT_LE(outcome.fastest_rad_s, limits.velocity_rad_s + 1e-9) << message;
           EXPECT_LE(outcome.farthest_rad, 3.2) << message;
           EXPECT_LE(outcome.reversals, 50) << message;
-          // Noise of this size at 20 Hz leaves the joint so far behind that it begins a new plan where it is, with a step.
-          const bool plans_anew = every == 50 && shape.name == "noise of 1 rad";
-          if (!plans_anew) {
-            EXPECT_LE(outcome.hardest_rad_s2, limits.acceleration_rad_s2 + 1e-6) << message;
-          }
-          if (jerk_rad_s3 > 0.0 && !plans_anew) {
+          EXPECT_LE(outcome.hardest_rad_s2, limits.acceleration_rad_s2 + 1e-6) << message;
+          if (jerk_rad_s3 > 0.0) {
             EXPECT_LT(outcome.jerk_rad_s3, 1.001 * jerk_rad_s3) << message;
           }
         }
@@ -229,23 +214,18 @@ TEST(InfeasibleStreams, AreFollowedByARigidJointWithinItsLimitsAndSayTheyAreOff)
 }
 
 // The setpoint is the motor's there, ahead of the link by the wind-up: faster than the link's limit by Jl 2 A / (tau K), 1 rad/s for all of the
-// acceleration from one limit to the other (docs/messages.md). What swings the joint at its spring's own frequency may end in the plain law.
+// acceleration from one limit to the other (docs/messages.md).
 TEST(InfeasibleStreams, AreFollowedByAJointThatIsToldOfItsSpring) {
-  int rides = 0, plain = 0;
+  int rides = 0;
   for (const Shape& shape : shapes())
     for (const int every : kEvery) {
-      const bool with_velocity = rides % 3 != 0;
+      const bool with_velocity = rides++ % 3 != 0;
       const Outcome outcome = ride({.told = true}, shape, every, with_velocity);
       const ::testing::Message message = what(shape, every, with_velocity);
       expect_calm(outcome, shape, message);
-      EXPECT_LE(outcome.fastest_rad_s, 7.0) << message;
+      EXPECT_LE(outcome.fastest_rad_s, 7.1) << message;
       EXPECT_LE(outcome.farthest_rad, 3.21) << message;
-      ++rides;
-      plain += outcome.plain_law ? 1 : 0;
     }
-  std::printf("%d of %d infeasible streams to a joint that is told of its spring ended in the plain law\n",
-              plain, rides);
-  EXPECT_LT(plain, rides / 4);
 }
 
 }  // namespace

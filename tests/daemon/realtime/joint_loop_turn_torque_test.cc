@@ -28,8 +28,8 @@ struct TurnStream {
   int ahead = 0;  ///< periods that it is stamped ahead; 0: no stamp
   bool flexible = false;
   double temperature_C = 20.0;
-  double friction = 1.0;  ///< of the table's
-  double lag() const { return derivatives == 0 && ahead == 0 ? every : 0; }
+  double friction = 1.0;                              ///< of the table's
+  double lag() const { return ahead == 0 ? 30 : 0; }  ///< JointControllerConfig::stream_delay_s, in periods
 };
 
 /// Mean over the period that begins at `begin_s` of what the sine of the link asks of the motor. The spring's wind-up stays on its first slope:
@@ -65,7 +65,10 @@ Order turn_sample(const TurnStream& stream, std::int64_t cycle, std::int64_t per
   order.position_rad = kTurnAmplitude_rad * std::sin(phase);
   order.derivatives = stream.derivatives;
   if (stream.derivatives > 0) order.velocity_rad_s = kTurnAmplitude_rad * kTurnOmega_rad_s * std::cos(phase);
-  if (stream.ahead > 0) order.at_cycle = cycle + stream.ahead;
+  if (stream.ahead > 0)
+    order.at_cycle = cycle + stream.ahead;
+  else
+    order.sent_us = 1'700'000'000'000'000 + 1000 * period;
   return order;
 }
 

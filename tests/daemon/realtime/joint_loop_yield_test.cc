@@ -142,7 +142,8 @@ TEST_F(AYieldIsTold, ToTheStreamThatItEndedAndToNoOther) {
   Order sample = kIntoTheWall;
   sample.valid_for_s = 10.0;
   sample.stream_id = 1;
-  sample.begins_stream = true;
+  sample.begins_stream = sample.approaches = true;
+  sample.sent_us = bench_.sent_us();
   run_into_the_wall(sample);
   const auto refused = [&](std::int64_t stream_id) {
     sample.begins_stream = false;

@@ -1,0 +1,279 @@
+#include "control/trajectory/stream_buffer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/trajectory/local_polynomial.h"
+
+namespace strainwave {
+
+namespace {
+
+// A segment of the motion is no shorter: what a sample's time is off by would make jerks.
+constexpr double kSegment_s = 0.02;
+// A gap is caught up with in this time at most, and samples farther apart say nothing of each other's derivatives.
+constexpr double kLongest_s = 0.2;
+// Neighbours of a derivative lie at least this far apart: rounding is divided by it.
+constexpr double kApart_s = 0.01;
+constexpr int kBefore = 8;  ///< neighbours, and ...
+constexpr int kAfter = 2;   ///< ... after the sample
+// A jerk that changes the acceleration by less than this share of the limit in an interval is the motion's own.
+constexpr double kSmooth = 0.1;
+// So long a smooth motion is carried on with its jerk: intervals, and at least a time.
+constexpr double kCarriedIntervals = 2.5;
+constexpr double kCarried_s = 0.06;
+// Beyond this multiple of the joint's limits a sample is no part of a motion.
+constexpr double kNewPlace = 2.0;
+// A velocity contradicts where it misses what the positions show by this share of both, and by counts.
+constexpr double kContradicts = 0.5;
+constexpr double kContradictsCounts = 3.0;
+constexpr int kContradictions = 4;
+// A motion that ends is at its place: far below an encoder's count, and what the torque shows of it.
+constexpr double kAtRest_rad = 1e-9;
+constexpr double kAtRest_rad_s = 1e-6;
+
+}  // namespace
+
+void StreamBuffer::begin(double position_rad, double velocity_rad_s, double lead_periods,
+                         const ToldLoad& load) noexcept {
+  count_ = 0;
+  lead_ = lead_periods;
+  origin_ = 0.0;
+  interval_ = 10.0;
+  contradictions_ = 0;
+  sender_.forget();
+  resume(position_rad, velocity_rad_s, load);
+}
+
+void StreamBuffer::resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept {
+  state_ = {play(), {position_rad, velocity_rad_s, 0.0, 0.0}, load};
+  from_ = to_ = anchor_ = state_;
+  ended_ = false;
+}
+
+std::size_t StreamBuffer::first_from(double at) const noexcept {
+  std::size_t low = 0;
+  std::size_t high = count_;
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (knot(middle).at < at)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// The newest order counts: it takes the place of all that are for later.
+void StreamBuffer::insert(Knot knot) noexcept {
+  while (count_ > 0 && last().at >= knot.at) --count_;
+  if (count_ > 0) {
+    interval_ = std::clamp(knot.at - last().at, 1.0, 1.5 * interval_ + 5.0);
+    knot.new_place = is_new_place(knot);
+    if (contradicts(last(), knot))
+      ++contradictions_;
+    else
+      contradictions_ = std::max(0, contradictions_ - 1);
+  }
+  if (count_ == kSamples) {
+    first_ = (first_ + 1) % kSamples;
+    --count_;
+  }
+  knots_[(first_ + count_++) % kSamples] = knot;
+}
+
+bool StreamBuffer::is_new_place(const Knot& knot) const noexcept {
+  const auto before = [&](double at) -> const Knot* {
+    const std::size_t i = first_from(at - (kApart_s / config_.period_s - 0.5));
+    return i > 0 ? &this->knot(i - 1) : nullptr;
+  };
+  const Knot* one = before(knot.at);
+  if (one == nullptr || seconds(knot.at - one->at) > kLongest_s) return false;
+  const double apart_s = seconds(knot.at - one->at);
+  const double speed_rad_s = (knot.state.position_rad - one->state.position_rad) / apart_s;
+  if (std::abs(speed_rad_s) > kNewPlace * reach_.velocity_rad_s) return true;
+  const Knot* two = before(one->at);
+  if (two == nullptr || seconds(one->at - two->at) > kLongest_s) return false;
+  const double before_s = seconds(one->at - two->at);
+  const double before_rad_s = (one->state.position_rad - two->state.position_rad) / before_s;
+  const double least_rad_s2 = std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
+  return std::abs(speed_rad_s - before_rad_s) > kNewPlace * least_rad_s2 * 0.5 * (apart_s + before_s);
+}
+
+bool StreamBuffer::contradicts(const Knot& before, const Knot& knot) const noexcept {
+  const double apart_s = seconds(knot.at - before.at);
+  if (knot.derivatives == 0 || before.derivatives == 0 || knot.new_place || apart_s > kLongest_s)
+    return false;
+  const double shown_rad = knot.state.position_rad - before.state.position_rad;
+  const double told_rad = 0.5 * apart_s * (before.state.velocity_rad_s + knot.state.velocity_rad_s);
+  const double missed_rad = std::abs(shown_rad - told_rad) - kContradictsCounts * config_.count_rad;
+  return missed_rad > kContradicts * 0.5 * (std::abs(shown_rad) + std::abs(told_rad));
+}
+
+SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& reach) noexcept {
+  reach_ = reach;
+  const double came = now_ + left_out_;
+  Knot knot{came + static_cast<double>(sample.in_periods),
+            {sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2, 0.0},
+            sample.load,
+            sample.derivatives};
+  if (sample.in_periods <= 0) {
+    sender_.take(sample.sent_us, came);
+    origin_ = sender_.offset() + config_.delay_s / config_.period_s;
+    knot.at = sender_.sent();
+  }
+  const bool late = knot.at < play() + left_out_;
+  insert(knot);
+  lead_on();
+  if (contradictions_ >= kContradictions) return SampleFate::kVelocitiesContradict;
+  return late ? SampleFate::kLate : SampleFate::kInTime;
+}
+
+// From here to the first sample that is a segment ahead, or where the motion of the last will be by then.
+void StreamBuffer::lead_on() noexcept {
+  const double now = play();
+  const double missed_s = std::clamp(seconds(now - to_.at), kSegment_s, kLongest_s);
+  if (now > to_.at && state_.state.velocity_rad_s != 0.0) caught_up_at_ = now_ + missed_s / config_.period_s;
+  const double until = now + std::max(kSegment_s / config_.period_s, caught_up_at_ - now_);
+  anchor_ = derived(std::min(first_from(until), count_ - 1));
+  state_.at = now;
+  if (rests_at(anchor_.state)) state_.state = anchor_.state;
+  from_ = state_;
+  to_ = anchor_;
+  to_.at = std::max(anchor_.at, until);
+  to_.state = carried(to_.at);
+}
+
+// Planned anew again and again the motion would come near, but never there.
+bool StreamBuffer::rests_at(const State& place) const noexcept {
+  const State& s = state_.state;
+  return place.velocity_rad_s == 0.0 && place.acceleration_rad_s2 == 0.0 &&
+         std::abs(s.position_rad - place.position_rad) <= kAtRest_rad &&
+         std::abs(s.velocity_rad_s) <= kAtRest_rad_s;
+}
+
+// A position that came three times, over a segment's time at least, is a place and not a part of the motion before it.
+bool StreamBuffer::stands(std::size_t i) const noexcept {
+  const Knot& one = knot(i);
+  if (one.derivatives > 0) return false;
+  for (std::size_t k = i; k > 0 && knot(k - 1).state.position_rad == one.state.position_rad; --k)
+    if (k < i && seconds(one.at - knot(k - 1).at) >= kSegment_s - 0.5 * config_.period_s) return true;
+  return false;
+}
+
+void StreamBuffer::fit_neighbours(std::size_t i, LocalPolynomial& fit) const noexcept {
+  const Knot& one = knot(i);
+  const auto value = [&](const Knot& of) {
+    if (one.derivatives == 0) return of.state.position_rad;
+    return one.derivatives == 1 ? of.state.velocity_rad_s : of.state.acceleration_rad_s2;
+  };
+  double latest = one.at;
+  const auto add = [&](const Knot& other) {
+    const double apart_s = seconds(std::abs(other.at - latest));
+    if (apart_s < kApart_s - 0.5 * config_.period_s || apart_s > kLongest_s) return 0;
+    fit.add(seconds(other.at - one.at), value(other) - value(one));
+    latest = other.at;
+    return 1;
+  };
+  int added = 0;
+  for (std::size_t k = i + 1; k < count_ && added < kAfter && !knot(k).new_place; ++k) added += add(knot(k));
+  latest = one.at;
+  added = 0;
+  for (std::size_t k = i; k > 0 && added < kBefore && !knot(k).new_place; --k) added += add(knot(k - 1));
+}
+
+// The sample with the derivatives that were not sent.
+StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
+  Knot one = knot(i);
+  if (stands(i)) return one;
+  LocalPolynomial fit;
+  fit_neighbours(i, fit);
+  const auto [first, second, third] = fit.derivatives();
+  State& state = one.state;
+  if (one.derivatives == 0) {
+    state.velocity_rad_s = first;
+    state.acceleration_rad_s2 = second;
+    state.jerk_rad_s3 = third;
+  } else if (one.derivatives == 1) {
+    state.acceleration_rad_s2 = first;
+    state.jerk_rad_s3 = second;
+  } else {
+    state.jerk_rad_s3 = first;
+  }
+  state.velocity_rad_s = std::clamp(state.velocity_rad_s, -reach_.velocity_rad_s, reach_.velocity_rad_s);
+  const double most_rad_s2 = std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
+  state.acceleration_rad_s2 = std::clamp(state.acceleration_rad_s2, -most_rad_s2, most_rad_s2);
+  return one;
+}
+
+// The motion of the anchor: with its acceleration for some time, then with the velocity of that.
+StreamBuffer::State StreamBuffer::carried(double at) const noexcept {
+  const State& s = anchor_.state;
+  const double interval_s = seconds(interval_);
+  const double most_rad_s2 = std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
+  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * most_rad_s2;
+  const double jerk = smooth ? s.jerk_rad_s3 : 0.0;
+  const double since_s = seconds(at - anchor_.at);
+  const double t =
+      std::min(since_s, smooth ? std::max(kCarriedIntervals * interval_s, kCarried_s) : interval_s);
+  const double acceleration = s.acceleration_rad_s2 + t * jerk;
+  const double velocity = s.velocity_rad_s + t * (s.acceleration_rad_s2 + 0.5 * t * jerk);
+  const double position =
+      s.position_rad + t * (s.velocity_rad_s + t * (0.5 * s.acceleration_rad_s2 + t * jerk / 6.0));
+  return {position + (since_s - t) * velocity, velocity, since_s > t ? 0.0 : acceleration, 0.0};
+}
+
+StreamBuffer::State StreamBuffer::between(double at) const noexcept {
+  const double T = seconds(to_.at - from_.at);
+  const double s = (at - from_.at) / (to_.at - from_.at);
+  const State& f = from_.state;
+  const State& g = to_.state;
+  const double c1 = T * f.velocity_rad_s;
+  const double c2 = 0.5 * T * T * f.acceleration_rad_s2;
+  const double way = g.position_rad - f.position_rad - c1 - c2;
+  const double slope = T * g.velocity_rad_s - c1 - 2.0 * c2;
+  const double bend = T * T * g.acceleration_rad_s2 - 2.0 * c2;
+  const double c3 = 10.0 * way - 4.0 * slope + 0.5 * bend;
+  const double c4 = -15.0 * way + 7.0 * slope - bend;
+  const double c5 = 6.0 * way - 3.0 * slope + 0.5 * bend;
+  return {f.position_rad + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5)))),
+          (c1 + s * (2.0 * c2 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / T,
+          (2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / (T * T), 0.0};
+}
+
+void StreamBuffer::move_to(double at) noexcept {
+  const bool on_segment = at < to_.at;
+  state_.state = on_segment ? between(at) : carried(at);
+  const double share = on_segment ? (at - from_.at) / (to_.at - from_.at) : 1.0;
+  state_.load.torque_Nm = from_.load.torque_Nm + share * (to_.load.torque_Nm - from_.load.torque_Nm);
+  state_.load.inertia_kgm2 =
+      from_.load.inertia_kgm2 + share * (to_.load.inertia_kgm2 - from_.load.inertia_kgm2);
+  const double silent = at - (count_ > 0 ? std::max(last().at, anchor_.at) : at);
+  const double bridged = std::max(config_.bridge_s / config_.period_s, 2.0 * interval_) + 0.5 * interval_;
+  if (state_.state.velocity_rad_s != 0.0 && silent > bridged) ended_ = true;
+}
+
+MovingTarget StreamBuffer::step() noexcept {
+  const State begin = state_.state;
+  if (play() >= to_.at && count_ > 0 && last().at > play()) lead_on();
+  now_ += 1.0;
+  left_out_ = std::max(0.0, left_out_ - 1.0);
+  move_to(play());
+  const State& end = state_.state;
+  return {begin.position_rad, begin.velocity_rad_s, end.position_rad, end.velocity_rad_s, state_.load};
+}
+
+void StreamBuffer::skip(std::int64_t periods) noexcept {
+  now_ += static_cast<double>(periods);
+  left_out_ = 0.0;
+  if (count_ == 0) return;
+  const std::size_t next = first_from(play());
+  anchor_ = derived(next > 0 ? next - 1 : 0);
+  to_ = anchor_;
+  to_.at = play();
+  to_.state = carried(play());
+  from_ = to_;
+  move_to(play());
+}
+
+}  // namespace strainwave

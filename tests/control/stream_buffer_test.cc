@@ -1,0 +1,282 @@
+// The motion that StreamBuffer makes of samples. What networks do to them: stream_buffer_network_test.cc.
+#include "control/trajectory/stream_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "control/trajectory/reference_shaper.h"
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+constexpr MotionLimits kReach{6.0, 150.0, 150.0};
+constexpr double kOmega_rad_s = std::numbers::pi;
+constexpr double kCount_rad = 24e-6;
+constexpr StreamConfig kConfig{kPeriod_s, 0.05, 0.03, kCount_rad};
+constexpr std::int64_t kEpoch_us = 1'700'000'000'000'000;
+
+StreamSample sine(double t_s, int derivatives) {
+  const double phase = kOmega_rad_s * t_s;
+  return {0.5 * std::sin(phase), 0.5 * kOmega_rad_s * std::cos(phase),
+          -0.5 * kOmega_rad_s * kOmega_rad_s * std::sin(phase), derivatives};
+}
+
+/// For the period `ahead` from now.
+StreamSample stamped(StreamSample sample, std::int64_t ahead) {
+  sample.in_periods = ahead;
+  return sample;
+}
+
+StreamSample sent(StreamSample sample, int period) {
+  sample.sent_us = kEpoch_us + 1000 * period;
+  return sample;
+}
+
+StreamBuffer begun(double position_rad = 0.0, double velocity_rad_s = 0.0, double lead_periods = 0.0) {
+  StreamBuffer buffer(kConfig);
+  buffer.begin(position_rad, velocity_rad_s, lead_periods, {});
+  return buffer;
+}
+
+TEST(StreamBuffer, FollowsASineWithoutLagWhateverIsGivenOfIt) {
+  for (const int derivatives : {0, 1, 2}) {
+    StreamBuffer by_cycle = begun();
+    StreamBuffer by_sending = begun();
+    for (int k = 0; k < 3000; ++k) {
+      const double t_s = kPeriod_s * k;
+      if (k % 10 == 0) {
+        by_cycle.take(stamped(sine(t_s + 0.02, derivatives), 20), kReach);
+        by_sending.take(sent(sine(t_s, derivatives), k), kReach);
+      }
+      const double cycle_rad = by_cycle.step().position_rad;
+      const double sending_rad = by_sending.step().position_rad;
+      if (k < 500) continue;
+      EXPECT_NEAR(cycle_rad, sine(t_s, 0).position_rad, 1e-4) << derivatives;
+      EXPECT_NEAR(sending_rad, sine(t_s - kConfig.delay_s, 0).position_rad, 1e-4) << derivatives;
+    }
+  }
+}
+
+TEST(StreamBuffer, IsAheadOfItsSamplesByItsLead) {
+  constexpr int kLead = 7;
+  StreamBuffer buffer = begun(0.0, 0.0, kLead);
+  for (int k = 0; k < 2000; ++k) {
+    if (k % 10 == 0) buffer.take(stamped(sine(kPeriod_s * k + 0.03, 1), 30), kReach);
+    const double position_rad = buffer.step().position_rad;
+    if (k > 500) {
+      EXPECT_NEAR(position_rad, sine(kPeriod_s * (k + kLead), 0).position_rad, 1e-4);
+    }
+  }
+}
+
+TEST(StreamBuffer, CountsAsLateWhatComesAfterItsInstant) {
+  StreamBuffer buffer = begun(0.0, 0.0, 5.0);
+  EXPECT_EQ(buffer.take(stamped({0.01}, 20), kReach), SampleFate::kInTime);
+  for (int k = 0; k < 10; ++k) buffer.step();
+  EXPECT_EQ(buffer.take(stamped({0.02}, 4), kReach), SampleFate::kLate) << "the target is 5 periods ahead";
+  EXPECT_EQ(buffer.take(stamped({0.02}, 6), kReach), SampleFate::kInTime);
+}
+
+TEST(StreamBuffer, CatchesUpAfterAGapWithoutAStepOfVelocity) {
+  for (const int gap : {30, 60, 150}) {
+    StreamBuffer buffer = begun();
+    double hardest_rad_s2 = 0.0;
+    double last_rad_s = 0.0;
+    double off_rad = 0.0;
+    for (int k = 0; k < 2000; ++k) {
+      const bool open = k > 1000 && k < 1000 + gap;
+      if (k % 10 == 0 && !open) {
+        if (buffer.ended()) buffer.resume(sine(1.0, 0).position_rad, 0.0, {});
+        buffer.take(sent(sine(kPeriod_s * k, 1), k), kReach);
+      }
+      const MovingTarget target = buffer.step();
+      if (k > 500)
+        hardest_rad_s2 = std::max(hardest_rad_s2,
+                                  std::abs(target.next_velocity_rad_s - target.velocity_rad_s) / kPeriod_s);
+      last_rad_s = target.next_velocity_rad_s;
+      if (k > 1000 + 2 * gap + 100)
+        off_rad = std::max(
+            off_rad, std::abs(target.position_rad - sine(kPeriod_s * k - kConfig.delay_s, 0).position_rad));
+    }
+    EXPECT_TRUE(std::isfinite(last_rad_s));
+    EXPECT_LT(off_rad, 1e-4) << gap;
+    if (gap < 100) {
+      EXPECT_LT(hardest_rad_s2, 30.0) << gap << ", the sine has 4.9 rad/s2";
+    }
+  }
+}
+
+TEST(StreamBuffer, EndsSoonAfterTheLastSampleOfAMotion) {
+  StreamBuffer buffer = begun();
+  for (int k = 0; k < 500; ++k) {
+    if (k % 10 == 0) buffer.take(stamped({0.001 * (k + 20), 1.0, 0.0, 1}, 20), kReach);
+    buffer.step();
+    ASSERT_FALSE(buffer.ended());
+  }
+  int more = 0;
+  for (; more < 300 && !buffer.ended(); ++more) buffer.step();
+  EXPECT_GT(more, 50);
+  EXPECT_LT(more, 90);
+}
+
+TEST(StreamBuffer, NeverEndsWhereItStandsStill) {
+  StreamBuffer buffer = begun(0.3);
+  for (int k = 0; k < 100; k += 10) buffer.take(stamped({0.3}, 20), kReach);
+  for (int k = 0; k < 5000; ++k) EXPECT_EQ(buffer.step().position_rad, 0.3);
+  EXPECT_FALSE(buffer.ended());
+}
+
+TEST(StreamBuffer, ComesToRestExactlyWhereSamplesSayItAgainAndAgain) {
+  for (const int derivatives : {0, 1}) {
+    StreamBuffer buffer = begun();
+    MovingTarget target;
+    for (int k = 0; k < 1500; ++k) {
+      const double t_s = std::min(1.0, kPeriod_s * (k + 20));
+      const double rate_rad_s = t_s < 1.0 ? 0.5 : 0.0;
+      if (k % 10 == 0) buffer.take(stamped({0.5 * t_s, rate_rad_s, 0.0, derivatives}, 20), kReach);
+      target = buffer.step();
+    }
+    EXPECT_EQ(target.position_rad, 0.5);
+    EXPECT_TRUE(target.rests());
+  }
+}
+
+TEST(StreamBuffer, IsNeverFarBeyondTheStepsOfAPositionStream) {
+  StreamBuffer buffer = begun();
+  ReferenceShaper shaper(kPeriod_s);
+  shaper.set_limits(kReach);
+  double highest_rad = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    const double step_rad = (k / 500) % 2 == 0 ? 0.0 : 1.0;
+    if (k % 10 == 0) buffer.take(stamped({step_rad}, 20), kReach);
+    shaper.follow(buffer.step(), {});
+    highest_rad = std::max({highest_rad, shaper.position_rad() - 1.0, -shaper.position_rad()});
+    if (k % 500 == 499) {
+      EXPECT_EQ(shaper.position_rad(), step_rad) << k;
+    }
+  }
+  EXPECT_LT(highest_rad, 1e-3);
+}
+
+TEST(StreamBuffer, TheNewestSampleTakesThePlaceOfThoseForLater) {
+  StreamBuffer buffer = begun();
+  buffer.take(stamped({0.0}, 10), kReach);
+  buffer.take(stamped({1.0}, 500), kReach);
+  buffer.take(stamped({0.0}, 40), kReach);
+  for (int k = 0; k < 1000; ++k) EXPECT_NEAR(buffer.step().position_rad, 0.0, 1e-12);
+}
+
+TEST(StreamBuffer, LeadsTheLoadAlongALineFromSampleToSample) {
+  StreamBuffer buffer = begun();
+  StreamSample loaded = stamped({0.0}, 40);
+  loaded.load = {8.0, 0.2};
+  buffer.take(loaded, kReach);
+  ToldLoad before;
+  for (int k = 0; k < 40; ++k) {
+    const ToldLoad now = buffer.step().load;
+    EXPECT_NEAR(now.torque_Nm - before.torque_Nm, 0.2, 1e-9);
+    before = now;
+  }
+  EXPECT_NEAR(buffer.step().load.torque_Nm, 8.0, 1e-9);
+  EXPECT_NEAR(buffer.step().load.inertia_kgm2, 0.2, 1e-9);
+}
+
+// Of a stream of 100 Hz with this velocity: how many samples it takes until the stream is to end; 0: it goes on.
+template <typename Velocity>
+int samples_until_contradiction(const Velocity& velocity_of, double lost = 0.0) {
+  std::mt19937 random(7);
+  StreamBuffer buffer = begun();
+  for (int k = 0; k < 4000; ++k) {
+    if (k % 10 == 0 && std::generate_canonical<double, 32>(random) >= lost) {
+      StreamSample sample = stamped(sine(kPeriod_s * (k + 20), 1), 20);
+      sample.position_rad = kCount_rad * std::round(sample.position_rad / kCount_rad);
+      sample.velocity_rad_s = velocity_of(sample.velocity_rad_s);
+      if (buffer.take(sample, kReach) == SampleFate::kVelocitiesContradict) return k / 10 + 1;
+    }
+    buffer.step();
+  }
+  return 0;
+}
+
+TEST(StreamBuffer, EndsWhereVelocitiesContradictThePositions) {
+  EXPECT_LE(samples_until_contradiction([](double v) { return 180.0 / std::numbers::pi * v; }), 8);
+  EXPECT_LE(samples_until_contradiction([](double v) { return -v; }), 8);
+  EXPECT_LE(samples_until_contradiction([](double) { return 0.0; }), 8);
+  EXPECT_LE(samples_until_contradiction([](double v) { return 0.5 * v; }), 8);
+  for (const double wrong : {180.0 / std::numbers::pi, -1.0, 0.0, 0.5})
+    EXPECT_GT(samples_until_contradiction([&](double v) { return wrong * v; }), 0) << wrong;
+}
+
+TEST(StreamBuffer, GoesOnWhereVelocitiesAreALittleOff) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  EXPECT_EQ(samples_until_contradiction([](double v) { return v; }, 0.3), 0);
+  EXPECT_EQ(samples_until_contradiction([](double v) { return 0.8 * v; }), 0);
+  EXPECT_EQ(samples_until_contradiction([&](double v) { return v + noise(random); }), 0);
+}
+
+TEST(StreamBuffer, GoesOnWithoutAJumpWhereTheSendersClockIsSet) {
+  for (const double set_s : {-3600.0, -0.3, 0.3, 3600.0}) {
+    StreamBuffer buffer = begun();
+    double off_rad = 0.0;
+    double fastest_rad_s = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+      if (k % 10 == 0) {
+        StreamSample sample = sent(sine(kPeriod_s * k, 1), k);
+        if (k >= 1000) sample.sent_us += std::llround(1e6 * set_s);
+        buffer.take(sample, kReach);
+      }
+      const MovingTarget target = buffer.step();
+      if (k < 500) continue;
+      off_rad = std::max(
+          off_rad, std::abs(target.position_rad - sine(kPeriod_s * k - kConfig.delay_s, 0).position_rad));
+      fastest_rad_s = std::max(fastest_rad_s, std::abs(target.next_velocity_rad_s));
+    }
+    EXPECT_LT(off_rad, 5e-3) << set_s;
+    EXPECT_LT(fastest_rad_s, 2.0) << set_s;
+  }
+}
+
+TEST(StreamBuffer, IsAfterSkippedPeriodsWhereItsSamplesAre) {
+  StreamBuffer buffer = begun();
+  int k = 0;
+  for (; k < 1000; ++k) {
+    if (k % 10 == 0) buffer.take(stamped(sine(kPeriod_s * (k + 100), 1), 100), kReach);
+    buffer.step();
+  }
+  buffer.skip(50);
+  EXPECT_NEAR(buffer.step().position_rad, sine(kPeriod_s * (k + 50), 0).position_rad, 1e-3);
+  EXPECT_FALSE(buffer.ended());
+  buffer.skip(400);
+  EXPECT_TRUE(buffer.ended());
+}
+
+TEST(ReferenceShaper, KeepsAllLimitsWhileItFollowsAnything) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-2.0, 2.0);
+  StreamBuffer buffer = begun();
+  ReferenceShaper shaper(kPeriod_s);
+  const MotionLimits limits{3.0, 40.0, 60.0};
+  const PositionRange range{-1.0, 1.0};
+  shaper.set_limits(limits);
+  double before_rad_s = 0.0;
+  for (int k = 0; k < 20000; ++k) {
+    if (k % 17 == 0)
+      buffer.take(stamped({place(random), 3.0 * place(random), 0.0, k % 3 == 0 ? 1 : 0}, 25), limits);
+    shaper.follow(buffer.step(), range);
+    const double change_rad_s2 = (std::abs(shaper.velocity_rad_s()) - std::abs(before_rad_s)) / kPeriod_s;
+    EXPECT_LE(std::abs(shaper.velocity_rad_s()), limits.velocity_rad_s * (1.0 + 1e-9));
+    EXPECT_LE(change_rad_s2, limits.acceleration_rad_s2 * (1.0 + 1e-9));
+    EXPECT_GE(change_rad_s2, -limits.deceleration_rad_s2 * (1.0 + 1e-9));
+    EXPECT_LE(std::abs(shaper.position_rad()), 1.0 + 1e-9);
+    before_rad_s = shaper.velocity_rad_s();
+  }
+}
+
+}  // namespace
+}  // namespace strainwave
