@@ -34,6 +34,8 @@ void run(const TemperatureOptions& options) {
   write_text_file(out / "temperature.csv", temperature_rows(rows).csv());
   write_text_file(out / "hundred-moves.csv", hundred_moves_rows(hundred).csv());
   std::vector<TextTable> tables = temperature_tables(rows, hundred);
+  tables.push_back(
+      learned_table(run_temperatures({ways.front(), ways.back()}, sensor_faults(), kLearnedAfter)));
   tables.push_back(friction_known_table(run_friction_known(ways, study_table(gains))));
   tables.push_back(friction_table(study_table(gains), temperature_plant()));
   const std::vector<Figure> figures = temperature_figures(rows, hundred);

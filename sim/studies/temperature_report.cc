@@ -159,6 +159,15 @@ std::vector<TextTable> temperature_tables(const std::vector<TemperatureRow>& row
       hundred_table(hundred)};
 }
 
+TextTable learned_table(const std::vector<TemperatureRow>& rows) {
+  const std::string product = distinct(rows, &TemperatureRow::way).back();
+  return over_temperature(
+      "RMS error of '" + product + "' below uncompensated (%), the sixth of the same motions", "sensor",
+      distinct(rows, &TemperatureRow::sensor), [&](const std::string& sensor, double temperature_C) {
+        return below_percent(rms_over_none(rows, product, temperature_C, sensor));
+      });
+}
+
 TextTable friction_known_table(const std::vector<TemperatureRow>& rows) {
   const std::string product = distinct(rows, &TemperatureRow::way).back();
   return over_temperature(

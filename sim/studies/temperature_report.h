@@ -28,6 +28,9 @@ TextTable hundred_moves_rows(const std::vector<HundredMoves>& hundred);
 std::vector<TextTable> temperature_tables(const std::vector<TemperatureRow>& rows,
                                           const std::vector<HundredMoves>& hundred);
 
+/// What the last way has learned: the same over sensors, of rows that are each the sixth of the same motions.
+TextTable learned_table(const std::vector<TemperatureRow>& rows);
+
 /// The same of run_friction_known(): geometric mean and worst of the motions, per temperature.
 TextTable friction_known_table(const std::vector<TemperatureRow>& rows);
 

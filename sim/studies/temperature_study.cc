@@ -9,6 +9,7 @@
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/path_follower.h"
 #include "sim/studies/peers/disturbance_observer.h"
+#include "sim/studies/text_table.h"
 
 namespace strainwave {
 
@@ -53,24 +54,29 @@ FrictionWay observer_way() {
           }};
 }
 
-SmoothPath there_and_back(double step_rad) {
-  SmoothPath path(kBegin_s);
+void go_there_and_back(double step_rad, SmoothPath& path) {
   for (const double target_rad : {step_rad, 0.0}) {
     path.move_to(target_rad, kAcceleration_rad_s2);
     path.go_on(kHold_s);
   }
-  return path;
 }
 
-SmoothPath to_and_fro(double velocity_rad_s) {
-  SmoothPath path(kBegin_s);
+void go_to_and_fro(double velocity_rad_s, SmoothPath& path) {
   double last_rad_s = 0.0;
   for (const double next_rad_s : {velocity_rad_s, -velocity_rad_s, velocity_rad_s, 0.0}) {
     path.change_velocity(next_rad_s, 1.5 * std::abs(next_rad_s - last_rad_s) / kReversal_s);
     path.go_on(next_rad_s == 0.0 ? kHold_s : kCruise_s);
     last_rad_s = next_rad_s;
   }
-  return path;
+}
+
+PathMotion repeated(const std::string& name, const std::function<void(SmoothPath&)>& go, int times) {
+  PathMotion motion{name, SmoothPath(kBegin_s)};
+  for (int i = 0; i < times; ++i) {
+    if (i > 0) motion.last_begins_s = motion.path.end_s();
+    go(motion.path);
+  }
+  return motion;
 }
 
 struct Job {
@@ -86,10 +92,10 @@ std::vector<TemperatureRow> run_jobs(const std::vector<Job>& jobs,
   run_in_parallel(jobs.size(), [&](std::size_t i) {
     const Job& job = jobs[i];
     const SmoothPath& path = job.motion->path;
-    const PathRun run =
-        run_path(plant_at(job.temperature_C), *job.way, path, *job.sensor, job.temperature_C, {path.end_s()});
-    rows[i] = {job.way->name,     job.sensor->name,      job.motion->name,
-               job.temperature_C, run.stretches.front(), run.switched_off};
+    const PathRun run = run_path(plant_at(job.temperature_C), *job.way, path, *job.sensor, job.temperature_C,
+                                 {job.motion->last_begins_s, path.end_s()});
+    rows[i] = {job.way->name,     job.sensor->name,     job.motion->name,
+               job.temperature_C, run.stretches.back(), run.switched_off};
   });
   return rows;
 }
@@ -121,10 +127,17 @@ std::vector<SensorFault> sensor_faults() {
           {"missing", kNaN}};
 }
 
-std::vector<PathMotion> study_motions() {
-  return {{"move 0.01 rad", there_and_back(0.01)}, {"move 0.1 rad", there_and_back(0.1)},
-          {"move 1 rad", there_and_back(1.0)},     {"track 0.01 rad/s", to_and_fro(0.01)},
-          {"track 0.1 rad/s", to_and_fro(0.1)},    {"track 1 rad/s", to_and_fro(1.0)}};
+std::vector<PathMotion> study_motions(int times) {
+  std::vector<PathMotion> motions;
+  for (const double step_rad : {0.01, 0.1, 1.0})
+    motions.push_back(repeated(
+        "move " + number(step_rad, 3) + " rad", [=](SmoothPath& path) { go_there_and_back(step_rad, path); },
+        times));
+  for (const double velocity_rad_s : {0.01, 0.1, 1.0})
+    motions.push_back(repeated(
+        "track " + number(velocity_rad_s, 3) + " rad/s",
+        [=](SmoothPath& path) { go_to_and_fro(velocity_rad_s, path); }, times));
+  return motions;
 }
 
 JointPlantConfig temperature_plant() {
@@ -163,8 +176,8 @@ PathRun run_path(const JointPlantConfig& plant, const FrictionWay& way, const Sm
 }
 
 std::vector<TemperatureRow> run_temperatures(const std::vector<FrictionWay>& ways,
-                                             const std::vector<SensorFault>& sensors) {
-  const std::vector<PathMotion> motions = study_motions();
+                                             const std::vector<SensorFault>& sensors, int times) {
+  const std::vector<PathMotion> motions = study_motions(times);
   const SensorFault right = sensor_faults().front();
   std::vector<Job> jobs;
   for (const double temperature_C : kStudyTemperatures_C)

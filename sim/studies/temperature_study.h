@@ -42,9 +42,11 @@ std::vector<SensorFault> sensor_faults();
 struct PathMotion {
   std::string name;
   SmoothPath path;
+  double last_begins_s = 0.0;  ///< its last repetition
 };
-/// There and back by 0.01, 0.1, 1 rad; to and fro at 0.01, 0.1, 1 rad/s.
-std::vector<PathMotion> study_motions();
+/// There and back by 0.01, 0.1, 1 rad; to and fro at 0.01, 0.1, 1 rad/s; each so many times, >= 1.
+std::vector<PathMotion> study_motions(int times = 1);
+inline constexpr int kLearnedAfter = 6;  ///< the same motion for the sixth time
 
 /// The flexible joint of the study: link 0.1 kg m2, 2 % damping.
 JointPlantConfig temperature_plant();
@@ -74,9 +76,9 @@ struct TemperatureRow {
   bool switched_off = false;
 };
 
-/// Every way at every temperature with the right sensor, and `sensors` besides with the last way.
+/// Every way at every temperature with the right sensor, and `sensors` besides with the last way: the last of so many motions.
 std::vector<TemperatureRow> run_temperatures(const std::vector<FrictionWay>& ways,
-                                             const std::vector<SensorFault>& sensors);
+                                             const std::vector<SensorFault>& sensors, int times = 1);
 
 /// The last of `ways` (which is given `table`) and "none" on joints whose friction at each temperature is the very one that `table`
 /// declares: what of the error is not friction's.

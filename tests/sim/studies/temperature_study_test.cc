@@ -44,6 +44,20 @@ TEST(TemperatureStudy, IsOnItsFirstRunFarBelowUncompensatedWhateverTheSensorSays
   expect_at_least("missing", {70.0, 85.0, 85.0, 85.0, 85.0, 85.0});
 }
 
+TEST(TemperatureStudy, HasLearnedAfterFiveOfTheSameMotions) {
+  const std::vector<TemperatureRow> sixth =
+      run_temperatures({ways().front(), ways().back()}, sensor_faults(), kLearnedAfter);
+  const auto below = [&](const std::string& sensor, double temperature_C) {
+    return 100.0 * (1.0 - rms_over_none(sixth, ways().back().name, temperature_C, sensor));
+  };
+  for (const double temperature_C : kStudyTemperatures_C) {
+    EXPECT_GE(below("right", temperature_C), temperature_C < 45.0 ? 98.5 : 97.0) << temperature_C;
+    for (const char* wrong : {"10 degC too high", "10 degC too low"})
+      EXPECT_GE(below(wrong, temperature_C), 96.5) << wrong << ", " << temperature_C;
+    EXPECT_GE(below("missing", temperature_C), temperature_C > -10.0 ? 95.0 : 92.0) << temperature_C;
+  }
+}
+
 TEST(TemperatureStudy, IsInEveryMotionNinetyPercentBelowUncompensatedWhereTheSensorIsRight) {
   std::map<std::pair<double, std::string>, double> none_rad;
   for (const TemperatureRow& row : rows())
