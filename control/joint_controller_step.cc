@@ -192,8 +192,8 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
 
 // From an order's own motion, at a torque that is not limited and a reading that is fresh.
 bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
-  if (phase_ != MotionPhase::kTracking || output.saturated || !measurement.has_position ||
-      measurement.elapsed_periods > 1)
+  if (phase_ != MotionPhase::kTracking || output.saturated || planner_.exhausted() ||
+      !measurement.has_position || measurement.elapsed_periods > 1)
     return false;
   const double velocity_rad_s = plan_.acting_velocities_rad_s[1];
   if (!planner_.moves())

@@ -14,7 +14,7 @@ constexpr int kLeastSpread = 2;
 // The model has lost the motion where it is farther off than this share of the wind-up that the torque limit makes; it then gives way
 // by this share a period.
 constexpr double kLostShare = 0.25;
-constexpr double kYield = 0.1;
+constexpr double kYield = 0.2;
 
 // sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits; nothing without a spring.
 double swing_periods(const MotorPlannerConfig& c) noexcept {
@@ -148,18 +148,19 @@ void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const T
   torque_Nm_ = std::clamp(wanted_Nm + back_Nm, std::min(possible.min_Nm, asked_Nm),
                           std::max(possible.max_Nm, asked_Nm));
   exhausted_ = wanted_Nm + back_Nm != torque_Nm_;
+  regulates_ = std::abs(back_Nm) > std::abs(wanted_Nm);
   const LinkModel::Period period = config_.joint.advance(states_.front(), torque_Nm_, config_.period_s);
   next_ = period.end;
   middle_velocity_rad_s_ = period.middle_velocity_rad_s;
 }
 
 // A regulator that has no torque left can swing a spring up for ever: the model then gives way to the motion where it has lost it, and
-// wherever nothing but the regulator asks for torque.
+// wherever the regulator asks for more torque than the motion, which asks for none once it has ended.
 void MotorPlanner::yield(bool ended) noexcept {
   const LinkState off = moved(wanted_, next_, -1.0);
   const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
   const double lost_rad = kLostShare * config_.joint.spring.angle_rad(config_.torque_limit_Nm);
-  if (exhausted_ && (ended || farthest_rad >= lost_rad)) next_ = moved(next_, off, kYield);
+  if (exhausted_ && (ended || regulates_ || farthest_rad >= lost_rad)) next_ = moved(next_, off, kYield);
 }
 
 // The motion has ended: once the model is where that was, it stands still.

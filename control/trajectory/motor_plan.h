@@ -103,6 +103,8 @@ class MotorPlanner {
   LinkState before(int periods) const noexcept {
     return states_[static_cast<std::size_t>(config_.delay_periods) + static_cast<std::size_t>(periods)];
   }
+  /// Whether the plan of this period had less torque than it asked for.
+  bool exhausted() const noexcept { return exhausted_; }
   /// Where the motor rests while the link does so at `link_position_rad`.
   double motor_rest_rad(double link_position_rad) const noexcept {
     return link_position_rad + config_.joint.spring.angle_rad(config_.joint.gravity.at(link_position_rad));
@@ -133,7 +135,8 @@ class MotorPlanner {
       states_{};                        ///< the model's, newest first: of now, of the last period ...
   double torque_Nm_ = 0.0;              ///< of this period
   double middle_velocity_rad_s_ = 0.0;  ///< the model's motor, half-way through it
-  bool exhausted_ = false;              ///< the regulator asked for more torque than there was
+  bool exhausted_ = false;              ///< motion and regulator asked for more torque than there was
+  bool regulates_ = false;              ///< the regulator asked for more than the motion
   int rest_periods_ = 0;                ///< since when the plan has rested
 };
 

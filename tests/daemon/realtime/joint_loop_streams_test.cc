@@ -350,9 +350,12 @@ double rms_after_noise_Nm(unsigned seed) {
   return std::sqrt(squares);
 }
 
-// A plan that had less torque than it asked for swung between its limits for ever, at 34 N.m, after one rough begin in 1500.
+// A plan that had less torque than it asked for swung between its limits for ever, at up to 34 N.m, after one rough begin in 1000: these
+// among the first 8000.
 TEST(JointLoopStreaming, LeaveNoOscillationWhereTheyBeginRoughly) {
-  for (unsigned seed = 1; seed <= 300; ++seed) EXPECT_LT(rms_after_noise_Nm(seed), 8.0) << seed;
+  for (const unsigned seed : {2199U, 2776U, 4184U, 4375U, 4927U, 5186U, 6141U, 7961U})
+    EXPECT_LT(rms_after_noise_Nm(seed), 8.0) << seed;
+  for (unsigned seed = 1; seed <= 60; ++seed) EXPECT_LT(rms_after_noise_Nm(seed), 8.0) << seed;
 }
 
 TEST(JointLoopMoves, GoAtTheCalmShareOfTheSpeedLimitUnlessTheyNameASpeed) {
