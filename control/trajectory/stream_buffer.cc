@@ -241,13 +241,22 @@ StreamBuffer::State StreamBuffer::between(double at) const noexcept {
           (2.0 * c2 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / (T * T), 0.0};
 }
 
+// Along a straight line from sample to sample; the last one's stays.
+ToldLoad StreamBuffer::load_at(double at) const noexcept {
+  const std::size_t next = first_from(at);
+  if (next == count_) return count_ > 0 ? last().load : state_.load;
+  const Knot& before = next > 0 ? knot(next - 1) : from_;
+  const Knot& after = knot(next);
+  if (before.at >= after.at) return after.load;
+  const double share = std::clamp((at - before.at) / (after.at - before.at), 0.0, 1.0);
+  return {before.load.torque_Nm + share * (after.load.torque_Nm - before.load.torque_Nm),
+          before.load.inertia_kgm2 + share * (after.load.inertia_kgm2 - before.load.inertia_kgm2)};
+}
+
 void StreamBuffer::move_to(double at) noexcept {
   const bool on_segment = at < to_.at;
   state_.state = on_segment ? between(at) : carried(at);
-  const double share = on_segment ? (at - from_.at) / (to_.at - from_.at) : 1.0;
-  state_.load.torque_Nm = from_.load.torque_Nm + share * (to_.load.torque_Nm - from_.load.torque_Nm);
-  state_.load.inertia_kgm2 =
-      from_.load.inertia_kgm2 + share * (to_.load.inertia_kgm2 - from_.load.inertia_kgm2);
+  state_.load = load_at(at);
   const double silent = at - (count_ > 0 ? std::max(last().at, anchor_.at) : at);
   const double bridged = std::max(config_.bridge_s / config_.period_s, 2.0 * interval_) + 0.5 * interval_;
   if (state_.state.velocity_rad_s != 0.0 && silent > bridged) ended_ = true;

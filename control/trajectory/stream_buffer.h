@@ -91,6 +91,7 @@ class StreamBuffer {
   bool contradicts(const Knot& before, const Knot& knot) const noexcept;
   State carried(double at) const noexcept;
   State between(double at) const noexcept;
+  ToldLoad load_at(double at) const noexcept;
   void move_to(double at) noexcept;
 
   StreamConfig config_;
