@@ -55,7 +55,7 @@ std::filesystem::path service_state_directory() {
 
 std::filesystem::path read_state_directory(TomlSection& section, const std::filesystem::path& folder) {
   if (!section.has("state_directory")) return service_state_directory();
-  const std::filesystem::path directory = folder / section.text("state_directory");
+  std::filesystem::path directory = folder / section.text("state_directory");
   doubt_folder(section, "state_directory", directory);
   return directory;
 }

@@ -32,7 +32,7 @@ bool switch_off(SdoClient& client, const Pdo& pdo, const SdoWrite& off, std::uin
 
 bool is_mapped_as_wanted(SdoClient& client, const Pdo& pdo) {
   if (client.upload_number(pdo.mapping(0), 1) != pdo.objects.size()) return false;
-  for (std::uint8_t i = 0; i < pdo.objects.size(); ++i)
+  for (std::size_t i = 0; i < pdo.objects.size(); ++i)
     if (client.upload_number(pdo.mapping(static_cast<std::uint8_t>(i + 1)), 4) !=
         mapping_word(pdo.objects[i]))
       return false;
