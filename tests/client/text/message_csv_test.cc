@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "lcmtypes/vocabulary.h"
+
 namespace strainwave {
 namespace {
 
@@ -16,8 +18,8 @@ TEST(MessageCsv, QuotesTextSoThatItStaysOneCell) {
 
 TEST(MessageCsv, HasAColumnForEveryEntryOfAnArray) {
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
-  EXPECT_EQ(commas(csv_columns<timing_v1>()), 12 + 4 * 64 + 32);
-  EXPECT_EQ(commas(csv_values(timing_v1{})), 12 + 4 * 64 + 32);
+  EXPECT_EQ(commas(csv_columns<timing_v1>()), 12 + 4 * 64 + kReasonCount);
+  EXPECT_EQ(commas(csv_values(timing_v1{})), 12 + 4 * 64 + kReasonCount);
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ TEST_F(AdmissionTest, TakesTheBoundThatItNamesAndPrintsWhatItRefusesApartFromIt)
   setpoint_v2 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 0.1;
+  sample.utime = 1;
   sample.load_inertia_kgm2 = 0.89;  // 10 x 0.089 is less, in its last bit
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", sample)).kind, Verdict::Kind::kOrder);
   const auto refusal = [&](double position_rad, double speed_limit_rad_s, double load_kgm2) {
