@@ -28,6 +28,7 @@ constexpr double kNewPlace = 2.0;
 constexpr double kContradicts = 0.5;
 constexpr double kContradictsCounts = 3.0;
 constexpr int kContradictions = 4;
+constexpr double kContradicts_s = 0.025;  // longer than a burst of samples that were held up
 // A motion that ends is at its place: far below an encoder's count, and what the torque shows of it.
 constexpr double kAtRest_rad = 1e-9;
 constexpr double kAtRest_rad_s = 1e-6;
@@ -70,10 +71,9 @@ void StreamBuffer::insert(Knot knot) noexcept {
   if (count_ > 0) {
     interval_ = std::clamp(knot.at - last().at, 1.0, 1.5 * interval_ + 5.0);
     knot.new_place = is_new_place(knot);
-    if (contradicts(last(), knot))
-      ++contradictions_;
-    else
-      contradictions_ = std::max(0, contradictions_ - 1);
+    knot.contradicts = contradicts(last(), knot);
+    contradictions_ = std::clamp(contradictions_ + (knot.contradicts ? 1 : -1), 0, kContradictions);
+    if (contradictions_ == 0 || (knot.contradicts && contradictions_ == 1)) contradicts_from_ = knot.at;
   }
   if (count_ == kSamples) {
     first_ = (first_ + 1) % kSamples;
@@ -114,7 +114,8 @@ SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& re
   reach_ = reach;
   const double came = now_ + left_out_;
   Knot knot{came + static_cast<double>(sample.in_periods),
-            {sample.position_rad, sample.velocity_rad_s, sample.acceleration_rad_s2, 0.0},
+            {sample.position_rad, sample.derivatives > 0 ? sample.velocity_rad_s : 0.0,
+             sample.derivatives > 1 ? sample.acceleration_rad_s2 : 0.0, 0.0},
             sample.load,
             sample.derivatives};
   if (sample.in_periods <= 0) {
@@ -125,7 +126,10 @@ SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& re
   const bool late = knot.at < play() + left_out_;
   insert(knot);
   lead_on();
-  if (contradictions_ >= kContradictions) return SampleFate::kVelocitiesContradict;
+  // What was held up and then sent all at once contradicts, too, but not for long.
+  const bool for_long = seconds(last().at - contradicts_from_) >= kContradicts_s;
+  if (last().contradicts && contradictions_ == kContradictions && for_long)
+    return SampleFate::kVelocitiesContradict;
   return late ? SampleFate::kLate : SampleFate::kInTime;
 }
 
@@ -164,8 +168,8 @@ bool StreamBuffer::stands(std::size_t i) const noexcept {
 void StreamBuffer::fit_neighbours(std::size_t i, LocalPolynomial& fit) const noexcept {
   const Knot& one = knot(i);
   const auto value = [&](const Knot& of) {
-    if (one.derivatives == 0) return of.state.position_rad;
-    return one.derivatives == 1 ? of.state.velocity_rad_s : of.state.acceleration_rad_s2;
+    if (one.believed() == 0) return of.state.position_rad;
+    return one.believed() == 1 ? of.state.velocity_rad_s : of.state.acceleration_rad_s2;
   };
   double latest = one.at;
   const auto add = [&](const Knot& other) {
@@ -190,11 +194,11 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
   fit_neighbours(i, fit);
   const auto [first, second, third] = fit.derivatives();
   State& state = one.state;
-  if (one.derivatives == 0) {
+  if (one.believed() == 0) {
     state.velocity_rad_s = first;
     state.acceleration_rad_s2 = second;
     state.jerk_rad_s3 = third;
-  } else if (one.derivatives == 1) {
+  } else if (one.believed() == 1) {
     state.acceleration_rad_s2 = first;
     state.jerk_rad_s3 = second;
   } else {
@@ -258,7 +262,8 @@ void StreamBuffer::move_to(double at) noexcept {
   state_.state = on_segment ? between(at) : carried(at);
   state_.load = load_at(at);
   const double silent = at - (count_ > 0 ? std::max(last().at, anchor_.at) : at);
-  const double bridged = std::max(config_.bridge_s / config_.period_s, 2.0 * interval_) + 0.5 * interval_;
+  const double wanted = std::max(config_.bridge_s / config_.period_s, 2.0 * interval_) + 0.5 * interval_;
+  const double bridged = std::min(wanted, kLongest_s / config_.period_s);
   if (state_.state.velocity_rad_s != 0.0 && silent > bridged) ended_ = true;
 }
 

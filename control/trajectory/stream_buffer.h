@@ -7,10 +7,10 @@
 //                 acceleration have no step, whatever arrives. Planned anew with every sample
 //   derivatives   not sent: of the polynomial through the sample that fits its neighbours best, before and after it
 //   no sample     the motion goes on with its acceleration for some intervals, then with its velocity, `bridge_s` in all or two
-//                 intervals. Then the stream has ended: the joint is to come to rest. A target that stands still stays where it is
+//                 intervals, 0.2 s at most. Then the stream has ended: the joint is to come to rest. A target that stands still stays where it is
 //   a gap         is caught up with in the time that was missed, 0.2 s at most
 //   new place     a sample that needs twice the joint's speed or acceleration is no part of a motion: the target is there, at rest
-//   contradiction of four samples more than not the velocity is not that of the positions
+//   contradiction a velocity that is not that of the positions is not used; where it goes on, the stream is to end
 #pragma once
 
 #include <array>
@@ -72,7 +72,10 @@ class StreamBuffer {
     State state;
     ToldLoad load{};
     int derivatives = 2;
-    bool new_place = false;  ///< samples before it are of another motion
+    bool new_place = false;    ///< samples before it are of another motion
+    bool contradicts = false;  ///< its velocity is not that of the positions
+    /// How many of its derivatives are used.
+    int believed() const noexcept { return contradicts ? 0 : derivatives; }
   };
 
   const Knot& knot(std::size_t i) const noexcept { return knots_[(first_ + i) % kSamples]; }
@@ -105,12 +108,13 @@ class StreamBuffer {
   double left_out_ = 0.0;  ///< periods after now_ that have gone by
   double origin_ = 0.0;    ///< of the samples' time, in now_'s
   double interval_ = 10.0;
-  double caught_up_at_ = 0.0;  ///< in now_'s periods, after a gap
-  Knot state_;                 ///< now
-  Knot from_;                  ///< the quintic's begin ...
-  Knot to_;                    ///< ... and end, on the motion of ...
-  Knot anchor_;                ///< ... this sample
-  int contradictions_ = 0;
+  double caught_up_at_ = 0.0;      ///< in now_'s periods, after a gap
+  Knot state_;                     ///< now
+  Knot from_;                      ///< the quintic's begin ...
+  Knot to_;                        ///< ... and end, on the motion of ...
+  Knot anchor_;                    ///< ... this sample
+  int contradictions_ = 0;         ///< samples that contradict, less those that do not
+  double contradicts_from_ = 0.0;  ///< instant of the first of them
   bool ended_ = false;
 };
 

@@ -44,7 +44,7 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
          << "), which ended this stream of setpoints; begin a new one once it holds";
   else if (reply.reason == Reason::kFarFromJoint)
     text << ": the stream begins " << value << " rad from where the joint is to be, at most " << limit
-         << " rad are allowed (joint.limits.following_error_rad): move there before, or set approach";
+         << " rad are allowed (joint.limits.following_error_rad): move there before, or set approach = 1";
   else if (kind == OrderKind::kUseTable)
     text << ": by the table's torque_limit_Nm the joint may carry " << value << " N.m, less than the "
          << limit << " N.m that it carries; at least that is allowed while it holds: disable it first, "

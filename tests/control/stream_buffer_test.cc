@@ -212,6 +212,52 @@ TEST(StreamBuffer, EndsWhereVelocitiesContradictThePositions) {
     EXPECT_GT(samples_until_contradiction([&](double v) { return wrong * v; }), 0) << wrong;
 }
 
+TEST(StreamBuffer, UsesNoDerivativesThatAreNotAnnounced) {
+  StreamBuffer buffer = begun();
+  for (int k = 0; k < 1000; ++k) {
+    if (k % 10 == 0) buffer.take(stamped({0.0, 4.0, 50.0, 0}, 20), kReach);
+    EXPECT_EQ(buffer.step().position_rad, 0.0);
+  }
+}
+
+// The sender stalls and then sends at once what it missed, each stamped with when it was sent.
+TEST(StreamBuffer, GoesOnWhereASenderStallsAndCatchesUp) {
+  for (const int every : {2, 10, 20, 50})
+    for (const int stall : {20, 60, 150, 300}) {
+      StreamBuffer buffer = begun();
+      int due = 0;
+      for (int k = 0; k < 2000; ++k) {
+        const bool stalls = k >= 900 && k < 900 + stall;
+        for (; !stalls && due <= k; due += every) {
+          StreamSample sample = sent(sine(kPeriod_s * due, 1), k);
+          sample.sent_us += due % 100;  // one after the other
+          if (buffer.ended()) buffer.resume(0.0, 0.0, {});
+          EXPECT_NE(buffer.take(sample, kReach), SampleFate::kVelocitiesContradict) << every << ", " << stall;
+        }
+        buffer.step();
+      }
+    }
+}
+
+TEST(StreamBuffer, FollowsThePositionsUntilContradictingVelocitiesEndIt) {
+  for (const int every : {5, 10, 20, 50})
+    for (const double wrong : {180.0 / std::numbers::pi, -1.0, 0.0}) {
+      StreamBuffer buffer = begun(0.0, 0.5 * kOmega_rad_s);
+      double fastest_rad_s = 0.0;
+      SampleFate fate = SampleFate::kInTime;
+      for (int k = 0; k < 500 && fate != SampleFate::kVelocitiesContradict; ++k) {
+        if (k % every == 0) {
+          StreamSample sample = stamped(sine(kPeriod_s * (k + 60), 1), 60);
+          if (k >= 100) sample.velocity_rad_s *= wrong;
+          fate = buffer.take(sample, kReach);
+        }
+        fastest_rad_s = std::max(fastest_rad_s, std::abs(buffer.step().next_velocity_rad_s));
+      }
+      EXPECT_EQ(fate, SampleFate::kVelocitiesContradict) << every << ", " << wrong;
+      EXPECT_LT(fastest_rad_s, 1.5 * 0.5 * kOmega_rad_s) << every << ", " << wrong;
+    }
+}
+
 TEST(StreamBuffer, GoesOnWhereVelocitiesAreALittleOff) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 0.02);

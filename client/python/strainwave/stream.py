@@ -49,7 +49,9 @@ class Stream:
         self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
         self._speed_limit_rad_s = speed_limit_rad_s
-        self._approach = bool(approach)
+        if not isinstance(approach, bool):
+            raise InvalidInput(f"{joint.name}: approach = {shown(approach)}: True or False is allowed")
+        self._approach = approach
         if beside is not None and not isinstance(beside, Stream):
             raise InvalidInput(f"{joint.name}: beside = {shown(beside)}: a Stream is allowed, of another joint's stream()")
         if beside is not None:
