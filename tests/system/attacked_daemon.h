@@ -95,7 +95,8 @@ class AttackedDaemon : public DaemonTest {
   }
 
   /// The loop went round all the time, tracking as ever.
-  static constexpr double kLearned_rad = 0.3 * kCount_rad;  ///< what a joint that learns differs from one ride to the next
+  static constexpr double kLearned_rad =
+      0.3 * kCount_rad;  ///< what a joint that learns differs from one ride to the next
   static void expect_undisturbed(const LoopObserver::Summary& attacked, const LoopObserver::Summary& calm,
                                  double duration_s) {
     EXPECT_EQ(attacked.faults, 0);
