@@ -55,7 +55,8 @@ class HostileDatagrams(unittest.TestCase):
 
         class Listener:
             def hear(self, content):
-                heard.append(network.came_s)
+                if bytes(content) == b"x":  # states of the test before may still come
+                    heard.append(network.came_s)
 
         listener = Listener()
         network.listen("SW.elbow.STATE", listener.hear)
