@@ -35,8 +35,8 @@ class OscillationDetector {
   }
 
   bool oscillates() const noexcept { return oscillates_; }
-  /// Evidence: about how often per second the torque reversed twice, and how far it swung.
-  double frequency_Hz() const noexcept { return 0.5 * level_ / kMemory_s; }
+  /// Evidence: about how often per second the torque reversed, and how far it swung.
+  double reversals_per_s() const noexcept { return level_ / kMemory_s; }
   double swing_Nm() const noexcept { return swing_Nm_; }
 
  private:

@@ -14,9 +14,7 @@ namespace {
 
 // The drive's own reason behind a fault, if there is one.
 std::string drive_words(const JointConfig& joint, const LoopEvent& event) {
-  if (event.drive_error == 0 || joint.drive_error_text == nullptr ||
-      event.fault == Fault::kImplausibleReading)
-    return "";
+  if (event.drive_error == 0 || joint.drive_error_text == nullptr || has_own_finding(event.fault)) return "";
   return ": " + joint.drive_error_text(event.fault, event.drive_error);
 }
 

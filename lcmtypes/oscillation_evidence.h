@@ -19,6 +19,8 @@ struct OscillationEvidence {
   double inertia_ratio = 0.0;  ///< motions' over the configured; 0: not known
 };
 
+/// An inertia that is farther off is another one, and explains an oscillation: what the controller bears (docs/flexible-joint.md).
+inline constexpr double kInertiaApart = 0.3;
 inline constexpr double kEvidenceSwings_1_Nm = 16.0;
 inline constexpr double kEvidenceRatios = 32.0;
 

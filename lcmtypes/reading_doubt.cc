@@ -35,9 +35,8 @@ std::string doubt_words(std::int64_t number) {
 
 std::string fault_words(Fault fault, std::int64_t drive_error) {
   std::string words(to_text(fault));
-  if (drive_error <= 0 || drive_error > 0xFFFFFFFF) return words;
+  if (!has_own_finding(fault) || drive_error <= 0 || drive_error > 0xFFFFFFFF) return words;
   if (fault == Fault::kChatter) return words + ": " + evidence_words(static_cast<std::uint32_t>(drive_error));
-  if (fault != Fault::kImplausibleReading) return words;
   const std::string doubt = doubt_words(drive_error);
   return doubt.empty() ? words : words + ": " + doubt;
 }

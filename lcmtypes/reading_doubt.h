@@ -30,7 +30,13 @@ constexpr std::uint32_t doubt_number(ReadingDoubt cause, double size_rad = 0.0) 
   return static_cast<std::uint32_t>(cause) << 24U | static_cast<std::uint32_t>(size_urad);
 }
 
-/// The fault in words, for fault 26 with what was seen (lcmtypes/oscillation_evidence.h), for fault 5 with the cause: "implausible reading: the position jumped by 0.05 rad from one reading to the next".
+/// With these faults state_v1.drive_error is the daemon's own finding, with all others the drive's number.
+constexpr bool has_own_finding(Fault fault) noexcept {
+  return fault == Fault::kImplausibleReading || fault == Fault::kChatter;
+}
+
+/// The fault in words, with the daemon's own finding, of fault 26 lcmtypes/oscillation_evidence.h, of fault 5 the cause: "implausible
+/// reading: the position jumped by 0.05 rad from one reading to the next".
 std::string fault_words(Fault fault, std::int64_t drive_error);
 
 }  // namespace strainwave

@@ -229,6 +229,10 @@ std::string what_is_allowed(const PathDefect& defect) {
 
 }  // namespace
 
+PathPoint on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept {
+  return segment_between(from, to).at(time_s - from.time_s);
+}
+
 PathPoint PathReader::at(const KnotPath& path, double time_s) noexcept {
   while (segment_ + 1 < path.count && time_s >= path.knots[segment_ + 1].time_s) ++segment_;
   if (segment_ + 1 >= path.count) return {path.last().position_rad, 0.0, 0.0};

@@ -40,6 +40,9 @@ struct PathPoint {
   }
 };
 
+/// The cubic (Hermite) between two knots, at an instant between theirs. Real-time safe.
+PathPoint on_cubic(const PathKnot& from, const PathKnot& to, double time_s) noexcept;
+
 struct KnotPath {
   static constexpr std::size_t kMostKnots = 320;
   std::array<PathKnot, kMostKnots> knots{};

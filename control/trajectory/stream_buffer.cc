@@ -96,8 +96,7 @@ bool StreamBuffer::is_new_place(const Knot& knot) const noexcept {
   if (two == nullptr || seconds(one->at - two->at) > kLongest_s) return false;
   const double before_s = seconds(one->at - two->at);
   const double before_rad_s = (one->state.position_rad - two->state.position_rad) / before_s;
-  const double least_rad_s2 = std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
-  return std::abs(speed_rad_s - before_rad_s) > kNewPlace * least_rad_s2 * 0.5 * (apart_s + before_s);
+  return std::abs(speed_rad_s - before_rad_s) > kNewPlace * reach_rad_s2() * 0.5 * (apart_s + before_s);
 }
 
 bool StreamBuffer::contradicts(const Knot& before, const Knot& knot) const noexcept {
@@ -205,8 +204,7 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
     state.jerk_rad_s3 = first;
   }
   state.velocity_rad_s = std::clamp(state.velocity_rad_s, -reach_.velocity_rad_s, reach_.velocity_rad_s);
-  const double most_rad_s2 = std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
-  state.acceleration_rad_s2 = std::clamp(state.acceleration_rad_s2, -most_rad_s2, most_rad_s2);
+  state.acceleration_rad_s2 = std::clamp(state.acceleration_rad_s2, -reach_rad_s2(), reach_rad_s2());
   return one;
 }
 
@@ -214,8 +212,7 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
 StreamBuffer::State StreamBuffer::carried(double at) const noexcept {
   const State& s = anchor_.state;
   const double interval_s = seconds(interval_);
-  const double most_rad_s2 = std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
-  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * most_rad_s2;
+  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * reach_rad_s2();
   const double jerk = smooth ? s.jerk_rad_s3 : 0.0;
   const double since_s = seconds(at - anchor_.at);
   const double t =

@@ -13,6 +13,7 @@
 //   contradiction a velocity that is not that of the positions is not used; where it goes on, the stream is to end
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -83,6 +84,10 @@ class StreamBuffer {
   void insert(Knot knot) noexcept;
   /// Now, in the time of the samples.
   double play() const noexcept { return now_ + lead_ - origin_; }
+  /// The acceleration that the joint has either way.
+  double reach_rad_s2() const noexcept {
+    return std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
+  }
   double seconds(double periods) const noexcept { return periods * config_.period_s; }
   std::size_t first_from(double at) const noexcept;
   void lead_on() noexcept;

@@ -43,13 +43,10 @@ SampleFate Trajectory::follow(const StreamSample& sample, bool begins, double le
 void Trajectory::follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
                              const PositionRange& range) noexcept {
   range_ = range;
-  if (source_ != Source::kPath) {
-    on_path_rad_ = shaper_.position_rad();
-    on_path_rad_s_ = shaper_.velocity_rad_s();
-  }
+  if (source_ != Source::kPath) on_path_ = {shaper_.position_rad(), shaper_.velocity_rad_s(), 0.0};
   source_ = Source::kPath;
   sample_rad_ = position_rad;
-  path_ = {position_rad, velocity_rad_s, static_cast<double>(in_periods)};
+  path_to_ = {config_.period_s * static_cast<double>(in_periods), position_rad, velocity_rad_s};
 }
 
 void Trajectory::stop() noexcept {
@@ -77,23 +74,15 @@ bool Trajectory::flickers(const MovingTarget& target) const noexcept {
          std::abs(target.next_position_rad - shaper_.position_rad()) <= kFlickerCounts * config_.count_rad;
 }
 
-// Along the cubic (Hermite) to the path's next point; where that is over the path rests at it.
+// Along the cubic to the path's next knot; where that is over the path rests at it.
 MovingTarget Trajectory::next_on_path() noexcept {
-  MovingTarget target{on_path_rad_, on_path_rad_s_, path_.to_rad, path_.periods > 0.0 ? path_.to_rad_s : 0.0};
-  if (path_.periods > 1.0) {
-    const double duration_s = path_.periods * config_.period_s;
-    const double s = 1.0 / path_.periods;
-    const double way = path_.to_rad - on_path_rad_;
-    const double c1 = duration_s * on_path_rad_s_;
-    const double c2 = 3.0 * way - 2.0 * c1 - duration_s * path_.to_rad_s;
-    const double c3 = way - c1 - c2;
-    target.next_position_rad = on_path_rad_ + s * (c1 + s * (c2 + s * c3));
-    target.next_velocity_rad_s = (c1 + s * (2.0 * c2 + s * 3.0 * c3)) / duration_s;
-  }
-  path_.periods = std::max(0.0, path_.periods - 1.0);
-  on_path_rad_ = target.next_position_rad;
-  on_path_rad_s_ = target.next_velocity_rad_s;
-  return target;
+  const PathKnot now{0.0, on_path_.position_rad, on_path_.velocity_rad_s};
+  const PathKnot& to = path_to_;
+  PathPoint next{to.position_rad, to.time_s > 0.5 * config_.period_s ? to.velocity_rad_s : 0.0, 0.0};
+  if (to.time_s > 1.5 * config_.period_s) next = on_cubic(now, to, config_.period_s);
+  path_to_.time_s = std::max(0.0, to.time_s - config_.period_s);
+  on_path_ = next;
+  return {now.position_rad, now.velocity_rad_s, next.position_rad, next.velocity_rad_s};
 }
 
 Reference Trajectory::step(const MotionLimits& limits) noexcept {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "control/trajectory/knot_path.h"
 #include "control/trajectory/reference_shaper.h"
 #include "control/trajectory/stream_buffer.h"
 
@@ -57,13 +58,6 @@ class Trajectory {
 
  private:
   enum class Source { kMove, kStream, kPath };
-  /// The path until its next point.
-  struct PathSegment {
-    double to_rad = 0.0;
-    double to_rad_s = 0.0;
-    double periods = 0.0;  ///< left
-  };
-
   bool flickers(const MovingTarget& target) const noexcept;
   MovingTarget next_on_path() noexcept;
 
@@ -74,9 +68,8 @@ class Trajectory {
   ToldLoad load_;
   double sample_rad_ = 0.0;
   Source source_ = Source::kMove;
-  PathSegment path_;
-  double on_path_rad_ = 0.0;
-  double on_path_rad_s_ = 0.0;
+  PathPoint on_path_;  ///< now
+  PathKnot path_to_;   ///< its next knot, from now
 };
 
 }  // namespace strainwave

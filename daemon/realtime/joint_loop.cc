@@ -208,9 +208,10 @@ void JointLoop::command_drive(const CycleTime& time) noexcept {
   actuator_->write({mode_.controlled() ? motion_.output.torque_Nm : 0.0, wants_drive_enabled(mode())});
 }
 
-void JointLoop::latch(Fault fault, std::uint32_t drive_error, const CycleTime& time) noexcept {
+void JointLoop::raise_fault(Fault fault, const CycleTime& time,
+                            std::optional<std::uint32_t> own_finding) noexcept {
   const Mode from = mode();
-  if (!mode_.latch(fault, drive_error, time.now_ns)) return;
+  if (!mode_.latch(fault, own_finding.value_or(reading().drive_error), time.now_ns)) return;
   // Counts may be missing from now on.
   if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost ||
       fault == Fault::kDriveRestarted)

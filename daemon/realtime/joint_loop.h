@@ -67,8 +67,9 @@ class JointLoop {
 
   // Real-time thread.
   void step(const CycleTime& time) noexcept;
-  /// The fault of something outside this joint (overruns, group).
-  void raise_fault(Fault fault, const CycleTime& time) noexcept { latch(fault, reading().drive_error, time); }
+  /// Its own, or of something outside this joint (overruns, group); with the drive's number, or what the daemon found itself.
+  void raise_fault(Fault fault, const CycleTime& time,
+                   std::optional<std::uint32_t> own_finding = {}) noexcept;
   /// Zero torque and disable, at once; the last act of the loop.
   void stop_drive() noexcept { actuator_->stop(); }
   /// The loop ends: the joint comes to rest, and from now on every order that could set it moving is refused. May be repeated.
@@ -165,7 +166,6 @@ class JointLoop {
   void refuse_torque_into_limit_switch() noexcept;
   void note_limits(const JointMeasurement& measurement) noexcept;
   bool change_mode(ModeEvent event, const CycleTime& time) noexcept;
-  void latch(Fault fault, std::uint32_t drive_error, const CycleTime& time) noexcept;
   void raise_oscillation(const CycleTime& time) noexcept;
   void mode_changed(Mode from, const CycleTime& time) noexcept;
   void notice(Notice notice) noexcept { notices_ |= static_cast<std::int32_t>(notice); }

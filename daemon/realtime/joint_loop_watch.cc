@@ -10,8 +10,7 @@ namespace {
 
 /// A speed this close to its limit is at it.
 constexpr double kAtLimit = 1.0 - 1e-9;
-/// Another inertia than it is told: what studies show that the controller bears (docs/flexible-joint.md), and what the estimate may be off by.
-constexpr double kOtherInertia = 0.3;
+/// Of the estimated inertia, beside kInertiaApart.
 constexpr double kCertainDeviations = 3.0;
 
 }  // namespace
@@ -30,7 +29,7 @@ bool JointLoop::shows_other_inertia() const noexcept {
   const std::optional<double> shown_kgm2 = inertia_.inertia_kgm2();
   const double told_kgm2 = controller_.loaded_model().inertia_kgm2;
   return shown_kgm2 && std::abs(*shown_kgm2 - told_kgm2) >
-                           kOtherInertia * told_kgm2 + kCertainDeviations * inertia_.deviation_kgm2();
+                           kInertiaApart * told_kgm2 + kCertainDeviations * inertia_.deviation_kgm2();
 }
 
 void JointLoop::note_limits(const JointMeasurement& measurement) noexcept {
@@ -53,8 +52,8 @@ void JointLoop::raise_oscillation(const CycleTime& time) noexcept {
   const OscillationDetector& seen = controller_.oscillation();
   const double configured_kgm2 = controller_.loaded_model().inertia_kgm2;
   const double shown_kgm2 = inertia_.inertia_kgm2().value_or(0.0);
-  latch(Fault::kChatter,
-        evidence_number({2.0 * seen.frequency_Hz(), seen.swing_Nm(), shown_kgm2 / configured_kgm2}), time);
+  raise_fault(Fault::kChatter, time,
+              evidence_number({seen.reversals_per_s(), seen.swing_Nm(), shown_kgm2 / configured_kgm2}));
 }
 
 void JointLoop::check_motion(const CycleTime& time) noexcept {

@@ -24,7 +24,7 @@ TEST(OscillationDetector, TellsAHundredReversalsPerSecondWithinHalfASecondUntilI
   EXPECT_TRUE(detector.oscillates());
   detector.reset();
   EXPECT_FALSE(detector.oscillates());
-  EXPECT_EQ(detector.frequency_Hz(), 0.0);
+  EXPECT_EQ(detector.reversals_per_s(), 0.0);
 }
 
 TEST(OscillationDetector, TakesASlowReversalForNone) {
@@ -45,9 +45,9 @@ TEST(OscillationDetector, TakesSwingsWithinTheLimitAndATorqueOfOneSideForNoise) 
   swing(small, kLimit_Nm, 5, 5000);
   for (int k = 0; k < 5000; ++k) one_sided.step(k / 5 % 2 == 0 ? 3.0 : 0.0, 0.0, kLimit_Nm, 1);
   EXPECT_FALSE(small.oscillates());
-  EXPECT_EQ(small.frequency_Hz(), 0.0);
+  EXPECT_EQ(small.reversals_per_s(), 0.0);
   EXPECT_FALSE(one_sided.oscillates());
-  EXPECT_EQ(one_sided.frequency_Hz(), 0.0);
+  EXPECT_EQ(one_sided.reversals_per_s(), 0.0);
 }
 
 }  // namespace

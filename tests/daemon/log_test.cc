@@ -103,5 +103,23 @@ TEST(LoopLog, NamesTheLoadThatAJointYieldedToWhatIsAllowedAndWhere) {
             "<3>elbow: fault 24: load too large, see joint.limits.load_Nm (was tracking, cycle 81234)\n");
 }
 
+TEST(LoopLog, TakesTheDaemonsOwnFindingForNoNumberOfTheDrive) {
+  JointConfig joint;
+  joint.name = "elbow";
+  joint.drive_error_text = [](Fault, std::uint32_t) { return std::string("the drive's words"); };
+  for (const Fault fault : {Fault::kImplausibleReading, Fault::kChatter}) {
+    LoopEvent event;
+    event.to = Mode::kFaulted;
+    event.fault = fault;
+    event.drive_error = 0x01002003;
+    EXPECT_EQ(logged([&] { log_loop_event(joint, event); }).find("the drive's words"), std::string::npos);
+  }
+  LoopEvent event;
+  event.to = Mode::kFaulted;
+  event.fault = Fault::kDriveFault;
+  event.drive_error = 1;
+  EXPECT_NE(logged([&] { log_loop_event(joint, event); }).find("the drive's words"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace strainwave

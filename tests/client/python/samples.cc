@@ -17,6 +17,8 @@
 #include <string>
 
 #include "client/link/sender.h"
+#include "lcmtypes/oscillation_evidence.h"
+#include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/signing.h"
 #include "lcmtypes/wire.h"
 
@@ -36,6 +38,13 @@ void print_counting(const std::string& name) {
   std::vector<std::uint8_t> bytes = encode(Message{});
   for (std::size_t i = 8; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i % 120 + 1);
   print(name, encode(*decode_exactly<Message>(bytes)));
+}
+
+/// fault_FAULT_DRIVE-ERROR: the words that tell of it.
+void print_words(Fault fault, std::uint32_t drive_error) {
+  const std::string words = fault_words(fault, drive_error);
+  print("fault_" + std::to_string(static_cast<int>(fault)) + "_" + std::to_string(drive_error),
+        {reinterpret_cast<const std::uint8_t*>(words.data()), words.size()});
 }
 
 setpoint_v2 setpoint() {
@@ -74,6 +83,12 @@ int main() {
   print_counting<state_v1>("state_v1");
   print_counting<temperature_v1>("temperature_v1");
   print_counting<timing_v1>("timing_v1");
+  for (const ReadingDoubt doubt : {ReadingDoubt::kJump, ReadingDoubt::kStuck, ReadingDoubt::kCountsMissing})
+    for (const double size_rad : {2e-5, 0.05, 1e9})
+      print_words(Fault::kImplausibleReading, doubt_number(doubt, size_rad));
+  for (const double ratio : {0.0, 0.5, 0.75, 1.0, 1.25, 1.5, 9.0})
+    print_words(Fault::kChatter, evidence_number({31.4, 20.3, ratio}));
+  print_words(Fault::kDriveFault, 0x1234);
   SecretKey::Seed seed{};
   for (std::size_t i = 0; i < seed.size(); ++i) seed[i] = static_cast<std::uint8_t>(i);
   const SecretKey key(seed);

@@ -133,6 +133,13 @@ class Vocabulary(unittest.TestCase):
         header = (SOURCE / "lcmtypes/stream_validity.h").read_text()
         self.assertEqual(stream.LONGEST_VALID_FOR_S, float(re.search(r"kLongestValidFor_s = ([\d.]+);", header)[1]))
 
+    def test_tells_of_faults_in_the_words_of_cpp(self):
+        faults = [name for name in SAMPLES if name.startswith("fault_")]
+        self.assertGreater(len(faults), 10)
+        for name in faults:
+            _, fault, drive_error = name.split("_")
+            self.assertEqual(vocabulary.fault_words(vocabulary.Fault(int(fault)), int(drive_error)), sample(name).decode(), name)
+
     def test_takes_numbers_of_a_newer_daemon(self):
         self.assertEqual((int(vocabulary.Reason(77)), f"{vocabulary.Reason(77)}"), (77, "unknown"))
         self.assertEqual(vocabulary.Notice(1 | 1 << 30).texts, ["torque limited", "unknown"])
