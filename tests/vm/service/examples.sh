@@ -1,5 +1,5 @@
 #!/bin/bash
-# What README and pages tell the operator of a machine with packages, command by command, as the pages have it. The machine
+# What the pages tell the operator of a machine with packages, command by command, as the pages have it. The machine
 # knows nothing of Strainwave before.
 . ./service.sh
 sudo() { "$@"; }
@@ -19,15 +19,11 @@ page() {
   cat /tmp/output
   echo "      $(($(date +%s) - start)) s of the machine's time"
 }
-page README
-must "after README.md the joint is where it was sent" wait_for 5 is_near 0.5
-systemctl disable --now strainwaved
-dpkg -r strainwave >/dev/null 2>&1
-page quick-start
-must_not "after quick-start.md nothing runs" pgrep strainwave
+page installation
+must_not "after installation.md nothing runs" pgrep strainwave
 systemctl start strainwaved
 for name in *.sh; do
   name=${name%.sh}
-  case $name in examples | service | README | quick-start) ;; *) page "$name" ;; esac
+  case $name in examples | service | installation) ;; *) page "$name" ;; esac
 done
 finish
