@@ -195,7 +195,7 @@ std::string_view to_text(Reason reason) noexcept {
     case Reason::kTooOld:
       return "order is too old";
     case Reason::kNotOwner:
-      return "somebody else has the joint";
+      return "another client has the joint";
     case Reason::kFarFromJoint:
       return "stream begins far from the joint";
     case Reason::kVelocitiesContradict:

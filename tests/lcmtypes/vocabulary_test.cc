@@ -106,7 +106,7 @@ constexpr Word<Reason> kReasons[] = {
     {28, Reason::kNoHoming, "no homing configured"},
     {29, Reason::kEnding, "daemon is ending"},
     {30, Reason::kTooOld, "order is too old"},
-    {31, Reason::kNotOwner, "somebody else has the joint"},
+    {31, Reason::kNotOwner, "another client has the joint"},
     {32, Reason::kFarFromJoint, "stream begins far from the joint"},
     {33, Reason::kVelocitiesContradict, "velocities contradict positions"}};
 

@@ -111,7 +111,7 @@ class Reason(_Word):
     NO_HOMING = 28, "no homing configured"
     ENDING = 29, "daemon is ending"
     TOO_OLD = 30, "order is too old"
-    NOT_OWNER = 31, "somebody else has the joint"
+    NOT_OWNER = 31, "another client has the joint"
     FAR_FROM_JOINT = 32, "stream begins far from the joint"
     VELOCITIES_CONTRADICT = 33, "velocities contradict positions"
 
