@@ -1,4 +1,4 @@
-// A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths". Not real-time.
+// A path: a motion of one or several joints of a daemon that is checked before it begins. docs/streams.md, "Paths". Not real-time.
 //
 //     strainwave::Path path({{elbow, {{0, 0, 0}, {0.5, 0.2, 0.6}, {1, 0.4, 0}}}, {wrist, {{0, 0, 0}, {1, -0.2, 0}}}});
 //     path.start();

@@ -1,4 +1,4 @@
-// A stream of setpoints: where a joint shall be at which time. docs/messages.md, "Streams". Not real-time.
+// A stream of setpoints: where a joint shall be at which time. docs/streams.md. Not real-time.
 #pragma once
 
 #include <cstdint>

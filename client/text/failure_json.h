@@ -4,7 +4,7 @@
 //   exit_status  the program's
 //   command      of the command line, if one was understood
 //   joint        whose it is; or joints, all that the command line names
-//   reason, reason_text, fault, fault_text   the daemon's, see docs/messages.md
+//   reason, reason_text, fault, fault_text   the daemon's, see docs/commands.md
 //   yield_load_Nm, yield_limit_Nm, yield_position_rad   of a joint that yielded, as in its state
 //   key, given, allowed   where the text has the form "key = given: ... allowed" (or "... is allowed"): its parts;
 //                         of a path's knot the key is its limit's

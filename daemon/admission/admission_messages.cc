@@ -198,7 +198,7 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
                   "action = " + std::to_string(command->action) + ": from " +
                       std::to_string(static_cast<int>(Action::kEnable)) + " to " +
                       std::to_string(static_cast<int>(Action::kResumeLearning)) +
-                      " is allowed, see docs/messages.md");
+                      " is allowed, see docs/commands.md");
   if (action == Action::kPause || action == Action::kResume)
     if (auto verdict = check_path_owner(requester)) return std::move(*verdict);
   Verdict verdict = pass(requester, *kind, command->challenge);

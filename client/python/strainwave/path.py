@@ -1,4 +1,4 @@
-"""A path: a motion of one or several joints of a daemon that is checked before it begins. docs/messages.md, "Paths"."""
+"""A path: a motion of one or several joints of a daemon that is checked before it begins. docs/streams.md, "Paths"."""
 import math
 from collections.abc import Iterable, Mapping, Sized
 

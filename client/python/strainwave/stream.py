@@ -1,4 +1,4 @@
-"""A stream of setpoints: where the joint shall be at which time. docs/messages.md, "Streams"."""
+"""A stream of setpoints: where the joint shall be at which time. docs/streams.md."""
 import math
 
 from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, shown

@@ -214,7 +214,7 @@ TEST(InfeasibleStreams, AreFollowedByARigidJointWithinItsLimitsAndSayTheyAreOff)
 }
 
 // The setpoint is the motor's there, ahead of the link by the wind-up: faster than the link's limit by Jl 2 A / (tau K), 1 rad/s for all of the
-// acceleration from one limit to the other (docs/messages.md).
+// acceleration from one limit to the other (docs/streams.md).
 TEST(InfeasibleStreams, AreFollowedByAJointThatIsToldOfItsSpring) {
   int rides = 0;
   for (const Shape& shape : shapes())
