@@ -1,5 +1,5 @@
 // A joint of a Strainwave daemon, for programs of users: orders that are signed, acknowledged and repeated, streams of setpoints, states
-// with names and units. docs/cpp.md has programs of ten lines. Not real-time: every call may wait, at most `timeout_s` for one answer.
+// with names and units. docs/client.md has programs of ten lines. Not real-time: every call may wait, at most `timeout_s` for one answer.
 //
 //     strainwave::Joint joint{"elbow", {.key = "~/.strainwave-key"}};
 //     joint.enable();

@@ -8,7 +8,7 @@
 All that fails is a StrainwaveError: InvalidInput (refused here), NoAnswer (silence), Refused (by the daemon, with its reason), Faulted,
 NotDone (accepted, but it did not come to its end) and Yielded (a NotDone: to a load). Each says what was given, what is allowed and what to do.
 
-Pure Python; signing needs libsodium. docs/python.md has examples, docs/messages.md every field. The message types (state_v1, ...) are
+Pure Python; signing needs libsodium. docs/client.md has examples, docs/messages.md every field. The message types (state_v1, ...) are
 those that lcm-gen makes, for programs that speak LCM themselves.
 """
 # The types first: they look for each other here.

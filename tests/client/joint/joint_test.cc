@@ -1,4 +1,4 @@
-// libstrainwave-client before a daemon of the test's own, over a real network. What it does with strainwaved, docs/cpp.md shows.
+// libstrainwave-client before a daemon of the test's own, over a real network. What it does with strainwaved, docs/client.md shows.
 #include "client/joint/joint.h"
 
 #include <gtest/gtest.h>

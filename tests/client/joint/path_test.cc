@@ -1,4 +1,4 @@
-// Paths of libstrainwave-client before a daemon of the test's own. What they do with strainwaved, docs/cpp.md shows.
+// Paths of libstrainwave-client before a daemon of the test's own. What they do with strainwaved, docs/client.md shows.
 #include "client/joint/path.h"
 
 #include <gtest/gtest.h>
