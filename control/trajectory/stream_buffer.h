@@ -7,8 +7,8 @@
 //                 acceleration have no step, whatever arrives. Planned anew with every sample
 //   derivatives   not sent: of the polynomial through the sample that fits its neighbours best, before and after it
 //   no sample     the motion goes on with its acceleration for some intervals, then with its velocity, `bridge_s` or two
-//                 intervals, whichever is longer, and half an interval; 0.2 s at most. Then the stream has ended: the joint is to come to rest. A target that
-//                 stands still stays where it is
+//                 intervals, whichever is longer, and half an interval; 0.2 s at most. Then the stream has ended: the joint is to come to
+//                 rest. A target that stands still stays where it is
 //   a gap         is caught up with in the time that was missed, 0.2 s at most
 //   new place     a sample that needs twice the joint's speed or acceleration is no part of a motion: the target is there, at rest
 //   contradiction a velocity that is not that of the positions is not used; where it goes on, the stream is to end
