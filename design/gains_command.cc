@@ -13,6 +13,7 @@
 #include "control/joint/gear_catalogue.h"
 #include "control/joint/joint_catalogue.h"
 #include "control/table/gain_table_json.h"
+#include "control/table/rigid_loop.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
@@ -178,6 +179,8 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
     if (options.controller == "all") path /= "c" + label.substr(1) + ".json";
     if (!joint.spring) {
       tables.emplace_back(path, design_table(controller, request));
+      if (request.design.sampling != Sampling::kZeroOrderHold) continue;
+      if (const auto swing = find_swing(tables.back().second, 0, kMaxBoxDelay)) throw InputError(*swing);
       continue;
     }
     const SpringDesign found = design_on_spring(controller, request, options.gear, *joint.spring);

@@ -7,6 +7,7 @@
 #include "control/table/box_certificate.h"
 #include "control/table/certificate.h"
 #include "control/table/gain_table_json.h"
+#include "control/table/rigid_loop.h"
 #include "design/commands.h"
 #include "design/joint_defaults.h"
 #include "design/spring_options.h"
@@ -71,6 +72,11 @@ ExitStatus verify(const VerifyOptions& options) {
     const CertificateReport report = certify(*gains, table.plant, table.friction);
     certified = certified && report.certified;
     std::fputs(margins_text(*gains, report).c_str(), stdout);
+  }
+  if (table.box.rigid() && table.provenance.sampling == Sampling::kZeroOrderHold) {
+    const std::optional<std::string> swing = find_swing(table, 0, kMaxBoxDelay);
+    certified = certified && !swing;
+    if (swing) std::printf("delay: NOT CERTIFIED: %s\n", swing->c_str());
   }
   if (!table.box.rigid()) {
     const BoxReport report = certify_box(table);

@@ -220,12 +220,10 @@ SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const
   return proof.report();
 }
 
-double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
-  const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
-  const ProofMatrix H = spring_loop(sampled, gain, loop).value;
-  if (!H.allFinite()) return std::numeric_limits<double>::infinity();
+double spectral_radius(const ProofMatrix& matrix) {
+  if (!matrix.allFinite()) return std::numeric_limits<double>::infinity();
   // Gelfand: the limit of |H^n|^(1/n), n = 2^k. Compiling Eigen's solver takes ten seconds.
-  ProofMatrix power = H;
+  ProofMatrix power = matrix;
   double log_radius = 0.0;
   for (double share = 1.0; share > kSmallestShare; share *= 0.5) {
     const double norm = power.cwiseAbs().maxCoeff();
@@ -235,6 +233,11 @@ double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const S
     power = power.lazyProduct(power).eval();
   }
   return std::exp(log_radius);
+}
+
+double spring_loop_radius(const SpringPlant& plant, const GainRow& gain, const SpringLoop& loop) {
+  const BoundedMatrix sampled = spring_exponential(spring_generator(plant, loop.period_s));
+  return spectral_radius(spring_loop(sampled, gain, loop).value);
 }
 
 WorstCorner worst_corner(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop) {

@@ -15,6 +15,7 @@
 #include "control/joint/joint_catalogue.h"
 #include "control/table/box_certificate.h"
 #include "control/table/certificate.h"
+#include "control/table/rigid_loop.h"
 #include "control/table/spring_certificate.h"
 #include "lcmtypes/gain_table_message.h"
 #include "lcmtypes/wire.h"
@@ -84,6 +85,13 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
        << " --delay " << joint.delay_periods;
   if (joint.link->damping_Nms_rad > 0.0) text << " --damping_Nms_rad " << joint.link->damping_Nms_rad;
   return {Reason::kTableNotCertified, text.str()};
+}
+
+// On a rigid joint: with the delay that it has, and one period more.
+TableVerdict judge_rigid(const GainTable& table, const ExpectedJoint& joint) {
+  if (const auto swing = find_swing(table, joint.delay_periods, joint.delay_periods + 1))
+    return {Reason::kTableNotCertified, *swing};
+  return {};
 }
 
 // Whether the joint is one of those that the table is for.
@@ -170,10 +178,8 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   if (primary.reason != Reason::kAccepted) return primary;
   TableVerdict fallback = judge_gains("fallback", table.fallback, plant, table.friction);
   if (fallback.reason != Reason::kAccepted) return fallback;
-  if (joint.link) {
-    TableVerdict spring = judge_on_spring(table, joint);
-    if (spring.reason != Reason::kAccepted) return spring;
-  }
+  TableVerdict loop = joint.link ? judge_on_spring(table, joint) : judge_rigid(table, joint);
+  if (loop.reason != Reason::kAccepted) return loop;
   primary.text += which_torque_limit_holds(table, joint.torque_limit_Nm);
   return primary;
 }

@@ -42,6 +42,17 @@ class DesignProgram : public ::testing::Test {
   std::string output_;
 };
 
+TEST_F(DesignProgram, RefusesGainsThatSwingUpWithTheDelayOfADrive) {
+  EXPECT_NE(run("gains --friction " + kData +
+                "tables/rhs17-6006-friction.json --weights 0.1,1,1e-4,1e-9 --out " + file("stiff.json")),
+            0);
+  EXPECT_NE(output_.find("limit cycle at a delay of 1 periods"), std::string::npos) << output_;
+  EXPECT_FALSE(std::filesystem::exists(file("stiff.json")));
+  EXPECT_EQ(run("verify " STRAINWAVE_SOURCE_DIR "/tests/daemon/admission/stiff_without_delay.json"), 1);
+  EXPECT_NE(output_.find("delay: NOT CERTIFIED"), std::string::npos) << output_;
+  EXPECT_EQ(run("verify " + kData + "tables/rhs17-6006.json"), 0) << output_;
+}
+
 TEST_F(DesignProgram, VerifiesATableOnAJointWithASpring) {
   const std::string command = "verify " + kData + "tables/total-0.178/c4.json --motor-inertia_kgm2 0.089 ";
   EXPECT_EQ(run(command + "--gear csf-17-50 --load-inertia_kgm2 0.085..0.093"), 0) << output_;

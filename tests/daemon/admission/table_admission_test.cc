@@ -77,6 +77,15 @@ TEST_F(TableAdmission, RefusesTheSourcesTablesWhateverTheySayOfTheirSampling) {
   EXPECT_EQ(judge(), Reason::kTableNotCertified);
 }
 
+// Made with `gains --weights 0.1,1,1e-4,1e-9` before that command knew of delay: its eigenvalue at one period of delay is 1.105.
+TEST_F(TableAdmission, RefusesGainsThatAreCertifiedButMakeALimitCycleWithDelay) {
+  table_ = read_gain_table(STRAINWAVE_SOURCE_DIR "/tests/daemon/admission/stiff_without_delay.json");
+  ASSERT_EQ(find_defect(table_), std::nullopt);
+  const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, 1});
+  EXPECT_EQ(verdict.reason, Reason::kTableNotCertified);
+  EXPECT_NE(verdict.text.find("limit cycle at a delay of 1 periods"), std::string::npos) << verdict.text;
+}
+
 TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
   for (TemperatureRule& rule : table_.friction.rules) {
     rule.friction.static_Nm *= 1000.0;
