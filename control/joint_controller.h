@@ -2,32 +2,27 @@
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Only the constructor is not: it solves for a
 // regulator (control/joint/link_model.h). Joint side, SI.
 //
-//   trajectory   p, v, a of the link at the instant at which the torque of now acts      (control/trajectory/trajectory.h)
-//   plan         thm*, wm*, T* of the motor, by the gear's spring                        (control/trajectory/motor_plan.h)
+//   plan         thm*, wm*, T* of the motor, by trajectory and gear                      (control/joint_plan.h)
 //   friction     F(wm*, T) = sum_i w_i(T) (1 + s_i) F_i(wm*)                             (control/friction/friction_learning.h)
 //   law          u = k(T, w) [ integral e, e, e' ],   e = reading - plan                 (control/scheduled_controller.h)
 //   torque       T* + F + load + u, limited
 //   learning     s_i and load from u, while the plan moves and the torque is not limited
 //   rest         within a count of its place: the torque that holds; else a small motion (control/rest_corrections.h)
 //
-// A torque that is spent slows the motion down: the plan's accelerations fall while the torque is limited. A joint that oscillates is told by
-// its torque (control/oscillation_detector.h).
+// A joint that oscillates shows it by its torque (control/oscillation_detector.h).
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
 #include "control/friction/friction_learning.h"
 #include "control/joint/joint_measurement.h"
 #include "control/joint/joint_model.h"
 #include "control/joint_controller_config.h"
+#include "control/joint_plan.h"
 #include "control/law_in_use.h"
 #include "control/oscillation_detector.h"
-#include "control/rest_corrections.h"
 #include "control/table/gain_table.h"
 #include "control/table/gains_in_use.h"
-#include "control/trajectory/motor_plan.h"
-#include "control/trajectory/trajectory.h"
 
 namespace strainwave {
 
@@ -64,7 +59,6 @@ class JointController {
   /// Takes `table`, which must be certified for this joint and period. While running the change makes no
   /// torque step: the integral is chosen so that the torque is what the old gains would have given.
   void load(const GainTable& table) noexcept;
-  bool has_table() const noexcept { return law_.loaded(); }
 
   /// Begins when the drive becomes enabled: comes to rest from `velocity_rad_s` and holds, at rest `position_rad`.
   /// `holding_torque_Nm` is what held the load until now (of a joint that a brake held: what gravity needs), by default what gravity needs
@@ -72,98 +66,76 @@ class JointController {
   void start(double position_rad, double velocity_rad_s = 0.0,
              std::optional<double> holding_torque_Nm = {}) noexcept;
   /// Moves there, from now on; on the way no faster than `speed_limit_rad_s`, if that is above 0.
-  void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept;
+  void set_target(double position_rad, double speed_limit_rad_s = 0.0) noexcept {
+    plan_.set_target(position_rad, speed_limit_rad_s);
+  }
   /// One setpoint of a stream, which it `begins` or goes on with. Speed as above, and inside `range`. Until set_target(), stop(),
   /// start(), or the samples stop coming: then the joint decelerates to rest and holds.
   SampleFate follow(const StreamSample& sample, bool begins, double speed_limit_rad_s,
-                    const PositionRange& range) noexcept;
-  /// A path leads here in so many periods, > 0. The joint is later than this by lead_s().
+                    const PositionRange& range) noexcept {
+    return plan_.follow(sample, begins, speed_limit_rad_s, range);
+  }
+  /// A path leads here in so many periods, > 0. The joint is later than this by plan().lead_s().
   void follow_path(double position_rad, double velocity_rad_s, std::int64_t in_periods,
-                   const PositionRange& range) noexcept;
+                   const PositionRange& range) noexcept {
+    plan_.follow_path(position_rad, velocity_rad_s, in_periods, range);
+  }
   /// Decelerates to rest and holds.
-  void stop() noexcept { trajectory_.stop(); }
+  void stop() noexcept { plan_.stop(); }
   /// Lets go: until it stands, the torque is what holds `load_Nm`, gravity and what a stream says. Then it decelerates to rest and holds.
   void yield(double load_Nm) noexcept;
   bool yields() const noexcept { return phase_ == MotionPhase::kYielding; }
 
   /// So many periods, >= 1, after the last step() comes the next, which is given the same number: before samples that have come since are
   /// followed. May be left out where it is one.
-  void begin_period(std::int64_t elapsed_periods) noexcept { trajectory_.begin_period(elapsed_periods); }
+  void begin_period(std::int64_t elapsed_periods) noexcept { plan_.begin_period(elapsed_periods); }
   /// One period. Needs a table and start(); without a table the torque is 0.
   JointStep step(const JointMeasurement& measurement) noexcept;
 
-  /// The plan is so much ahead of the joint: the delay, and half of what the link's motion lasts longer. A sample that comes later than this
-  /// before its instant is late.
-  double lead_s() const noexcept;
-  const Trajectory& trajectory() const noexcept { return trajectory_; }
-  /// What the encoder reads once the joint rests at its target: a motor's is beside it by the wind-up under gravity.
-  double rest_position_rad() const noexcept;
+  /// Trajectory, plan and place.
+  const JointPlan& plan() const noexcept { return plan_; }
   /// What holds a joint at rest, before limits.
   double holding_torque_Nm() const noexcept;
   /// The joint at this temperature, with what was learned and what a stream says of its load.
-  JointModel loaded_model() const noexcept;
-  const LearnedFriction& learned() const noexcept { return friction_.learned(); }
-  /// Takes it over, at rest or at start-up, without a torque step.
-  void set_learned(const LearnedFriction& learned) noexcept { friction_.set(learned); }
-  void freeze_learning(bool frozen) noexcept { friction_.freeze(frozen); }
-  /// Friction at the present temperature over the table's.
-  double friction_factor() const noexcept { return friction_.factor(); }
+  PlannedJoint joint() const noexcept;
+  /// What was learned. It may be set and frozen at rest or at start-up, without a torque step.
+  FrictionLearning& friction() noexcept { return friction_; }
+  const FrictionLearning& friction() const noexcept { return friction_; }
   const OscillationDetector& oscillation() const noexcept { return oscillation_; }
   /// Weights of the temperature rules in use.
   const TemperatureWeights& temperature_weights() const noexcept { return law_.temperature_weights(); }
 
  private:
   // The steps of a period, in their order.
-  void choose_gains(const JointMeasurement& measurement) noexcept;
-  void go_on_from(const JointMeasurement& measurement) noexcept;
-  void advance_plan(int elapsed_periods) noexcept;
-  void keep_load() noexcept;
-  void read(const JointMeasurement& measurement) noexcept;
+  void advance_plan(const JointMeasurement& measurement) noexcept;
   void choose_phase() noexcept;
-  ControllerOutput compute_torque(int elapsed_periods) noexcept;
-  bool stands_again(int elapsed_periods) noexcept;
   void hold_again() noexcept;
+  ControllerOutput compute_torque(int elapsed_periods) noexcept;
+  ControllerOutput track(int elapsed_periods) noexcept;
   bool learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept;
   void weigh(const ControllerOutput& output, int elapsed_periods) noexcept;
   JointStep result(const ControllerOutput& output, bool learns) const noexcept;
-
-  MotionLimits present_limits() const noexcept;
-  ControllerOutput track(int elapsed_periods) noexcept;
-  ControllerOutput apply(double torque_Nm) const noexcept;
-  double planned_torque_Nm() const noexcept;
-  double planned_friction_Nm() const noexcept;
-  void begin_order(double speed_limit_rad_s) noexcept;
-  double begin_plan(double reading_rad, double velocity_rad_s) noexcept;
-  bool moves() const noexcept;
-  /// Where the encoder should be read now.
-  double place_rad() const noexcept;
-  double count_rad() const noexcept;
 
   /// What yield() began.
   struct Yielding {
     double load_Nm = 0.0;        ///< besides gravity, held
     double stands_at_rad = 0.0;  ///< about where the joint was last seen to stand
     int periods = 0;             ///< that it has stood
+    void see(double position_rad, double count_rad, int elapsed_periods) noexcept;
   };
 
   JointControllerConfig config_;
-  Trajectory trajectory_;
-  MotorPlanner planner_;
+  JointPlan plan_;
   LawInUse law_;
   FrictionLearning friction_;
   JointReading reading_;
-  RestCorrections corrections_;
   OscillationDetector oscillation_;
   JointModel model_;  ///< inertia, and the shape of friction
-  MotorPlan plan_;
-  MotionLimits motion_;  ///< the configuration's, and this order's speed
   double torque_limit_Nm_ = 0.0;
-  double pace_ = 1.0;  ///< of accelerations, in (0, 1]: falls while the torque is limited
   double hold_torque_Nm_ = 0.0;
   double shown_load_Nm_ = 0.0;
   int rest_periods_ = 0;  ///< since the plan rests
   MotionPhase phase_ = MotionPhase::kTracking;
-  bool speeds_up_ = false;  ///< the trajectory, in this period
   Yielding yielding_;
 };
 

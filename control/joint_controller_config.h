@@ -8,6 +8,7 @@
 #include "control/joint/gravity_load.h"
 #include "control/joint/link_model.h"
 #include "control/joint/motor_limits.h"
+#include "control/mechanism.h"
 #include "control/table/gain_table.h"
 #include "control/trajectory/reference_shaper.h"
 
@@ -36,6 +37,8 @@ struct JointControllerConfig {
   EncoderSide encoder_side = EncoderSide::kMotor;
   /// Of link and payload. Loads that are known otherwise come on top.
   GravityLoad gravity;
+  /// Studies alone: runs without it.
+  Mechanism without = Mechanism::kNone;
 };
 
 }  // namespace strainwave

@@ -3,16 +3,11 @@
 #include <cmath>
 
 #include "control/joint_controller.h"
-#include "control/units.h"
 
 namespace strainwave {
 
 namespace {
 
-// While a motion speeds up and the torque is limited its accelerations fall by 1/e in this time, down to the least share. With a load that is
-// 30 % heavier than configured, 1 rad at full torque, the link overshoots by 9 mrad; without it by 97 (`strainwave-sim flexible --wrong`).
-constexpr double kPace_s = 0.2;
-constexpr double kLeastPace = 0.3;
 // A reading at its place may be off by one count, and by rounding.
 constexpr double kAtPlaceCounts = 1.01;
 // A plan that has ended is held from then on.
@@ -26,147 +21,100 @@ constexpr double kStandsCounts = 3.0;
 constexpr double kSwingShare = 0.2;
 constexpr double kSwingCounts = 2.0;
 
+bool left_out(const JointMeasurement& measurement) noexcept {
+  return measurement.elapsed_periods > kMaxElapsedPeriods;
+}
+
 }  // namespace
 
-void JointController::choose_gains(const JointMeasurement& measurement) noexcept {
+JointStep JointController::step(const JointMeasurement& measurement) noexcept {
+  if (!law_.loaded()) return {};
+  const int elapsed_periods = left_out(measurement) ? 1 : std::max(1, measurement.elapsed_periods);
   std::optional<double> temperature_C;
   if (measurement.temperature_valid) temperature_C = measurement.temperature_C;
   if (law_.choose_gains(temperature_C)) friction_.weigh(law_.temperature_weights());
+  if (yields()) {
+    reading_.step(measurement, plan_.now().position_rad, plan_.now().position_rad);
+    yielding_.see(reading_.position_rad(), count_of(config_), elapsed_periods);
+    if (yielding_.periods * config_.period_s >= kStands_s) hold_again();
+  } else {
+    advance_plan(measurement);
+    reading_.step(measurement, plan_.place_before_rad(0), plan_.place_before_rad(measurement.late_periods));
+    choose_phase();
+  }
+  const ControllerOutput output = compute_torque(elapsed_periods);
+  const bool learns = learn(measurement, output);
+  weigh(output, elapsed_periods);
+  return result(output, learns);
 }
 
-// A motion over a gap in which the loop did not run: it goes on from where the joint is.
-void JointController::go_on_from(const JointMeasurement& measurement) noexcept {
-  const double passed_s = measurement.elapsed_periods * config_.period_s;
-  const bool seen = measurement.has_position;
-  const double position_rad = seen ? measurement.joint_position_rad : reading_.position_rad();
-  const double shown_rad_s = seen ? (position_rad - reading_.position_rad()) / passed_s : 0.0;
-  const double fastest = config_.motion.velocity_rad_s;
-  const double velocity_rad_s = std::clamp(shown_rad_s, -fastest, fastest);
-  law_.reference_jumps();
-  trajectory_.go_on_from(begin_plan(position_rad, velocity_rad_s), velocity_rad_s);
-  reading_.reset(position_rad, velocity_rad_s);
-}
-
-// What the joint can do at the speed that the reference has reached.
-MotionLimits JointController::present_limits() const noexcept {
-  const ToldLoad& load = trajectory_.load();
-  const double load_Nm = config_.gravity.at(plan_.link_position_rad) + load.torque_Nm + friction_.load_Nm();
-  MotionLimits limits =
-      reachable_limits(motion_, config_.motor, loaded_model(), load_Nm, torque_limit_Nm_,
-                       config_.torque_reserve, std::abs(trajectory_.velocity_rad_s()), config_.period_s);
-  limits.acceleration_rad_s2 *= pace_;
-  limits.deceleration_rad_s2 *= pace_;
-  return limits;
-}
-
-void JointController::advance_plan(int elapsed_periods) noexcept {
-  for (int period = 0; period < elapsed_periods; ++period) {
-    const double last_target_rad = trajectory_.present_target_rad();
-    const Reference planned = trajectory_.step(present_limits());
-    keep_load();
-    if (trajectory_.streamed() && trajectory_.present_target_rad() != last_target_rad) corrections_.reset();
-    speeds_up_ = planned.velocity_rad_s * planned.acceleration_rad_s2 > 0.0;
-    const ToldLoad& load = trajectory_.load();
-    const double speed_rad_s = plan_.acting_velocities_rad_s.back();
-    const double taken_Nm = sign(speed_rad_s) * loaded_model().friction_Nm(speed_rad_s) +
-                            friction_.load_Nm() + load.torque_Nm +
-                            load.inertia_kgm2 * plan_.wanted_acceleration_rad_s2;
-    const auto available_Nm = [&](double along_rad_s) {
-      return std::min(torque_limit_Nm_, config_.motor.available_Nm(along_rad_s));
-    };
-    plan_ = planner_.step(
-        planned, {-available_Nm(-speed_rad_s) - taken_Nm, available_Nm(speed_rad_s) - taken_Nm}, taken_Nm);
+// A motion over a gap in which the loop did not run goes on from where the joint is.
+void JointController::advance_plan(const JointMeasurement& measurement) noexcept {
+  if (left_out(measurement) && plan_.moves()) {
+    const double passed_s = measurement.elapsed_periods * config_.period_s;
+    const bool seen = measurement.has_position;
+    const double position_rad = seen ? measurement.joint_position_rad : reading_.position_rad();
+    const double velocity_rad_s = seen ? (position_rad - reading_.position_rad()) / passed_s : 0.0;
+    law_.reference_jumps();
+    plan_.go_on_from(position_rad, velocity_rad_s);
+    rest_periods_ = 0;
+    reading_.reset(position_rad, plan_.now().velocity_rad_s);
+  }
+  const int periods = left_out(measurement) ? 1 : std::max(1, measurement.elapsed_periods);
+  for (int period = 0; period < periods; ++period) {
+    plan_.advance(joint());
+    const double load_Nm = plan_.take_load_Nm();
+    friction_.set_load(friction_.load_Nm() + load_Nm);
+    hold_torque_Nm_ += load_Nm;
   }
 }
 
-void JointController::read(const JointMeasurement& measurement) noexcept {
-  if (yields()) return reading_.step(measurement, plan_.position_rad, plan_.position_rad);
-  const LinkState now = planner_.before(0);
-  const LinkState then = planner_.before(std::clamp(measurement.late_periods, 0, kMaxControlDelay));
-  if (config_.encoder_side == EncoderSide::kLink)
-    reading_.step(measurement, now.link_position_rad, then.link_position_rad);
-  else
-    reading_.step(measurement, now.motor_position_rad, then.motor_position_rad);
-}
-
-double JointController::place_rad() const noexcept {
-  return config_.encoder_side == EncoderSide::kLink ? plan_.link_position_rad : plan_.position_rad;
-}
-
-bool JointController::moves() const noexcept {
-  return planner_.moves() || !trajectory_.rests();
-}
-
 void JointController::choose_phase() noexcept {
-  if (moves()) {
-    corrections_.motion();
+  if (plan_.moves()) {
     rest_periods_ = 0;
     phase_ = MotionPhase::kTracking;
     return;
   }
   ++rest_periods_;
-  const double off_rad = place_rad() - reading_.position_rad();
-  const bool at_place = std::abs(off_rad) <= kAtPlaceCounts * count_rad();
-  if (corrections_.begins(off_rad, reading_.still_periods())) {
+  const double off_rad = plan_.place_rad() - reading_.position_rad();
+  const bool at_place = std::abs(off_rad) <= kAtPlaceCounts * count_of(config_);
+  if (plan_.correct(off_rad, reading_.position_rad(), reading_.still_periods())) {
     law_.reference_jumps();
-    const bool of_link = config_.encoder_side == EncoderSide::kLink;
-    const double from_rad = reading_.position_rad();
-    trajectory_.go_on_from(planner_.reset(of_link ? planner_.motor_rest_rad(from_rad) : from_rad));
-    reading_.replan(from_rad);
+    reading_.replan(reading_.position_rad());
     phase_ = MotionPhase::kTracking;
-  } else if (!at_place) {
+  } else if (!at_place || config_.without == Mechanism::kRestTorque) {
     phase_ = MotionPhase::kTracking;
   } else if (phase_ == MotionPhase::kTracking && rest_periods_ > kSettlingPeriods) {
     hold_torque_Nm_ =
-        config_.gravity.at(plan_.link_position_rad) + friction_.load_Nm() + law_.integral_torque_Nm();
+        config_.gravity.at(plan_.now().link_position_rad) + friction_.load_Nm() + law_.integral_torque_Nm();
     phase_ = MotionPhase::kResting;
   }
 }
 
 // The joint goes where it is pushed; once it stands it is held again.
-bool JointController::stands_again(int elapsed_periods) noexcept {
+void JointController::Yielding::see(double position_rad, double count_rad, int elapsed_periods) noexcept {
+  const bool moved = std::abs(position_rad - stands_at_rad) > kStandsCounts * count_rad;
+  if (moved) stands_at_rad = position_rad;
+  periods = moved ? 0 : periods + elapsed_periods;
+}
+
+// What pushed the joint has let go. The next reading is one period of this velocity farther, and so is the plan.
+void JointController::hold_again() noexcept {
   const double position_rad = reading_.position_rad();
-  const bool moved = std::abs(position_rad - yielding_.stands_at_rad) > kStandsCounts * count_rad();
-  if (moved) yielding_.stands_at_rad = position_rad;
-  yielding_.periods = moved ? 0 : yielding_.periods + elapsed_periods;
-  return yielding_.periods * config_.period_s >= kStands_s;
+  start(position_rad, reading_.velocity_rad_s(), yielding_.load_Nm + config_.gravity.at(position_rad));
+  reading_.has_been_read();
+  advance_plan({});
 }
 
-void JointController::yield(double load_Nm) noexcept {
-  trajectory_.stop();
-  yielding_ = {load_Nm, reading_.position_rad(), 0};
-  law_.interrupt();
-  phase_ = MotionPhase::kYielding;
-}
-
+// Only the tracking joint's torque is the law's.
 ControllerOutput JointController::compute_torque(int elapsed_periods) noexcept {
   if (phase_ == MotionPhase::kTracking) return track(elapsed_periods);
   law_.interrupt();
-  const double besides_Nm = trajectory_.load().torque_Nm;
-  if (yields()) return apply(yielding_.load_Nm + config_.gravity.at(reading_.position_rad()) + besides_Nm);
-  return apply(hold_torque_Nm_ + besides_Nm);
-}
-
-// A torque that no gain has part in.
-ControllerOutput JointController::apply(double torque_Nm) const noexcept {
+  const double held_Nm =
+      yields() ? yielding_.load_Nm + config_.gravity.at(reading_.position_rad()) : hold_torque_Nm_;
+  const double torque_Nm = held_Nm + plan_.trajectory().load().torque_Nm;
   const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   return {limited_Nm, 0.0, torque_Nm, law_.zero_velocity_weight(), limited_Nm != torque_Nm};
-}
-
-double JointController::planned_friction_Nm() const noexcept {
-  const JointModel model = loaded_model();
-  const auto [begin, middle, end] = plan_.acting_velocities_rad_s;
-  return (1.0 + corrections_.friction_share()) * 0.5 *
-         (model.friction_along_Nm(begin, middle) + model.friction_along_Nm(middle, end));
-}
-
-// At rest off its place: what holds, and the law.
-double JointController::planned_torque_Nm() const noexcept {
-  const ToldLoad& load = trajectory_.load();
-  const double load_Nm = friction_.load_Nm() + load.torque_Nm;
-  if (!planner_.moves()) return config_.gravity.at(plan_.link_position_rad) + load_Nm;
-  return plan_.torque_Nm + planned_friction_Nm() + load_Nm +
-         load.inertia_kgm2 * plan_.wanted_acceleration_rad_s2;
 }
 
 ControllerOutput JointController::track(int elapsed_periods) noexcept {
@@ -174,16 +122,15 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   input.elapsed_periods = elapsed_periods;
   input.joint_position_rad = reading_.position_rad();
   input.joint_velocity_rad_s = reading_.velocity_rad_s();
-  input.setpoint_position_rad = place_rad();
+  input.setpoint_position_rad = plan_.place_rad();
   input.setpoint_velocity_rad_s = reading_.planned_velocity_rad_s();
   input.planned = true;
-  input.planned_torque_Nm = planned_torque_Nm();
+  input.planned_torque_Nm = plan_.torque_Nm(joint());
   input.torque_limit_Nm = torque_limit_Nm_;
   input.torque_max_Nm = config_.motor.available_Nm(reading_.velocity_rad_s());
   input.torque_min_Nm = -config_.motor.available_Nm(-reading_.velocity_rad_s());
   const ControllerOutput output = law_.step(input);
-  if (output.saturated && speeds_up_ && !trajectory_.streamed())
-    pace_ = std::max(kLeastPace, pace_ * (1.0 - elapsed_periods * config_.period_s / kPace_s));
+  if (output.saturated) plan_.slow_down(elapsed_periods * config_.period_s);
   const double least_Nm = std::max(kSwingShare * torque_limit_Nm_, kSwingCounts * law_.count_torque_Nm());
   const double needed_Nm = std::clamp(output.feedforward_torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   oscillation_.step(output.torque_Nm - needed_Nm, needed_Nm, least_Nm, elapsed_periods);
@@ -192,13 +139,15 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
 
 // From an order's own motion, at a torque that is not limited and a reading that is fresh.
 bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
-  if (phase_ != MotionPhase::kTracking || output.saturated || planner_.exhausted() ||
+  if (phase_ != MotionPhase::kTracking || output.saturated || plan_.planner().exhausted() ||
       !measurement.has_position || measurement.elapsed_periods > 1)
     return false;
-  const double velocity_rad_s = plan_.acting_velocities_rad_s[1];
-  if (!planner_.moves())
+  const double velocity_rad_s = plan_.now().acting_velocities_rad_s[1];
+  const bool moves = plan_.planner().moves();
+  if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
+  if (!moves)
     friction_.learn_load(output.feedback_torque_Nm, config_.period_s);
-  else if (velocity_rad_s != 0.0 && !corrections_.begun())
+  else if (velocity_rad_s != 0.0 && !plan_.corrections().begun())
     friction_.learn(output.feedback_torque_Nm, velocity_rad_s, config_.period_s);
   else
     return false;
@@ -212,7 +161,7 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
   else if (yields())
     load_Nm = yielding_.load_Nm;
   else
-    load_Nm = hold_torque_Nm_ - config_.gravity.at(plan_.link_position_rad);
+    load_Nm = hold_torque_Nm_ - config_.gravity.at(plan_.now().link_position_rad);
   const double share = 1.0 - std::exp(-elapsed_periods * config_.period_s / kWeigh_s);
   shown_load_Nm_ += share * (load_Nm - shown_load_Nm_);
 }
@@ -220,18 +169,19 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
 JointStep JointController::result(const ControllerOutput& output, bool learns) const noexcept {
   JointStep step;
   step.output = output;
-  const double position_rad = yields() ? reading_.position_rad() : place_rad();
-  step.reference = {position_rad, yields() ? 0.0 : plan_.velocity_rad_s,
-                    yields() ? 0.0 : plan_.acting_acceleration_rad_s2};
+  const double position_rad = yields() ? reading_.position_rad() : plan_.place_rad();
+  step.reference = {position_rad, yields() ? 0.0 : plan_.now().velocity_rad_s,
+                    yields() ? 0.0 : plan_.now().acting_acceleration_rad_s2};
   step.ordered_reference = step.reference;
-  if (corrections_.begun() && !yields()) step.ordered_reference = {rest_position_rad(), 0.0, 0.0};
+  if (plan_.corrections().begun() && !yields())
+    step.ordered_reference = {plan_.rest_position_rad(), 0.0, 0.0};
   step.joint_velocity_rad_s = reading_.velocity_rad_s();
   step.gains_in_use = law_.gains_in_use();
-  step.at_target = !moves();
-  step.off_stream = trajectory_.off_stream() && !corrections_.begun();
+  step.at_target = !plan_.moves();
+  step.off_stream = plan_.trajectory().off_stream() && !plan_.corrections().begun();
   step.phase = phase_;
   step.load_Nm = shown_load_Nm_;
-  step.corrections = corrections_.count();
+  step.corrections = plan_.corrections().count();
   step.learns = learns;
   step.oscillates = oscillation_.oscillates();
   return step;

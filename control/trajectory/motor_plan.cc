@@ -160,7 +160,8 @@ void MotorPlanner::yield(bool ended) noexcept {
   const LinkState off = moved(wanted_, next_, -1.0);
   const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
   const double lost_rad = kLostShare * config_.joint.spring.angle_rad(config_.torque_limit_Nm);
-  if (exhausted_ && (ended || regulates_ || farthest_rad >= lost_rad)) next_ = moved(next_, off, kYield);
+  if (config_.gives_way && exhausted_ && (ended || regulates_ || farthest_rad >= lost_rad))
+    next_ = moved(next_, off, kYield);
 }
 
 // The motion has ended: once the model is where that was, it stands still.

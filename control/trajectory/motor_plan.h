@@ -42,6 +42,7 @@ struct MotorPlannerConfig {
   double tolerance_rad = 1e-5;
   MotionLimits motion;                      ///< of what is planned
   std::optional<double> jerk_limit_rad_s3;  ///< > 0
+  bool gives_way = true;                    ///< studies alone: false (control/mechanism.h)
 };
 
 /// What the motor can give over a period, friction and what else the plan does not know already taken off.

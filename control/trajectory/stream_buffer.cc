@@ -96,7 +96,8 @@ bool StreamBuffer::is_new_place(const Knot& knot) const noexcept {
   if (two == nullptr || seconds(one->at - two->at) > kLongest_s) return false;
   const double before_s = seconds(one->at - two->at);
   const double before_rad_s = (one->state.position_rad - two->state.position_rad) / before_s;
-  return std::abs(speed_rad_s - before_rad_s) > kNewPlace * reach_rad_s2() * 0.5 * (apart_s + before_s);
+  return std::abs(speed_rad_s - before_rad_s) >
+         kNewPlace * reach_.acceleration_rad_s2 * 0.5 * (apart_s + before_s);
 }
 
 bool StreamBuffer::contradicts(const Knot& before, const Knot& knot) const noexcept {
@@ -111,6 +112,7 @@ bool StreamBuffer::contradicts(const Knot& before, const Knot& knot) const noexc
 
 SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& reach) noexcept {
   reach_ = reach;
+  reach_.acceleration_rad_s2 = std::min(reach.acceleration_rad_s2, reach.deceleration_rad_s2);
   const double came = now_ + left_out_;
   Knot knot{came + static_cast<double>(sample.in_periods),
             {sample.position_rad, sample.derivatives > 0 ? sample.velocity_rad_s : 0.0,
@@ -140,19 +142,17 @@ void StreamBuffer::lead_on() noexcept {
   const double until = now + std::max(kSegment_s / config_.period_s, caught_up_at_ - now_);
   anchor_ = derived(std::min(first_from(until), count_ - 1));
   state_.at = now;
-  if (rests_at(anchor_.state)) state_.state = anchor_.state;
+  if (state_.state.has_come_to(anchor_.state)) state_.state = anchor_.state;
   from_ = state_;
   to_ = anchor_;
   to_.at = std::max(anchor_.at, until);
   to_.state = carried(to_.at);
 }
 
-// Planned anew again and again the motion would come near, but never there.
-bool StreamBuffer::rests_at(const State& place) const noexcept {
-  const State& s = state_.state;
+bool StreamBuffer::State::has_come_to(const State& place) const noexcept {
   return place.velocity_rad_s == 0.0 && place.acceleration_rad_s2 == 0.0 &&
-         std::abs(s.position_rad - place.position_rad) <= kAtRest_rad &&
-         std::abs(s.velocity_rad_s) <= kAtRest_rad_s;
+         std::abs(position_rad - place.position_rad) <= kAtRest_rad &&
+         std::abs(velocity_rad_s) <= kAtRest_rad_s;
 }
 
 // A position that came three times, over a segment's time at least, is a place and not a part of the motion before it.
@@ -204,7 +204,8 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
     state.jerk_rad_s3 = first;
   }
   state.velocity_rad_s = std::clamp(state.velocity_rad_s, -reach_.velocity_rad_s, reach_.velocity_rad_s);
-  state.acceleration_rad_s2 = std::clamp(state.acceleration_rad_s2, -reach_rad_s2(), reach_rad_s2());
+  state.acceleration_rad_s2 =
+      std::clamp(state.acceleration_rad_s2, -reach_.acceleration_rad_s2, reach_.acceleration_rad_s2);
   return one;
 }
 
@@ -212,7 +213,7 @@ StreamBuffer::Knot StreamBuffer::derived(std::size_t i) const noexcept {
 StreamBuffer::State StreamBuffer::carried(double at) const noexcept {
   const State& s = anchor_.state;
   const double interval_s = seconds(interval_);
-  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * reach_rad_s2();
+  const bool smooth = std::abs(s.jerk_rad_s3) * interval_s <= kSmooth * reach_.acceleration_rad_s2;
   const double jerk = smooth ? s.jerk_rad_s3 : 0.0;
   const double since_s = seconds(at - anchor_.at);
   const double t =

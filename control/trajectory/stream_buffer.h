@@ -14,7 +14,6 @@
 //   contradiction a velocity that is not that of the positions is not used; where it goes on, the stream is to end
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +67,8 @@ class StreamBuffer {
     double velocity_rad_s = 0.0;
     double acceleration_rad_s2 = 0.0;
     double jerk_rad_s3 = 0.0;
+    /// Planned anew again and again the motion would come near a place, but never there.
+    bool has_come_to(const State& place) const noexcept;
   };
   struct Knot {
     double at = 0.0;  ///< periods
@@ -85,14 +86,9 @@ class StreamBuffer {
   void insert(Knot knot) noexcept;
   /// Now, in the time of the samples.
   double play() const noexcept { return now_ + lead_ - origin_; }
-  /// The acceleration that the joint has either way.
-  double reach_rad_s2() const noexcept {
-    return std::min(reach_.acceleration_rad_s2, reach_.deceleration_rad_s2);
-  }
   double seconds(double periods) const noexcept { return periods * config_.period_s; }
   std::size_t first_from(double at) const noexcept;
   void lead_on() noexcept;
-  bool rests_at(const State& place) const noexcept;
   bool stands(std::size_t i) const noexcept;
   void fit_neighbours(std::size_t i, LocalPolynomial& fit) const noexcept;
   Knot derived(std::size_t i) const noexcept;
@@ -104,7 +100,7 @@ class StreamBuffer {
   void move_to(double at) noexcept;
 
   StreamConfig config_;
-  MotionLimits reach_;
+  MotionLimits reach_;  ///< of the joint, its accelerations either way
   SenderClock sender_;
   std::array<Knot, kSamples> knots_{};
   std::size_t first_ = 0;

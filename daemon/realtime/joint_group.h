@@ -24,7 +24,7 @@ class JointGroups {
   void stop_with_the_faulted(const CycleTime& time) noexcept;
 
  private:
-  void stop_group_of(const JointLoop& faulted, const CycleTime& time) noexcept;
+  void stop_group_of(const JointInLoop& faulted, const CycleTime& time) noexcept;
   void stop(std::size_t joint, const CycleTime& time) noexcept;
 
   std::span<const std::unique_ptr<JointLoop>> joints_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/joint_path.h"
 
 namespace strainwave {
 
@@ -18,7 +19,13 @@ constexpr double kLeastPatience_s = 2.0 / PathClock::kFastestChange_1_s;
 
 PathFollower::PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s)
     : joints_(joints), period_s_(period_s), members_(joints.size()), travels_(joints.size()) {
-  for (const auto& joint : joints_) joint->follow_paths_of(*this);
+  for (const auto& joint : joints_) joint->joint().follower = this;
+}
+
+template <typename Act>
+void PathFollower::for_each_member(std::size_t travel, const Act& act) noexcept {
+  for (std::size_t joint = 0; joint < members_.size(); ++joint)
+    if (members_[joint].travel == travel) act(joints_[joint]->joint(), members_[joint]);
 }
 
 Ruling PathFollower::resume(std::size_t joint) noexcept {
@@ -30,17 +37,17 @@ Ruling PathFollower::resume(std::size_t joint) noexcept {
 }
 
 Ruling PathFollower::begin(std::size_t first) noexcept {
-  const LoadedPath* path = joints_[first]->path();
+  const LoadedPath* path = joints_[first]->joint().path;
   if (path == nullptr) return Reason::kWrongMode;
   const auto takes_part = [&](std::size_t joint) {
-    const LoadedPath* part = joints_[joint]->path();
+    const LoadedPath* part = joints_[joint]->joint().path;
     return part != nullptr && members_[joint].travel == kNoTravel && part->id == path->id &&
            part->joint_count == path->joint_count;
   };
   std::int32_t parts = 0;
   for (std::size_t joint = 0; joint < joints_.size(); ++joint) {
     if (!takes_part(joint)) continue;
-    const Ruling ruling = joints_[joint]->may_begin(*joints_[joint]->path());
+    const Ruling ruling = may_begin_path(joints_[joint]->joint(), *joints_[joint]->joint().path);
     if (ruling.reason != Reason::kAccepted) return ruling;
     ++parts;
   }
@@ -53,7 +60,7 @@ Ruling PathFollower::begin(std::size_t first) noexcept {
     if (!takes_part(joint)) continue;
     members_[joint] = {};
     members_[joint].travel = first;
-    travel.duration_s = std::max(travel.duration_s, joints_[joint]->path()->path.duration_s());
+    travel.duration_s = std::max(travel.duration_s, joints_[joint]->joint().path->path.duration_s());
   }
   return Reason::kAccepted;
 }
@@ -84,11 +91,11 @@ void PathFollower::advance(const CycleTime& time) noexcept {
 // Orders and faults of the cycle in which it was told to begin may have come between.
 bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept {
   bool all = true;
-  for_each_member(travel, [&](JointLoop& joint, Member&) {
-    all = all && joint.path() != nullptr && joint.may_begin(*joint.path()).reason == Reason::kAccepted;
+  for_each_member(travel, [&](JointInLoop& joint, Member&) {
+    all = all && joint.path != nullptr && may_begin_path(joint, *joint.path).reason == Reason::kAccepted;
   });
   if (!all) return false;
-  for_each_member(travel, [&](JointLoop& joint, Member&) { joint.begin_path(time); });
+  for_each_member(travel, [&](JointInLoop& joint, Member&) { begin_path(joint, time); });
   wait_for_the_slowest(travel);
   travels_[travel].phase = Phase::kUnderWay;
   return true;
@@ -97,12 +104,12 @@ bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept
 void PathFollower::wait_for_the_slowest(std::size_t travel) noexcept {
   double slowest_s = 0.0;
   double fastest_s = std::numeric_limits<double>::infinity();
-  for_each_member(travel, [&](JointLoop& joint, Member&) {
-    slowest_s = std::max(slowest_s, joint.path_lead_s());
-    fastest_s = std::min(fastest_s, joint.path_lead_s());
+  for_each_member(travel, [&](JointInLoop& joint, Member&) {
+    slowest_s = std::max(slowest_s, joint.law.controller().plan().lead_s());
+    fastest_s = std::min(fastest_s, joint.law.controller().plan().lead_s());
   });
-  for_each_member(travel, [&](JointLoop& joint, Member& member) {
-    member.behind_periods = (slowest_s - joint.path_lead_s()) / period_s_;
+  for_each_member(travel, [&](JointInLoop& joint, Member& member) {
+    member.behind_periods = (slowest_s - joint.law.controller().plan().lead_s()) / period_s_;
   });
   travels_[travel].most_behind_periods = (slowest_s - fastest_s) / period_s_;
 }
@@ -118,17 +125,17 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     travel.times.note(travel.clock.now());
   }
   const bool ending = travel.phase == Phase::kEnding;
-  for_each_member(index, [&](JointLoop& joint, Member& member) {
+  for_each_member(index, [&](JointInLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
-    const PathPoint on = in_path_time(member.reader.at(joint.path()->path, now.time_s), now);
-    joint.follow_path(on, time.elapsed_periods);
+    const PathPoint on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
+    follow_path(joint, on, time.elapsed_periods);
     // Of the setpoint that the same state shows: where the joint is told to be now its reference is a period later, or more.
-    const double later_periods = 1.0 + joint.path_setpoint_lag_s() / period_s_;
+    const double later_periods = 1.0 + joint.law.controller().plan().lead_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
-    joint.note_path({shown.time_s, !ending && travel.clock.is_to_rest() && shown.rate == 0.0});
+    joint.ordered.note({shown.time_s, !ending && travel.clock.is_to_rest() && shown.rate == 0.0});
   });
   if (is_over(index)) {
-    for_each_member(index, [](JointLoop& joint, Member&) { joint.end_path(); });
+    for_each_member(index, [](JointInLoop& joint, Member&) { end_path(joint); });
     return free(index);
   }
   if (travel.phase == Phase::kEnding && (travel.rest_cycles -= time.elapsed_periods) <= 0) stop_each(index);
@@ -141,12 +148,13 @@ bool PathFollower::is_over(std::size_t index) noexcept {
   const bool arrived = last.time_s >= travel.duration_s;
   if (travel.phase != Phase::kEnding) return arrived;
   bool all_rest = arrived || (travel.clock.rests() && last.rate == 0.0);
-  for_each_member(index, [&](JointLoop& joint, Member&) { all_rest = all_rest && joint.setpoint_rests(); });
+  for_each_member(index,
+                  [&](JointInLoop& joint, Member&) { all_rest = all_rest && joint.law.motion().at_target; });
   return all_rest;
 }
 
 void PathFollower::stop_each(std::size_t travel) noexcept {
-  for_each_member(travel, [](JointLoop& joint, Member&) { joint.stop_beside_path(); });
+  for_each_member(travel, [](JointInLoop& joint, Member&) { stop_beside_path(joint); });
   free(travel);
 }
 
@@ -155,8 +163,8 @@ void PathFollower::stop_each(std::size_t travel) noexcept {
 bool PathFollower::release_lost(std::size_t travel) noexcept {
   bool lost = false;
   bool at_once = false;
-  for_each_member(travel, [&](JointLoop& joint, Member& member) {
-    if (joint.on_path()) return;
+  for_each_member(travel, [&](JointInLoop& joint, Member& member) {
+    if (joint.ordered.on_path()) return;
     member.travel = kNoTravel;
     lost = true;
     at_once = at_once || joint.others_stop() == OthersStop::kAtOnce;
@@ -170,13 +178,13 @@ void PathFollower::bring_to_rest(std::size_t index) noexcept {
   travel.clock.rest();
   if (travel.phase == Phase::kEnding) return;
   double longest_s = 0.0;
-  for_each_member(index, [&](JointLoop& joint, Member& member) {
-    if (joint.path() == nullptr) return;
-    joint.path_ends();
+  for_each_member(index, [&](JointInLoop& joint, Member& member) {
+    if (joint.path == nullptr) return;
+    joint.ordered.path_ends();
     PathReader reader = member.reader;
-    const PathPoint here = reader.at(joint.path()->path, travel.clock.time_s());
-    longest_s =
-        std::max(longest_s, std::abs(here.velocity_rad_s) / joint.motion_limits().deceleration_rad_s2);
+    const PathPoint here = reader.at(joint.path->path, travel.clock.time_s());
+    longest_s = std::max(longest_s,
+                         std::abs(here.velocity_rad_s) / joint.config.controller.motion.deceleration_rad_s2);
   });
   travel.rest_cycles =
       std::llround((kPatience * longest_s + kLeastPatience_s) / period_s_ + travel.most_behind_periods);
@@ -186,18 +194,18 @@ void PathFollower::bring_to_rest(std::size_t index) noexcept {
 RateRoom PathFollower::room(std::size_t index) noexcept {
   const PathClock& clock = travels_[index].clock;
   RateRoom all = PathClock::kMostRoom;
-  for_each_member(index, [&](JointLoop& joint, Member& member) {
+  for_each_member(index, [&](JointInLoop& joint, Member& member) {
     PathReader ahead = member.reader;
-    const KnotPath& path = joint.path()->path;
+    const KnotPath& path = joint.path->path;
     const PathPoint here = ahead.at(path, clock.time_s());
     const PathPoint next = ahead.at(path, clock.time_s() + period_s_ * clock.rate());
-    all = all.both(rate_room(here, next, clock.rate(), joint.motion_limits()));
+    all = all.both(rate_room(here, next, clock.rate(), joint.config.controller.motion));
   });
   return all;
 }
 
 void PathFollower::free(std::size_t travel) noexcept {
-  for_each_member(travel, [](JointLoop&, Member& member) { member.travel = kNoTravel; });
+  for_each_member(travel, [](JointInLoop&, Member& member) { member.travel = kNoTravel; });
   travels_[travel].phase = Phase::kFree;
 }
 

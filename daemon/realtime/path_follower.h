@@ -65,10 +65,7 @@ class PathFollower {
     double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
   };
   template <typename Act>
-  void for_each_member(std::size_t travel, const Act& act) noexcept {
-    for (std::size_t joint = 0; joint < members_.size(); ++joint)
-      if (members_[joint].travel == travel) act(*joints_[joint], members_[joint]);
-  }
+  void for_each_member(std::size_t travel, const Act& act) noexcept;
   Ruling begin(std::size_t joint) noexcept;
   bool begin_all(std::size_t travel, const CycleTime& time) noexcept;
   void wait_for_the_slowest(std::size_t travel) noexcept;

@@ -40,33 +40,35 @@ RealtimeLoop::RealtimeLoop(const LoopConfig& config, LoopParts parts,
 
 RealtimeLoop::~RealtimeLoop() {
   request_stop();
-  may_run_.store(true, std::memory_order_release);
+  signals_.may_run.store(true, std::memory_order_release);
   if (thread_.joinable()) thread_.join();
 }
 
 void RealtimeLoop::start() {
-  refusal_ = lock_memory();
-  sleep_state_refusal_ = dma_latency_.request();
+  refusals_.real_time = lock_memory();
+  refusals_.sleep_states = dma_latency_.request();
   thread_ = std::thread([this] { thread_main(); });
-  while (!set_up_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (!refusal_.empty() && config_.real_time == RealTimePolicy::kEnforce) {
+  while (!signals_.set_up.load(std::memory_order_acquire))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (!refusals_.real_time.empty() && config_.real_time == RealTimePolicy::kEnforce) {
     request_stop();
-    may_run_.store(true, std::memory_order_release);
+    signals_.may_run.store(true, std::memory_order_release);
     thread_.join();
-    throw InputError("real time refused: " + refusal_ +
+    throw InputError("real time refused: " + refusals_.real_time +
                      "; or set daemon.real_time = \"ignore\" to run without (never with a real joint)");
   }
-  may_run_.store(true, std::memory_order_release);
+  signals_.may_run.store(true, std::memory_order_release);
 }
 
 void RealtimeLoop::thread_main() {
   const std::string refused = make_thread_real_time(config_.priority, config_.cpu);
-  if (refusal_.empty()) refusal_ = refused;
-  set_up_.store(true, std::memory_order_release);
-  while (!may_run_.load(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (refusals_.real_time.empty()) refusals_.real_time = refused;
+  signals_.set_up.store(true, std::memory_order_release);
+  while (!signals_.may_run.load(std::memory_order_acquire))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   run();
   stop_drives();
-  finished_.store(true, std::memory_order_release);
+  signals_.finished.store(true, std::memory_order_release);
 }
 
 void RealtimeLoop::run() noexcept {
@@ -89,10 +91,10 @@ void RealtimeLoop::run() noexcept {
     for (const auto& bus : buses_) bus->end_cycle();
     publish(time);
 
-    const bool at_rest =
-        std::all_of(joints_.begin(), joints_.end(), [](const auto& joint) { return joint->at_rest(); });
-    const bool waited_enough = time.cycle - stop_since_cycle_ > stop_deadline_periods_;
-    if (stop_since_cycle_ >= 0 && (at_rest || waited_enough)) return;
+    const bool at_rest = std::all_of(joints_.begin(), joints_.end(),
+                                     [](const auto& joint) { return joint->joint().at_rest(); });
+    const bool waited_enough = time.cycle - progress_.stop_since_cycle > stop_deadline_periods_;
+    if (progress_.stop_since_cycle >= 0 && (at_rest || waited_enough)) return;
 
     statistics_->execution_time.add(monotonic_now_ns() - wake.woke_ns);
     statistics_->page_faults.store(thread_page_faults() - page_faults_before, std::memory_order_relaxed);
@@ -113,9 +115,9 @@ void RealtimeLoop::stop_drives() noexcept {
 void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept {
   statistics_->cycle.store(time.cycle, std::memory_order_release);
   statistics_->wakeup_latency.add(wake.woke_ns - wake.due_ns);
-  if (previous_wake_ns_ != 0)
-    statistics_->period_error.add(std::abs(wake.woke_ns - previous_wake_ns_ - period_ns_));
-  previous_wake_ns_ = wake.woke_ns;
+  if (progress_.previous_wake_ns != 0)
+    statistics_->period_error.add(std::abs(wake.woke_ns - progress_.previous_wake_ns - period_ns_));
+  progress_.previous_wake_ns = wake.woke_ns;
   statistics_->overruns.store(statistics_->overruns.load(std::memory_order_relaxed) + wake.skipped,
                               std::memory_order_relaxed);
   const Fault fault = overrun_watch_.judge(wake.skipped);
@@ -123,19 +125,20 @@ void RealtimeLoop::account_wake(const PeriodicClock::Wake& wake, const CycleTime
 }
 
 void RealtimeLoop::bring_to_rest_when_asked(const CycleTime& time) noexcept {
-  if (!stop_requested_.load(std::memory_order_acquire)) return;
-  if (stop_since_cycle_ < 0) stop_since_cycle_ = time.cycle;
+  if (!signals_.stop_requested.load(std::memory_order_acquire)) return;
+  if (progress_.stop_since_cycle < 0) progress_.stop_since_cycle = time.cycle;
   for (const auto& joint : joints_) joint->end(time);
 }
 
 void RealtimeLoop::account_positions() noexcept {
   for (const auto& joint : joints_)
-    if (joint->position_delay_ns() > 0) statistics_->position_delay.add(joint->position_delay_ns());
+    if (const std::int64_t delay_ns = joint->joint().drive.position_delay_ns(); delay_ns > 0)
+      statistics_->position_delay.add(delay_ns);
 }
 
 void RealtimeLoop::publish(const CycleTime& time) noexcept {
-  if (time.cycle < next_publish_cycle_) return;
-  next_publish_cycle_ = time.cycle - time.cycle % publish_every_ + publish_every_;
+  if (time.cycle < progress_.next_publish_cycle) return;
+  progress_.next_publish_cycle = time.cycle - time.cycle % publish_every_ + publish_every_;
   for (const auto& joint : joints_) states_.write(joint->record());
 }
 

@@ -47,13 +47,13 @@ class RealtimeLoop {
   /// Locks memory, starts the thread, waits for its set-up. Throws InputError when real time is refused and the
   /// configuration enforces it; otherwise real_time_refusal() says what was refused.
   void start();
-  const std::string& real_time_refusal() const noexcept { return refusal_; }
+  const std::string& real_time_refusal() const noexcept { return refusals_.real_time; }
   /// What would have made wake-ups better but is not needed for real time; empty when granted.
-  const std::string& sleep_state_refusal() const noexcept { return sleep_state_refusal_; }
+  const std::string& sleep_state_refusal() const noexcept { return refusals_.sleep_states; }
 
   /// Brings every joint to rest, then ends the loop; finished() tells when.
-  void request_stop() noexcept { stop_requested_.store(true, std::memory_order_release); }
-  bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
+  void request_stop() noexcept { signals_.stop_requested.store(true, std::memory_order_release); }
+  bool finished() const noexcept { return signals_.finished.load(std::memory_order_acquire); }
 
   /// After finished(): leaves the drives on buses in order, before their supervision of us runs out.
   void close_buses();
@@ -69,6 +69,24 @@ class RealtimeLoop {
   const LoopTotals& statistics() const noexcept { return *statistics_; }
 
  private:
+  /// In words; empty when granted.
+  struct Refusals {
+    std::string real_time;
+    std::string sleep_states;
+  };
+  /// Between the threads.
+  struct Signals {
+    std::atomic<bool> set_up{false};
+    std::atomic<bool> may_run{false};
+    std::atomic<bool> stop_requested{false};
+    std::atomic<bool> finished{false};
+  };
+  /// Of the loop's own thread.
+  struct Progress {
+    std::int64_t previous_wake_ns = 0;
+    std::int64_t next_publish_cycle = 0;
+    std::int64_t stop_since_cycle = -1;
+  };
   void thread_main();
   void run() noexcept;
   void account_wake(const PeriodicClock::Wake& wake, const CycleTime& time) noexcept;
@@ -91,16 +109,10 @@ class RealtimeLoop {
   std::unique_ptr<PathFollower> paths_;
   std::unique_ptr<JointGroups> groups_;
   std::thread thread_;
-  std::string refusal_;
-  std::string sleep_state_refusal_;
+  Refusals refusals_;
   DmaLatency dma_latency_;
-  std::atomic<bool> set_up_{false};
-  std::atomic<bool> may_run_{false};
-  std::atomic<bool> stop_requested_{false};
-  std::atomic<bool> finished_{false};
-  std::int64_t previous_wake_ns_ = 0;
-  std::int64_t next_publish_cycle_ = 0;
-  std::int64_t stop_since_cycle_ = -1;
+  Signals signals_;
+  Progress progress_;
   OverrunWatch overrun_watch_;
 };
 

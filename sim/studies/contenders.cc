@@ -72,12 +72,15 @@ Contender plain_contender(const std::string& name, const GainTable& table) {
           }};
 }
 
-Contender extended_contender(const std::string& name, const GainTable& table, const MotionLimits& motion) {
-  return {name, [table, motion](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
+Contender extended_contender(const std::string& name, const GainTable& table, const MotionLimits& motion,
+                             Mechanism without) {
+  return {name, [table, motion, without](const JointPlantConfig& plant) -> std::unique_ptr<LoopController> {
             require_period(table, plant);
             GainTable limited = table;
             limited.torque_limit_Nm = torque_limit_Nm(plant, table);
-            return std::make_unique<ExtendedLoopController>(extended_config(plant, limited, motion), limited);
+            JointControllerConfig config = extended_config(plant, limited, motion);
+            config.without = without;
+            return std::make_unique<ExtendedLoopController>(config, limited);
           }};
 }
 
@@ -95,7 +98,7 @@ ExtendedLoopController::ExtendedLoopController(const JointControllerConfig& conf
 
 double ExtendedLoopController::torque_Nm(const LoopSample& sample) noexcept {
   if (!started_) controller_.start(sample.joint_position_rad);
-  if (!started_ || controller_.trajectory().target_rad() != sample.setpoint_position_rad)
+  if (!started_ || controller_.plan().trajectory().target_rad() != sample.setpoint_position_rad)
     controller_.set_target(sample.setpoint_position_rad);
   started_ = true;
   const JointStep step = controller_.step(measurement_of(sample, sample.temperature_C));

@@ -37,7 +37,8 @@ JointPlantConfig with_declared_friction(JointPlantConfig plant, const GainTable&
 
 /// The daemon's controller with `table`. Where the plant has no torque limit neither has the controller.
 Contender extended_contender(const std::string& name, const GainTable& table,
-                             const MotionLimits& motion = kNoMotionLimits);
+                             const MotionLimits& motion = kNoMotionLimits,
+                             Mechanism without = Mechanism::kNone);
 
 Contender pid_contender();
 

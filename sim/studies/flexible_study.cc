@@ -127,13 +127,6 @@ FlexibleResult judge(const FlexibleCell& cell, const ClosedLoopResult& run, cons
   return result;
 }
 
-Contender daemon_contender(const FlexibleTables& tables) {
-  return {"daemon", [family = tables.c4](const JointPlantConfig& plant) {
-            const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
-            return extended_contender("daemon", table).make(plant);
-          }};
-}
-
 }  // namespace
 
 const GainTable& FlexibleTables::nearest(const std::vector<GainTable>& tables, double total_kgm2) {
@@ -151,6 +144,13 @@ FlexibleTables read_flexible_tables(const std::filesystem::path& directory) {
     tables.c4.push_back(read_gain_table(directory / total / "c4.json"));
   }
   return tables;
+}
+
+Contender daemon_contender(const FlexibleTables& tables, Mechanism without) {
+  return {"daemon", [family = tables.c4, without](const JointPlantConfig& plant) {
+            const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
+            return extended_contender("daemon", table, kNoMotionLimits, without).make(plant);
+          }};
 }
 
 std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all) {

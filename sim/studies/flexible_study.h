@@ -45,6 +45,9 @@ FlexibleTables read_flexible_tables(const std::filesystem::path& directory);
 /// PID, plain C4, and the daemon's controller; with `all` also plain C1 to C3.
 std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all);
 
+/// The daemon's controller alone, with the table that is nearest to a joint.
+Contender daemon_contender(const FlexibleTables& tables, Mechanism without = Mechanism::kNone);
+
 struct FlexibleRow {
   FlexibleCell cell;
   double limit_pi2 = 0.0;

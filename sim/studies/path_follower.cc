@@ -21,7 +21,7 @@ StreamedController::StreamedController(const JointControllerConfig& config, cons
 
 void StreamedController::send(double time_s) noexcept {
   const int ahead =
-      kInterval + static_cast<int>(std::ceil(controller_.lead_s() / config_.period_s - kRounding));
+      kInterval + static_cast<int>(std::ceil(controller_.plan().lead_s() / config_.period_s - kRounding));
   const Reference then = path_.at(time_s + ahead * config_.period_s);
   controller_.follow({then.position_rad, then.velocity_rad_s, then.acceleration_rad_s2, 2, ahead},
                      periods_ == 0, 0.0, {});

@@ -37,12 +37,15 @@ GainTable without_friction(GainTable table) {
   return table;
 }
 
-FrictionWay product_way(const std::string& name, const GainTable& table,
-                        const StreamedController::Told& told) {
-  return {name, [table, told](const JointPlantConfig& plant, const SmoothPath& path, double shift_C) {
+FrictionWay product_way(const std::string& name, const GainTable& table, const StreamedController::Told& told,
+                        Mechanism without = Mechanism::kNone) {
+  return {name,
+          [table, told, without](const JointPlantConfig& plant, const SmoothPath& path, double shift_C) {
             StreamedController::Told now = told;
             now.shift_C += shift_C;
-            return std::make_unique<StreamedController>(extended_config(plant, table), table, path, now);
+            JointControllerConfig config = extended_config(plant, table);
+            config.without = without;
+            return std::make_unique<StreamedController>(config, table, path, now);
           }};
 }
 
@@ -117,6 +120,10 @@ std::vector<FrictionWay> friction_ways(const FlexibleTables& tables) {
           observer_way(),
           product_way("scheduled", c2, {}),
           product_way("scheduled and integral", c4, {})};
+}
+
+FrictionWay product_way_without(const FlexibleTables& tables, Mechanism without) {
+  return product_way("without", study_table(tables), {}, without);
 }
 
 std::vector<SensorFault> sensor_faults() {

@@ -28,6 +28,9 @@ struct FrictionWay {
 /// product is. All but the disturbance observer are the daemon's controller, which differ in nothing else.
 std::vector<FrictionWay> friction_ways(const FlexibleTables& tables);
 
+/// The last of them without a part of the controller.
+FrictionWay product_way_without(const FlexibleTables& tables, Mechanism without);
+
 /// The table of the last of them.
 const GainTable& study_table(const FlexibleTables& tables);
 

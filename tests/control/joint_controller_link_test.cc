@@ -295,7 +295,7 @@ TEST(JointControllerWithLink, ComesToRestFromTheMotionThatItFinds) {
     measurement.joint_position_rad = last_rad;
   }
   EXPECT_GT(last_rad, 0.3);
-  EXPECT_EQ(last_rad, controller.trajectory().target_rad());
+  EXPECT_EQ(last_rad, controller.plan().trajectory().target_rad());
 }
 
 TEST(JointControllerWithLink, AllocatesNothing) {

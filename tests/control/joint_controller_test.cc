@@ -220,7 +220,7 @@ TEST(JointController, LearnsFrictionThatIsNotTheTables) {
     const double first_rad = rms_error_rad(loop);
     for (int motion = 0; motion < 3; ++motion) rms_error_rad(loop);
     EXPECT_LT(rms_error_rad(loop), 0.7 * first_rad) << scale;
-    EXPECT_NEAR(loop.controller().friction_factor(), scale, 0.2 * scale);
+    EXPECT_NEAR(loop.controller().friction().factor(), scale, 0.2 * scale);
   }
 }
 
@@ -228,9 +228,9 @@ TEST(JointController, LearnsNothingWhileFrozen) {
   JointPlantConfig plant = realistic_plant();
   plant.joint.friction.asymptote.coulomb_Nm *= 2.0;
   ControlledJoint loop(plant);
-  loop.controller().freeze_learning(true);
+  loop.controller().friction().freeze(true);
   rms_error_rad(loop);
-  EXPECT_EQ(loop.controller().learned(), LearnedFriction{});
+  EXPECT_EQ(loop.controller().friction().learned(), LearnedFriction{});
 }
 
 TEST(JointController, NeitherStepNorLoadTouchesTheHeap) {

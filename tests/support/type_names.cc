@@ -31,7 +31,8 @@ bool separates_digits(const std::string& text, std::size_t at) {
   return text[at] == '\'' && at > 0 && std::isxdigit(static_cast<unsigned char>(text[at - 1])) != 0;
 }
 
-/// Without comments, literals and lines of the preprocessor.
+}  // namespace
+
 std::string code_of(const std::string& text) {
   std::string code;
   bool line_begins = true;
@@ -57,8 +58,6 @@ std::string code_of(const std::string& text) {
   }
   return code;
 }
-
-}  // namespace
 
 std::vector<std::string> types_defined_in(const std::string& source) {
   static const std::regex kHead(

@@ -8,6 +8,9 @@
 
 namespace strainwave::testing {
 
+/// `source` without comments, literals and lines of the preprocessor.
+std::string code_of(const std::string& source);
+
 /// Qualified names of the classes, structs, unions and enumerations that `source` defines at namespace level, anonymous
 /// namespaces excepted.
 std::vector<std::string> types_defined_in(const std::string& source);

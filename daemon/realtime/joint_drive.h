@@ -1,0 +1,60 @@
+// The drive of one joint as the loop sees it: what it reads, judged, and what it is ordered. Real-time safe; time is an argument.
+// Positions are the drive's.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "daemon/realtime/joint_loop_config.h"
+#include "daemon/realtime/reading_watch.h"
+#include "daemon/realtime/speed_gauge.h"
+#include "daemon/realtime/temperature_check.h"
+#include "drivers/actuator.h"
+#include "drivers/faulty_actuator.h"
+
+namespace strainwave {
+
+class JointDrive {
+ public:
+  /// Not real-time safe.
+  JointDrive(const JointLoopConfig& config, std::unique_ptr<Actuator> actuator);
+
+  /// One period. `controlled`: the control law moves the joint, at `velocity_rad_s` by its own estimate.
+  void read(bool controlled, double velocity_rad_s, const CycleTime& time) noexcept;
+  void write(double torque_Nm, bool enabled) noexcept { actuator_->write({torque_Nm, enabled}); }
+  /// Zero torque and disable, at once.
+  void stop() noexcept { actuator_->stop(); }
+  /// Also begins to count missed positions anew.
+  void clear_fault() noexcept;
+  /// False: this drive takes no injected faults.
+  bool inject(const Injection& injection) noexcept;
+  /// Inertia and the largest static friction of the joint, of its gain table: what a position is judged by.
+  void set_joint(double inertia_kgm2, double static_friction_Nm) noexcept {
+    watch_.set_joint(inertia_kgm2, static_friction_Nm);
+  }
+
+  const ActuatorReading& reading() const noexcept { return watch_.reading(); }
+  double position_rad() const noexcept { return reading().joint_position_rad; }
+  /// By the drive, or else by positions, as long as the control law does not run.
+  double velocity_rad_s() const noexcept {
+    return reading().has_velocity ? reading().joint_velocity_rad_s : speed_gauge_.velocity_rad_s();
+  }
+  /// There is a position of this period.
+  bool fresh() const noexcept { return watch_.fresh(); }
+  bool missed() const noexcept { return watch_.missed(); }
+  bool too_many_missed() const noexcept { return watch_.too_many_missed(); }
+  /// From the position's sampling until it came; 0: not known, or none came.
+  std::int64_t position_delay_ns() const noexcept { return fresh() ? reading().position_delay_ns : 0; }
+  /// Whether a motion or torque of this sign leads into a limit switch that is closed.
+  bool into_limit_switch(double direction) const noexcept;
+  const TemperatureCheck& temperature() const noexcept { return temperature_; }
+
+ private:
+  std::unique_ptr<Actuator> actuator_;
+  FaultyActuator* injector_;  ///< the same object when it takes injected faults, else null
+  ReadingWatch watch_;
+  SpeedGauge speed_gauge_;
+  TemperatureCheck temperature_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,55 @@
+#include "daemon/realtime/joint_homing.h"
+
+namespace strainwave {
+
+namespace {
+
+Homing::Observation observe(const JointInLoop& joint, const CycleTime& time) noexcept {
+  return {joint.drive.position_rad(), joint.drive.reading().inputs, joint.law.motion().at_target, time.now_ns,
+          joint.law.motion().output.torque_Nm};
+}
+
+void follow_homing(JointInLoop& joint, const Homing::Order& order) noexcept {
+  switch (order.kind) {
+    case Homing::Order::Kind::kGoOn:
+      return;
+    case Homing::Order::Kind::kMove:
+      joint.law.controller().set_target(order.target_rad, order.speed_rad_s);
+      return;
+    case Homing::Order::Kind::kStop:
+      joint.law.controller().stop();
+      return;
+  }
+}
+
+}  // namespace
+
+Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept {
+  if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
+  if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
+  if (!joint.homing.possible()) return Reason::kNoHoming;
+  if (!joint.change_mode(ModeEvent::kHomeOrdered, time)) return Reason::kWrongMode;
+  joint.zero.forget();
+  joint.yield.reset();
+  joint.ordered.forget();
+  follow_homing(joint, joint.homing.begin(observe(joint, time)));
+  return Reason::kAccepted;
+}
+
+void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept {
+  if (!joint.mode.is(Mode::kHoming)) return;
+  if (joint.drive.fresh()) follow_homing(joint, joint.homing.step(observe(joint, time)));
+  if (joint.homing.phase() == Homing::Phase::kFailed) joint.raise_fault(Fault::kHomingFailed, time);
+}
+
+void end_homing(JointInLoop& joint, const CycleTime& time) noexcept {
+  if (joint.homing.phase() == Homing::Phase::kDone) {
+    joint.zero.set(joint.homing.found_rad(), joint.config.homing.home_position_rad);
+    joint.ordered.rezero(joint.zero);
+    (void)joint.change_mode(ModeEvent::kArrived, time);
+  } else if (joint.homing.phase() == Homing::Phase::kIdle && joint.law.motion().at_target) {
+    (void)joint.change_mode(ModeEvent::kArrived, time);
+  }
+}
+
+}  // namespace strainwave

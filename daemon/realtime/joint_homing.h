@@ -1,0 +1,14 @@
+// Homing of a joint in the loop, around daemon/realtime/homing.h. Real-time safe.
+#pragma once
+
+#include "daemon/realtime/joint_in_loop.h"
+
+namespace strainwave {
+
+Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+/// One period, before the control law's.
+void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+/// After the control law's: a joint whose home is found, or that was ordered to hold, holds as soon as it rests.
+void end_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+
+}  // namespace strainwave

@@ -1,0 +1,110 @@
+#include "daemon/realtime/joint_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lcmtypes/oscillation_evidence.h"
+
+namespace strainwave {
+
+namespace {
+
+/// So little of its way changes the torque of gravity by a hundredth at most.
+constexpr double kSamePlace_rad = 0.01;
+/// Of the estimated inertia, beside kInertiaApart.
+constexpr double kCertainDeviations = 3.0;
+
+}  // namespace
+
+JointLaw::JointLaw(const JointLoopConfig& config, std::int64_t turn)
+    : config_(config.controller),
+      controller_(config.controller),
+      schedule_(config.temperature_update_period_s, config.controller.period_s, turn),
+      inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
+                config.controller.delay_periods}),
+      held_{config.initial_load_Nm, {}} {}
+
+// Scales belong to the rules with which they were learned.
+void JointLaw::use_table(const TableSlot& slot) noexcept {
+  if (table_ != nullptr && table_->friction_rules_id != slot.friction_rules_id) forget_learned();
+  controller_.load(slot.table);
+  table_ = &slot;
+}
+
+// A joint that is found elsewhere may carry something else than gravity as it is configured.
+double JointLaw::load_at_Nm(double position_rad) const noexcept {
+  const double gravity_Nm = config_.gravity.at(position_rad);
+  if (!held_.position_rad) return held_.torque_Nm + gravity_Nm;
+  return std::abs(position_rad - *held_.position_rad) < kSamePlace_rad ? held_.torque_Nm : gravity_Nm;
+}
+
+void JointLaw::take_over(double position_rad, double velocity_rad_s) noexcept {
+  controller_.start(position_rad, velocity_rad_s, load_at_Nm(position_rad));
+  inertia_.forget();
+}
+
+void JointLaw::wait_for_brake(double position_rad) noexcept {
+  if (position_rad == controller_.plan().rest_position_rad())
+    controller_.start(position_rad, 0.0, load_at_Nm(position_rad));
+}
+
+void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_opens) noexcept {
+  const ActuatorReading& reading = drive.reading();
+  scheduled_C_ = schedule_.follow_C(drive.temperature().used_C(), time.cycle,
+                                    motion_.gains_in_use != GainsInUse::kPrimary);
+  JointMeasurement measurement;
+  measurement.joint_position_rad = reading.joint_position_rad;
+  measurement.joint_velocity_rad_s = reading.joint_velocity_rad_s;
+  measurement.temperature_C = scheduled_C_;
+  measurement.has_position = drive.fresh();
+  measurement.has_velocity = reading.has_velocity;
+  measurement.temperature_valid = drive.temperature().usable();
+  measurement.late_periods = reading.position_late_periods;
+  measurement.elapsed_periods =
+      static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
+  estimate_inertia(measurement, brake_opens);
+  motion_ = controller_.step(measurement);
+  if (motion_.learns) friction_.learned_now(scheduled_C_, time.now_ns);
+}
+
+// By the torque that was commanded last. A brake holds whatever the torque.
+void JointLaw::estimate_inertia(const JointMeasurement& measurement, bool brake_opens) noexcept {
+  if (!measurement.has_position || measurement.elapsed_periods != 1 || measurement.late_periods != 0 ||
+      brake_opens)
+    return inertia_.interrupt();
+  inertia_.step({measurement.joint_position_rad, motion_.output.torque_Nm,
+                 config_.gravity.at(measurement.joint_position_rad)},
+                controller_.joint().model);
+}
+
+void JointLaw::restore(const LearnedFriction& learned, const FrictionHistory& history) noexcept {
+  controller_.friction().set(learned);
+  friction_ = history;
+}
+
+void JointLaw::forget_learned() noexcept {
+  controller_.friction().set({});
+  friction_ = {.frozen = friction_.frozen};
+}
+
+void JointLaw::freeze_learning(bool frozen) noexcept {
+  friction_.frozen = frozen;
+  controller_.friction().freeze(frozen);
+}
+
+bool JointLaw::shows_other_inertia() const noexcept {
+  const std::optional<double> shown_kgm2 = inertia_.inertia_kgm2();
+  const double configured_kgm2 = controller_.joint().model.inertia_kgm2;
+  return shown_kgm2 && std::abs(*shown_kgm2 - configured_kgm2) >
+                           kInertiaApart * configured_kgm2 + kCertainDeviations * inertia_.deviation_kgm2();
+}
+
+std::uint32_t JointLaw::evidence() const noexcept {
+  const OscillationDetector& seen = controller_.oscillation();
+  const double configured_kgm2 = controller_.joint().model.inertia_kgm2;
+  const double shown_kgm2 = inertia_.inertia_kgm2().value_or(0.0);
+  return evidence_number({seen.reversals_per_s(), seen.swing_Nm(), shown_kgm2 / configured_kgm2});
+}
+
+}  // namespace strainwave
