@@ -40,5 +40,6 @@ int main(int argc, char** argv) {
   strainwave::add_heat_command(program, chosen);
   strainwave::add_flexible_command(program, chosen);
   strainwave::add_temperature_command(program, chosen);
+  strainwave::add_ablation_command(program, chosen);
   return strainwave::run_program(program, argc, argv, [&] { return chosen(); });
 }
