@@ -48,12 +48,10 @@ constexpr void visit_cycle_fields(const Cycle& cycle, Visit&& visit) {
     visit(FieldName{"reading_fresh", "1"}, cycle.reading_fresh);
 }
 
-/// Setpoint minus position, at one instant: a position that is read in a cycle was there one period before, when the setpoint
-/// stood where its velocity says.
-///   e = r - period_s * dr/dt - theta
+/// Where the joint should be read in a cycle, less where it is read.
 template <typename Cycle>
-constexpr double tracking_error_rad(const Cycle& cycle, double period_s) {
-  return cycle.setpoint_position_rad - period_s * cycle.setpoint_velocity_rad_s - cycle.joint_position_rad;
+constexpr double tracking_error_rad(const Cycle& cycle) {
+  return cycle.setpoint_position_rad - cycle.joint_position_rad;
 }
 
 }  // namespace strainwave

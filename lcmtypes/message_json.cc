@@ -89,9 +89,8 @@ Words words_of(const ack_v1& message) {
   return {{"reason_text", to_text(static_cast<Reason>(message.reason))}};
 }
 
-Derived derived_from(const state_v1& state, std::optional<double> period_s) {
-  return {{"tracking_error_rad",
-           period_s ? tracking_error_rad(state, *period_s) : std::numeric_limits<double>::quiet_NaN()}};
+Derived derived_from(const state_v1& state) {
+  return {{"tracking_error_rad", tracking_error_rad(state)}};
 }
 
 // Every array of a state has an entry for each temperature rule.

@@ -4,12 +4,11 @@
 // Numbers that name somebody (..._id) are texts, since readers in JavaScript would round them; a number that is none (NaN) is null.
 // The schemas say "number" of it all the same: Foxglove's reader takes one type for a field, and shows nothing of a schema with alternatives.
 // Modes, faults and their like come a second time as words (mode_text, ...); weights only as far as rules are in use. A state also has
-// its tracking_error_rad, where the period of the loop is known (loop_periods.h).
+// its tracking_error_rad.
 #pragma once
 
 #include <concepts>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -86,13 +85,13 @@ Words words_of(const state_v1& state);
 Words words_of(const temperature_v1& message);
 Words words_of(const ack_v1& message);
 
-/// What is computed from a message, by name; NaN: not known.
+/// What is computed from a message, by name.
 using Derived = std::vector<std::pair<std::string_view, double>>;
 template <typename Message>
-Derived derived_from(const Message&, std::optional<double>) {
+Derived derived_from(const Message&) {
   return {};
 }
-Derived derived_from(const state_v1& state, std::optional<double> period_s);
+Derived derived_from(const state_v1& state);
 
 /// How many entries of an array field mean something.
 template <typename Message>
@@ -103,9 +102,8 @@ std::size_t used_entries(const state_v1& state, std::string_view field, std::siz
 
 }  // namespace json
 
-/// `period_s`: of the loop that says it, if it is known.
 template <typename Message>
-std::string message_json(const Message& message, std::optional<double> period_s = std::nullopt) {
+std::string message_json(const Message& message) {
   json::Object object;
   visit_fields(message, [&](const char* name, const auto& value) {
     using Value = std::decay_t<decltype(value)>;
@@ -120,7 +118,7 @@ std::string message_json(const Message& message, std::optional<double> period_s 
     }
   });
   for (const auto& [name, words] : json::words_of(message)) object.add(name, words);
-  for (const auto& [name, value] : json::derived_from(message, period_s)) object.add(name, value);
+  for (const auto& [name, value] : json::derived_from(message)) object.add(name, value);
   return std::move(object).end();
 }
 

@@ -18,8 +18,7 @@ set ylabel "joint position, rad"
 plot file("identified") using ((column("cycle") - identified_start) * 1e-3):"joint_position_rad" with lines lc rgb "#4477aa" title "position, which is the same with either table at this scale"
 set ylabel "error (setpoint - position), µrad"
 set xlabel "time, s"
-# A position was measured one period before its row (lcmtypes/cycle_fields.h); rows whose message was lost do no harm.
-period_s = 1e-3
-plot file("catalogue") using ((column("cycle") - catalogue_start) * 1e-3):((column("setpoint_position_rad") - period_s * column("setpoint_velocity_rad_s") - column("joint_position_rad")) * 1e6) with lines lc rgb "#ee6677" title "with the catalogue's table", \
-  file("identified") using ((column("cycle") - identified_start) * 1e-3):((column("setpoint_position_rad") - period_s * column("setpoint_velocity_rad_s") - column("joint_position_rad")) * 1e6) with lines lc rgb "#228833" title "with the identified table"
+# Setpoint and position of a row are of the same period; rows whose message was lost do no harm.
+plot file("catalogue") using ((column("cycle") - catalogue_start) * 1e-3):((column("setpoint_position_rad") - column("joint_position_rad")) * 1e6) with lines lc rgb "#ee6677" title "with the catalogue's table", \
+  file("identified") using ((column("cycle") - identified_start) * 1e-3):((column("setpoint_position_rad") - column("joint_position_rad")) * 1e6) with lines lc rgb "#228833" title "with the identified table"
 unset multiplot

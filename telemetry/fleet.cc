@@ -46,9 +46,8 @@ void JointRecord::take(const state_v1& latest, double now_s) {
   state = latest;
   state_heard_s = now_s;
   torque_Nm.take(state.torque_commanded_Nm, now_s);
-  if (!limits) return;
-  tracking_error_rad.take(strainwave::tracking_error_rad(state, limits->period_s), now_s);
-  if (!tells_of_friction(state, *limits)) return;
+  tracking_error_rad.take(strainwave::tracking_error_rad(state), now_s);
+  if (!limits || !tells_of_friction(state, *limits)) return;
   const double direction = std::copysign(1.0, state.setpoint_velocity_rad_s);
   friction_modelled_Nm.take(direction * state.torque_feedforward_Nm, now_s);
   friction_excess_Nm.take(direction * state.torque_feedback_Nm, now_s);

@@ -54,10 +54,8 @@ constexpr std::array kJointMetrics{
     JointMetric{"strainwave_joint_velocity_radians_per_second", MetricType::kGauge, "Velocity of the joint.",
                 [](const Joint& j, double) { return Value(j.state.joint_velocity_rad_s); }},
     JointMetric{"strainwave_joint_tracking_error_peak_radians", MetricType::kGauge,
-                "Largest amount of setpoint minus position, for the same instant, in the last minute.",
-                [](const Joint& j, double now_s) {
-                  return j.limits ? Value(j.tracking_error_rad.amount(now_s)) : std::nullopt;
-                }},
+                "Largest amount of setpoint minus position in the last minute.",
+                [](const Joint& j, double now_s) { return Value(j.tracking_error_rad.amount(now_s)); }},
     JointMetric{"strainwave_joint_following_error_limit_radians", MetricType::kGauge,
                 "Tracking error that is a fault; 0: none is.",
                 [](const Joint& j, double) { return of_limits(j, &limits_v1::following_error_rad); }},

@@ -20,14 +20,12 @@ void Telemetry::run() {
 
 void Telemetry::take(const LcmSource& from, std::string_view channel, std::span<const std::uint8_t> bytes) {
   const auto name = parse_channel(channel);
-  const bool ours =
-      name && visit_message(name->kind, bytes, [&]<typename Message>(const Message& message) {
-        fleet_.take(*name, message, now_s(), from);
-        periods_.take(*name, message);
-        const Topic* topic = topic_of<Message>(std::string(channel), from);
-        if (topic != nullptr && server_.is_wanted(topic->id))
-          server_.publish(topic->id, utime_now(), message_json(message, periods_.of(name->prefix)));
-      });
+  const bool ours = name && visit_message(name->kind, bytes, [&]<typename Message>(const Message& message) {
+                      fleet_.take(*name, message, now_s(), from);
+                      const Topic* topic = topic_of<Message>(std::string(channel), from);
+                      if (topic != nullptr && server_.is_wanted(topic->id))
+                        server_.publish(topic->id, utime_now(), message_json(message));
+                    });
   ++(ours ? heard_ : not_ours_);
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "lcmtypes/loop_periods.h"
 #include "telemetry/fleet.h"
 #include "telemetry/lcm_listener.h"
 #include "telemetry/server/server.h"
@@ -34,7 +33,6 @@ class Telemetry {
   LcmListener listener_;
   Topics topics_;
   Fleet fleet_;
-  LoopPeriods periods_;
   std::uint64_t heard_ = 0;
   std::uint64_t not_ours_ = 0;
   TelemetryServer server_;

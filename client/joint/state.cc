@@ -21,8 +21,8 @@ std::span<const double> State::weights() const noexcept {
   return std::span<const double>(temperature_weights).first(std::min(rules, std::size(temperature_weights)));
 }
 
-double State::tracking_error_rad(double period_s) const noexcept {
-  return strainwave::tracking_error_rad(static_cast<const state_v1&>(*this), period_s);
+double State::tracking_error_rad() const noexcept {
+  return strainwave::tracking_error_rad(static_cast<const state_v1&>(*this));
 }
 
 Limits::Limits(const limits_v1& message)

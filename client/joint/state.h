@@ -27,9 +27,8 @@ struct State : state_v1 {
   /// Weights of the temperature rules, as many as the table has.
   std::span<const double> weights() const noexcept;
 
-  /// Setpoint minus position at one instant: a position that is read in a cycle was there one period before.
-  ///   e = r - period_s * dr/dt - theta
-  double tracking_error_rad(double period_s) const noexcept;
+  /// Where the joint should be read in this cycle, less where it is read.
+  double tracking_error_rad() const noexcept;
 };
 
 /// limits_v1: what the joint is and how far it may go.

@@ -38,7 +38,7 @@ std::string silence_of(const JointView& view, double timeout_s) {
 }
 
 double tracking_error_rad(const JointView& view) noexcept {
-  return plain_zero(tracking_error_rad(view.state, view.period_s()));
+  return plain_zero(tracking_error_rad(view.state));
 }
 
 std::vector<std::string> StateView::joints(const std::string& prefix) const {

@@ -74,7 +74,7 @@ double number_of(const CsvText& csv, std::size_t row, std::size_t column) {
   return parse_number(text, csv.place(row), csv.columns[column]);
 }
 
-std::string message_of(const CsvText& csv, std::size_t row, double period_s) {
+std::string message_of(const CsvText& csv, std::size_t row) {
   json::Object object;
   for (std::size_t c = 0; c < csv.columns.size(); ++c) {
     if (json::names_somebody(csv.columns[c]))
@@ -86,10 +86,7 @@ std::string message_of(const CsvText& csv, std::size_t row, double period_s) {
   object.add("mode_text", std::string_view(to_text(static_cast<Mode>(std::lround(value("mode"))))));
   object.add("fault_text", fault_words(static_cast<Fault>(std::lround(value("fault"))),
                                        std::llround(value("drive_error"))));
-  const struct {
-    double setpoint_position_rad, setpoint_velocity_rad_s, joint_position_rad;
-  } cycle{value("setpoint_position_rad"), value("setpoint_velocity_rad_s"), value("joint_position_rad")};
-  object.add("tracking_error_rad", tracking_error_rad(cycle, period_s));
+  object.add("tracking_error_rad", value("setpoint_position_rad") - value("joint_position_rad"));
   return std::move(object).end();
 }
 
@@ -114,7 +111,7 @@ FlightMcap write_flight_mcap(const std::filesystem::path& file, const std::files
     if (!(std::abs(time_s) < 1e6))
       throw InputError(csv.place(row), "time_s", csv.rows[row][time], "seconds from the fault are allowed");
     const auto ns = static_cast<std::uint64_t>(at_ns + std::llround(1e9 * time_s));
-    writer.write(channel, ns, ns, message_of(csv, row, info.period_s));
+    writer.write(channel, ns, ns, message_of(csv, row));
   }
   writer.finish();
   return written;

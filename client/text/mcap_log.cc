@@ -20,7 +20,6 @@ McapLog::McapLog(const std::filesystem::path& file) : writer_(file, "strainwave 
 bool McapLog::take(const ChannelName& name, const std::string& channel, std::int64_t received_us,
                    std::span<const std::uint8_t> data) {
   return visit_message(name.kind, data, [&]<typename Message>(const Message& message) {
-    periods_.take(name, message);
     auto known = channels_.find(channel);
     if (known == channels_.end()) {
       const std::uint16_t id =
@@ -28,7 +27,7 @@ bool McapLog::take(const ChannelName& name, const std::string& channel, std::int
       known = channels_.emplace(channel, id).first;
     }
     writer_.write(known->second, since_epoch_ns(received_us), since_epoch_ns(message.utime),
-                  message_json(message, periods_.of(name.prefix)));
+                  message_json(message));
   });
 }
 

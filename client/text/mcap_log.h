@@ -7,7 +7,6 @@
 
 #include "client/text/mcap_writer.h"
 #include "lcmtypes/channels.h"
-#include "lcmtypes/loop_periods.h"
 
 namespace strainwave {
 
@@ -27,7 +26,6 @@ class McapLog {
 
  private:
   McapWriter writer_;
-  LoopPeriods periods_;
   std::map<std::string, std::uint16_t> channels_;
 };
 

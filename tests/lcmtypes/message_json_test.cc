@@ -5,7 +5,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "lcmtypes/loop_periods.h"
 #include "lcmtypes/message_kinds.h"
 
 namespace strainwave {
@@ -63,36 +62,13 @@ TEST(MessageJson, KeepsWhatAReaderInJavaScriptWouldRound) {
   EXPECT_EQ(value["mode_text"], "off");
 }
 
-TEST(MessageJson, HasTheErrorOfOneInstantOnceThePeriodIsKnown) {
-  LoopPeriods periods;
+TEST(MessageJson, HasTheDistanceFromSetpointToPosition) {
   state_v1 state{};
   state.setpoint_position_rad = 1.0;
   state.setpoint_velocity_rad_s = 2.0;
   state.joint_position_rad = 0.9;
-  const ChannelName elbow{"SW", "elbow", "STATE"};
-  periods.take(elbow, state);
-  EXPECT_TRUE(Json::parse(message_json(state, periods.of("SW")))["tracking_error_rad"].is_null());
-  limits_v1 limits{};
-  limits.period_s = -1.0;
-  periods.take(elbow, limits);
-  EXPECT_FALSE(periods.of("SW"));
-  limits.period_s = 0.001;
-  periods.take(elbow, limits);
-  EXPECT_FALSE(periods.of("other"));
-  const Json value = Json::parse(message_json(state, periods.of("SW")));
-  EXPECT_NEAR(value["tracking_error_rad"].get<double>(), 1.0 - 0.001 * 2.0 - 0.9, 1e-15);
-}
-
-TEST(LoopPeriods, HoldNoMoreThanTheirBound) {
-  LoopPeriods periods;
-  timing_v1 timing{};
-  timing.period_s = 0.001;
-  for (std::size_t i = 0; i < 2 * LoopPeriods::kMaxDaemons; ++i)
-    periods.take({"P" + std::to_string(i), "", "TIMING"}, timing);
-  EXPECT_FALSE(periods.of("P0"));
-  EXPECT_FALSE(periods.of("P" + std::to_string(LoopPeriods::kMaxDaemons - 1)));
-  EXPECT_TRUE(periods.of("P" + std::to_string(LoopPeriods::kMaxDaemons)))
-      << "who speaks is heard, whoever was there before";
+  const Json value = Json::parse(message_json(state));
+  EXPECT_DOUBLE_EQ(value["tracking_error_rad"].get<double>(), 1.0 - 0.9);
 }
 
 TEST(MessageKinds, KnowATypeForEachKindAndRefuseTheBytesOfAnother) {

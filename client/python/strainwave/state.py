@@ -35,11 +35,9 @@ class State(_Snapshot):
         """The fault in words; with fault 5, which of its causes it was."""
         return fault_words(self.fault, self.drive_error)
 
-    def tracking_error_rad(self, period_s):
-        """Setpoint minus position at one instant: a position that is read in a cycle was there one period before.
-        e = r - period_s * dr/dt - theta
-        """
-        return self.setpoint_position_rad - period_s * self.setpoint_velocity_rad_s - self.joint_position_rad
+    def tracking_error_rad(self):
+        """Where the joint should be read in this cycle, less where it is read."""
+        return self.setpoint_position_rad - self.joint_position_rad
 
 
 class Limits(_Snapshot):
