@@ -44,6 +44,7 @@ TEST(Ablation, TakesTheFigureThatSuffersMostAsTheWorthOfAPart) {
   complete.step_sums = {1.0, 2.0, 3.0, 4.0};
   complete.overshoot_rad = complete.rest_torque_Nm = complete.unsettled = complete.wrong_off = 1.0;
   complete.wrong_worst_rad = complete.wrong_overshoot_rad = complete.random_rest_rad = 1.0;
+  complete.load_rest_rad = 1.0;
   complete.first_rms_rad = complete.sixth_rms_rad = 1.0;
   AblationRow without = complete;
   without.step_sums[1] = 2.5;
