@@ -36,6 +36,7 @@ Contents read_contents(const std::filesystem::path& file, const std::string& joi
       if (const auto limits = decode_exactly<limits_v1>(event.data)) contents.limits = *limits;
     }
   }
+  require_undamaged(reader, file);
   return contents;
 }
 

@@ -1,5 +1,6 @@
 // LCM's event log (lcm-logger, strainwavectl record), read event by event. The file is untrusted: liblcm's
-// own reader ends the program on a wrong length, this one throws. Not real-time; needs no LCM library.
+// own reader ends the program on a wrong length, this one passes over what is damaged and counts it. Not
+// real-time; needs no LCM library.
 //
 // An event: sync word 0xEDA1DA01, int64 number, int64 time of receipt in us since the epoch, int32 length of
 // the channel's name, int32 length of the data, name, data; all big-endian. Source: liblcm's lcm/eventlog.h
@@ -9,7 +10,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace strainwave {
@@ -21,6 +24,13 @@ struct LogEvent {
   std::vector<std::uint8_t> data;
 };
 
+/// What of a log was passed over, since no event is there.
+struct LogDamage {
+  std::uint64_t skipped_bytes = 0;
+  int places = 0;
+  std::uint64_t first_byte = 0;  ///< of the first place, from the file's beginning
+};
+
 class EventLogReader {
  public:
   /// LCM's own limit of one message is below this.
@@ -29,20 +39,41 @@ class EventLogReader {
   /// Throws InputError when the file cannot be opened.
   explicit EventLogReader(const std::filesystem::path& file);
 
-  /// The next event. False at the end, also when the last event is cut off (the recorder was killed): see
-  /// truncated(). Throws InputError naming file and byte when it is no event log.
+  /// The next event, behind damage if need be: see damage(). False at the end, also when the last event is
+  /// cut off (the recorder was killed): see truncated(). Throws InputError when the whole file holds no event.
   bool next(LogEvent& event);
   bool truncated() const noexcept { return truncated_; }
+  const LogDamage& damage() const noexcept { return damage_; }
 
  private:
-  template <typename Integer>
-  bool read(Integer& value);
-  [[noreturn]] void refuse(const std::string& why) const;
+  struct Header {
+    std::int64_t number = 0;
+    std::int64_t received_us = 0;
+    std::uint32_t channel_bytes = 0;
+    std::uint32_t data_bytes = 0;
+  };
+  enum class Found { kEvent, kCutOff, kDamage, kEnd };
+
+  std::string_view bytes_at(std::uint64_t offset, std::uint64_t count);
+  Found look(Header& header);
+  Found cut_off();
+  std::optional<std::uint64_t> sync_word_between(std::uint64_t from, std::uint64_t to);
+  void skip();
+  void read_body(const Header& header, LogEvent& event);
+  void refuse_what_is_no_log();
 
   std::string name_;
   std::ifstream file_;
-  std::uint64_t offset_ = 0;  ///< of the event that is read
+  std::uint64_t size_ = 0;
+  std::string buffer_;           ///< a part of the file
+  std::uint64_t buffer_at_ = 0;  ///< where it begins in the file
+  std::uint64_t offset_ = 0;     ///< of the event that is read next
+  bool any_ = false;             ///< event was read
   bool truncated_ = false;
+  LogDamage damage_;
 };
+
+/// Throws InputError where events are missing: for readers that must not go on without them. Call it at the end.
+void require_undamaged(const EventLogReader& reader, const std::filesystem::path& file);
 
 }  // namespace strainwave

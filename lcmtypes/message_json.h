@@ -1,7 +1,7 @@
 // Messages as JSON objects under their fields' own names, and the JSON schemas of these: what MCAP files and live viewers carry.
 // Not real-time.
 //
-// Numbers that name somebody (..._id) are texts, since readers in JavaScript would round them; a number that is none (NaN) is null.
+// Numbers that only name something (..._id, challenge) are texts, since readers in JavaScript would round them; a number that is none (NaN) is null.
 // The schemas say "number" of it all the same: Foxglove's reader takes one type for a field, and shows nothing of a schema with alternatives.
 // Modes, faults and their like come a second time as words (mode_text, ...); weights only as far as rules are in use. A state also has
 // its tracking_error_rad.
@@ -71,8 +71,9 @@ class Schema {
   bool any_ = false;
 };
 
-inline bool names_somebody(std::string_view field) {
-  return field.ends_with("_id");
+/// A number of 64 bits that is compared and never counted with.
+inline bool is_a_name(std::string_view field) {
+  return field.ends_with("_id") || field == "challenge";
 }
 
 /// The words of numbers that stand for something: names of fields (mode_text) and texts.
@@ -111,7 +112,7 @@ std::string message_json(const Message& message) {
       using Number = std::remove_cv_t<typename Value::element_type>;
       object.add(name, std::span<const Number>(value).first(json::used_entries(message, name, value.size())));
     } else if constexpr (std::integral<Value>) {
-      if (json::names_somebody(name)) return object.add(name, std::string_view(std::to_string(value)));
+      if (json::is_a_name(name)) return object.add(name, std::string_view(std::to_string(value)));
       object.add(name, std::int64_t{value});
     } else {
       object.add(name, value);
@@ -133,7 +134,7 @@ std::string message_schema() {
     } else if constexpr (requires { value.size(); }) {
       schema.numbers(name);
     } else if constexpr (std::integral<Value>) {
-      if (json::names_somebody(name)) return schema.text(name);
+      if (json::is_a_name(name)) return schema.text(name);
       schema.integer(name);
     } else {
       schema.number(name);

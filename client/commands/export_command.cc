@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <map>
 
 #include "base/printable.h"
@@ -183,14 +184,48 @@ class McapExport {
   McapLog log_;
 };
 
+/// Times of receipt that are before those of the message in front of them.
+class FallingTimes {
+ public:
+  void take(const LogEvent& event) {
+    if (event.received_us < last_us_) ++falls_;
+    last_us_ = event.received_us;
+  }
+  void report(const Output& output) const {
+    if (falls_ == 0) return;
+    say(output,
+        fmt::format("the times of receipt fall {}: logs were joined, or the recorder's clock was set back",
+                    falls_ == 1 ? "once" : counted(falls_, "time")),
+        {{"falling_times", std::int64_t{falls_}}});
+  }
+
+ private:
+  std::int64_t last_us_ = std::numeric_limits<std::int64_t>::min();
+  long falls_ = 0;
+};
+
+void report_damage(const Output& output, const LogDamage& damage) {
+  if (damage.places == 0) return;
+  say(output,
+      fmt::format(
+          "WARNING: the log is damaged: {} in {} skipped, from byte {} on; messages are missing there",
+          counted(damage.skipped_bytes, "byte"), counted(damage.places, "place"), damage.first_byte),
+      {{"skipped_bytes", static_cast<std::int64_t>(damage.skipped_bytes)},
+       {"damaged_places", std::int64_t{damage.places}},
+       {"first_damaged_byte", static_cast<std::int64_t>(damage.first_byte)}});
+}
+
 template <typename Export>
 void export_into(Export into, const Output& output, const std::filesystem::path& log) {
   EventLogReader reader(log);
   long others = 0;
   long taken = 0;
+  FallingTimes times;
   for (LogEvent event; reader.next(event);) {
     const auto name = parse_channel(event.channel);
-    ++(name && into.take(*name, event) ? taken : others);
+    const bool ours = name && into.take(*name, event);
+    ++(ours ? taken : others);
+    if (ours) times.take(event);
   }
   into.finish(output);
   if (taken == 0)
@@ -199,6 +234,8 @@ void export_into(Export into, const Output& output, const std::filesystem::path&
   if (others > 0)
     say(output, fmt::format("left out: {}", counted(others, "other message")),
         {{"left_out", std::int64_t{others}}});
+  times.report(output);
+  report_damage(output, reader.damage());
   if (reader.truncated()) say(output, "the log's last message is cut off", {{"truncated", true}});
 }
 

@@ -35,6 +35,7 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
                                  setpoints.empty() ? 0.0 : setpoints.back().at_s);
     setpoints.push_back({at_s, *setpoint});
   }
+  require_undamaged(reader, arguments.log);
   if (setpoints.empty())
     throw ClientError(ExitStatus::kUsage,
                       fmt::format("{} holds no setpoints of {}", arguments.log.string(), arguments.joint));

@@ -56,7 +56,7 @@ std::int64_t fault_ns(const FlightRecordInfo& info, const std::string& source) {
 std::string schema_of(const CsvText& csv) {
   json::Schema schema(kSchemaName);
   for (const std::string& column : csv.columns) {
-    if (json::names_somebody(column))
+    if (json::is_a_name(column))
       schema.text(column);
     else
       schema.number(column);
@@ -77,7 +77,7 @@ double number_of(const CsvText& csv, std::size_t row, std::size_t column) {
 std::string message_of(const CsvText& csv, std::size_t row) {
   json::Object object;
   for (std::size_t c = 0; c < csv.columns.size(); ++c) {
-    if (json::names_somebody(csv.columns[c]))
+    if (json::is_a_name(csv.columns[c]))
       object.add(csv.columns[c], std::string_view(csv.rows[row][c]));
     else
       object.add(csv.columns[c], number_of(csv, row, c));

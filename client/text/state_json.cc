@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/text/text.h"
+#include "lcmtypes/message_json.h"
 #include "lcmtypes/state_fields.h"
 
 namespace strainwave {
@@ -11,21 +12,23 @@ namespace {
 
 nlohmann::ordered_json joint_json(const JointName& whose, const JointView& view) {
   const double age_s = seconds_between(view.received, now());
-  nlohmann::ordered_json json{{"prefix", whose.prefix}, {"joint", whose.joint}, {"age_s", age_s}};
+  nlohmann::ordered_json fields{{"prefix", whose.prefix}, {"joint", whose.joint}, {"age_s", age_s}};
   visit_state_fields(view.state, [&](const char* name, const auto& value) {
     if constexpr (requires { value.size(); }) {
-      json[name] = std::vector<double>(value.begin(), value.end());
+      fields[name] = std::vector<double>(value.begin(), value.end());
+    } else if (json::is_a_name(name)) {
+      fields[name] = std::to_string(value);
     } else {
-      json[name] = value;
+      fields[name] = value;
     }
   });
-  json["mode_text"] = to_text(static_cast<Mode>(view.state.mode));
-  json["fault_text"] = to_text(static_cast<Fault>(view.state.fault));
-  json["gains_in_use_text"] = to_text(static_cast<GainsInUse>(view.state.gains_in_use));
-  json["temperature_status_text"] = to_text(static_cast<TemperatureStatus>(view.state.temperature_status));
-  json["error_rad"] = tracking_error_rad(view);
-  json["notes"] = state_notes(view, age_s);
-  return json;
+  fields["mode_text"] = to_text(static_cast<Mode>(view.state.mode));
+  fields["fault_text"] = to_text(static_cast<Fault>(view.state.fault));
+  fields["gains_in_use_text"] = to_text(static_cast<GainsInUse>(view.state.gains_in_use));
+  fields["temperature_status_text"] = to_text(static_cast<TemperatureStatus>(view.state.temperature_status));
+  fields["error_rad"] = tracking_error_rad(view);
+  fields["notes"] = state_notes(view, age_s);
+  return fields;
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "base/input_error.h"
+#include "base/text_file.h"
 #include "tests/support/event_log_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,6 +26,23 @@ class EventLogTest : public ::testing::Test {
     }
     return "";
   }
+  struct Read {
+    int events = 0;
+    std::set<std::uint8_t> last_bytes;
+    LogDamage damage;
+    bool truncated = false;
+  };
+  Read read_all() const {
+    EventLogReader reader(path_);
+    Read read;
+    for (LogEvent event; reader.next(event); ++read.events)
+      if (!event.data.empty()) read.last_bytes.insert(event.data.back());
+    read.damage = reader.damage();
+    read.truncated = reader.truncated();
+    return read;
+  }
+  std::string bytes() const { return read_text_file(path_); }
+  void write(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
   TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "a.lcm";
 };
@@ -60,15 +79,67 @@ TEST_F(EventLogTest, ALogThatWasCutOffEndsWithItsLastWholeEvent) {
   }
 }
 
-TEST_F(EventLogTest, RefusesLengthsThatCannotBeAndNamesThePlace) {
+TEST_F(EventLogTest, PassesOverOneDamagedPlaceAndSaysHowMuchAndWhere) {
+  testing::EventLogFile log(path_);
+  const std::size_t event_bytes = 28 + 14 + 4;
+  for (int i = 0; i < 5; ++i) log.add_bytes(i, "SW.elbow.STATE", {1, 2, 3, static_cast<std::uint8_t>(i)});
+  const std::string whole = bytes();
+  ASSERT_EQ(whole.size(), 5 * event_bytes);
+  // Each byte in turn: no event but the one that it belongs to is lost.
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x15);
+    write(damaged);
+    const std::size_t hit = at / event_bytes;
+    const Read read = read_all();
+    for (std::size_t i = 0; i < 5; ++i)
+      EXPECT_TRUE(i == hit || read.last_bytes.contains(static_cast<std::uint8_t>(i))) << i << " at " << at;
+    EXPECT_EQ(read.damage.skipped_bytes % event_bytes, 0U) << at;
+    if (read.damage.places > 0) {
+      EXPECT_EQ(read.damage.first_byte, hit * event_bytes);
+    }
+  }
+}
+
+TEST_F(EventLogTest, FindsTheEventsBehindWhatIsNoLog) {
+  testing::EventLogFile(path_).add_bytes(1, "SW.elbow.STATE", {1, 2, 3, 4});
+  const std::string event = bytes();
+  std::string junk(5000, 'x');
+  junk.replace(100, 4, "\xED\xA1\xDA\x01");  // begins no event
+  write(event + junk + event + junk + event);
+  const Read read = read_all();
+  EXPECT_EQ(read.events, 3);
+  EXPECT_EQ(read.damage.places, 2);
+  EXPECT_EQ(read.damage.skipped_bytes, 2 * junk.size());
+  EXPECT_EQ(read.damage.first_byte, event.size());
+  EXPECT_FALSE(read.truncated);
+}
+
+TEST_F(EventLogTest, ALengthThatCannotBeTakesNoOtherEventAlong) {
   testing::EventLogFile log(path_);
   log.add_bytes(1, "A", {1});
   log.put(testing::kLogSyncWord, 4);
   log.put(1, 8);
   log.put(1, 8);
-  log.put(0xFFFFFFFF, 4);  // the channel's length
   log.put(1, 4);
-  EXPECT_NE(refusal().find("at byte 30"), std::string::npos) << refusal();
+  log.put(15 << 20, 4);  // data beyond the file's end
+  log.add_bytes(2, "A", {2});
+  const Read read = read_all();
+  EXPECT_EQ(read.events, 2);
+  EXPECT_EQ(read.damage.first_byte, 30U);
+  EXPECT_EQ(read.damage.skipped_bytes, 28U);
+}
+
+TEST_F(EventLogTest, OfSyncWordsAloneIsReadOnce) {
+  // Each could begin an event of 15 MB: to look for its end anew each time would take minutes.
+  testing::EventLogFile log(path_);
+  log.add_bytes(1, "A", {1});
+  std::string header = "\xED\xA1\xDA\x01";
+  header += std::string(16, '\0') + std::string("\0\0\0\x01\x00\xF0\0\0", 8);
+  std::string text = bytes();
+  while (text.size() < (4U << 20)) text += header;
+  write(text);
+  EXPECT_EQ(read_all().damage.places, 1);
 }
 
 TEST_F(EventLogTest, NamesAnMcapFileForWhatItIs) {

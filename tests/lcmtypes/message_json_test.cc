@@ -52,11 +52,12 @@ TEST(MessageJson, HasTheKeysOfItsSchema) {
 
 TEST(MessageJson, KeepsWhatAReaderInJavaScriptWouldRound) {
   state_v1 state{};
-  state.session_id = std::numeric_limits<std::int64_t>::max();
+  state.session_id = state.challenge = std::numeric_limits<std::int64_t>::max();
   state.temperature_used_C = std::numeric_limits<double>::quiet_NaN();
   state.rule_count = 3;
   const Json value = Json::parse(message_json(state));
   EXPECT_EQ(value["session_id"], "9223372036854775807");
+  EXPECT_EQ(value["challenge"], "9223372036854775807");
   EXPECT_TRUE(value["temperature_used_C"].is_null());
   EXPECT_EQ(value["temperature_weights"].size(), 3U);
   EXPECT_EQ(value["mode_text"], "off");

@@ -1,8 +1,10 @@
 // Setpoints of a log that are sent again.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <strainwave/setpoint_v2.hpp>
 
+#include "base/input_error.h"
 #include "client/link/key_file.h"
 #include "tests/client/commands/commands_fixture.h"
 #include "tests/support/event_log_file.h"
@@ -27,7 +29,6 @@ class PlayTest : public testing::CommandsTest {
     return status_of([&] { play(signing, output, {folder_.path() / "a.lcm", "elbow"}); });
   }
 
- private:
   TemporaryFolder folder_;
 };
 
@@ -55,6 +56,17 @@ TEST_F(PlayTest, IsNotEndedByALoadOfBefore) {
   EXPECT_EQ(status_of_play(), ExitStatus::kDone) << message;
   EXPECT_TRUE(output_has("elbow: 20 setpoints over 0.2 s")) << stream.str();
   EXPECT_TRUE(output_has("elbow: all sent")) << stream.str();
+}
+
+TEST_F(PlayTest, SendsNothingOfADamagedLog) {
+  std::fstream log(folder_.path() / "a.lcm", std::ios::binary | std::ios::in | std::ios::out);
+  log.seekp(0, std::ios::end);
+  const auto size = static_cast<long>(log.tellp());
+  log.seekp(size / 2);
+  log << std::string(30, 'x');
+  log.close();
+  EXPECT_THROW(status_of_play(), InputError);
+  EXPECT_TRUE(daemon.heard().empty());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/input_error.h"
+#include "base/text_file.h"
 #include "client/commands/commands.h"
 #include "client/link/client_error.h"
 #include "client/link/event_log_writer.h"
@@ -112,6 +113,26 @@ TEST_F(EventLogs, ExportSaysSoWhenTheLogIsCutOff) {
   std::filesystem::resize_file(folder_ / "a.lcm", std::filesystem::file_size(folder_ / "a.lcm") - 1);
   export_log(output_, {folder_ / "a.lcm", folder_ / "a.csv", false});
   EXPECT_NE(out_.str().find("cut off"), std::string::npos);
+}
+
+TEST_F(EventLogs, ExportGoesOnBehindADamagedPlaceAndSaysWhatItSkipped) {
+  const auto path = folder_ / "a.lcm";
+  testing::EventLogFile(path).add(200, "SW.elbow.STATE", state_v1{});
+  const std::string event = read_text_file(path);
+  std::ofstream(path, std::ios::binary) << event << std::string(5000, 'x') << event;
+  export_log(output_, {path, folder_ / "a.csv", false});
+  EXPECT_EQ(lines_of(folder_ / "a.csv").size(), 3U);
+  EXPECT_NE(out_.str().find("5000 bytes in 1 place skipped, from byte " + std::to_string(event.size())),
+            std::string::npos)
+      << out_.str();
+  EXPECT_EQ(out_.str().find("fall"), std::string::npos) << out_.str();
+}
+
+TEST_F(EventLogs, ExportNotesTimesThatFall) {
+  testing::EventLogFile log(folder_ / "a.lcm");
+  for (const int received_us : {300, 400, 100, 200}) log.add(received_us, "SW.elbow.STATE", state_v1{});
+  export_log(output_, {folder_ / "a.lcm", folder_ / "a.csv", false});
+  EXPECT_NE(out_.str().find("times of receipt fall once"), std::string::npos) << out_.str();
 }
 
 TEST_F(EventLogs, ExportOfSomethingElseCreatesNothing) {
