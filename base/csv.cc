@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/input_error.h"
+#include "base/nearest_word.h"
 #include "base/printable.h"
 #include "base/text_file.h"
 
@@ -23,6 +24,23 @@ std::string joined(const std::vector<std::string>& columns) {
   std::string header;
   for (const std::string& column : columns) header += (header.empty() ? "" : ",") + column;
   return header;
+}
+
+/// Of the first column in a unit that is not used here.
+std::string conversion_of(const std::vector<std::string>& columns) {
+  for (const std::string& column : columns)
+    if (const std::string conversion = unit_conversion(column); !conversion.empty())
+      return ". " + column + ":" + conversion;
+  return "";
+}
+
+/// As spreadsheets write it where the decimal sign is a comma.
+void refuse_other_separators(std::string_view header, const std::string& where) {
+  const std::size_t separator = header.find_first_of(";\t");
+  if (header.find(',') != std::string_view::npos || separator == std::string_view::npos) return;
+  throw InputError(
+      where + ": " + (header[separator] == ';' ? "semicolons" : "tabs") +
+      " stand between the fields: write commas there, and a decimal point in numbers, 0.5 for 0,5");
 }
 
 std::vector<std::string> fields_of(std::string_view line) {
@@ -67,7 +85,8 @@ template <typename Field>
 std::size_t CsvRows<Field>::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found == columns.end())
-    throw InputError(source + ": column " + name + " is missing; there are " + joined(columns));
+    throw InputError(source + ": column " + name + " is missing; there are " + joined(columns) +
+                     conversion_of(columns));
   return static_cast<std::size_t>(found - columns.begin());
 }
 
@@ -97,6 +116,7 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
     std::vector<std::string> fields = fields_of(line);
     const std::string where = source + ":" + std::to_string(number);
     if (table.columns.empty()) {
+      refuse_other_separators(line, where);
       if (std::set<std::string>(fields.begin(), fields.end()).size() != fields.size())
         throw InputError(where, "header", std::string(line), "a column name occurs twice");
       table.columns = std::move(fields);
@@ -105,7 +125,10 @@ CsvText parse_csv_text(std::string_view text, const std::string& source) {
     }
     if (fields.size() != table.columns.size())
       throw InputError(where + ": has " + counted(fields.size(), "field") + ", the header has " +
-                       std::to_string(table.columns.size()) + " (" + joined(table.columns) + ")");
+                       std::to_string(table.columns.size()) + " (" + joined(table.columns) + ")" +
+                       (fields.size() > table.columns.size()
+                            ? "; does a number have a decimal comma? Write a decimal point, 0.5 for 0,5"
+                            : ""));
     table.rows.push_back(std::move(fields));
     table.line_numbers.push_back(number);
   }

@@ -43,4 +43,12 @@ const std::string* nearest_word(std::string_view typed, const std::vector<std::s
   return nearest;
 }
 
+std::string unit_conversion(std::string_view key) {
+  if (key.ends_with("_F") || key.ends_with("_degF")) return " From degF: degC = (degF - 32) / 1.8.";
+  if (key.ends_with("_kg") || key.ends_with("_kgm") || key.ends_with("_kgfm"))
+    return " 1 kgf m is 9.81 N m; an inertia is in kg m2.";
+  if (key.ends_with("_kgcm") || key.ends_with("_kgfcm")) return " 1 kgf cm is 9.81 N cm.";
+  return "";
+}
+
 }  // namespace strainwave

@@ -17,6 +17,13 @@ namespace {
 constexpr int kDeepest = 32;
 constexpr std::size_t kShown = 40;
 
+/// Whether reading stopped in the digits behind a decimal comma: "inertia_kgm2": 0,356
+bool stopped_behind_comma(std::string_view text, std::size_t at) {
+  const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  while (at > 0 && std::string_view("0123456789.eE+-").find(text[at]) != std::string_view::npos) --at;
+  return at > 0 && text[at] == ',' && is_digit(at + 1) && is_digit(at - 1);
+}
+
 /// Where reading stopped and what stands there, in words that need no knowledge of a parser; `byte` counts from 1.
 std::string malformed(std::string_view text, const std::string& source, std::size_t byte) {
   const auto shown = [&](std::size_t from) {
@@ -34,7 +41,8 @@ std::string malformed(std::string_view text, const std::string& source, std::siz
   if (at == text.size()) return place + "ends before everything that was opened is closed";
   const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
   return place + "column " + std::to_string(at - line_begin + 1) + " of " + shown(line_begin) +
-         " is not what JSON has there";
+         " is not what JSON has there" +
+         (stopped_behind_comma(text, at) ? ": numbers have a decimal point, 0.5 for 0,5" : "");
 }
 
 }  // namespace

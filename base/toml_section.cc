@@ -31,14 +31,6 @@ std::string join(const std::vector<std::string>& words, const char* quote) {
   return text;
 }
 
-/// What a key in a unit that is not used here takes to be converted; empty for any other.
-std::string conversion(std::string_view key) {
-  if (key.ends_with("_F") || key.ends_with("_degF")) return " From degF: degC = (degF - 32) / 1.8.";
-  if (key.ends_with("_kg") || key.ends_with("_kgm") || key.ends_with("_kgfm"))
-    return " 1 kgf m is 9.81 N m; an inertia is in kg m2.";
-  return "";
-}
-
 /// "key = 0,089" in this line, from 1.
 bool has_decimal_comma(std::string_view text, unsigned line) {
   for (; line > 1 && !text.empty(); --line)
@@ -93,7 +85,7 @@ struct TomlSection::Reader {
     section.asked_.insert(*nearest);
     const auto line = section.table_->table->get(*nearest)->source().begin.line;
     return "; line " + std::to_string(line) + " has " + printable(*nearest) + ": is that what was meant?" +
-           conversion(*nearest);
+           unit_conversion(*nearest);
   }
 
   static double checked(const TomlSection& section, std::string_view key, const toml::node& node,
@@ -290,8 +282,8 @@ void TomlSection::refuse_unknown_keys() const {
     const std::string* nearest = nearest_word(name, known);
     const std::string hint =
         nearest != nullptr ? "did you mean " + *nearest + "?" : "known here are " + join(known, "") + ".";
-    refuse(name,
-           "unknown key; " + hint + " Physical quantities carry their unit in the key." + conversion(name));
+    refuse(name, "unknown key; " + hint + " Physical quantities carry their unit in the key." +
+                     unit_conversion(name));
   }
 }
 

@@ -110,11 +110,17 @@ void doubt_inertia(const TomlSection& section, const JointConfig& joint) {
       rounded(controller.torque_limit_Nm / inertia_kgm2) +
       " rad/s2, never acceleration_rad_s2 = " + number_text(controller.motion.acceleration_rad_s2) +
       ": motions take what the torque allows and last longer than that limit promises";
+  // Of two inertias the larger is doubted.
+  const double motor_kgm2 = controller.link ? controller.link->motor_inertia_kgm2 : 0.0;
+  const double doubted_kgm2 = std::max(motor_kgm2, inertia_kgm2 - motor_kgm2);
+  const double spare_kgm2 = most_kgm2 - (inertia_kgm2 - doubted_kgm2);
   // A misplaced decimal point is off by ten at least; less is a limit that is set too high.
-  double likely_kgm2 = inertia_kgm2 / 10.0;
-  while (likely_kgm2 > most_kgm2) likely_kgm2 /= 10.0;
-  if (inertia_kgm2 > kMisplacedPoint * most_kgm2) doubt += "; is " + rounded(likely_kgm2) + " meant?";
-  section.warn(controller.link ? "load_inertia_kgm2" : "inertia_kgm2", doubt);
+  double likely_kgm2 = doubted_kgm2 / 10.0;
+  while (spare_kgm2 > 0.0 && likely_kgm2 > spare_kgm2) likely_kgm2 /= 10.0;
+  if (spare_kgm2 > 0.0 && inertia_kgm2 > kMisplacedPoint * most_kgm2)
+    doubt += "; is " + rounded(likely_kgm2) + " meant?";
+  const char* const key = doubted_kgm2 == motor_kgm2 ? "motor_inertia_kgm2" : "load_inertia_kgm2";
+  section.warn(controller.link ? key : "inertia_kgm2", doubt);
 }
 
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,

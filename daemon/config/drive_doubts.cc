@@ -15,9 +15,6 @@ constexpr double kFewestCountsPerMotorTurn = 500.0;
 /// Drives on CAN take less (IEC 61800-5-1: above 120 V a drive is no extra-low voltage device).
 constexpr double kHighestSupply_V = 120.0;
 
-constexpr std::uint32_t kMaxon = 0x000000FB;
-constexpr std::uint32_t kElmo = 0x0000009A;
-
 /// The ratio below `ratio` that is nearest to it and at most `most`.
 std::optional<double> smaller_ratio(double ratio, double most) {
   std::optional<double> best;
@@ -38,11 +35,8 @@ void doubt_drive(const TomlSection& section, const JointConfig& joint, const cia
                      " in a turn of the motor, where encoders have 500 and more; if a turn of the motor is "
                      "meant, write " +
                      number_text(units.counts_per_output_revolution * units.gear_ratio));
-  const bool micro = units.rated_torque_unit_Nm < 1e-4;
-  if (drive.identity.vendor_id == kMaxon && !micro)
-    section.warn("rated_torque_unit", "maxon's drives give 6076h in uNm: \"uNm\" is likely meant");
-  if (drive.identity.vendor_id == kElmo && micro)
-    section.warn("rated_torque_unit", "Elmo's drives give 6076h in mNm: \"mNm\" is likely meant");
+  if (const auto doubt = cia402::torque_unit_doubt(drive.identity.vendor_id.value_or(0), units))
+    section.warn("rated_torque_unit", *doubt);
 }
 
 void doubt_motor(TomlSection& motor, const JointConfig& joint, const cia402::DriveConfig& drive) {

@@ -34,6 +34,23 @@ TEST(Csv, NamesFileAndLineOfEveryDefect) {
   }
 }
 
+TEST(Csv, NamesDecimalCommasAndOtherSeparators) {
+  EXPECT_NE(message_of("temperature_C;torque_Nm\n-10;11,5\n").find("file.csv:1: semicolons"),
+            std::string::npos);
+  EXPECT_NE(message_of("temperature_C\ttorque_Nm\n-10\t11.5\n").find("tabs"), std::string::npos);
+  EXPECT_NE(message_of("temperature_C,torque_Nm\n-10,11,5\n").find("decimal comma"), std::string::npos);
+  EXPECT_EQ(message_of("temperature_C,torque_Nm\n-10\n").find("decimal comma"), std::string::npos);
+}
+
+TEST(Csv, SaysHowToConvertAColumnInAnotherUnit) {
+  try {
+    (void)parse_csv("temperature_F,torque_Nm\n14,11\n", "file.csv").column("temperature_C");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("(degF - 32) / 1.8"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Csv, SaysOfWhatIsNoTextThatItIsNone) {
   const std::string words =
       "file.csv: is not text, but a CSV file is: lines of fields with commas between them";

@@ -37,6 +37,10 @@ TEST(StrictJson, SaysWhereReadingStoppedAndWhatStandsThere) {
             "a.json:3: not valid JSON: column 1 of '}' is not what JSON has there");
   EXPECT_EQ(refusal("{\"torque_Nm\": 0x1}"),
             "a.json:1: not valid JSON: column 16 of '{\"torque_Nm\": 0x1}' is not what JSON has there");
+  for (const char* const number : {"0,001", "10,356", "-2,5e3"})
+    EXPECT_NE(refusal(std::string("{\"torque_Nm\": ") + number + "}").find("a decimal point"),
+              std::string::npos)
+        << number;
   EXPECT_EQ(refusal("{\"torque_Nm\": 1"),
             "a.json:1: not valid JSON: ends before everything that was opened is closed");
   EXPECT_EQ(refusal("{\"torque_Nm\": 1e999}"), "a.json: not valid JSON: number overflow parsing '1e999'");

@@ -212,6 +212,10 @@ void report_found(Found& found, const Description& description, const DriveConfi
        << (found.mode == OperationMode::kCyclicTorque ? " (CST)" : " (TQ)") << ", rated "
        << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm << " N.m";
   found.report.push_back(text.str());
+  // Where the configuration names the maker it was warned of this already.
+  if (const auto doubt = torque_unit_doubt(description.vendor_id, config.units);
+      doubt && !config.identity.vendor_id)
+    found.report.push_back(config.name + ": warning: rated_torque_unit: " + *doubt);
   if (power_state_of(found.statusword) == PowerState::kFault)
     found.report.push_back(config.name + ": the drive is in fault, " +
                            canopen::drive_error_text(found.error_code) +

@@ -11,6 +11,9 @@ namespace strainwave::cia402 {
 
 namespace {
 
+constexpr std::uint32_t kMaxon = 0x000000FB;
+constexpr std::uint32_t kElmo = 0x0000009A;
+
 /// Between rms and peak amperes lie 1.41; gear losses and rounding add a little.
 constexpr double kTolerance = 1.6;
 constexpr double kMillinewtonmetre_Nm = 1e-3;
@@ -73,6 +76,13 @@ std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig&
        << ": if that is the joint's constant, the motor's is "
        << units.torque_constant_Nm_A / units.gear_ratio;
   return text.str();
+}
+
+std::optional<std::string> torque_unit_doubt(std::uint32_t vendor_id, const UnitConfig& units) {
+  const bool micro = units.rated_torque_unit_Nm < 1e-4;
+  if (vendor_id == kMaxon && !micro) return "maxon's drives give 6076h in uNm: \"uNm\" is likely meant";
+  if (vendor_id == kElmo && micro) return "Elmo's drives give 6076h in mNm: \"mNm\" is likely meant";
+  return std::nullopt;
 }
 
 TorqueScale::TorqueScale(double rated_Nm, int direction, double limit_Nm)

@@ -35,6 +35,9 @@ double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, 
 /// that of the motor, in place of the joint's.
 std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig& units, double limit_Nm);
 
+/// What speaks against the unit of rated torque: the drive's maker (1018h:01) uses the other one.
+std::optional<std::string> torque_unit_doubt(std::uint32_t vendor_id, const UnitConfig& units);
+
 /// Torque in per mille of rated torque, both ways.
 class TorqueScale {
  public:

@@ -116,6 +116,13 @@ TEST_F(DataSheets, WhatIsUnclearMattersOnlyWhereStartUpLooks) {
   expect_mentions(text, {"not checked: 6064h:00 is unclear", "AccessType = 'perhaps'"});
 }
 
+TEST_F(DataSheets, AUnitThatTheMakerDoesNotUseIsDoubtedThoughTheConfigurationNamesNoMaker) {
+  std::string config = replaced(example("epos4.toml"), "vendor_id = 0x000000FB", "");
+  EXPECT_EQ(check(config, "epos4.eds").find("likely meant"), std::string::npos);
+  config = replaced(config, "rated_torque_unit = \"uNm\"", "rated_torque_unit = \"mNm\"");
+  expect_mentions(check(config, "epos4.eds"), {"warning: rated_torque_unit", "\"uNm\" is likely meant"});
+}
+
 TEST_F(DataSheets, AnotherVendorsDriveIsRefused) {
   expect_mentions(check(example("epos4.toml"), "elmo_gold.eds"), {"refused", "vendor_id", "0000009Ah"});
 }

@@ -37,8 +37,9 @@ TEST(Cia402Setup, TellsWhatItFound) {
   DriveBench bench({bench_drive(3)});
   bench.start();
   const std::vector<std::string> messages = bench.bus().take_messages();
-  ASSERT_EQ(messages.size(), 3U);
-  expect_mentions(messages[2], {"joint3", "ms after its SYNC"});
+  ASSERT_EQ(messages.size(), 4U);
+  expect_mentions(messages[3], {"joint3", "ms after its SYNC"});
+  expect_mentions(messages[2], {"joint3: warning: rated_torque_unit", "maxon", "\"uNm\" is likely meant"});
   expect_mentions(messages[1], {"joint3", "node 3", "vendor 000000FBh", "mode 10 (CST)", "rated 9.6 N.m"});
   EXPECT_TRUE(bench.bus().take_messages().empty()) << "once";
 }
