@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/initial_table.h"
+#include "daemon/realtime/realtime_setup.h"
 #include "lcmtypes/multicast_check.h"
 
 namespace strainwave {
@@ -31,6 +32,12 @@ void tell_loads(const JointConfig& joint, const std::optional<InitialTable>& ini
   const LoadLimits loads = joint.loop.limits.load.under(torque_limit_Nm);
   out << joint.name << ": yields to a load above " << loads.load_Nm << " N.m, notice above "
       << loads.notice_Nm << ", torque limit " << torque_limit_Nm << '\n';
+}
+
+/// A matter of this process's cpuset, which may not be the service's.
+void check_processor(const DaemonConfig& config, std::ostream& out) {
+  if (const std::string problem = processor_problem(config.loop.cpu); !problem.empty())
+    out << "warning: " << problem << '\n';
 }
 
 void check_gateway(const DaemonConfig& config, std::ostream& out) {
@@ -57,6 +64,7 @@ void check_start(const DaemonConfig& config, std::ostream& out) {
     tell_table(joint, initial, out);
     tell_loads(joint, initial, out);
   }
+  check_processor(config, out);
   check_gateway(config, out);
   out << "not checked:";
   if (has_driver(config, "can")) out << " drives on CAN (strainwavectl can-check),";

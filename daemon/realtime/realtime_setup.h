@@ -1,6 +1,9 @@
 // What Linux must grant before a loop can be real-time. Not real-time itself: called before the first period.
 #pragma once
 
+#include <sys/resource.h>
+
+#include <optional>
 #include <string>
 
 namespace strainwave {
@@ -16,6 +19,22 @@ std::string compaction_warning(const std::string& setting_path = "/proc/sys/vm/c
 /// Makes the calling thread SCHED_FIFO with `priority`, pinned to `cpu` unless negative, and touches its stack. Empty
 /// when granted, else what was refused and what to do.
 std::string make_thread_real_time(int priority, int cpu);
+
+/// Why no thread of this process may run on `cpu`, and what to do; empty when one may, or `cpu` is negative. Asks the kernel from a
+/// thread of its own, so that nothing changes.
+std::string processor_problem(int cpu);
+
+/// What Linux asks before it grants SCHED_FIFO.
+struct RealTimeRights {
+  bool cap_sys_nice = false;  ///< in the effective set: root of a container often lacks it
+  rlim_t rtprio = 0;          ///< RLIMIT_RTPRIO, which serves without the capability
+  std::optional<long>
+      cgroup_rt_runtime_us;  ///< cpu.rt_runtime_us of the process's cgroup, where the kernel has such budgets
+};
+/// Of this process.
+RealTimeRights real_time_rights();
+/// Which of them is missing for `priority`, and what to do.
+std::string real_time_remedy(const RealTimeRights& rights, int priority);
 
 /// Page faults of the calling thread so far, minor and major. Real-time safe.
 long thread_page_faults() noexcept;
