@@ -143,7 +143,7 @@ void print_row(const Task& task, const char* method, const std::vector<Outcome>&
 }
 
 std::vector<Task> tasks() {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/friction_parameters.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/friction_parameters.csv");
   const FitTargets targets = fit_targets(data);
   const Eigen::Matrix3d metric = friction_metric(FitWeighting::kSource, data.motor_speeds_rpm);
   Eigen::VectorXd lower(10), upper(10);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,21 +21,26 @@ struct FrictionPoint {
 struct FrictionData {
   std::vector<FrictionPoint> points;     ///< temperatures ascending
   std::vector<double> motor_speeds_rpm;  ///< at which the catalogue states torques
-  bool has_starting_torque = false;      ///< or static friction; false: it was given beside the file
-  std::string sha256;                    ///< of the catalogue file
+  double motor_excess_Ncm =
+      0.0;  ///< static above Coulomb friction, where the file says neither static friction nor starting torque
+  bool has_starting_torque = false;  ///< the file has a column of starting torque or static friction
+  std::string sha256;                ///< of the catalogue file
 };
 
 /// Reads either of two CSV files and says which by its columns:
 /// - running torque: temperature_C, torque_<speed>rpm_Ncm (two or more speeds). Coulomb and viscous friction
 /// are the intercept
-///   and the slope of the least-squares line over speed (above the Stribeck range); static friction is the
-///   Coulomb friction plus the starting torque: the column starting_torque_Ncm where the file has it,
-///   `starting_torque_Ncm` otherwise;
+///   and the slope of the least-squares line over speed (above the Stribeck range). Static friction is the
+///   starting torque, as catalogues print it: what the motor needs to break away, Coulomb friction included.
+///   It comes from the column starting_torque_Ncm. Without one `starting_torque_Ncm` is that torque at 25 degC (or at the
+///   nearest temperature of the file), and static friction exceeds Coulomb friction by as much at every temperature;
+///   without either it exceeds it by the 1.6 N.cm of Zhao (2006);
 /// - parameters: temperature_C, viscous_Ncm_per_rpm, coulomb_Ncm, static_Ncm, used as they are, with the
 /// speeds of the
 ///   catalogue of the source (500, 1000, 2000, 3500 RPM).
 /// Throws InputError: fewer than three temperatures, not ascending, unknown columns, two of one speed, torque that
-/// is not positive, friction that is none (Coulomb below 0, static below Coulomb), numbers no gear can have.
-FrictionData read_catalogue(const std::filesystem::path& path, double starting_torque_Ncm);
+/// is not positive, or falls with speed at most temperatures, friction that is none (Coulomb below 0, static below Coulomb), numbers no gear can have.
+FrictionData read_catalogue(const std::filesystem::path& path,
+                            std::optional<double> starting_torque_Ncm = std::nullopt);
 
 }  // namespace strainwave

@@ -44,8 +44,8 @@ void check(const FitCatalogueOptions& options) {
   };
   require(options.gear_ratio > 0.0 && options.gear_ratio <= kMaxGearRatio, "gear-ratio", options.gear_ratio,
           "must be above 0, at most 100000");
-  require(options.starting_torque_Ncm >= 0.0, "starting-torque_Ncm", options.starting_torque_Ncm,
-          "must not be negative");
+  const double starting_torque_Ncm = options.starting_torque_Ncm.value_or(0.0);
+  require(starting_torque_Ncm >= 0.0, "starting-torque_Ncm", starting_torque_Ncm, "must not be negative");
   require(options.threads >= 0, "threads", options.threads, "must not be negative");
   require(options.rules >= 2 && options.rules <= kMaxTemperatureRules, "rules", options.rules,
           "must be from 2 to " + std::to_string(kMaxTemperatureRules));
@@ -265,8 +265,11 @@ ExitStatus fit_catalogue(const FitCatalogueOptions& options) {
               options.weighting.c_str(), options.unconstrained ? ", unconstrained" : "");
   if (!job.data.has_starting_torque)
     std::printf(
-        "  no column starting_torque_Ncm: %g N.cm is taken at every temperature (--starting-torque_Ncm)\n",
-        options.starting_torque_Ncm);
+        "  no column starting_torque_Ncm: static friction is taken %.3g N.cm above Coulomb friction at every "
+        "temperature (%s)\n",
+        job.data.motor_excess_Ncm,
+        options.starting_torque_Ncm ? "--starting-torque_Ncm at 25 degC"
+                                    : "as Zhao (2006) has it; --starting-torque_Ncm");
   report_growth(job);
   report_outliers(job);
   std::optional<ExponentialFit> known_law;

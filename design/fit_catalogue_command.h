@@ -2,6 +2,7 @@
 // of it said. Offline.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/exit_status.h"
@@ -22,7 +23,7 @@ struct FitCatalogueOptions {
   int threads = 0;
   int rules = 5;
   double gear_ratio = 50.0;
-  double starting_torque_Ncm = 1.6;
+  std::optional<double> starting_torque_Ncm;  ///< at 25 degC, see read_catalogue()
 };
 
 /// Fits, reports and writes the friction file; the exit status. Throws InputError.

@@ -88,10 +88,9 @@ void add_fit_command(CLI::App& program, CommandBody& chosen) {
       ->capture_default_str();
   command->add_option("--rules", options->fit.rules, "number of temperature rules")->capture_default_str();
   command->add_option("--gear-ratio", options->fit.gear_ratio, "reduction ratio")->capture_default_str();
-  command
-      ->add_option("--starting-torque_Ncm", options->fit.starting_torque_Ncm,
-                   "static less Coulomb friction at the motor side, where the catalogue has no column for it")
-      ->capture_default_str();
+  command->add_option("--starting-torque_Ncm", options->fit.starting_torque_Ncm,
+                      "starting (breakaway) torque at the motor side at 25 degC, where the catalogue has no "
+                      "column for it; otherwise static friction is 1.6 N.cm above Coulomb friction");
   command->add_option("--out", options->out, "friction file to write (JSON)")->required();
   add_log_options(*command, *options);
   command->callback([&chosen, options] { chosen = [options] { return fit(*options); }; });

@@ -8,7 +8,7 @@ namespace strainwave {
 namespace {
 
 FitProblem source_problem() {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv");
   return {fit_targets(data), friction_metric(FitWeighting::kTorque, data.motor_speeds_rpm), true};
 }
 

@@ -258,12 +258,12 @@ TEST_F(DesignProgram, FitRefusesWhatIsNoCatalogue) {
   const std::string running = "temperature_C,torque_500rpm_Ncm,torque_2000rpm_Ncm,starting_torque_Ncm\n";
   const std::vector<std::pair<std::string, std::string>> cases{
       {"temperature_C,torque_500rpm_Ncm,torque_500.0rpm_Ncm\n-10,5,5\n0,4,4\n9,3,3\n", "torque_500.0rpm_Ncm"},
-      {running + "-10,11,28,1e308\n15,3,7,1\n40,2,3,1\n", ":2: static friction"},
-      {running + "-10,11,28,1\n15,3,7,-1\n40,2,3,1\n", ":3: static friction"},
-      {running + "-300,11,28,1\n15,3,7,1\n40,2,3,1\n", ":2: temperature_C = -300"},
+      {running + "-10,11,28,1e308\n15,3,7,3\n40,2,3,3\n", ":2: static friction"},
+      {running + "-10,11,28,9\n15,3,7,-1\n40,2,3,3\n", ":3: static friction"},
+      {running + "-300,11,28,9\n15,3,7,3\n40,2,3,3\n", ":2: temperature_C = -300"},
       {"temperature_C,viscous_Ncm_per_rpm,coulomb_Ncm,static_Ncm\n0,1e-3,5,4\n9,1e-3,2,3\n20,1e-3,2,3\n",
        ":2: static friction"},
-      {running + "-10,11,28,1\n15,3,7,1\n15,2,3,1\n", ":4: temperatures must ascend"},
+      {running + "-10,11,28,9\n15,3,7,3\n15,2,3,3\n", ":4: temperatures must ascend"},
   };
   for (const auto& [csv, mentions] : cases) {
     write_text_file(file("bad.csv"), csv);
@@ -273,7 +273,7 @@ TEST_F(DesignProgram, FitRefusesWhatIsNoCatalogue) {
   }
   // A byte order mark is none of the data.
   write_text_file(file("bom.csv"),
-                  "\xEF\xBB\xBF" + running + "-10,11.5,28,1.6\n15,3.2,7.2,1.5\n40,1.8,3.2,1.6\n");
+                  "\xEF\xBB\xBF" + running + "-10,11.5,28,7.6\n15,3.2,7.2,3.4\n40,1.8,3.2,3\n");
   EXPECT_EQ(run("fit " + file("bom.csv") + " --out " + file("friction.json")), 0) << output_;
 }
 

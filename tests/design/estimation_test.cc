@@ -8,7 +8,7 @@ namespace strainwave {
 namespace {
 
 FitProblem source_problem(bool physical) {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/friction_parameters.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/friction_parameters.csv");
   return {fit_targets(data), friction_metric(FitWeighting::kSource, data.motor_speeds_rpm), physical};
 }
 

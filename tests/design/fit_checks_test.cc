@@ -12,7 +12,7 @@ constexpr double kLow_C = 1.0;
 constexpr double kHigh_C = 500.0;
 
 FitProblem source_problem() {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv");
   return {fit_targets(data), friction_metric(FitWeighting::kTorque, data.motor_speeds_rpm), true};
 }
 
@@ -34,7 +34,7 @@ TEST(FitChecks, FindNoOutlierInTheSourcesCatalogueNorInTheLawItself) {
 
 // A cell of the catalogue, ten times too large, changes the intercept and the slope of its line over speed.
 TEST(FitChecks, FindTheTemperatureOfAnyCellThatIsTenTimesTooLarge) {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv");
   const std::vector<double>& speeds = data.motor_speeds_rpm;
   double mean = 0.0;
   double squares = 0.0;
@@ -57,7 +57,7 @@ TEST(FitChecks, FindTheTemperatureOfAnyCellThatIsTenTimesTooLarge) {
 }
 
 TEST(FitChecks, FindTwoTemperaturesThatHideEachOther) {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/no_load_torque.csv");
   const double mean = 1750.0;
   double squares = 0.0;
   for (const double speed : data.motor_speeds_rpm) squares += (speed - mean) * (speed - mean);

@@ -8,7 +8,7 @@ namespace strainwave {
 namespace {
 
 FitProblem source_problem(FitWeighting weighting = FitWeighting::kSource, bool physical = true) {
-  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/friction_parameters.csv", 1.6);
+  const FrictionData data = read_catalogue(STRAINWAVE_SOURCE_DIR "/data/friction_parameters.csv");
   return {fit_targets(data), friction_metric(weighting, data.motor_speeds_rpm), physical};
 }
 

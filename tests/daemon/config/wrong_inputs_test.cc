@@ -543,7 +543,7 @@ const std::vector<CommandCase> kCommandCases{
      {"gear-ratio = inf", "at most 100000"}},
     {"strainwave-design fit " STRAINWAVE_SOURCE_DIR
      "/data/no_load_torque.csv --out /tmp/x --starting-torque_Ncm 1e308",
-     {"no_load_torque.csv:4: static friction", "1e+308", "to 1e7"}},
+     {"no_load_torque.csv:4: static friction", "1e+308", "at most 1e7"}},
     {"strainwave-design fit " STRAINWAVE_SOURCE_DIR
      "/data/no_load_torque.csv --out /tmp/x --starting-torque_Ncm -1",
      {"starting-torque_Ncm = -1", "must not be negative"}},
