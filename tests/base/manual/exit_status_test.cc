@@ -59,7 +59,7 @@ TEST(ExitStatus, IsListedAlikeByEveryProgramAndThePage) {
   const Statuses page = of_the_page();
   EXPECT_EQ(page.size(), 5U);
   for (const char* program :
-       {"strainwavectl", "strainwaved", "strainwave-telemetry", "strainwave-sim", "strainwave-design"}) {
+       {"strainwavectl", "strainwaved", "strainwave-telemetry", "strainwave-sim", "strainwave-design", "strainwave-can-sim"}) {
     if (!std::filesystem::exists(kPrograms + program)) continue;  // a build without the design
     const Ending help = ending_of(kPrograms + program + " --help");
     EXPECT_EQ(help.status, 0);
@@ -86,6 +86,7 @@ TEST(ExitStatus, IsTheSameForTheSameCauseInEveryProgram) {
                                {"strainwave-sim --version", 0},
                                {"strainwave-design --version", 0},
                                {"strainwave-spy --help", 0},
+                               {"strainwave-can-sim --version", 0},
                                // A command line that makes no sense.
                                {"strainwavectl", 2},
                                {"strainwavectl --nonsense", 2},
@@ -95,6 +96,8 @@ TEST(ExitStatus, IsTheSameForTheSameCauseInEveryProgram) {
                                {"strainwave-sim --nonsense", 2},
                                {"strainwave-design --nonsense", 2},
                                {"strainwave-spy --nonsense", 2},
+                               {"strainwave-can-sim", 2},
+                               {"strainwave-can-sim none0", 2},
                                // A file that is not there, and one that makes no sense.
                                {"strainwavectl export none.lcm --out out.csv", 2},
                                {"strainwavectl load-table elbow none.json", 2},

@@ -90,7 +90,7 @@ TEST_P(Manual, EveryOptionOfTheHelpIsOnThePageAndOfferedByTheShells) {
 
 TEST_P(Manual, EveryOptionIsWordsJoinedByDashesThenItsUnit) {
   const std::regex option("[ ']--[A-Za-z][A-Za-z0-9_-]*");
-  const std::regex spelling("--[A-Za-z][a-z0-9]*(-[a-z0-9]+)*(_(rad|rad_s|s|C|Nm|Ncm|kgm2|Nms_rad))?");
+  const std::regex spelling("--[A-Za-z][a-z0-9]*(-[a-z0-9]+)*(_(rad|rad_s|s|C|A|Nm|Ncm|kgm2|Nms_rad))?");
   const std::string bash = print("bash");
   int count = 0;
   for (auto it = std::sregex_iterator(bash.begin(), bash.end(), option); it != std::sregex_iterator();
@@ -112,7 +112,7 @@ TEST_P(Manual, AnotherKindIsAnError) {
 
 INSTANTIATE_TEST_SUITE_P(Programs, Manual,
                          ::testing::Values("strainwaved", "strainwavectl", "strainwave-telemetry",
-                                           "strainwave-sim", "strainwave-design"),
+                                           "strainwave-sim", "strainwave-design", "strainwave-can-sim"),
                          [](const auto& program) {
                            std::string name = program.param;
                            std::erase(name, '-');

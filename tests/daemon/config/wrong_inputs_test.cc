@@ -586,6 +586,8 @@ const std::vector<CommandCase> kCommandCases{
     {"strainwavectl keygen --out /tmp/x --role king", {"--role", "king", "operator", "engineer"}},
     {"strainwavectl keygen --out /tmp/x --role enginer", {"--role", "did you mean engineer?"}},
     {"strainwave-sim", {"a command is required", "run"}},
+    {"strainwave-can-sim none0", {"ip link add dev none0 type vcan"}},
+    {"strainwave-can-sim none0 --node-id 128", {"--node-id", "128"}},
     {"strainwavectl inject elbow sensor_stcuk",
      {"'sensor_stcuk' is no fault", "did you mean sensor_stuck?", "there are: none"}},
     {"strainwave-sim rnu", {"'rnu' is not a command", "did you mean run?"}},

@@ -30,6 +30,7 @@ struct Cia402NodeConfig {
   std::int64_t boot_us = 50000;  ///< from power-on or reset to the boot-up message
   std::int64_t start_us = 0;     ///< from NMT start to operational
   std::int64_t sdo_answer_us = 0;
+  std::int64_t late_at_rate_us = 0;    ///< as the command late-tpdo-at-rate
   std::vector<std::uint16_t> lacks{};  ///< indices that this drive does not have
   std::vector<Key> read_only{};        ///< entries that others let write
   ServoDriveConfig drive;
@@ -107,7 +108,7 @@ class Cia402Node final : public Node {
   long skipped_syncs_ = 0;
   long late_syncs_ = 0;
   std::int64_t late_us_ = 0;
-  std::int64_t late_at_rate_us_ = 0;  ///< unless the SYNC before is 10 ms ago
+  std::int64_t late_at_rate_us_ = config_.late_at_rate_us;  ///< unless the SYNC before is 10 ms ago
   struct Late {
     std::int64_t due_us;
     Frame frame;

@@ -107,7 +107,7 @@ def remove_bus(name=BUS):
 class Drive:
     """A simulated drive in a process of its own, and its record."""
 
-    def __init__(self, node_id=3, program='./cia402-node', options=(), bus=BUS):
+    def __init__(self, node_id=3, program='./strainwave-can-sim', options=(), bus=BUS):
         self.path = pathlib.Path(f'drive{node_id}.log')
         self.control = f'/tmp/drive{node_id}'
         self.log = open(self.path, 'w')
