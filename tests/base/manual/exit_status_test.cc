@@ -58,8 +58,8 @@ Statuses of_the_page() {
 TEST(ExitStatus, IsListedAlikeByEveryProgramAndThePage) {
   const Statuses page = of_the_page();
   EXPECT_EQ(page.size(), 5U);
-  for (const char* program :
-       {"strainwavectl", "strainwaved", "strainwave-telemetry", "strainwave-sim", "strainwave-design", "strainwave-can-sim"}) {
+  for (const char* program : {"strainwavectl", "strainwaved", "strainwave-telemetry", "strainwave-sim",
+                              "strainwave-design", "strainwave-can-sim"}) {
     if (!std::filesystem::exists(kPrograms + program)) continue;  // a build without the design
     const Ending help = ending_of(kPrograms + program + " --help");
     EXPECT_EQ(help.status, 0);

@@ -162,7 +162,9 @@ TEST_F(CanConfigTest, WarnsOfNumbersThatContradictEachOtherWithTheValueThatIsLik
             "torque_constant_Nm_A = 9.6",
             {"480 N.m", "34", "the motor's is 0.192"}},
            {"\"uNm\"", "\"mNm\"", {"rated_torque_unit", "maxon", "\"uNm\" is likely meant"}},
-           {"motor_inertia_kgm2 = 0.089", "motor_inertia_kgm2 = 8.9", {"motor_inertia_kgm2 = 8.9", "3.778 rad/s2", "is 0.089 meant?"}},
+           {"motor_inertia_kgm2 = 0.089",
+            "motor_inertia_kgm2 = 8.9",
+            {"motor_inertia_kgm2 = 8.9", "3.778 rad/s2", "is 0.089 meant?"}},
            {"temperature_limit_C = 70",
             "temperature_limit_C = 158",
             {"temperature_limit_C", "Fahrenheit", "write 70"}}}) {
