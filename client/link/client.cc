@@ -15,6 +15,8 @@ namespace {
 // All joints of a daemon are published together; at the slowest sensible rate the next round comes within
 // this time.
 constexpr double kOtherJoints_s = 0.3;
+// After a stop or a fault the next state or the one after it has a new challenge.
+constexpr double kSettles_s = 0.2;
 // Refusals of a stream's samples that wait to be taken.
 constexpr std::size_t kRefusals = 16;
 
@@ -62,15 +64,22 @@ std::vector<JointName> Client::wait_for_heard() {
   return heard();
 }
 
-// Refused unread: the order took too long, a stop of this sender's came before it, or another program of this key was ahead. It was not
-// obeyed, so it may be given anew. Not one that somebody else's stop overtook: he wants the joint to stand.
-bool Client::may_try_again(const std::string& joint, const Answer& answer, const Quote& quote) {
-  if (answer.reason == Reason::kOldSequence && ack_) {
-    sender_.rise_above(ack_->last_sequence);
-    return true;
-  }
-  const auto news = [&] { return find(joint)->state.challenge != quote.challenge; };
-  return answer.reason == Reason::kTooOld && wait_until(news, Deadline(options_.timeout_s));
+// A stop of ours and a fault end what states told before: an order of now quotes one that came after the stop's answer, and none with
+// the challenge that the fault was first seen with.
+const JointView& Client::wait_until_settled(const std::string& joint) {
+  const JointView& view = wait_for_joint(joint);
+  const auto stopped = stopped_.find(joint);
+  const std::int64_t before = stopped == stopped_.end() ? 0 : stopped->second;
+  wait_until([&] { return view.messages > before && view.state.challenge != view.fault_challenge; },
+             Deadline(kSettles_s));
+  return view;
+}
+
+// Refused unread: another program of this key was ahead.
+bool Client::rises_above(const Answer& refusal) {
+  if (refusal.reason != Reason::kOldSequence || !ack_) return false;
+  sender_.rise_above(ack_->last_sequence);
+  return true;
 }
 
 Answer Client::exchange(const std::string& joint, SealedMessage order) {

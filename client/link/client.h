@@ -5,6 +5,7 @@
 #include <array>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <strainwave/ack_v1.hpp>
 #include <string>
@@ -35,7 +36,7 @@ struct ClientOptions {
 
 class Client {
  public:
-  /// How often a refused order is made anew, when it was refused for its age or its sequence alone.
+  /// How often an order is sent with another sequence, when another program of its key was ahead.
   static constexpr int kAttempts = 3;
 
   Client(Connection& connection, const ClientOptions& options);
@@ -62,7 +63,8 @@ class Client {
   std::vector<JointName> wait_for_heard();
 
   /// Sends `message` (setpoint_v2, command_v1, gain_table_v2 or inject_v1) to `joint` on the channel of `kind` and waits
-  /// for the answer. Throws ClientError when the joint is not heard or no answer comes.
+  /// for the answer. Throws ClientError when the joint is not heard or no answer comes. Whatever becomes of it, it quotes one
+  /// state, the latest of now: so the daemon refuses it once it is a second old, or the joint was stopped or has faulted since.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {
     Message prepared = message;
@@ -72,12 +74,12 @@ class Client {
   /// The same for a message that depends on when it goes out: `prepare` is called with it before every attempt.
   template <typename Message, typename Prepare>
   Answer request(const std::string& joint, std::string_view kind, Message& message, const Prepare& prepare) {
+    const Quote quote = quote_of(wait_until_settled(joint).state);
     Answer answer;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      const Quote quote = quote_of(wait_for_joint(joint).state);
       prepare(message);
       answer = exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, quote));
-      if (answer.accepted || !may_try_again(joint, answer, quote)) break;
+      if (answer.accepted || !rises_above(answer)) break;
     }
     return answer;
   }
@@ -88,7 +90,10 @@ class Client {
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
     const Quote quote = view != nullptr ? quote_of(view->state) : Quote{};
-    return exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote));
+    const Answer answer =
+        exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote));
+    if (find(joint) != nullptr) stopped_[joint] = find(joint)->messages;
+    return answer;
   }
 
   /// A number for a new stream of setpoints.
@@ -124,7 +129,8 @@ class Client {
   }
 
  private:
-  bool may_try_again(const std::string& joint, const Answer& answer, const Quote& quote);
+  const JointView& wait_until_settled(const std::string& joint);
+  bool rises_above(const Answer& refusal);
   Answer exchange(const std::string& joint, SealedMessage order);
   void handle(int timeout_ms);
   void on_ack(const ReceivedMessage& message);
@@ -137,6 +143,8 @@ class Client {
   Sender sender_;
   std::optional<PendingOrder> awaited_;  ///< the order whose answer counts
   std::optional<ack_v1> ack_;
+  std::map<std::string, std::int64_t>
+      stopped_;                           ///< states of a joint that had come when its last stop was answered
   std::array<std::int64_t, 256> sent_{};  ///< sequences of the latest messages of send()
   std::size_t sent_count_ = 0;
   std::deque<Answer> refusals_;

@@ -18,6 +18,7 @@ void JointView::take(const state_v1& latest) {
     first_cycle = latest.cycle;
     first_utime = latest.utime;
   }
+  if (messages > 0 && latest.fault != 0 && state.fault == 0) fault_challenge = latest.challenge;
   state = latest;
   received = now();
   ++messages;

@@ -19,6 +19,7 @@ struct JointView {
   bool two_daemons = false;           ///< an earlier session came back: two daemons use the same channels
   std::int64_t first_cycle = 0;       ///< of this session, as far as it was heard
   std::int64_t first_utime = 0;
+  std::int64_t fault_challenge = -1;  ///< of the state that showed its last fault first, -1: none did
 
   void take(const state_v1& latest);
   /// The loop's, from the first and the latest state of the session; 0 as long as there is only one.

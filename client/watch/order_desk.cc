@@ -7,6 +7,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v2.hpp>
 
+#include "client/link/client.h"
 #include "client/link/orders.h"
 #include "lcmtypes/channels.h"
 
@@ -15,7 +16,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::size_t kRefusalsKept = 8;
-constexpr int kRenewals = 3;
+constexpr int kRenewals = Client::kAttempts - 1;
 constexpr double kSaidFor_s = 10.0;
 
 command_v1 command(Action action) {
@@ -50,9 +51,9 @@ void OrderDesk::stop(const std::vector<Name>& joints) {
   for (const Name& joint : joints)
     post(
         joint,
-        [this, joint] {
+        [this, joint, quoted = quote(joint)] {
           return sender_.seal_stop(channel(joint.first, joint.second, channel_kind::kCommand),
-                                   command(Action::kDisable), quote(joint));
+                                   command(Action::kDisable), quoted);
         },
         batch);
   report(*batch);
@@ -68,8 +69,8 @@ void OrderDesk::post(const Name& joint, std::string_view kind, const Message& me
   const auto batch = std::make_shared<Batch>(Batch{std::move(what), full_name(joint), 1, 0, {}});
   post(
       joint,
-      [this, joint, message, to = channel(joint.first, joint.second, kind)] {
-        return sender_.seal(to, message, quote(joint));
+      [this, message, to = channel(joint.first, joint.second, kind), quoted = quote(joint)] {
+        return sender_.seal(to, message, quoted);
       },
       batch);
   report(*batch);
@@ -95,19 +96,15 @@ void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, std
                      to = channel(joint.first, joint.second, channel_kind::kAck)] {
     return PendingOrder(connection_, seal(), to, timeout_s_);
   };
-  waiting_.push_back({send(), send, joint, full_name(joint), std::move(batch), quote(joint).challenge, 0});
+  waiting_.push_back({send(), send, full_name(joint), std::move(batch), 0});
 }
 
-// It was not obeyed, so it may be given anew; but not after somebody else's stop.
+// Another program of this key was ahead. The state that it quotes stays that of when it was given.
 bool OrderDesk::renew(Waiting& waiting, const ack_v1& refusal) {
-  const auto reason = static_cast<Reason>(refusal.reason);
-  if (reason == Reason::kOldSequence) sender_.rise_above(refusal.last_sequence);
-  const std::int64_t challenge = quote(waiting.joint).challenge;
-  const bool may =
-      reason == Reason::kOldSequence || (reason == Reason::kTooOld && challenge != waiting.challenge);
-  if (!may || waiting.renewals >= kRenewals) return false;
+  if (static_cast<Reason>(refusal.reason) != Reason::kOldSequence || waiting.renewals >= kRenewals)
+    return false;
   ++waiting.renewals;
-  waiting.challenge = challenge;
+  sender_.rise_above(refusal.last_sequence);
   waiting.order = waiting.anew();
   return true;
 }

@@ -30,8 +30,8 @@ class OrderDesk {
   /// A disable of each, signed if that is possible and unsigned if not: nothing that is wrong with key or session keeps it back,
   /// and nobody who forges stops its answer. Of several, the message counts the answers and names who did not give one.
   void stop(const std::vector<Name>& joints);
-  /// Signed if there is a key. Throws InputError when the key cannot be used. What is refused unread, since it was on its way for
-  /// too long or another program of this key was ahead, is given anew, a few times. To clear a fault that is not there is not sent.
+  /// Signed if there is a key. Throws InputError when the key cannot be used. What is refused unread, since another program of this
+  /// key was ahead, is sent with a higher sequence, a few times. To clear a fault that is not there is not sent.
   void order(const Name& joint, Action action);
   void move(const Name& joint, double position_rad);
 
@@ -60,11 +60,9 @@ class OrderDesk {
   };
   struct Waiting {
     PendingOrder order;
-    std::function<PendingOrder()> anew;  ///< the same, quoting the newest state
-    Name joint;
+    std::function<PendingOrder()> anew;  ///< the same with the next sequence
     std::string name;
     std::shared_ptr<Batch> batch;
-    std::int64_t challenge = 0;  ///< that the order quotes
     int renewals = 0;
   };
   template <typename Message>

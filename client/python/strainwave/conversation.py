@@ -4,14 +4,14 @@ Source: client/link/client.h, pending_order.h; docs/commands.md.
 import collections
 
 from .ack_v1 import ack_v1
-from .errors import InvalidInput, NoAnswer, Refused
+from .errors import InvalidInput, NoAnswer, NotDone, Refused
 from .limits_v1 import limits_v1
 from .messages import decode_exactly, text_of
 from .network import now_s
 from .state_v1 import state_v1
 from .vocabulary import Reason
 
-ATTEMPTS = 3  # how often an order is made anew that was refused for its age or its sequence alone
+ATTEMPTS = 3  # how often an order is sent with another sequence, when another program of its key was ahead
 TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that fits into a packet
 _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
@@ -19,6 +19,8 @@ _CLOCK_STATES = 64
 _GONE_S = 2.5  # whose last state is older has gone, as far as anybody can tell
 _SILENCE_S = 0.5  # states come ten times a second at the least
 _OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
+_ORDER_LIFETIME_S = 1.0  # from the call to the state that the order quotes
+_SETTLES_S = 0.2  # after a stop or a fault the next state or the one after it has a new challenge
 
 
 def most_transmissions(message_bytes):
@@ -55,6 +57,8 @@ class Conversation:
         self.messages = 0
         self.limits = None  # the latest limits_v1
         self.clock = CycleClock()
+        self._stopped = 0  # messages that had come when our last stop was answered
+        self._fault_challenge = None  # of the state that showed the last fault first
         self._inboxes = []
         self._awaited = {}  # acknowledgements by sequence; None: not yet
         self._sent = collections.deque(maxlen=256)  # sequences of what send() sent
@@ -98,12 +102,26 @@ class Conversation:
         with self.network.changed:
             self._inboxes = [other for other in self._inboxes if other is not inbox]
 
-    def request(self, kind, message, order, prepare=None, hint=""):
-        """Sends an order that has to be accepted. `order`: in words; `prepare`: called with the message before every attempt.
-        `hint`: what to say besides of what is out of range. Raises Refused, NoAnswer.
+    def deciding_state(self):
+        """The state that an order of now is decided on, which it quotes whatever becomes of it: so the daemon refuses it once it is a second
+        old, or the joint was stopped or has faulted since. A stop of ours and a fault end what states told before. Raises NoAnswer as
+        wait_for_state(), and NotDone where this program stood still meanwhile: an order is none of what happened then.
         """
+        begin_s, patience_s = now_s(), _ORDER_LIFETIME_S + (self.timeout_s if self.state is None else 0)
+        self.wait_for_state()
+        self.network.wait_until(lambda: self.messages > self._stopped and self.state.challenge != self._fault_challenge, _SETTLES_S)
+        state, stood_s = self.state, now_s() - begin_s
+        if stood_s > patience_s:
+            raise NotDone(f"{self.joint}: this program stood still for {stood_s:.1f} s after the call, and the order was not sent: see what the "
+                          "joint does, then give it anew")
+        return state
+
+    def request(self, kind, message, order, prepare=None, hint="", state=None):
+        """Sends an order that has to be accepted. `order`: in words; `prepare`: called with the message before every attempt.
+        `hint`: what to say besides of what is out of range; `state`: its deciding_state(), None: that of now. Raises Refused, NoAnswer.
+        """
+        state = self.deciding_state() if state is None else state
         for attempt in range(ATTEMPTS):
-            state = self.wait_for_state()
             if prepare:
                 prepare(message)
             answer = self._exchange(kind, message, state)
@@ -113,14 +131,16 @@ class Conversation:
                                "out is not known: see Joint.state")
             if answer.accepted == 1:
                 return
-            if attempt + 1 == ATTEMPTS or not self._may_try_again(answer, state):
+            if attempt + 1 == ATTEMPTS or answer.reason != Reason.OLD_SEQUENCE:
                 break
+            self.sender.rise_above(answer.last_sequence)
         reason = Reason(answer.reason)
         raise Refused(self.joint, order, reason, text_of(answer.text), hint if reason == Reason.OUT_OF_RANGE else "")
 
     def request_stop(self, kind, message, order):
         """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""
         answer = self._exchange(kind, message, self.state)
+        self._stopped = self.messages
         if answer is None:
             raise NoAnswer(f"{self.joint}: the stop was sent {TRANSMISSIONS} times, and nothing answered: "
                            + (self._why_no_answer() if self.state else self._silence()))
@@ -173,15 +193,6 @@ class Conversation:
             with self.network.changed:
                 del self._awaited[sequence]
 
-    # Refused unread: the order took too long, a stop of this sender's came before it, or another program of this key was ahead. It was
-    # not obeyed. Not one that somebody else's stop overtook: he wants the joint to stand.
-    def _may_try_again(self, answer, quoted):
-        if answer.reason == Reason.OLD_SEQUENCE:
-            self.sender.rise_above(answer.last_sequence)
-            return True
-        return answer.reason == Reason.TOO_OLD and self.network.wait_until(
-            lambda: self.state.challenge != quoted.challenge, self.timeout_s)
-
     def _on_state(self, content):
         message = decode_exactly(state_v1, content)
         self._misunderstood = message is None
@@ -190,6 +201,8 @@ class Conversation:
         if self.state is not None and self.state.session_id != message.session_id:
             self.clock.restart()
             self.limits = None
+        if self.state is not None and message.fault != 0 and self.state.fault == 0:
+            self._fault_challenge = message.challenge
         self.state, self.received_s = message, now_s()
         self.is_behind = self.received_s - self.network.came_s > _OLD_STATE_S
         self.messages += 1

@@ -74,8 +74,10 @@ class Joint:
 
     def enable(self):
         """Switches the drive on; returns once the joint holds. What is so already is no error, and nothing is sent for it."""
-        if self.state.mode not in _ENABLED:
-            self._order(Action.ENABLE)
+        self._conversation.heard_state()
+        state = self._conversation.deciding_state()
+        if state.mode not in _ENABLED:
+            self._order(Action.ENABLE, state)
         ordered_s = now_s()
 
         def decided():
@@ -108,8 +110,10 @@ class Joint:
 
     def clear_fault(self):
         """Leaves a latched fault, to off. A joint without one is left alone."""
-        if self.state.mode == Mode.FAULTED:
-            self._order(Action.CLEAR_FAULT)
+        self._conversation.heard_state()
+        state = self._conversation.deciding_state()
+        if state.mode == Mode.FAULTED:
+            self._order(Action.CLEAR_FAULT, state)
             self._wait_for(lambda: self._mode() != Mode.FAULTED)
 
     def home(self):
@@ -152,8 +156,9 @@ class Joint:
         message.position_rad = position_rad
         message.speed_limit_rad_s = self._speed_limit(speed_limit_rad_s)
         message.acknowledge = 1
-        self._check_quick_enough(position_rad, message.speed_limit_rad_s)
-        self._conversation.request("SETPOINT", message, f"move to {position_rad:g} rad", hint=degrees_hint(position_rad))
+        state = self._conversation.deciding_state()
+        self._check_quick_enough(state, position_rad, message.speed_limit_rad_s)
+        self._conversation.request("SETPOINT", message, f"move to {position_rad:g} rad", hint=degrees_hint(position_rad), state=state)
         if not wait:
             return None
         watch = ArrivalWatch(self.name, position_rad, tolerance_rad, self._timeout_s)
@@ -175,9 +180,9 @@ class Joint:
     def _speed_limit(self, speed_limit_rad_s):
         return check_number("speed_limit_rad_s", speed_limit_rad_s, "0 (none) or above", lambda speed: speed >= 0, self.name)
 
-    def _check_quick_enough(self, position_rad, speed_rad_s):
+    def _check_quick_enough(self, state, position_rad, speed_rad_s):
         # Who waits for a motion of more than an hour waits for what nobody wanted, and no path is as long.
-        way_rad = abs(position_rad - self._conversation.wait_for_state().setpoint_position_rad)
+        way_rad = abs(position_rad - state.setpoint_position_rad)
         if speed_rad_s == 0 or way_rad <= speed_rad_s * LONGEST_PATH_S:
             return
         least = f"{1.01 * way_rad / LONGEST_PATH_S:.3g}"  # a hundredth more for what printing rounds off
@@ -189,10 +194,10 @@ class Joint:
     def _mode(self):
         return Mode(self._conversation.state.mode)
 
-    def _order(self, action):
+    def _order(self, action, state=None):
         message = blank(command_v1)
         message.action = int(action)
-        self._conversation.request("COMMAND", message, action.text)
+        self._conversation.request("COMMAND", message, action.text, state=state)
 
     def _stop(self, action):
         message = blank(command_v1)

@@ -166,19 +166,60 @@ TEST_F(ClientTest, NamesTheJointsThatAreHeardInstead) {
   EXPECT_NE(failure("elbwo").find("no joint 'elbwo' on prefix SW; its joints are: elbow"), std::string::npos);
 }
 
-TEST_F(ClientTest, GivesAnOrderThatCameTooLateAnewFromANewerState) {
-  daemon.state.challenge = 100;
+TEST_F(ClientTest, GivesNoOrderAnewThatCameTooLate) {
   daemon.publish_state();
   daemon.reason = Reason::kTooOld;
   daemon.after_answer = [&] {
     daemon.reason = Reason::kAccepted;
+    ++daemon.state.challenge;
+    daemon.publish_state();
+  };
+  EXPECT_EQ(order("elbow").reason, Reason::kTooOld);
+  EXPECT_EQ(daemon.heard().size(), 1U);
+}
+
+TEST_F(ClientTest, QuotesTheSameStateWhenAnotherProgramOfItsKeyWasAhead) {
+  daemon.state.challenge = 100;
+  daemon.publish_state();
+  daemon.reason = Reason::kOldSequence;
+  daemon.after_answer = [&] {
+    daemon.reason = Reason::kAccepted;
     daemon.state.challenge = 101;
     daemon.publish_state();
+    while (connection.handle(0)) {
+    }
   };
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 2U);
-  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->challenge, 100);
+  for (const auto& heard : daemon.heard())
+    EXPECT_EQ(decode_exactly<setpoint_v2>(heard.bytes)->challenge, 100);
+}
+
+TEST_F(ClientTest, GivesAnOrderAfterItsOwnStopFromAStateThatCameAfterTheAnswer) {
+  daemon.state.challenge = 100;
+  daemon.publish_state();
+  while (connection.handle(0)) {
+  }
+  daemon.after_answer = [&] {
+    ++daemon.state.challenge;
+    daemon.publish_state();
+  };
+  ASSERT_TRUE(client.request_unseen("elbow", channel_kind::kCommand, command_v1{}).accepted);
+  EXPECT_TRUE(order("elbow").accepted);
   EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->challenge, 101);
+}
+
+TEST_F(ClientTest, GivesAnOrderAfterAFaultFromAStateWithAChallengeFromAfterIt) {
+  daemon.state.challenge = 100;
+  daemon.publish_state();
+  daemon.state.fault = static_cast<std::int32_t>(Fault::kEmergencyStop);
+  daemon.publish_state(Mode::kFaulted);
+  while (connection.handle(0)) {
+  }
+  ++daemon.state.challenge;
+  daemon.publish_state();
+  EXPECT_TRUE(order("elbow").accepted);
+  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->challenge, 101);
 }
 
 TEST_F(ClientTest, GivesNoOrderAnewThatAStopOfSomebodyElseHasOvertaken) {

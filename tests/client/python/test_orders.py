@@ -43,20 +43,59 @@ class Orders(PlayedOrders):
         self.elbow.release()
         self.assertEqual([order.sequence > ahead for order in self.orders()], [False, True])
 
-    def test_that_came_too_late_are_given_anew_from_a_newer_state(self):
+    def test_that_came_too_late_are_not_given_anew(self):
         self.publish_state()
 
         def daemon(*entry):
-            order = published(*entry)
-            if order.challenge == 22:
-                self.answer(order, 0, Reason.TOO_OLD)
-                self.publish_state(challenge=23)
-            else:
-                self.answer(order)
+            self.answer(published(*entry), 0, Reason.TOO_OLD)
+            self.publish_state(challenge=23)
 
         self.network.daemon = daemon
+        with self.assertRaisesRegex(Refused, "order is too old"):
+            self.elbow.release()
+        self.assertEqual(len(self.network.published), 1)
+
+    def test_of_a_program_that_stood_still_quote_the_state_that_they_were_decided_on(self):
+        # Between reading the state and sending: the states of four seconds have come, and another has held the joint.
+        for order in (self.elbow.enable, self.elbow.clear_fault, lambda: self.elbow.move(0.5, speed_limit_rad_s=1.0, wait=False)):
+            self.publish_state(Mode.FAULTED if order == self.elbow.clear_fault else Mode.OFF, challenge=22)
+            conversation, deciding_state = self.elbow._conversation, self.elbow._conversation.deciding_state
+
+            def stands_still():
+                state = deciding_state()
+                self.publish_state(challenge=23)
+                return state
+
+            conversation.deciding_state = stands_still
+            self.network.daemon = lambda *entry: self.answer(published(*entry), 0, Reason.TOO_OLD)
+            with self.assertRaises(Refused):
+                order()
+            del conversation.deciding_state
+            self.assertEqual(published(*self.network.published[-1]).challenge, 22)
+
+    def test_of_a_program_that_stood_still_before_it_read_the_state_are_not_sent(self):
+        self.publish_state()
+        conversation, wait_for_state = self.elbow._conversation, self.elbow._conversation.wait_for_state
+        conversation.wait_for_state = lambda: (time.sleep(1.1), wait_for_state())
+        with self.assertRaisesRegex(NotDone, "elbow: this program stood still for 1.1 s after the call, and the order was not sent"):
+            self.elbow.release()
+        self.assertEqual(self.network.published, [])
+
+    def test_after_an_own_stop_quote_a_state_that_came_after_its_answer(self):
+        self.publish_state(Mode.OFF)
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        self.elbow.disable()
+        threading.Timer(0.05, self.publish_state, [Mode.OFF], {"challenge": 23}).start()
         self.elbow.release()
         self.assertEqual([order.challenge for order in self.orders()], [22, 23])
+
+    def test_after_a_fault_quote_a_challenge_from_after_it(self):
+        self.publish_state()
+        self.publish_state(Mode.FAULTED, fault=7)
+        threading.Timer(0.05, self.publish_state, [Mode.FAULTED], {"challenge": 23}).start()
+        self.network.daemon = lambda *entry: (self.answer(published(*entry)), self.publish_state(Mode.OFF, fault=0))
+        self.elbow.clear_fault()
+        self.assertEqual([order.challenge for order in self.orders()], [23])
 
     def test_that_a_stop_of_somebody_else_has_overtaken_are_not_given_anew(self):
         self.publish_state()
