@@ -37,23 +37,26 @@ GatewayGuard::GatewayGuard(const DaemonConfig& config, GatewayProcess::Descripto
       inbound_(inbound),
       dropped_log_(1, 10'000 * kMillisecond_ns) {}
 
-void GatewayGuard::start() {
+bool GatewayGuard::start(const std::function<bool()>& wanted) {
   process_.start(monotonic_now_ns());
-  const std::int64_t deadline_ns = process_.started_ns() + GatewayPulse::kStart_ns;
   while (inbound_.ready.load(std::memory_order_acquire) == 0) {
     const std::int64_t now_ns = monotonic_now_ns();
     if (const auto end = process_.take_end(now_ns))
       throw std::runtime_error(
           "the gateway ended with " + *end +
           (process_.last_exit_status() == kGatewayExitNoLcm ? ": LCM is not available, see above" : ""));
-    if (now_ns > deadline_ns) throw std::runtime_error("the gateway did not become ready in 5 s");
+    if (pulse_.hangs(process_.started_ns(), count(inbound_.turns), now_ns))
+      throw std::runtime_error("the gateway did not become ready in 5 s");
+    if (!wanted()) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   spdlog::info("gateway: {}, ready after {} ms", user_,
                (monotonic_now_ns() - process_.started_ns()) / kMillisecond_ns);
+  return true;
 }
 
 void GatewayGuard::watch(bool wanted, std::int64_t now_ns) {
+  log_deafness();
   if (const auto end = process_.take_end(now_ns))
     spdlog::error("the gateway ended with {}: starting it again", *end);
   if (wanted && process_.start_due(now_ns)) restart(now_ns);
@@ -90,6 +93,15 @@ void GatewayGuard::log_dropped_datagrams(std::int64_t now_ns) {
       "once",
       counted(malformed, "malformed datagram"), too_long, counted(interrupted, "message"),
       counted(crowded_out, "message"));
+}
+
+void GatewayGuard::log_deafness() {
+  const std::uint64_t deaf = count(inbound_.deaf);
+  if (deaf != deaf_seen_)
+    spdlog::error(
+        "what the gateway publishes does not come back: the network's adapter or route was taken away or is "
+        "another one; no order and no stop reaches the daemon until another gateway has joined it anew");
+  deaf_seen_ = deaf;
 }
 
 void GatewayGuard::log_foreign_states() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "daemon/config/config.h"
@@ -19,8 +20,9 @@ class GatewayGuard {
   GatewayGuard(const DaemonConfig& config, GatewayProcess::Descriptors descriptors,
                const InboundMemory& inbound);
 
-  /// Starts the gateway and waits until it is ready. Throws std::runtime_error when it ends or is not ready in time.
-  void start();
+  /// Starts the gateway and waits until it is ready, which it is not before the network is there. False: not `wanted` any more. Throws
+  /// std::runtime_error when it ends or hangs.
+  bool start(const std::function<bool()>& wanted);
   /// One look, every turn. A gateway that has ended is started again if `wanted`.
   void watch(bool wanted, std::int64_t now_ns);
 
@@ -29,6 +31,7 @@ class GatewayGuard {
   void end_hung(std::int64_t now_ns);
   void log_dropped_datagrams(std::int64_t now_ns);
   void log_foreign_states();
+  void log_deafness();
 
   std::string prefix_;
   std::string user_;  ///< under which it runs, as the log says it
@@ -37,6 +40,7 @@ class GatewayGuard {
   LogLimiter dropped_log_;
   std::uint64_t dropped_seen_ = 0;
   std::uint64_t foreign_states_seen_ = 0;
+  std::uint64_t deaf_seen_ = 0;
   GatewayPulse pulse_;
 };
 

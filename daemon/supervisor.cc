@@ -128,7 +128,8 @@ void Supervisor::load_initial_tables() {
 
 void Supervisor::run() {
   if (config_.gateway_user.uid < 0) hide_memory_from_own_user();
-  gateway_.start();  // first: a process started by a real-time one would inherit too much
+  // First: a process started by a real-time one would inherit too much.
+  if (!gateway_.start([this] { return !signals_.take(); })) return;
   flight_records_.start();
   friction_.start();
   orders_.start();

@@ -65,7 +65,7 @@ LcmReadAhead::~LcmReadAhead() {
 void LcmReadAhead::read(const std::stop_token& stop) {
   std::array<pollfd, 2> descriptors{{{socket_.descriptor(), POLLIN, 0}, {stop_.get(), POLLIN, 0}}};
   while (!stop.stop_requested()) {
-    if (::poll(descriptors.data(), descriptors.size(), -1) < 0) continue;
+    if (::poll(descriptors.data(), descriptors.size(), LcmSocket::kLookEvery_ms) < 0) continue;
     const std::int64_t received_us = utime_now();
     const std::scoped_lock lock(mutex_);
     const bool waiting = !filling_.empty();

@@ -3,12 +3,16 @@
 #include <arpa/inet.h>
 #include <linux/filter.h>
 #include <linux/if_packet.h>
+#include <net/if.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
+
+#include "transport/route_interface.h"
 
 namespace strainwave {
 
@@ -65,8 +69,33 @@ void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
   // To the group, not to any address: the kernel then keeps unicast away.
   if (::bind(descriptor_, static_cast<sockaddr*>(static_cast<void*>(&group)), sizeof group) != 0)
     throw std::system_error(errno, std::generic_category(), "binding to the group");
-  set(descriptor_, IPPROTO_IP, IP_ADD_MEMBERSHIP, ip_mreq{group.sin_addr, {htonl(INADDR_ANY)}},
-      "joining the group");
+  group_ = group.sin_addr;
+  interface_ = route_interface(group_);
+  if (!change_membership(IP_ADD_MEMBERSHIP, interface_))
+    throw std::system_error(errno, std::generic_category(), "joining the group");
+}
+
+bool LcmSocket::change_membership(int option, int interface) noexcept {
+  const ip_mreqn membership{group_, {htonl(INADDR_ANY)}, interface};
+  return ::setsockopt(descriptor_, IPPROTO_IP, option, &membership, sizeof membership) == 0;
+}
+
+// An adapter that comes back under its name and address is another one to the system, and nothing of the group reaches who joined on the
+// one before.
+void LcmSocket::follow_route() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_ < std::chrono::milliseconds(kLookEvery_ms)) return;
+  looked_ = now;
+  const int interface = route_interface(group_);
+  if (interface == 0 || interface == interface_ || !change_membership(IP_ADD_MEMBERSHIP, interface)) return;
+  change_membership(IP_DROP_MEMBERSHIP, interface_);
+  interface_ = interface;
+  std::array<char, IF_NAMESIZE> name{};
+  std::array<char, INET_ADDRSTRLEN> group{};
+  ::if_indextoname(static_cast<unsigned int>(interface), name.data());
+  ::inet_ntop(AF_INET, &group_, group.data(), group.size());
+  std::fprintf(stderr, "the route to %s leads to another or a new adapter, %s: joined the group there anew\n",
+               group.data(), name.data());
 }
 
 // Who administers the network may go beyond the system's usual limit.
@@ -101,6 +130,7 @@ void LcmSocket::filter(bool this_machine_only) {
 
 std::size_t LcmSocket::receive(
     const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take) {
+  follow_route();
   for (mmsghdr& header : headers_) header.msg_hdr.msg_namelen = sizeof(sockaddr_in);
   const int received = ::recvmmsg(descriptor_, headers_.data(), kBatch, MSG_DONTWAIT, nullptr);
   if (received <= 0) return 0;

@@ -1,11 +1,13 @@
 // The socket that LCM's datagrams come in on. It hears one group on one interface: the one that the route to the group
 // names, which is also the one that LCM sends on. Datagrams to this machine's own address never reach it, and what is longer than
-// any message of ours the kernel drops before it takes room in the socket's queue. Memory is taken when it is made.
+// any message of ours the kernel drops before it takes room in the socket's queue. Memory is taken when it is made. When the adapter
+// was taken away and came back, or the route moved, it follows within a second and says so on standard error.
 #pragma once
 
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -34,15 +36,22 @@ class LcmSocket {
   int descriptor() const noexcept { return descriptor_; }
   /// What the system gave of the queue that was asked for.
   int queue_bytes() const noexcept;
+  /// Call it so often at the least, also when nothing comes: it looks where the route leads.
+  static constexpr int kLookEvery_ms = 500;
   /// Hands at most kBatch datagrams that are here to `take`. Returns how many there were; never waits.
   std::size_t receive(const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take);
 
  private:
   void join(const MulticastAddress& address, int queue_bytes);
+  void follow_route();
+  bool change_membership(int option, int interface) noexcept;
   void filter(bool this_machine_only);
   void enlarge_queue(int bytes);
 
   int descriptor_;
+  in_addr group_{};
+  int interface_ = 0;  ///< index of the one that it hears the group on; 0: the system did not tell
+  std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
   std::size_t largest_bytes_;
   std::vector<std::uint8_t> buffers_;
   std::vector<sockaddr_in> sources_;

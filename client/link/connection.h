@@ -95,7 +95,7 @@ class Connection {
   };
   SocketQueue socket_queue() const noexcept;
 
-  /// Waits up to `timeout_ms` for messages and dispatches one. False: there was none, or a signal came.
+  /// Waits up to `timeout_ms`, half a second at most, for messages and dispatches one. False: there was none, or a signal came.
   bool handle(int timeout_ms);
 
  private:

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
 
 #include "base/utime.h"
@@ -23,6 +24,10 @@ constexpr std::size_t kStatesPerTurn = 64;
 constexpr std::size_t kWaitingOrders = 256;
 /// Of as many ports as may stop at once: each has one turn.
 constexpr std::size_t kWaitingStops = 256;
+
+std::int64_t steady_now_ns() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 // Moves messages into a lane while it has room. Whether there were any.
 bool fill(InboundLane& lane, const std::atomic<std::uint64_t>& taken, OrderQueue& queue) noexcept {
@@ -68,13 +73,15 @@ void Gateway::open_network() {
   }
 }
 
-void Gateway::turn(int wait_ms) {
+bool Gateway::turn(int wait_ms) {
   pollfd descriptor{socket_->descriptor(), POLLIN, 0};
   if (::poll(&descriptor, 1, behind_ ? 0 : wait_ms) > 0) receive();
   hand_over();
+  if (echo_.missing(steady_now_ns())) return false;
   // Answers before states: they are few, and somebody waits for each.
   publish_messages();
   behind_ = !publish_states();
+  return true;
 }
 
 void Gateway::receive() {
@@ -86,6 +93,7 @@ void Gateway::receive() {
     received += batch;
     hand_over();
   }
+  if (received >= kDatagramsPerTurn) echo_.heard();
   const LcmReassembly::Counts& counts = reassembly_.counts();
   inbound_.malformed.store(counts.malformed, std::memory_order_relaxed);
   inbound_.too_long.store(counts.too_long, std::memory_order_relaxed);
@@ -110,7 +118,10 @@ void Gateway::sort(const LcmSource& from, std::span<const std::uint8_t> datagram
 
 void Gateway::note_state(std::span<const std::uint8_t> bytes) {
   const auto state = decode_exactly<state_v1>(bytes);
-  if (state && state->session_id != outbound_.session_id)
+  if (!state) return;
+  if (state->session_id == outbound_.session_id)
+    echo_.heard();
+  else
     inbound_.foreign_states.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -143,6 +154,7 @@ void Gateway::publish(StateRecord& record) {
   record.state.lease_s = outbound_.leases[joint].lease_s.load(std::memory_order_relaxed);
   lcm_.publish(channel(outbound_.prefix.view(), outbound_.joint_names[joint].view(), channel_kind::kState),
                &record.state);
+  echo_.published(steady_now_ns());
 }
 
 void Gateway::publish_messages() {

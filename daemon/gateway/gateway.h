@@ -10,6 +10,7 @@
 #include <string>
 
 #include "daemon/gateway/order_queue.h"
+#include "daemon/gateway/own_echo.h"
 #include "daemon/gateway/shared_memory.h"
 #include "transport/lcm_reassembly.h"
 #include "transport/lcm_socket.h"
@@ -27,8 +28,9 @@ class Gateway {
   const std::string& problem() const noexcept { return problem_; }
 
   /// Waits at most `wait_ms` for datagrams, takes a bounded number of them, then publishes every message and a bounded number of
-  /// states. Does not wait while there are more of these.
-  void turn(int wait_ms);
+  /// states. Does not wait while there are more of these. False: what it publishes does not come back, and nothing else comes then; another
+  /// gateway has to join the group anew.
+  bool turn(int wait_ms);
 
  private:
   void open_network();
@@ -53,6 +55,7 @@ class Gateway {
   std::uint64_t state_cursor_;
   std::uint64_t message_cursor_;
   std::uint64_t states_dropped_ = 0;
+  OwnEcho echo_;
   bool behind_ = false;  ///< states were left to the next turn
 };
 

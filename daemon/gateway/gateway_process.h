@@ -19,6 +19,8 @@ inline constexpr int kGatewayWakeFd = 5;
 inline constexpr int kGatewayCoreFd = 6;  ///< hangs up when the core ends, or wants the gateway to
 inline constexpr unsigned int kGatewayFirstFreeFd = 7;
 inline constexpr int kGatewayExitNoLcm = 69;
+/// And this one when what it publishes does not come back: the group has to be joined anew.
+inline constexpr int kGatewayExitDeaf = 70;
 
 class GatewayProcess {
  public:

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <thread>
 
 #include "daemon/gateway/confinement.h"
 #include "daemon/gateway/gateway.h"
@@ -14,11 +16,13 @@
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/gateway/preference.h"
 #include "daemon/gateway/service_watchdog.h"
+#include "lcmtypes/multicast_check.h"
 
 namespace {
 
 // How long to wait for orders before looking for states to publish: half a period of the fastest usual state rate.
 constexpr int kTurn_ms = 2;
+constexpr std::chrono::milliseconds kLookForNetwork{200};
 
 std::int64_t steady_now_ns() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -28,6 +32,25 @@ std::int64_t steady_now_ns() {
 bool core_is_there() {
   pollfd core{strainwave::kGatewayCoreFd, POLLRDHUP, 0};
   return ::poll(&core, 1, 0) == 0;
+}
+
+/// Waits until the network is there, and says once what is missing. False: the core has gone.
+bool wait_for_network(const strainwave::OutboundMemory& outbound, strainwave::InboundMemory& inbound,
+                      strainwave::ServiceWatchdog& watchdog) {
+  const std::string url(outbound.lcm_url.view());
+  for (bool said = false; const auto problem = strainwave::find_multicast_problem(url); said = true) {
+    if (!said)
+      std::fprintf(
+          stderr,
+          "strainwave-gateway: LCM is not available on '%s', waiting for it: nobody hears the daemon "
+          "or reaches it meanwhile: %s\n",
+          url.c_str(), problem->c_str());
+    if (!core_is_there()) return false;
+    std::this_thread::sleep_for(kLookForNetwork);
+    watchdog.alive(steady_now_ns());
+    inbound.turns.fetch_add(1, std::memory_order_relaxed);
+  }
+  return true;
 }
 
 int run() {
@@ -48,6 +71,8 @@ int run() {
   // Without its core it has no purpose, though it hang. (After the change of user, which clears this.)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ServiceWatchdog watchdog;
+  watchdog.ready();
+  if (!wait_for_network(outbound, inbound, watchdog)) return 0;
   Gateway gateway(outbound, inbound, kGatewayWakeFd);
   if (!gateway.good()) {
     std::fprintf(stderr, "strainwave-gateway: %s\n", gateway.problem().c_str());
@@ -56,9 +81,11 @@ int run() {
   // Everything is open and bound, and nothing that came in has been read: that begins with the first turn.
   confine();
   inbound.ready.store(1, std::memory_order_release);
-  watchdog.ready();
   while (core_is_there()) {
-    gateway.turn(kTurn_ms);
+    if (!gateway.turn(kTurn_ms)) {
+      inbound.deaf.fetch_add(1, std::memory_order_relaxed);
+      ::_exit(kGatewayExitDeaf);
+    }
     watchdog.alive(steady_now_ns());
     inbound.turns.fetch_add(1, std::memory_order_relaxed);
   }

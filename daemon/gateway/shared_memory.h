@@ -84,6 +84,7 @@ struct InboundMemory {
   std::atomic<std::uint64_t> interrupted{0};  ///< fragmented messages that were given up
   std::atomic<std::uint64_t> crowded_out{0};  ///< messages for which the queue had no room
   std::atomic<std::uint64_t> state_records_dropped{0};
+  std::atomic<std::uint64_t> deaf{0};  ///< gateways that ended because what they published did not come back
   std::atomic<std::uint64_t> foreign_states{0};  ///< STATE messages on our channels from another session
 };
 

@@ -45,7 +45,7 @@ class TelemetryServer::Network {
     signals_.async_wait([this](const error_code&, int) { context_.stop(); });
     wait_for(lcm, on_readable);
     accept();
-    report();
+    report(on_readable);
     context_.run();
     lcm.release();
   }
@@ -91,14 +91,16 @@ class TelemetryServer::Network {
     connection->start();
   }
 
-  void report() {
+  // Also looks at the network, which may have changed where nothing comes any more.
+  void report(const std::function<void()>& on_readable) {
     report_.expires_after(kReport_s);
-    report_.async_wait([this](const error_code& error) {
+    report_.async_wait([&, this](const error_code& error) {
       if (error) return;
+      on_readable();
       // A viewer that is given up meanwhile leaves the set.
       const std::set<std::shared_ptr<ViewerConnection>> viewers = shared_.viewers;
       for (const auto& viewer : viewers) viewer->report_drops();
-      report();
+      report(on_readable);
     });
   }
 

@@ -2,6 +2,7 @@
 
 The thread ends with the program. Handlers run in it, one message at a time, while `changed` is held; waiting is done with wait_until().
 """
+import logging
 import os
 import re
 import select
@@ -15,9 +16,12 @@ import weakref
 from .errors import InvalidInput, NoAnswer, shown
 from .lcm_wire import Reassembly, encode_short
 
+_log = logging.getLogger("strainwave")
+
 DEFAULT_URL = "udpm://239.255.76.67:7667?ttl=0"
 MAX_NAMES = 1024  # more joints than any network of ours has
 _QUEUE_BYTES = 1 << 20
+_LOOK_EVERY_S = 0.5
 _LARGEST_DATAGRAM = 65536
 _SO_TIMESTAMPNS = 35  # of Linux
 _NOTE_BYTES = socket.CMSG_SPACE(16)
@@ -75,6 +79,7 @@ class Network:
         self._reassembly = Reassembly()
         self._group, self._port, self._ttl = parse_url(url)
         self._sequence = 0
+        self._membership = struct.pack("=4s4s", socket.inet_aton(self._group), socket.inet_aton("0.0.0.0"))
         try:
             self._sender, self._own_address = self._open_sender()
             self._receiver = self._open_receiver()
@@ -96,8 +101,7 @@ class Network:
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _QUEUE_BYTES)
         # To the group, not to any address: the kernel then keeps unicast away.
         receiver.bind((self._group, self._port))
-        membership = struct.pack("=4s4s", socket.inet_aton(self._group), socket.inet_aton("0.0.0.0"))
-        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, self._membership)
         receiver.setsockopt(socket.SOL_SOCKET, _SO_TIMESTAMPNS, 1)
         receiver.setblocking(False)
         return receiver
@@ -124,11 +128,28 @@ class Network:
             return self.changed.wait_for(condition, timeout_s)
 
     def _run(self):
+        looked_s = now_s()
         while True:
-            select.select([self._receiver], [], [])
+            select.select([self._receiver], [], [], _LOOK_EVERY_S)
             while self._receive():
                 pass
+            if now_s() - looked_s >= _LOOK_EVERY_S:
+                looked_s = now_s()
+                self._follow_route()
             self._caught_up_s = now_s()
+
+    # An adapter that comes back under its name and address is another one to the system, and nothing of the group reaches who joined on the
+    # one before. Joining again is refused as long as the route leads to the same one.
+    def _follow_route(self):
+        try:
+            self._receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, self._membership)
+            (sender, own_address), receiver = self._open_sender(), self._open_receiver()
+        except OSError:
+            return  # the same, or none at present
+        for old in (self._sender, self._receiver):
+            old.close()
+        self._sender, self._own_address, self._receiver = sender, own_address, receiver
+        _log.warning("the route to %s leads to another or a new adapter: joined the group there anew", self._group)
 
     def _receive(self):
         try:

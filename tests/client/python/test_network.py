@@ -79,6 +79,34 @@ class HostileDatagrams(unittest.TestCase):
         self.assertIn(("SW", "stranger"), network.joints)
 
 
+class AnAdapterThatComesBack(unittest.TestCase):
+    NEW = ("link add lan0 type bridge", "address add 192.168.7.1/24 dev lan0", "link set lan0 up multicast on", "route add 239.255.76.68/32 dev lan0")
+
+    def ip(self, *commands):
+        for command in commands:
+            subprocess.run(["ip", *command.split()], check=True, env={"PATH": os.environ["PATH"] + ":/usr/sbin:/sbin"})
+
+    def test_is_joined_anew(self):
+        self.ip(*self.NEW)
+        self.addCleanup(self.ip, "link delete lan0")
+        network = Network("udpm://239.255.76.68:7667?ttl=0")
+
+        def hears_itself():
+            network.joints.clear()
+            for _ in range(100):
+                network.publish("SW.elbow.STATE", b"")
+                if network.wait_until(lambda: network.joints, 0.1):
+                    return True
+            return False
+
+        self.assertTrue(hears_itself())
+        for _ in range(2):
+            self.ip("link delete lan0", *self.NEW)
+            with self.assertLogs("strainwave", "WARNING") as logs:
+                self.assertTrue(hears_itself())
+            self.assertIn("joined the group there anew", logs.output[0])
+
+
 class ADaemonThatWantsSignatures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
