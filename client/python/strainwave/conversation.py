@@ -19,6 +19,8 @@ _CLOCK_STATES = 64
 _GONE_S = 2.5  # whose last state is older has gone, as far as anybody can tell
 _SILENCE_S = 0.5  # states come ten times a second at the least
 _OLD_STATE_S = 0.5  # an order that quotes one of a second ago is refused
+_LARGEST_CYCLE = 2**62  # no daemon comes near it; with a sample's time it yet fits into a message
+_PERIODS_S = (1e-6, 1.0)  # wider than those of any daemon
 _ORDER_LIFETIME_S = 1.0  # from the call to the state that the order quotes
 _SETTLES_S = 0.2  # after a stop or a fault the next state or the one after it has a new challenge
 
@@ -196,7 +198,7 @@ class Conversation:
     def _on_state(self, content):
         message = decode_exactly(state_v1, content)
         self._misunderstood = message is None
-        if message is None:
+        if message is None or not 0 <= message.cycle <= _LARGEST_CYCLE:
             return
         if self.state is not None and self.state.session_id != message.session_id:
             self.clock.restart()
@@ -211,7 +213,9 @@ class Conversation:
             inbox.append((message, self.received_s))
 
     def _on_limits(self, content):
-        self.limits = decode_exactly(limits_v1, content) or self.limits
+        limits = decode_exactly(limits_v1, content)
+        if limits is not None and _PERIODS_S[0] <= limits.period_s <= _PERIODS_S[1]:
+            self.limits = limits
 
     def _on_ack(self, content):
         ack = decode_exactly(ack_v1, content)

@@ -9,6 +9,7 @@ from .setpoint_v2 import setpoint_v2
 from .vocabulary import Mode, Reason
 
 FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
+_LARGEST_T_S = 1e12  # its cycle fits into a message
 _ANOTHER_ONE = "this stream is over; Joint.stream() makes another one"
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
@@ -75,7 +76,8 @@ class Stream:
             raise NotDone(f"{self._joint.name}: {_ANOTHER_ONE}")
         if self._last_cycle is not None:
             self._check_restart()
-        t = self._checked("t", t, "a finite time in s, above the last one", lambda s: self._last_t is None or s > self._last_t)
+        t = self._checked("t", t, f"a finite time in s, from -{_LARGEST_T_S:g} to {_LARGEST_T_S:g} and above the last one",
+                          lambda s: abs(s) <= _LARGEST_T_S and (self._last_t is None or s > self._last_t))
         message = self._message(position_rad, velocity_rad_s, acceleration_rad_s2)
         most_Nm = self._joint.limits.torque_limit_Nm
         message.torque_Nm = self._checked("torque_Nm", torque_Nm, f"from {-most_Nm} to {most_Nm}", lambda Nm: abs(Nm) <= most_Nm,

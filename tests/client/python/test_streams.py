@@ -4,8 +4,8 @@ import threading
 import time
 import unittest
 
-from played_orders import COMMAND, SETPOINT, YIELDED, PlayedOrders, published
-from strainwave import Fault, Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, Yielded, limits_v1, messages
+from played_orders import COMMAND, SETPOINT, TYPES, YIELDED, PlayedOrders, published
+from strainwave import Fault, Faulted, InvalidInput, Joint, Mode, NoAnswer, NotDone, Reason, Refused, StrainwaveError, Yielded, limits_v1, messages
 
 
 class Streams(PlayedOrders):
@@ -326,6 +326,50 @@ class Streams(PlayedOrders):
             with self.subTest(words), self.assertRaisesRegex(InvalidInput, words):
                 attempt()
         self.assertEqual(self.network.published, [])
+
+
+class AHostileDaemon(PlayedOrders):
+    """States and limits with whatever numbers a message holds, and orders to it: only our own errors come of them."""
+
+    NUMBERS = (0.0, -1.0, 5e-324, 1e308, math.nan)
+    CYCLES = (0, 2**62, 2**63 - 1, -(2**63))
+
+    def try_everything(self):
+        try:
+            with self.hurried_elbow.stream() as stream:
+                stream.put(0.0, 0.0)
+                stream.put(0.001, 0.0)
+        except StrainwaveError:
+            pass
+        for order in (self.hurried_elbow.release, lambda: self.hurried_elbow.move(0.1, speed_limit_rad_s=0.5), lambda: self.hurried_elbow.limits):
+            try:
+                order()
+            except StrainwaveError:
+                pass
+
+    def test_lets_no_error_out_that_is_not_ours(self):
+        self.network.daemon = lambda channel, message: self.answer(published(channel, message)) if channel in TYPES else None
+        self.hurried_elbow = Joint("elbow", key="", timeout_s=0.1)
+        for number in self.NUMBERS:
+            for cycle in self.CYCLES:
+                limits = messages.blank(limits_v1)
+                limits.session_id, limits.period_s = self.state.session_id, number
+                limits.position_min_rad, limits.position_max_rad, limits.torque_limit_Nm = -3.0, 3.0, number
+                self.publish_state(cycle=cycle, utime=cycle)
+                self.network.deliver("LIMITS", limits)
+                limits.period_s = 1e-6
+                self.network.deliver("LIMITS", limits)
+                self.try_everything()
+
+    def test_does_not_make_a_time_of_the_program_too_large_for_a_message(self):
+        self.network.daemon = lambda channel, message: self.answer(published(channel, message))
+        limits = messages.blank(limits_v1)
+        limits.session_id, limits.period_s, limits.position_min_rad, limits.position_max_rad = self.state.session_id, 1e-6, -3.0, 3.0
+        self.publish_state(cycle=2**62)
+        self.network.deliver("LIMITS", limits)
+        stream = self.elbow.stream()
+        with self.assertRaisesRegex(InvalidInput, "t = 1e.300: a finite time in s, from -1e.12 to 1e.12"):
+            stream.put(1e300, 0.0)
 
 
 if __name__ == "__main__":
