@@ -95,7 +95,8 @@ void Connection::wait(int timeout_ms) const {
                        : network_->ahead ? network_->ahead->descriptor()
                                          : network_->socket.descriptor();
   pollfd descriptor{readable, POLLIN, 0};
-  if (::poll(&descriptor, 1, std::min(timeout_ms, LcmSocket::kLookEvery_ms)) < 0 && errno != EINTR)
+  if (::poll(&descriptor, 1, network_ ? std::min(timeout_ms, LcmSocket::kLookEvery_ms) : timeout_ms) < 0 &&
+      errno != EINTR)
     throw NoAnswer("LCM stopped working on " + url_);
 }
 
