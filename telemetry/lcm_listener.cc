@@ -28,6 +28,7 @@ void LcmListener::receive(const Take& take) {
   const auto take_datagram = [&](const LcmSource& from, std::span<const std::uint8_t> datagram) {
     if (const auto message = reassembly_.take(from, datagram)) take(from, message->channel, message->bytes);
   };
+  socket_.follow_route();
   for (int batch = 0; batch < kBatchesAtOnce; ++batch)
     if (socket_.receive(take_datagram) < LcmSocket::kBatch) return;
 }

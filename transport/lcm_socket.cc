@@ -130,7 +130,6 @@ void LcmSocket::filter(bool this_machine_only) {
 
 std::size_t LcmSocket::receive(
     const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take) {
-  follow_route();
   for (mmsghdr& header : headers_) header.msg_hdr.msg_namelen = sizeof(sockaddr_in);
   const int received = ::recvmmsg(descriptor_, headers_.data(), kBatch, MSG_DONTWAIT, nullptr);
   if (received <= 0) return 0;

@@ -36,14 +36,15 @@ class LcmSocket {
   int descriptor() const noexcept { return descriptor_; }
   /// What the system gave of the queue that was asked for.
   int queue_bytes() const noexcept;
-  /// Call it so often at the least, also when nothing comes: it looks where the route leads.
+  /// Call it so often at the least, also when nothing comes: looks where the route leads, and follows it.
+  /// It makes a socket, which the gateway may not.
+  void follow_route();
   static constexpr int kLookEvery_ms = 500;
   /// Hands at most kBatch datagrams that are here to `take`. Returns how many there were; never waits.
   std::size_t receive(const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take);
 
  private:
   void join(const MulticastAddress& address, int queue_bytes);
-  void follow_route();
   bool change_membership(int option, int interface) noexcept;
   void filter(bool this_machine_only);
   void enlarge_queue(int bytes);

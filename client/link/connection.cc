@@ -126,6 +126,7 @@ std::size_t Connection::receive() {
         [this](const LcmSource& from, std::int64_t received_us, std::span<const std::uint8_t> datagram) {
           take(from, received_us, datagram);
         });
+  network_->socket.follow_route();
   return network_->socket.receive([this](const LcmSource& from, std::span<const std::uint8_t> datagram) {
     take(from, utime_now(), datagram);
   });
