@@ -14,21 +14,10 @@ void JointView::take(const state_v1& latest) {
     two_daemons = two_daemons || latest.session_id == previous_session;
     previous_session = state.session_id;
   }
-  if (messages == 0 || latest.session_id != state.session_id) {
-    first_cycle = latest.cycle;
-    first_utime = latest.utime;
-  }
   if (messages > 0 && latest.fault != 0 && state.fault == 0) fault_challenge = latest.challenge;
   state = latest;
   received = now();
   ++messages;
-}
-
-double JointView::period_s() const noexcept {
-  // As doubles: what a network sends may overflow an integer.
-  const double cycles = static_cast<double>(state.cycle) - static_cast<double>(first_cycle);
-  const double duration_s = 1e-6 * (static_cast<double>(state.utime) - static_cast<double>(first_utime));
-  return cycles > 0.0 && duration_s > 0.0 ? duration_s / cycles : 0.0;
 }
 
 std::string silence_of(const JointView& view, double timeout_s) {

@@ -17,13 +17,9 @@ struct JointView {
   std::int64_t messages = 0;          ///< received so far
   std::int64_t previous_session = 0;  ///< session before the last change, 0: no change yet
   bool two_daemons = false;           ///< an earlier session came back: two daemons use the same channels
-  std::int64_t first_cycle = 0;       ///< of this session, as far as it was heard
-  std::int64_t first_utime = 0;
   std::int64_t fault_challenge = -1;  ///< of the state that showed its last fault first, -1: none did
 
   void take(const state_v1& latest);
-  /// The loop's, from the first and the latest state of the session; 0 as long as there is only one.
-  double period_s() const noexcept;
 };
 
 /// "its state stopped coming 3.2 s ago" where none came for half a second, or for `timeout_s` if that is less; else empty.
