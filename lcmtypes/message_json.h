@@ -141,7 +141,7 @@ std::string message_schema() {
     }
   });
   for (const auto& [name, words] : json::words_of(message)) schema.text(name);
-  for (const auto& [name, value] : json::derived_from(message, std::nullopt)) schema.number(name);
+  for (const auto& [name, value] : json::derived_from(message)) schema.number(name);
   return std::move(schema).end();
 }
 
