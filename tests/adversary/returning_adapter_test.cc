@@ -79,6 +79,8 @@ TEST_F(ReturningAdapter, IsJoinedAnewByTheDaemonAndByWhoeverListens) {
   }
   EXPECT_NE(daemon.log().find("what the gateway publishes does not come back"), std::string::npos)
       << daemon.log();
+  EXPECT_EQ(daemon.log().find("signal "), std::string::npos) << "the filter of system calls ended a gateway\n"
+                                                             << daemon.log();
   EXPECT_TRUE(daemon.running());
 }
 
