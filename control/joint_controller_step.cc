@@ -130,6 +130,7 @@ ControllerOutput JointController::track(int elapsed_periods) noexcept {
   input.torque_max_Nm = config_.motor.available_Nm(reading_.velocity_rad_s());
   input.torque_min_Nm = -config_.motor.available_Nm(-reading_.velocity_rad_s());
   const ControllerOutput output = law_.step(input);
+  if (output.saturated) plan_.slow_down(elapsed_periods * config_.period_s);
   const double least_Nm = std::max(kSwingShare * torque_limit_Nm_, kSwingCounts * law_.count_torque_Nm());
   const double needed_Nm = std::clamp(output.feedforward_torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
   oscillation_.step(output.torque_Nm - needed_Nm, needed_Nm, least_Nm, elapsed_periods);

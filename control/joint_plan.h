@@ -5,6 +5,8 @@
 //   plan         thm*, wm*, T* of the motor, by the gear's spring                        (control/trajectory/motor_plan.h)
 //   torque       T* + (1 + c) F(wm*) + load + gravity at rest
 //   c            friction beside the table's that corrections have shown                 (control/rest_corrections.h)
+//
+// A torque that is spent slows the motion down: the accelerations fall while the torque is limited.
 #pragma once
 
 #include <cstdint>
@@ -50,6 +52,8 @@ class JointPlan {
   void advance(const PlannedJoint& joint) noexcept;
   /// A stream is over: the torque that it had named, once. It is what the joint carries from now on, as far as is known.
   double take_load_Nm() noexcept;
+  /// The torque was limited for so long: while a move speeds up, its accelerations fall.
+  void slow_down(double elapsed_s) noexcept;
   /// One period of rest, `off_rad` short of its place, the reading `reading_rad` the same for `still_periods`. True: a correction begins.
   bool correct(double off_rad, double reading_rad, int still_periods) noexcept;
 
@@ -80,7 +84,9 @@ class JointPlan {
   MotorPlanner planner_;
   RestCorrections corrections_;
   MotorPlan plan_;
-  MotionLimits motion_;  ///< the configuration's, and this order's speed
+  MotionLimits motion_;     ///< the configuration's, and this order's speed
+  double pace_ = 1.0;       ///< of accelerations, in (0, 1]
+  bool speeds_up_ = false;  ///< the trajectory, in this period
 };
 
 /// What the encoder cannot tell, > 0: one count, or of exact sensing a bound.

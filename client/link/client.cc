@@ -116,10 +116,6 @@ void Client::forget_sent() noexcept {
   refusals_.clear();
 }
 
-bool Client::was_sent(std::int64_t sequence) const noexcept {
-  return sequence != 0 && std::find(sent_.begin(), sent_.end(), sequence) != sent_.end();
-}
-
 void Client::catch_up() {
   std::size_t count = 0;
   while (count < Connection::kQueueCapacity && connection_.handle(0)) ++count;
@@ -133,6 +129,9 @@ void Client::handle(int timeout_ms) {
 void Client::on_ack(const ReceivedMessage& message) {
   const auto ack = decode_exactly<ack_v1>(message.bytes);
   if (!ack || ack->sender_id != sender_.sender_id()) return;
+  const auto was_sent = [this](std::int64_t sequence) {
+    return sequence != 0 && std::find(sent_.begin(), sent_.end(), sequence) != sent_.end();
+  };
   if (awaited_ && awaited_->is_answer(*ack, message.channel)) {
     if (!ack_) ack_ = ack;
   } else if (ack->accepted != 1 && was_sent(ack->sequence)) {

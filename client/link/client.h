@@ -134,7 +134,6 @@ class Client {
   Answer exchange(const std::string& joint, SealedMessage order);
   void handle(int timeout_ms);
   void on_ack(const ReceivedMessage& message);
-  bool was_sent(std::int64_t sequence) const noexcept;
   [[noreturn]] void explain_silence(const std::string& joint) const;
 
   Connection& connection_;
