@@ -136,6 +136,7 @@ double JointPlan::take_load_Nm() noexcept {
 }
 
 void JointPlan::slow_down(double elapsed_s) noexcept {
+  if (config_.without == Mechanism::kPace) return;
   if (speeds_up_ && !trajectory_.streamed())
     pace_ = std::max(kLeastPace, pace_ * (1.0 - elapsed_s / kPace_s));
 }

@@ -106,6 +106,8 @@ std::string_view name_of(Mechanism mechanism) noexcept {
       return "constant torque at rest";
     case Mechanism::kCorrections:
       return "corrections at rest";
+    case Mechanism::kPace:
+      return "pace under a limited torque";
     case Mechanism::kGivingWay:
       return "plan that gives way";
   }

@@ -16,7 +16,8 @@ namespace strainwave {
 /// kNone, and what may be switched off.
 inline constexpr std::array kMechanisms = {
     Mechanism::kNone,         Mechanism::kWindUp,     Mechanism::kFriction,    Mechanism::kFrictionLearning,
-    Mechanism::kLoadLearning, Mechanism::kRestTorque, Mechanism::kCorrections, Mechanism::kGivingWay};
+    Mechanism::kLoadLearning, Mechanism::kRestTorque, Mechanism::kCorrections, Mechanism::kPace,
+    Mechanism::kGivingWay};
 
 /// "wind-up in the plan" and so on.
 std::string_view name_of(Mechanism mechanism) noexcept;
