@@ -30,7 +30,7 @@ std::string joined(const std::vector<std::string>& columns) {
 std::string conversion_of(const std::vector<std::string>& columns) {
   for (const std::string& column : columns)
     if (const std::string conversion = unit_conversion(column); !conversion.empty())
-      return ". " + column + ":" + conversion;
+      return std::string(". ").append(column).append(":").append(conversion);
   return "";
 }
 

@@ -90,8 +90,7 @@ class Client {
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
     const Quote quote = view != nullptr ? quote_of(view->state) : Quote{};
-    const Answer answer =
-        exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote));
+    Answer answer = exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote));
     if (find(joint) != nullptr) stopped_[joint] = find(joint)->messages;
     return answer;
   }

@@ -67,6 +67,7 @@ std::vector<FlexibleCell> loaded_grid() {
 
 double rest_error_rad(const std::vector<Cell>& cells) {
   std::vector<double> errors_rad;
+  errors_rad.reserve(cells.size());
   for (const Cell& one : cells) errors_rad.push_back(one.result.rest_error_rad);
   return percentile(errors_rad, 0.95);
 }
