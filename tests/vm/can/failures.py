@@ -222,7 +222,7 @@ class LatePositions(unittest.TestCase):
         self.expect_fault(self.rows_with_lateness(2400, 1))
 
     def test_10_4_ms_are_a_fault_whatever_it_allows_for(self):
-        self.expect_fault(self.rows_with_lateness(10400, 8))
+        self.expect_fault(self.rows_with_lateness(10400, 4))  # the table bears no more
 
     def expect_fault(self, rows):
         self.assertTrue(all(int(row['fault']) == FAULTS['read failed'] for row in rows))
