@@ -25,11 +25,16 @@ bool left_out(const JointMeasurement& measurement) noexcept {
   return measurement.elapsed_periods > kMaxElapsedPeriods;
 }
 
+// In which the joint was led.
+int led_periods(const JointMeasurement& measurement) noexcept {
+  return left_out(measurement) ? 1 : std::max(1, measurement.elapsed_periods);
+}
+
 }  // namespace
 
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!law_.loaded()) return {};
-  const int elapsed_periods = left_out(measurement) ? 1 : std::max(1, measurement.elapsed_periods);
+  const int elapsed_periods = led_periods(measurement);
   std::optional<double> temperature_C;
   if (measurement.temperature_valid) temperature_C = measurement.temperature_C;
   if (law_.choose_gains(temperature_C)) friction_.weigh(law_.temperature_weights());
@@ -60,8 +65,7 @@ void JointController::advance_plan(const JointMeasurement& measurement) noexcept
     rest_periods_ = 0;
     reading_.reset(position_rad, plan_.now().velocity_rad_s);
   }
-  const int periods = left_out(measurement) ? 1 : std::max(1, measurement.elapsed_periods);
-  for (int period = 0; period < periods; ++period) {
+  for (int period = 0; period < led_periods(measurement); ++period) {
     plan_.advance(joint());
     const double load_Nm = plan_.take_load_Nm();
     friction_.set_load(friction_.load_Nm() + load_Nm);

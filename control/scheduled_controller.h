@@ -25,8 +25,8 @@
 //   V(x) = P_00 slow^2 + (a form in e and velocity alone)
 //   slow = integral + (P_01 e + P_02 velocity error) / P_00
 // so the integral that costs least for a given e and velocity is the one that leaves `slow` where it was. A
-// new setpoint and a saturated torque therefore keep `slow`: neither winds up, neither raises V, and the
-// certificate still holds.
+// new setpoint and a saturated torque therefore keep `slow`, and neither winds up. While the torque is limited
+// V can rise: the certificate is of the law within its limits (docs/theory.md).
 //
 // A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h has it in the loop that is certified). The first
 // sample, and the first after any at which x or F jumped, has no l one period ago: there u = l. Over periods that were left out l is taken

@@ -67,9 +67,9 @@ void LcmReadAhead::read(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (::poll(descriptors.data(), descriptors.size(), LcmSocket::kLookEvery_ms) < 0) continue;
     const std::int64_t received_us = utime_now();
+    socket_.follow_route();
     const std::scoped_lock lock(mutex_);
     const bool waiting = !filling_.empty();
-    socket_.follow_route();
     socket_.receive([&](const LcmSource& from, std::span<const std::uint8_t> datagram) {
       put({from, static_cast<std::uint32_t>(datagram.size()), received_us}, datagram);
     });

@@ -15,12 +15,6 @@ namespace {
 constexpr int kRigidLoopStates = 4;
 constexpr int kMostRigidDelay = kMaxProofStates - kRigidLoopStates - 1;
 
-// [ integral, e, w ] of the plant and the torque of d periods ago.
-void set_plant(const SampledDynamics& plant, Eigen::Index torque, ProofMatrix& H) {
-  H.topLeftCorner(3, 3) = plant.A;
-  H.block(0, torque, 3, 1) = plant.B;
-}
-
 }  // namespace
 
 double rigid_loop_radius(const PlantIdentity& plant, double viscous_Nms_rad, const GainRow& gain,
@@ -33,13 +27,13 @@ double rigid_loop_radius(const PlantIdentity& plant, double viscous_Nms_rad, con
   law(0, 1) = gain(1) + gain(2) / plant.period_s;
   law(0, 3) = -gain(2) / plant.period_s;
   ProofMatrix H = ProofMatrix::Zero(n, n);
+  H.topLeftCorner(3, 3) = sampled.A;
   H(3, 1) = 1.0;
   if (delay_periods > 0) {
-    set_plant(sampled, n - 1, H);
+    H.block(0, n - 1, 3, 1) = sampled.B;
     H.row(kRigidLoopStates) = law;
     for (Eigen::Index i = kRigidLoopStates + 1; i < n; ++i) H(i, i - 1) = 1.0;
   } else {
-    H.topLeftCorner(3, 3) = sampled.A;
     H.topRows(3) += sampled.B.lazyProduct(law);
   }
   return spectral_radius(H);

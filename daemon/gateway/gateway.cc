@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <system_error>
 
 #include "base/utime.h"
 #include "daemon/gateway/order_lane.h"
+#include "daemon/gateway/steady_now.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
@@ -24,10 +24,6 @@ constexpr std::size_t kStatesPerTurn = 64;
 constexpr std::size_t kWaitingOrders = 256;
 /// Of as many ports as may stop at once: each has one turn.
 constexpr std::size_t kWaitingStops = 256;
-
-std::int64_t steady_now_ns() {
-  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Moves messages into a lane while it has room. Whether there were any.
 bool fill(InboundLane& lane, const std::atomic<std::uint64_t>& taken, OrderQueue& queue) noexcept {

@@ -16,6 +16,7 @@
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/gateway/preference.h"
 #include "daemon/gateway/service_watchdog.h"
+#include "daemon/gateway/steady_now.h"
 #include "lcmtypes/multicast_check.h"
 
 namespace {
@@ -23,10 +24,6 @@ namespace {
 // How long to wait for orders before looking for states to publish: half a period of the fastest usual state rate.
 constexpr int kTurn_ms = 2;
 constexpr std::chrono::milliseconds kLookForNetwork{200};
-
-std::int64_t steady_now_ns() {
-  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// The core lives, and wants this gateway.
 bool core_is_there() {
@@ -47,7 +44,7 @@ bool wait_for_network(const strainwave::OutboundMemory& outbound, strainwave::In
           url.c_str(), problem->c_str());
     if (!core_is_there()) return false;
     std::this_thread::sleep_for(kLookForNetwork);
-    watchdog.alive(steady_now_ns());
+    watchdog.alive(strainwave::steady_now_ns());
     inbound.turns.fetch_add(1, std::memory_order_relaxed);
   }
   return true;
@@ -86,7 +83,7 @@ int run() {
       inbound.deaf.fetch_add(1, std::memory_order_relaxed);
       ::_exit(kGatewayExitDeaf);
     }
-    watchdog.alive(steady_now_ns());
+    watchdog.alive(strainwave::steady_now_ns());
     inbound.turns.fetch_add(1, std::memory_order_relaxed);
   }
   // No more is allowed; ending without a core needs no more either.

@@ -53,10 +53,7 @@ void JointInLoop::mode_changed(Mode from, const CycleTime& time) noexcept {
   if (mode.is(Mode::kStopping)) law.controller().stop();
   // At rest: what the joint carries is known now.
   if (from == Mode::kStopping && mode.is(Mode::kOff)) law.keep_held_load(drive.position_rad());
-  if (mode.is(Mode::kStopping) || !mode.controlled()) {
-    ordered.end();
-    drop_path();
-  }
+  if (mode.is(Mode::kStopping) || !mode.controlled()) end_orders();
 }
 
 bool JointInLoop::stops_group(const CycleTime& time) const noexcept {
@@ -72,6 +69,11 @@ OthersStop JointInLoop::others_stop() const noexcept {
 void JointInLoop::drop_path() noexcept {
   path = nullptr;
   path_slots.drop();
+}
+
+void JointInLoop::end_orders() noexcept {
+  ordered.end();
+  drop_path();
 }
 
 }  // namespace strainwave

@@ -41,6 +41,8 @@ struct JointInLoop {
                    std::optional<std::uint32_t> own_finding = {}) noexcept;
   void notice(Notice notice) noexcept { notices |= static_cast<std::int32_t>(notice); }
   void drop_path() noexcept;
+  /// A stream or a path is over.
+  void end_orders() noexcept;
   /// As the control law has it, or the drive, or by the positions.
   double velocity_rad_s() const noexcept {
     return mode.controlled() ? law.motion().joint_velocity_rad_s : drive.velocity_rad_s();

@@ -18,7 +18,7 @@ constexpr double kCertainDeviations = 3.0;
 }  // namespace
 
 JointLaw::JointLaw(const JointLoopConfig& config, std::int64_t turn)
-    : config_(config.controller),
+    : gravity_(config.controller.gravity),
       controller_(config.controller),
       schedule_(config.temperature_update_period_s, config.controller.period_s, turn),
       inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
@@ -34,7 +34,7 @@ void JointLaw::use_table(const TableSlot& slot) noexcept {
 
 // A joint that is found elsewhere may carry something else than gravity as it is configured.
 double JointLaw::load_at_Nm(double position_rad) const noexcept {
-  const double gravity_Nm = config_.gravity.at(position_rad);
+  const double gravity_Nm = gravity_.at(position_rad);
   if (!held_.position_rad) return held_.torque_Nm + gravity_Nm;
   return std::abs(position_rad - *held_.position_rad) < kSamePlace_rad ? held_.torque_Nm : gravity_Nm;
 }
@@ -51,12 +51,11 @@ void JointLaw::wait_for_brake(double position_rad) noexcept {
 
 void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_opens) noexcept {
   const ActuatorReading& reading = drive.reading();
-  scheduled_C_ = schedule_.follow_C(drive.temperature().used_C(), time.cycle,
-                                    motion_.gains_in_use != GainsInUse::kPrimary);
   JointMeasurement measurement;
   measurement.joint_position_rad = reading.joint_position_rad;
   measurement.joint_velocity_rad_s = reading.joint_velocity_rad_s;
-  measurement.temperature_C = scheduled_C_;
+  measurement.temperature_C = schedule_.follow_C(drive.temperature().used_C(), time.cycle,
+                                                 motion_.gains_in_use != GainsInUse::kPrimary);
   measurement.has_position = drive.fresh();
   measurement.has_velocity = reading.has_velocity;
   measurement.temperature_valid = drive.temperature().usable();
@@ -65,7 +64,7 @@ void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_op
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
   estimate_inertia(measurement, brake_opens);
   motion_ = controller_.step(measurement);
-  if (motion_.learns) friction_.learned_now(scheduled_C_, time.now_ns);
+  if (motion_.learns) friction_.learned_now(measurement.temperature_C, time.now_ns);
 }
 
 // By the torque that was commanded last. A brake holds whatever the torque.
@@ -73,9 +72,9 @@ void JointLaw::estimate_inertia(const JointMeasurement& measurement, bool brake_
   if (!measurement.has_position || measurement.elapsed_periods != 1 || measurement.late_periods != 0 ||
       brake_opens)
     return inertia_.interrupt();
-  inertia_.step({measurement.joint_position_rad, motion_.output.torque_Nm,
-                 config_.gravity.at(measurement.joint_position_rad)},
-                controller_.joint().model);
+  inertia_.step(
+      {measurement.joint_position_rad, motion_.output.torque_Nm, gravity_.at(measurement.joint_position_rad)},
+      controller_.joint().model);
 }
 
 void JointLaw::restore(const LearnedFriction& learned, const FrictionHistory& history) noexcept {

@@ -65,7 +65,7 @@ class JointLaw {
   /// Of a joint that oscillates (lcmtypes/oscillation_evidence.h).
   std::uint32_t evidence() const noexcept;
   /// The temperature that the gains are scheduled for, degC.
-  double scheduled_C() const noexcept { return scheduled_C_; }
+  double scheduled_C() const noexcept { return schedule_.scheduled_C(); }
 
  private:
   /// The torque that held the joint when it last rested under control, and where that was; before, the configuration's.
@@ -76,7 +76,7 @@ class JointLaw {
   double load_at_Nm(double position_rad) const noexcept;
   void estimate_inertia(const JointMeasurement& measurement, bool brake_opens) noexcept;
 
-  JointControllerConfig config_;
+  GravityLoad gravity_;
   JointController controller_;
   TemperatureSchedule schedule_;
   InertiaEstimate inertia_;
@@ -84,7 +84,6 @@ class JointLaw {
   HeldLoad held_;
   const TableSlot* table_ = nullptr;  ///< the active one
   JointStep motion_;
-  double scheduled_C_ = 0.0;
 };
 
 }  // namespace strainwave

@@ -139,10 +139,9 @@ Reason hold(JointInLoop& joint) noexcept {
   if (!joint.mode.controlled()) return Reason::kWrongMode;
   if (joint.follower != nullptr && joint.follower->end(static_cast<std::size_t>(joint.index)))
     return Reason::kAccepted;
-  joint.drop_path();
+  joint.end_orders();
   joint.law.controller().stop();
   joint.homing.abort();
-  joint.ordered.end();
   return Reason::kAccepted;
 }
 

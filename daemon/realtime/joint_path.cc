@@ -42,14 +42,9 @@ void follow_path(JointInLoop& joint, const PathPoint& point, std::int64_t in_per
                                      in_periods, joint.reachable_range());
 }
 
-void end_path(JointInLoop& joint) noexcept {
-  joint.ordered.end();
-  joint.drop_path();
-}
-
 void stop_beside_path(JointInLoop& joint) noexcept {
   joint.law.controller().stop();
-  end_path(joint);
+  joint.end_orders();
 }
 
 }  // namespace strainwave

@@ -14,8 +14,6 @@ Ruling may_begin_path(const JointInLoop& joint, const LoadedPath& path) noexcept
 void begin_path(JointInLoop& joint, const CycleTime& time) noexcept;
 /// Where the joint is to be `in_periods` after the begin of this one.
 void follow_path(JointInLoop& joint, const PathPoint& point, std::int64_t in_periods) noexcept;
-/// The setpoint rests, or will where its limits kept it from resting by now.
-void end_path(JointInLoop& joint) noexcept;
 /// Comes to rest by itself, off the path.
 void stop_beside_path(JointInLoop& joint) noexcept;
 

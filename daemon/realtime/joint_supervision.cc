@@ -20,8 +20,7 @@ void stop_overloaded(JointInLoop& joint, const CycleTime& time) noexcept {
   joint.stream.yielded_id = joint.ordered.stream_id();
   const Mode mode = joint.mode.mode();
   (void)joint.events.push({joint.index, time.cycle, mode, mode, Fault::kNone, 0, joint.yield});
-  joint.ordered.end();
-  joint.drop_path();
+  joint.end_orders();
   joint.law.controller().yield(joint.motion_watch.usual_load_Nm());
 }
 

@@ -135,7 +135,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     joint.ordered.note({shown.time_s, !ending && travel.clock.is_to_rest() && shown.rate == 0.0});
   });
   if (is_over(index)) {
-    for_each_member(index, [](JointInLoop& joint, Member&) { end_path(joint); });
+    for_each_member(index, [](JointInLoop& joint, Member&) { joint.end_orders(); });
     return free(index);
   }
   if (travel.phase == Phase::kEnding && (travel.rest_cycles -= time.elapsed_periods) <= 0) stop_each(index);

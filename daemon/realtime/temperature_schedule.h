@@ -24,6 +24,9 @@ class TemperatureSchedule {
     return scheduled_C_;
   }
 
+  /// What the gains are for now.
+  double scheduled_C() const noexcept { return scheduled_C_; }
+
  private:
   std::int64_t periods_;
   std::int64_t turn_;

@@ -2,7 +2,6 @@
 #include <iostream>
 #include <memory>
 
-#include "base/text_file.h"
 #include "sim/commands/commands.h"
 #include "sim/studies/ablation.h"
 
@@ -12,18 +11,15 @@ namespace {
 
 struct AblationOptions {
   std::string tables;
-  int joints = 300;
-  std::uint64_t seed = 1;
+  RandomJoints joints{300};
 };
 
 void run(const AblationOptions& options) {
-  const std::filesystem::path directory =
-      options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
-  const FlexibleTables tables = read_flexible_tables(directory);
+  const FlexibleTables tables = read_flexible_tables(tables_folder(options.tables));
   std::vector<AblationRow> rows;
   for (const Mechanism mechanism : kMechanisms) {
     std::cerr << "without: " << name_of(mechanism) << '\n';
-    rows.push_back(run_without(mechanism, tables, options.joints, options.seed));
+    rows.push_back(run_without(mechanism, tables, options.joints.count, options.joints.seed));
   }
   std::cout << ablation_table(rows).markdown();
 }
@@ -34,12 +30,8 @@ void add_ablation_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<AblationOptions>();
   CLI::App* command = program.add_subcommand(
       "ablation", "What each part of the controller is worth: every study with that part switched off");
-  command->add_option("--tables", options->tables,
-                      "folder with total-*/c1.json .. c4.json (default: the installed tables)");
-  command->add_option("--joints", options->joints, "number of random joints")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "of the random joints")->capture_default_str();
+  add_tables_option(*command, options->tables);
+  add_random_joints_options(*command, options->joints, "number of random joints");
   command->callback([&chosen, options] {
     chosen = [options] {
       run(*options);

@@ -47,8 +47,7 @@ void run(const Chapter6Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::filesystem::path data =
       options.data.empty() ? shared_folder("data") : std::filesystem::path(options.data);
-  const auto tables = read_chapter6_tables(options.tables.empty() ? shared_folder("data") / "tables"
-                                                                  : std::filesystem::path(options.tables));
+  const auto tables = read_chapter6_tables(tables_folder(options.tables));
   const auto source = read_source_indices(data / "performance_index.csv");
   const std::filesystem::path out = options.out;
   make_folder(out);

@@ -28,6 +28,18 @@ void add_ablation_command(CLI::App& program, CommandBody& chosen);
 /// InputError when there is neither.
 std::filesystem::path shared_folder(const std::filesystem::path& name);
 
+/// Adds --tables, the folder of a study's gain tables; and that folder, by default the installed one.
+void add_tables_option(CLI::App& command, std::string& tables);
+std::filesystem::path tables_folder(const std::string& tables);
+
+/// Joints that a study draws at random.
+struct RandomJoints {
+  int count;
+  std::uint64_t seed = 1;
+};
+/// Adds --joints and --seed.
+void add_random_joints_options(CLI::App& command, RandomJoints& joints, const std::string& number_of);
+
 /// What a single closed loop is made of, as the user gives it.
 struct LoopOptions {
   std::string plant = "realistic";

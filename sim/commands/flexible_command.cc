@@ -22,8 +22,7 @@ struct FlexibleOptions {
   bool full = false;
   bool peers = false;
   bool wrong = false;
-  int joints = 1000;
-  std::uint64_t seed = 1;
+  RandomJoints joints{1000};
 };
 
 std::vector<FlexibleRow> run_part(const std::string& name, const std::vector<FlexibleCell>& cells,
@@ -44,9 +43,7 @@ std::size_t number_of(const std::string& name, const std::vector<Contender>& con
 
 /// The daemon's controller told of its spring beside what a user would take instead, on the grid alone.
 void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
-  std::vector<Contender> contenders = flexible_contenders(gains, false);
-  const std::size_t told = number_of("daemon", contenders);
-  contenders = {contenders[told]};
+  std::vector<Contender> contenders = {daemon_contender(gains)};
   for (Contender& peer : peer_contenders()) contenders.push_back(std::move(peer));
   const auto grid = run_part("grid", flexible_grid(), contenders);
   write_text_file(out / "peers.csv", price_cells(grid, contenders, 0).csv());
@@ -60,16 +57,14 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
 
 /// The daemon's controller told of its spring, and told wrongly, on the grid and on joints drawn at random.
 void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
-  const std::vector<Contender> contenders = flexible_contenders(gains, false);
-  const Contender& told = contenders[number_of("daemon", contenders)];
-  for (const auto& cells : {wrongly_told_grid(), wrongly_told_joints(options.joints, options.seed)})
+  const Contender told = daemon_contender(gains);
+  for (const auto& cells :
+       {wrongly_told_grid(), wrongly_told_joints(options.joints.count, options.joints.seed)})
     std::cout << wrongly_told_summary(run_wrongly_told(cells, told)).markdown() << '\n';
 }
 
 void run(const FlexibleOptions& options) {
-  const std::filesystem::path directory =
-      options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
-  const FlexibleTables gains = read_flexible_tables(directory);
+  const FlexibleTables gains = read_flexible_tables(tables_folder(options.tables));
   if (options.wrong) return run_wrong(gains, options);
   const std::filesystem::path out = options.out;
   make_folder(out);
@@ -90,12 +85,13 @@ void run(const FlexibleOptions& options) {
   write_text_file(out / "price.csv", price_cells(grid, contenders, daemon).csv());
   if (options.full) {
     const auto effects = run_part("effects", effect_grid(), contenders);
-    const auto random = run_part("random joints", random_joints(options.joints, options.seed), contenders);
+    const auto random =
+        run_part("random joints", random_joints(options.joints.count, options.joints.seed), contenders);
     tables.push_back(effect_ranking(effects, contenders));
-    tables.push_back(
-        flexible_summary("Joints drawn at random, seed " + std::to_string(options.seed), random, contenders));
+    tables.push_back(flexible_summary("Joints drawn at random, seed " + std::to_string(options.joints.seed),
+                                      random, contenders));
     write_text_file(out / "effects.csv", flexible_cells(effects, contenders).csv());
-    write_text_file(out / ("random-seed-" + std::to_string(options.seed) + ".csv"),
+    write_text_file(out / ("random-seed-" + std::to_string(options.joints.seed) + ".csv"),
                     flexible_cells(random, contenders).csv());
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -115,8 +111,7 @@ void add_flexible_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<FlexibleOptions>();
   CLI::App* command =
       program.add_subcommand("flexible", "Every controller on a joint with a spring, over a grid of joints");
-  command->add_option("--tables", options->tables,
-                      "folder with total-*/c1.json .. c4.json (default: the installed tables)");
+  add_tables_option(*command, options->tables);
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->add_flag("--full", options->full, "every contender, each further effect, and joints at random");
   command->add_flag("--peers", options->peers,
@@ -125,10 +120,7 @@ void add_flexible_command(CLI::App& program, CommandBody& chosen) {
   command->add_flag("--wrong", options->wrong,
                     "the daemon, and told load, stiffness, friction or delay wrongly; "
                     "prints, writes nothing");
-  command->add_option("--joints", options->joints, "number of random joints, with --full or --wrong")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "of the random joints")->capture_default_str();
+  add_random_joints_options(*command, options->joints, "number of random joints, with --full or --wrong");
   command->callback([&chosen, options] {
     chosen = [options] {
       run(*options);

@@ -7,6 +7,22 @@
 
 namespace strainwave {
 
+void add_tables_option(CLI::App& command, std::string& tables) {
+  command.add_option("--tables", tables,
+                     "folder with total-*/c1.json .. c4.json (default: the installed tables)");
+}
+
+std::filesystem::path tables_folder(const std::string& tables) {
+  return tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(tables);
+}
+
+void add_random_joints_options(CLI::App& command, RandomJoints& joints, const std::string& number_of) {
+  command.add_option("--joints", joints.count, number_of)
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--seed", joints.seed, "of the random joints")->capture_default_str();
+}
+
 void add_loop_options(CLI::App& command, LoopOptions& options) {
   command.add_option("--plant", options.plant, "ideal, limited, realistic, flexible, or a plant file (TOML)")
       ->capture_default_str();

@@ -19,10 +19,8 @@ struct TemperatureOptions {
 };
 
 void run(const TemperatureOptions& options) {
-  const std::filesystem::path directory =
-      options.tables.empty() ? shared_folder("data") / "tables" : std::filesystem::path(options.tables);
   const auto begin = std::chrono::steady_clock::now();
-  const FlexibleTables gains = read_flexible_tables(directory);
+  const FlexibleTables gains = read_flexible_tables(tables_folder(options.tables));
   const std::vector<FrictionWay> ways = friction_ways(gains);
   const std::filesystem::path out = options.out;
   make_folder(out);
@@ -57,8 +55,7 @@ void add_temperature_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<TemperatureOptions>();
   CLI::App* command = program.add_subcommand(
       "temperature", "What it is worth to know the temperature: ways to meet friction, cold and warm");
-  command->add_option("--tables", options->tables,
-                      "folder with total-*/c1.json .. c4.json (default: the installed tables)");
+  add_tables_option(*command, options->tables);
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->callback([&chosen, options] {
     chosen = [options] {

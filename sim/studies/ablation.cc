@@ -21,10 +21,10 @@ struct Cell {
   FlexibleResult result;
 };
 
-std::vector<Cell> run_cells(const std::vector<FlexibleCell>& cells, const Contender& contender,
-                            std::size_t stride) {
+std::vector<Cell> run_cells(const std::vector<FlexibleCell>& cells, const Contender& contender) {
   std::vector<Cell> done;
-  for (std::size_t i = 0; i < cells.size(); i += stride) done.push_back({cells[i], {}});
+  done.reserve(cells.size());
+  for (const FlexibleCell& cell : cells) done.push_back({cell, {}});
   run_in_parallel(done.size(),
                   [&](std::size_t i) { done[i].result = run_without_limit(done[i].cell, contender); });
   return done;
@@ -115,15 +115,14 @@ std::string_view name_of(Mechanism mechanism) noexcept {
   return "";
 }
 
-AblationRow run_without(Mechanism without, const FlexibleTables& tables, int random, std::uint64_t seed,
-                        std::size_t stride) {
+AblationRow run_without(Mechanism without, const FlexibleTables& tables, int random, std::uint64_t seed) {
   AblationRow row;
   row.without = without;
   const Contender daemon = daemon_contender(tables, without);
-  judge_grid(run_cells(flexible_grid(), daemon, stride), row);
-  judge_wrong(run_cells(wrongly_told_grid(), daemon, stride), row);
-  row.random_rest_rad = rest_error_rad(run_cells(wrongly_told_joints(random, seed), daemon, 1));
-  row.load_rest_rad = rest_error_rad(run_cells(loaded_grid(), daemon, stride));
+  judge_grid(run_cells(flexible_grid(), daemon), row);
+  judge_wrong(run_cells(wrongly_told_grid(), daemon), row);
+  row.random_rest_rad = rest_error_rad(run_cells(wrongly_told_joints(random, seed), daemon));
+  row.load_rest_rad = rest_error_rad(run_cells(loaded_grid(), daemon));
   const FrictionWay way = product_way_without(tables, without);
   row.first_rms_rad = mean_rms_rad(way, 1);
   row.sixth_rms_rad = mean_rms_rad(way, kLearnedAfter);

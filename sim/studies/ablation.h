@@ -37,9 +37,8 @@ struct AblationRow {
   double sixth_rms_rad = 0.0;  ///< the same, the sixth run
 };
 
-/// `random` joints are drawn with `seed`; every `stride`-th cell of the grids is run.
-AblationRow run_without(Mechanism without, const FlexibleTables& tables, int random, std::uint64_t seed,
-                        std::size_t stride = 1);
+/// `random` joints are drawn with `seed`.
+AblationRow run_without(Mechanism without, const FlexibleTables& tables, int random, std::uint64_t seed);
 
 /// How much each figure grows without the part: the first of `rows` is kNone's. The last column is the largest growth.
 TextTable ablation_table(const std::vector<AblationRow>& rows);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,8 @@ namespace strainwave {
 namespace {
 
 Contender daemon_controller() {
-  const FlexibleTables gains =
-      read_flexible_tables(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables");
-  for (const Contender& contender : flexible_contenders(gains, false))
-    if (contender.name == "daemon") return contender;
-  throw std::invalid_argument("daemon");
+  return daemon_contender(
+      read_flexible_tables(std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "data" / "tables"));
 }
 
 // Load, stiffness, friction or jitter, each alone: the link rests within 1.5 mrad, most within 0.3. A delay of one period more than configured is
