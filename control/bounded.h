@@ -1,9 +1,8 @@
 // A number with a bound on its error: running error analysis for proofs in floating point. Real-time safe.
 //
-// Each operation adds what its own rounding can cost (half a unit in the last place, 2^-53 relative) to what
-// it inherits, so |value - exact| <= error always holds, where "exact" is the same formula in real numbers.
-// The bound itself is rounded up by kUp and never becomes zero after an inexact operation. Source: Higham,
-// "Accuracy and Stability of Numerical Algorithms", section 3.3.
+// |value - exact| <= error always holds; "exact" is the same formula in real numbers. Each operation adds its own largest rounding
+// error (half a unit in the last place, 2^-53 relative) to the bounds of its operands. The bound is rounded up by kUp and is never
+// zero after an inexact operation. Source: Higham, "Accuracy and Stability of Numerical Algorithms", section 3.3.
 #pragma once
 
 #include <cmath>

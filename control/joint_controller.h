@@ -30,7 +30,7 @@ namespace strainwave {
 enum class MotionPhase : int {
   kTracking = 0,  ///< the law on the plan
   kResting = 2,   ///< what holds the joint, constant
-  kYielding = 3,  ///< likewise, wherever the joint goes, until it stands
+  kYielding = 3,  ///< a constant torque while the joint is pushed away, until it stands
 };
 
 /// One period's result.
@@ -44,7 +44,7 @@ struct JointStep {
   bool at_target = false;   ///< the motion has ended on the target
   bool off_stream = false;  ///< the limits do not let the reference be where the stream is, or not yet
   MotionPhase phase = MotionPhase::kTracking;
-  /// That shows, besides gravity and what a stream says: what was learned and what the feedback asks for, the mean over 10 ms.
+  /// Besides gravity and the stream's load: the learned load and the feedback, the mean over 10 ms.
   double load_Nm = 0.0;
   int corrections = 0;  ///< small motions at rest since the last order
   bool learns = false;  ///< friction and load, in this period

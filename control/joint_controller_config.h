@@ -26,9 +26,9 @@ struct JointControllerConfig {
   MotionLimits motion;  ///< of the reference; what the joint can do limits it further
   /// Of the reference, > 0. Where it is so low that kMaxMeanPeriods do not suffice, accelerations are lower, too.
   std::optional<double> jerk_limit_rad_s3;
-  /// How long a stream whose samples do not come goes on as it was; at least two and a half of its intervals, at most 0.2 s.
+  /// Bridging of missing samples: a stream continues for so long; at least two and a half of its intervals, at most 0.2 s.
   double stream_bridge_s = 0.05;
-  /// The play-out delay of samples that say when they were sent: what the network's jitter takes at most.
+  /// Play-out delay of samples with `utime`: the largest jitter of the network that is covered.
   double stream_delay_s = 0.03;
   /// Share of the torque that the reference leaves to the feedback, in [0, 1).
   double torque_reserve = 0.02;

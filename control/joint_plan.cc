@@ -32,7 +32,7 @@ MotorPlannerConfig planner_config(const JointControllerConfig& config) noexcept 
   return planner;
 }
 
-// What the encoder reads of a joint whose link and motor are there.
+// The encoder's reading for these positions of link and motor.
 double by_encoder(const JointControllerConfig& config, double link_rad, double motor_rad) noexcept {
   return config.encoder_side == EncoderSide::kLink ? link_rad : motor_rad;
 }
@@ -119,7 +119,7 @@ void JointPlan::advance(const PlannedJoint& joint) noexcept {
   const Reference planned = trajectory_.step(present_limits(joint));
   if (trajectory_.streamed() && trajectory_.present_target_rad() != last_target_rad) corrections_.reset();
   speeds_up_ = planned.velocity_rad_s * planned.acceleration_rad_s2 > 0.0;
-  const ToldLoad& load = trajectory_.load();
+  const StreamLoad& load = trajectory_.load();
   const double speed_rad_s = plan_.acting_velocities_rad_s.back();
   const double taken_Nm = sign(speed_rad_s) * joint.model.friction_Nm(speed_rad_s) + joint.load_Nm +
                           load.torque_Nm + load.inertia_kgm2 * plan_.wanted_acceleration_rad_s2;
@@ -168,7 +168,7 @@ double JointPlan::lead_s() const noexcept {
 }
 
 double JointPlan::torque_Nm(const PlannedJoint& joint) const noexcept {
-  const ToldLoad& load = trajectory_.load();
+  const StreamLoad& load = trajectory_.load();
   const double load_Nm = joint.load_Nm + load.torque_Nm;
   if (!planner_.moves()) return config_.gravity.at(plan_.link_position_rad) + load_Nm;
   const auto [begin, middle, end] = plan_.acting_velocities_rad_s;

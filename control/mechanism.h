@@ -13,7 +13,7 @@ enum class Mechanism {
   kRestTorque,        ///< within a count of its place the joint is held by a constant torque
   kCorrections,       ///< small motions bring the last counts
   kPace,              ///< a torque that is spent slows the motion down
-  kGivingWay,         ///< a plan that asks for more torque than the motion gives way
+  kGivingWay,         ///< the plan gives way when it needs more torque than the motion
 };
 
 }  // namespace strainwave

@@ -1,4 +1,4 @@
-// Tells a joint that oscillates by its torque: reversals of the feedback that no plan orders. Real-time safe.
+// Detects an oscillation by the torque: reversals of the feedback that no plan orders. Real-time safe.
 //
 //   reversal     feedback beyond +limit after one beyond -limit, or the other way round, while the plan's torque kept its sign
 //   level'       -level / 1 s + 1 at each reversal

@@ -24,8 +24,8 @@
 // correct. With P the Lyapunov matrix of rule 0,
 //   V(x) = P_00 slow^2 + (a form in e and velocity alone)
 //   slow = integral + (P_01 e + P_02 velocity error) / P_00
-// so the integral that costs least for a given e and velocity is the one that leaves `slow` where it was. A
-// new setpoint and a saturated torque therefore keep `slow`, and neither winds up. While the torque is limited
+// For a given e and velocity, the integral that leaves `slow` unchanged costs least. A new setpoint and a saturated torque therefore
+// keep `slow`, and the integral does not wind up. While the torque is limited
 // V can rise: the certificate is of the law within its limits (docs/theory.md).
 //
 // A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h has it in the loop that is certified). The first

@@ -21,7 +21,7 @@ struct TemperatureRule {
 };
 
 /// Layer 2, joint side. mu_zero is 1 up to zero_center and falls as exp(-((|w|-zero_center)/zero_width)^2)
-/// beyond it; mu_high is 1 from high_center and falls likewise below it. Widths > 0, centres >= 0.
+/// beyond it; mu_high is 1 from high_center and falls in the same way below it. Widths > 0, centres >= 0.
 struct VelocityMemberships {
   double zero_center_rad_s = 0.0;
   double zero_width_rad_s = 1.0;

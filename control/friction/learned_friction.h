@@ -17,7 +17,7 @@ inline constexpr double kMostScale = 3.0;
 
 struct LearnedFriction {
   std::array<double, kMaxTemperatureRules> scale{};  ///< s_i, in [kLeastScale, kMostScale]
-  double load_Nm = 0.0;  ///< what pushes the joint besides gravity and what it is told
+  double load_Nm = 0.0;                              ///< load besides gravity and the configured load
 
   bool operator==(const LearnedFriction&) const = default;
 };

@@ -20,7 +20,7 @@ constexpr double kKept = 0.97;
 constexpr double kNoiseShare = 0.1;
 // Where the table has no friction.
 constexpr double kLeastScale_Nm = 1e-3;
-// How well friction is known beforehand, and how large a load is that nobody tells, in static friction.
+// Prior standard deviations: of friction as a share of the table's, and of an unknown load in units of static friction.
 constexpr double kFrictionDeviation = 0.3;
 constexpr double kLoadDeviation = 1.0;
 // Four windows, as they count then.
@@ -69,7 +69,7 @@ InertiaEstimate::Means InertiaEstimate::means(int periods_ago) const noexcept {
 
 void InertiaEstimate::step(const Sample& sample, const JointModel& model) noexcept {
   ++now_;
-  torque_Nm_[now_ % kRoom] = sample.torque_Nm - sample.told_load_Nm;
+  torque_Nm_[now_ % kRoom] = sample.torque_Nm - sample.known_load_Nm;
   const double acting_Nm = torque_Nm_[(now_ - static_cast<unsigned>(config_.delay_periods)) % kRoom];
   const Sums& before = sums(1);
   const bool anew = samples_ == 0;

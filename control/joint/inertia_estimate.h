@@ -1,14 +1,12 @@
-// The inertia that a joint's motions show, of motor and link together, whatever hangs on it: what the torque was over a while against
-// how the velocity changed. Real-time safe. Joint side, SI.
+// Estimates the inertia of motor and link together, payload included, from torque and change of velocity. Real-time safe. Joint side, SI.
 //
 //   J (w(t) - w(t - T)) = I(t) - I(t - T) - k (R(t) - R(t - T)) - c T
-//   I = integral of (torque - load as it is told),   R = integral of the table's friction, with the sign of the motion
+//   I = integral of (torque - known load),   R = integral of the table's friction, with the sign of the motion
 //
-// J, k (how much of the table's friction there is) and c (a load that nobody tells) are fitted by least squares over windows of T, what
-// lies back counting less. Of w, I and R the means over 4 ms are taken, which makes the velocity of so many counts one, and the
-// equation stays exact. T is 20 ms, about a swing of the gear's spring (catalogue: 12 to 36 ms), so that motor and link count as one. Only windows in which the joint
-// moves one way all the time tell anything: stiction balances whatever there is. At first k is 1 and c is 0, as far as friction is known;
-// what the configuration says of J is not used.
+// Recursive least squares with forgetting fits J, k (friction over the table's) and c (an unknown load) over windows of T. The means of w,
+// I and R over 4 ms are used, which smooths the encoder's counts and keeps the equation exact. T is 20 ms, about one swing of the gear's
+// spring (catalogue: 12 to 36 ms), so that motor and link act as one inertia. Only windows of motion in one direction are used, since
+// static friction balances any torque. The prior is k = 1, c = 0; the configured J is not used.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,10 +29,9 @@ class InertiaEstimate {
   /// What a period ended with.
   struct Sample {
     double position_rad = 0.0;
-    /// Commanded when the period began, after all limits, and what of it the load that is told takes: both take effect when the
-    /// delay is over.
+    /// Commanded at the begin of the period, after all limits, and the known load. Both act after the delay.
     double torque_Nm = 0.0;
-    double told_load_Nm = 0.0;
+    double known_load_Nm = 0.0;
   };
 
   explicit InertiaEstimate(const InertiaEstimateConfig& config) noexcept;

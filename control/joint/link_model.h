@@ -1,5 +1,5 @@
-// Motor and link with the gear's spring between them, as the controller is told of them, and the torque that brings the two to where
-// they should be. Friction is none of it: it is compensated beside. Real-time safe but for regulate(). Joint side, SI.
+// Motor and link with the gear's spring between them, as configured, and the regulator that brings both to the plan. Friction is not
+// part of the model; it is compensated separately. Real-time safe but for regulate(). Joint side, SI.
 //
 //   Jm wm' = u - ts
 //   Jl wl' = ts - load(thl)

@@ -58,10 +58,9 @@ struct MotorLimits {
   }
 };
 
-/// Acceleration and deceleration that `torque_limit_Nm` and the motor leave, less the share `reserve` of the
-/// torque, to a joint that moves at `speed_rad_s` >= 0 under friction and load: friction slows acceleration
-/// down and helps deceleration, the load may do either and counts against both. Never more than `motion`,
-/// never less than a trickle.
+/// Acceleration and deceleration that are possible at `speed_rad_s` >= 0, under `torque_limit_Nm`, the motor's limits, friction and load.
+/// The share `reserve` of the torque is left to the feedback. Friction reduces the acceleration and adds to the deceleration; the load
+/// counts against both. At most `motion`, at least what 2 % of the torque limit gives.
 MotionLimits reachable_limits(const MotionLimits& motion, const MotorLimits& motor, const JointModel& model,
                               double load_Nm, double torque_limit_Nm, double reserve, double speed_rad_s,
                               double period_s) noexcept;

@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// P of  P = A'PA - A'PB (R + B'PB)^-1 B'PA + W,  so that the least sum x'Wx + u'Ru of x+ = A x + B u is
-/// x0'P x0. A n x n, B n, W the diagonal of a positive matrix, R > 0. Nothing when (A, B) cannot be stabilised
+/// Solves  P = A'PA - A'PB (R + B'PB)^-1 B'PA + W.  The least sum of x'Wx + u'Ru along x+ = A x + B u is then x0'P x0.
+/// A n x n, B n, W the diagonal of a positive matrix, R > 0. Nothing when (A, B) cannot be stabilised
 /// or the doubling does not converge. n: 4, or Eigen::Dynamic.
 template <int n>
 std::optional<Eigen::Matrix<double, n, n>> solve_riccati(const Eigen::Matrix<double, n, n>& A,

@@ -249,7 +249,7 @@ std::optional<PathDefect> find_defect(const KnotPath& path, const PathLimits& li
     return wrong_count(static_cast<double>(path.count));
   for (std::size_t knot = 0; knot < path.count; ++knot)
     if (auto found = find_number_defect(path, knot, limits.period_s)) return found;
-  // Places before the ways there: who gives degrees is not told of their accelerations.
+  // Positions are checked before speeds: a path in degrees is refused for its positions.
   for (std::size_t knot = 0; knot < path.count; ++knot) {
     const PathKnot& here = path.knots[knot];
     if (auto found = Judge(limits, knot).position(here.position_rad, here.time_s)) return found;

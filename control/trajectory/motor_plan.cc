@@ -154,8 +154,8 @@ void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const T
   middle_velocity_rad_s_ = period.middle_velocity_rad_s;
 }
 
-// A regulator that has no torque left can swing a spring up for ever: the model then gives way to the motion where it has lost it, and
-// wherever the regulator asks for more torque than the motion, which asks for none once it has ended.
+// A regulator at its torque limit can excite the spring in a limit cycle. The model then gives way to the motion: where it is far from it,
+// and where the regulator needs more torque than the motion. A motion that has ended needs none.
 void MotorPlanner::yield(bool ended) noexcept {
   const LinkState off = moved(wanted_, next_, -1.0);
   const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));

@@ -12,13 +12,13 @@
 // much as a joint at rest may be off. A model of the joint (control/joint/link_model.h) therefore makes the motion along with it, regulated towards
 // it without delay or noise, within the torque that there is. The model's torque is the plan, and its motor is the reference.
 //
-// tau: half-way through a step A of the acceleration the wind-up takes Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl) besides half of
-// the step; both together are the step itself at
+// tau: half-way through a step A of the acceleration the wind-up needs Jm Jl / K * 4 (Jm + Jl) A / tau^2 / (Jm + Jl), and half of the step
+// is there. Both add up to the step at
 //   tau = sqrt(8) / w,   w^2 = K (1/Jm + 1/Jl)
-// A shorter tau asks for more torque than the planned motion does, a longer one only takes longer. It is 0.45 periods of the free
-// swing. A jerk limit j asks for tau >= 4 A / j: two means of tau / 2 keep |jerk| <= 2 A / (tau / 2).
+// which is 0.45 periods of the free swing. A shorter tau needs more torque than the planned motion; a longer one takes longer.
+// A jerk limit j requires tau >= 4 A / j: two means of tau / 2 keep |jerk| <= 2 A / (tau / 2).
 //
-// A rigid joint is the same without wind-up: tau is what the jerk limit asks for, and the model is exact.
+// A rigid joint is the same without wind-up: the jerk limit alone sets tau, and the model is exact.
 #pragma once
 
 #include <array>
@@ -93,9 +93,8 @@ class MotorPlanner {
 
   /// The motor is there, and moves as the link does. Where the planned motion, which is ahead, must go on from.
   double reset(double motor_position_rad, double velocity_rad_s = 0.0) noexcept;
-  /// The planned motion's next sample, its acceleration that of the period that follows. Where the motion asks for more than
-  /// `possible` leaves, as at a speed that the supply barely reaches, the plan does so, too: up to the torque limit, of which
-  /// `taken_Nm` is gone already.
+  /// The planned motion's next sample, its acceleration that of the period that follows. A motion that needs more than `possible`, near
+  /// the supply's top speed, gets it in the plan, up to the torque limit less `taken_Nm`.
   MotorPlan step(const Reference& planned, const TorqueRange& possible, double taken_Nm) noexcept;
 
   /// Whether anything is still to be done: the last plan, or what of it has not acted yet.

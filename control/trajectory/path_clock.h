@@ -1,4 +1,4 @@
-// The time along a path: it goes with the clock, or slower while the path is paused, resumed or ended, so that whoever follows stays on the
+// The time along a path: it runs with the clock, or slower while the path is paused, resumed or ended, so that the joints stay on the
 // path. Real-time safe; time is counted in seconds of the path.
 //
 // With the rate r of the path's time s, what a joint does is

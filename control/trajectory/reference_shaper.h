@@ -14,9 +14,9 @@
 // which keeps the target reachable exactly, at rest, on a sample: no overshoot, no chatter around the target.
 //
 // A target that moves (p0 to p1 at v0 to v1 in a sample) is followed in its own frame by the same rule: x = p - x',
-// w = v' - v1. Of the limits it takes, by its own acceleration, what it flees by to come up with it and what it comes by to brake, as far as
-// it leaves some; what helps is not counted on, because it need not last. The speed limit is the follower's own. On the target nothing is
-// left but its motion. A target that is farther away than A (0.1 s)^2 / 2 is gone after with all of the acceleration.
+// w = v' - v1. The target's own acceleration is taken off the limits: off A where the target moves away, off D where it approaches. An
+// acceleration that helps is not counted on, since it need not last. The speed limit is the follower's own. On the target only its motion
+// is left. Towards a target farther than A (0.1 s)^2 / 2 the whole acceleration is used.
 #pragma once
 
 #include <limits>

@@ -1,11 +1,10 @@
-// When, on our clock, a message was sent: by the sender's clock, whose rate is about ours, and the way that the quickest of late took. What
-// is held up on the way or lost changes nothing. Real-time safe.
+// The instant at which a message was sent, on our clock: from the sender's clock, which runs at about our rate, and the shortest recent
+// transport delay. Delayed and lost messages change nothing. Real-time safe.
 //
 //   sent on our clock = sent on the sender's + offset
-//   offset   mean of arrival - sent over some forty messages, without those that came later than this by more than a network's jitter. One that
-//            comes so much earlier shows that all before were late, and none for so long as nobody is held up that the way has become
-//            longer
-//   a clock that was set, or stands still, says nothing: what comes by it came when it did, as if its way had been the usual one
+//   offset   mean of arrival - sent over forty messages, without those that are later than it by more than `jitter_s`. A message that is
+//            earlier by more than that begins the mean anew; so do late messages alone for `in_a_row_s`
+//   a clock that was set, or stands still: the message counts as sent at its arrival less the usual delay
 #pragma once
 
 #include <algorithm>
@@ -18,9 +17,9 @@ namespace strainwave {
 class SenderClock {
  public:
   struct Waits {
-    double jitter_s = 0.006;    ///< what a network does to arrivals all the time; > 0
-    double in_a_row_s = 0.12;   ///< for no longer than this all that come were held up
-    double clock_set_s = 0.25;  ///< nobody is held up for so long
+    double jitter_s = 0.006;    ///< usual jitter of the network; > 0
+    double in_a_row_s = 0.12;   ///< longer than the network delays every message
+    double clock_set_s = 0.25;  ///< longer than any delay: the sender's clock was set
   };
 
   /// `period_s` > 0: the unit of our clock.

@@ -36,7 +36,7 @@ constexpr double kAtRest_rad_s = 1e-6;
 }  // namespace
 
 void StreamBuffer::begin(double position_rad, double velocity_rad_s, double lead_periods,
-                         const ToldLoad& load) noexcept {
+                         const StreamLoad& load) noexcept {
   count_ = 0;
   lead_ = lead_periods;
   origin_ = 0.0;
@@ -46,7 +46,7 @@ void StreamBuffer::begin(double position_rad, double velocity_rad_s, double lead
   resume(position_rad, velocity_rad_s, load);
 }
 
-void StreamBuffer::resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept {
+void StreamBuffer::resume(double position_rad, double velocity_rad_s, const StreamLoad& load) noexcept {
   state_ = {play(), {position_rad, velocity_rad_s, 0.0, 0.0}, load};
   from_ = to_ = anchor_ = state_;
   ended_ = false;
@@ -244,7 +244,7 @@ StreamBuffer::State StreamBuffer::between(double at) const noexcept {
 }
 
 // Along a straight line from sample to sample; the last one's stays.
-ToldLoad StreamBuffer::load_at(double at) const noexcept {
+StreamLoad StreamBuffer::load_at(double at) const noexcept {
   const std::size_t next = first_from(at);
   if (next == count_) return count_ > 0 ? last().load : state_.load;
   const Knot& before = next > 0 ? knot(next - 1) : from_;

@@ -26,7 +26,7 @@ namespace strainwave {
 
 class LocalPolynomial;
 
-/// `period_s` > 0, `count_rad` > 0, the others >= 0.
+/// `period_s` > 0, `count_rad` > 0, the rest >= 0.
 struct StreamConfig {
   double period_s = 0.001;
   double bridge_s = 0.05;   ///< without samples
@@ -39,9 +39,10 @@ class StreamBuffer {
   explicit StreamBuffer(const StreamConfig& config) noexcept : config_(config), sender_(config.period_s) {}
 
   /// A stream begins where the joint is to be now; from now on the target is ahead of its samples by `lead_periods` >= 0.
-  void begin(double position_rad, double velocity_rad_s, double lead_periods, const ToldLoad& load) noexcept;
+  void begin(double position_rad, double velocity_rad_s, double lead_periods,
+             const StreamLoad& load) noexcept;
   /// The stream that has ended goes on with the next sample, from here.
-  void resume(double position_rad, double velocity_rad_s, const ToldLoad& load) noexcept;
+  void resume(double position_rad, double velocity_rad_s, const StreamLoad& load) noexcept;
   double lead_periods() const noexcept { return lead_; }
   /// Periods go by in which no step() is taken.
   void wait(std::int64_t periods) noexcept {
@@ -73,7 +74,7 @@ class StreamBuffer {
   struct Knot {
     double at = 0.0;  ///< periods
     State state;
-    ToldLoad load{};
+    StreamLoad load{};
     int derivatives = 2;
     bool new_place = false;    ///< samples before it are of another motion
     bool contradicts = false;  ///< its velocity is not that of the positions
@@ -96,7 +97,7 @@ class StreamBuffer {
   bool contradicts(const Knot& before, const Knot& knot) const noexcept;
   State carried(double at) const noexcept;
   State between(double at) const noexcept;
-  ToldLoad load_at(double at) const noexcept;
+  StreamLoad load_at(double at) const noexcept;
   void move_to(double at) noexcept;
 
   StreamConfig config_;

@@ -7,7 +7,7 @@ namespace strainwave {
 
 /// What a sender knows of the load and the joint does not: a torque to add to the planned one, and an inertia that the joint carries
 /// besides its own.
-struct ToldLoad {
+struct StreamLoad {
   double torque_Nm = 0.0;
   double inertia_kgm2 = 0.0;  ///< >= 0
 };
@@ -19,7 +19,7 @@ struct StreamSample {
   double acceleration_rad_s2 = 0.0;  ///< with derivatives == 2
   int derivatives = 0;               ///< how many of the position's are given: 0, 1 or 2
   std::int64_t in_periods = 0;  ///< from now to the instant that it is for, > 0; 0: it says when it was sent
-  ToldLoad load{};
+  StreamLoad load{};
   std::int64_t sent_us = 0;  ///< on the sender's clock, used where in_periods is 0
 };
 
@@ -36,7 +36,7 @@ struct MovingTarget {
   double velocity_rad_s = 0.0;
   double next_position_rad = 0.0;
   double next_velocity_rad_s = 0.0;
-  ToldLoad load{};
+  StreamLoad load{};
   bool rests() const noexcept { return velocity_rad_s == 0.0 && next_velocity_rad_s == 0.0; }
 };
 

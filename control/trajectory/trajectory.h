@@ -52,7 +52,7 @@ class Trajectory {
   bool off_stream() const noexcept;
   bool ran_out_of_samples() const noexcept { return stream_.ended(); }
   /// What the stream says of its load, and what the last one said until take_load().
-  const ToldLoad& load() const noexcept { return load_; }
+  const StreamLoad& load() const noexcept { return load_; }
   /// The stream is over: the torque that it had named.
   double take_load_Nm() noexcept { return std::exchange(load_, {}).torque_Nm; }
 
@@ -65,7 +65,7 @@ class Trajectory {
   ReferenceShaper shaper_;
   StreamBuffer stream_;
   PositionRange range_;
-  ToldLoad load_;
+  StreamLoad load_;
   double sample_rad_ = 0.0;
   Source source_ = Source::kMove;
   PathPoint on_path_;  ///< now

@@ -10,7 +10,7 @@ namespace strainwave {
 
 class DmaLatency {
  public:
-  /// Asks for no exit latency by `file`, in force while the file stays open. Empty when granted, else why
+  /// Requests an exit latency of 0 through `file`, in force while the file stays open. Empty when granted, else why
   /// not and what to do; a machine without that file (a virtual one) has nothing to ask for.
   std::string request(const std::filesystem::path& file = "/dev/cpu_dma_latency");
 

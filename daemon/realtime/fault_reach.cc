@@ -10,7 +10,7 @@ OthersStop others_stop(Fault fault, std::uint32_t drive_error) noexcept {
     case Fault::kImplausibleReading:
       return drive_error >> 24U == static_cast<std::uint32_t>(ReadingDoubt::kStuck) ? OthersStop::kAtOnce
                                                                                     : OthersStop::kAlongPath;
-    // What others live on as well: supply, bus, time, the law.
+    // Shared with other joints: supply, bus, time, the law.
     case Fault::kPowerLost:
     case Fault::kLinkLost:
     case Fault::kEmergencyStop:

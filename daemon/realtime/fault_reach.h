@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// How others stop with a joint.
+/// How the other joints stop with a joint.
 enum class OthersStop {
   kAlongPath,  ///< where they are on one
   kAtOnce,     ///< as quickly as each can

@@ -1,5 +1,5 @@
 // The last seconds of one joint at full rate, in memory that is there from the start. The real-time thread
-// writes, plain copies, and stops writing shortly after a fault; another thread then reads at its leisure and
+// writes, plain copies, and stops writing shortly after a fault; another thread then reads it and
 // hands the memory back. write() is real-time safe.
 //
 //   recording -> (a fault appears: so many samples more) -> frozen -> release() -> recording
@@ -31,7 +31,7 @@ struct FlightSample {
   double temperature_measured_C = 0.0;
   double zero_velocity_weight = 0.0;
   std::uint32_t drive_error = 0;  ///< as in state_v1
-  std::uint32_t notices = 0;      ///< likewise
+  std::uint32_t notices = 0;      ///< as in state_v1
   std::uint8_t mode = 0;
   std::uint8_t fault = 0;
   std::uint8_t gains_in_use = 0;

@@ -126,7 +126,7 @@ Homing::Order Homing::search(const Observation& observation) noexcept {
   return go(Phase::kSearching, -heading_, config_.search_speed_rad_s);
 }
 
-// Whoever stands under little torque has not met anything yet: it has friction to overcome.
+// A joint that stands under little torque has only its friction to overcome.
 Homing::Order Homing::push(const Observation& observation) noexcept {
   if (other_limit_ahead(observation.inputs)) return fail();
   const double stands_rad = kStandsShare * config_.creep_speed_rad_s * kStands_s;

@@ -8,7 +8,7 @@ namespace strainwave {
 Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept;
 /// One period, before the control law's.
 void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept;
-/// After the control law's: a joint whose home is found, or that was ordered to hold, holds as soon as it rests.
+/// After the control law's: once the home is found or a hold ordered, the joint holds as soon as it rests.
 void end_homing(JointInLoop& joint, const CycleTime& time) noexcept;
 
 }  // namespace strainwave

@@ -1,4 +1,4 @@
-// What one joint in the loop (daemon/realtime/joint_loop.h) is told of itself. Plain data.
+// The settings of one joint in the loop (daemon/realtime/joint_loop.h). Plain data.
 #pragma once
 
 #include "control/joint_controller_config.h"
@@ -32,7 +32,7 @@ struct JointLoopConfig {
   HomingConfig homing;
   double temperature_update_period_s = 0.01;  ///< how often the gains are scheduled anew
   int group = -1;                             ///< joints with the same number >= 0 belong together
-  bool fault_stops_group = false;             ///< a fault of this joint stops the others of its group
+  bool fault_stops_group = false;             ///< a fault of this joint stops its group
   double start_timeout_s = 2.0;               ///< from enable to the drive's readiness
   double stop_timeout_s = 3.0;                ///< from disable to standstill
   double standstill_rad_s = 0.01;

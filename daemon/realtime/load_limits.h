@@ -14,13 +14,13 @@ struct LoadLimits {
 struct UsualLoad {
   double gravity_Nm = 0.0;       ///< the joint's weight, at its most
   double accelerating_Nm = 0.0;  ///< motor and link together, the harder of acceleration and deceleration
-  double told_Nm = 0.0;          ///< to carry (initial_load_Nm) or to press with (stop_torque_Nm)
+  double configured_Nm = 0.0;    ///< to carry (initial_load_Nm) or to press with (stop_torque_Nm)
 
   /// With what torque limit L leaves besides acceleration A and weight G a push is yielded to before it has taken all of the torque:
   ///
   ///   L - G - A   [N.m], within 0.5 and 0.8 of L - G
   ///
-  /// and at least a tenth of L, and a quarter more than the joint is told. > 0 for `torque_limit_Nm` > 0, also where that is less than
+  /// and at least a tenth of L, and 1.25 times the configured load. > 0 for `torque_limit_Nm` > 0, also where that is less than
   /// the weight.
   double limit_Nm(double torque_limit_Nm) const noexcept;
 };

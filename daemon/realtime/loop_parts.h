@@ -1,5 +1,5 @@
-// What the loop is made of: its own settings, the buses, and a drive with its settings for each joint. Who makes them from a
-// configuration is daemon/assembly.h; the loop knows none. Not real-time.
+// The parts of the loop: its settings, the buses, and for each joint a drive with its settings. daemon/assembly.h makes them from the
+// configuration. Not real-time.
 #pragma once
 
 #include <memory>

@@ -9,8 +9,8 @@ namespace {
 
 /// Spans in which a push is looked at: a joint that turns round under it stands for less.
 constexpr double kSpan_s = 0.02;
-/// Of the time in which a joint is not pushed in vain: pushed so for ever, for a tenth of the time, it has a third of its torque limit in the
-/// root mean square, and no more than what motors of this kind bear for ever (11 of 34 N.m, data/rhs17_datasheet.csv).
+/// Of the time in which the joint is not blocked. Blocked for a tenth of the time, it has a root mean square of a third of its torque limit:
+/// the continuous torque of such motors (11 of 34 N.m, data/rhs17_datasheet.csv).
 constexpr double kForgets = 0.1;
 /// Share of a span at the limit, less the time on its other side, from which on the span counts: readings that flicker leave the limit for a
 /// period.
@@ -38,7 +38,7 @@ void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept
 }
 
 Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std::int64_t now_ns) noexcept {
-  // Each looks every period, whatever the others find.
+  // Each check runs every period, whatever the other one finds.
   const bool stands = blocked(motion, joint_position_rad, now_ns);
   const bool heavy = overloaded(motion, now_ns);
   if (std::abs(motion.ordered_reference.position_rad - joint_position_rad) > config_.following_error_rad)

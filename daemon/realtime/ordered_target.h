@@ -69,11 +69,10 @@ class OrderedTarget {
   bool goes_on() const noexcept { return streamed() || on_path(); }
   /// Until the next setpoint is accepted.
   bool shows_expiry() const noexcept { return stream_ == Stream::kExpired; }
-  /// Likewise: its velocities ended the stream.
+  /// Until the next setpoint is accepted: the stream's velocities ended it.
   void contradict() noexcept { stream_ = Stream::kContradicted; }
   bool contradicts() const noexcept { return stream_ == Stream::kContradicted; }
-  /// The target `drive_rad` of the controller at the joint: to the bit what was ordered, so that whoever ordered
-  /// it knows it again.
+  /// The controller's target `drive_rad` on the joint side: to the bit the ordered one, so that a client recognises its order.
   double shown_rad(double drive_rad, const JointZero& zero) const noexcept {
     return drive_rad == drive_rad_ ? joint_rad_ : zero.to_joint_rad(drive_rad);
   }

@@ -30,7 +30,7 @@ enum class OrderKind : std::int32_t {
 
 /// One admitted message on its way to a joint. Orders of a joint keep their order: a hold after a setpoint wins.
 struct Order {
-  std::int64_t id = 0;  ///< quoted in the reply; 0: nobody waits for one
+  std::int64_t id = 0;  ///< quoted in the reply; 0: no reply is wanted
   OrderKind kind = OrderKind::kDisable;
   std::int32_t table_slot = 0;       ///< kUseTable
   double position_rad = 0.0;         ///< kSetpoint
@@ -46,7 +46,7 @@ struct Order {
   std::int32_t derivatives = 0;      ///< kSetpoint of a stream: 0..2 are given
   bool approaches = false;           ///< kSetpoint that begins a stream: from wherever the joint is
   std::int64_t at_cycle = 0;         ///< kSetpoint of a stream: which it is for; 0: when it was sent
-  std::int64_t sent_us = 0;          ///< likewise, with at_cycle 0: on its sender's clock, > 0
+  std::int64_t sent_us = 0;          ///< kSetpoint of a stream with at_cycle 0: on the sender's clock, > 0
   std::int64_t expires_cycle = -1;   ///< in a later cycle it is refused as too old; -1: never
   std::int64_t challenge_cycle =
       -1;  ///< its challenge is of this one: after a fault in it or later it is too old; -1: never
@@ -76,7 +76,7 @@ struct Reply {
   Reason reason = Reason::kAccepted;
   Mode mode = Mode::kOff;  ///< at that moment
   double value = 0.0;      ///< as in Ruling
-  double limit = 0.0;      ///< likewise
+  double limit = 0.0;      ///< as in Ruling
 };
 
 /// What made a joint yield, joint side.

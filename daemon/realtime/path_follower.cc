@@ -88,7 +88,7 @@ void PathFollower::advance(const CycleTime& time) noexcept {
     if (travels_[travel].phase != Phase::kFree) advance(travel, time);
 }
 
-// Orders and faults of the cycle in which it was told to begin may have come between.
+// Orders and faults may have come in the cycle of the order to begin.
 bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept {
   bool all = true;
   for_each_member(travel, [&](JointInLoop& joint, Member&) {
@@ -129,7 +129,7 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
     follow_path(joint, on, time.elapsed_periods);
-    // Of the setpoint that the same state shows: where the joint is told to be now its reference is a period later, or more.
+    // Of the setpoint in the same state: the reference reaches the present point one period later, or more.
     const double later_periods = 1.0 + joint.law.controller().plan().lead_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
     joint.ordered.note({shown.time_s, !ending && travel.clock.is_to_rest() && shown.rate == 0.0});
@@ -158,8 +158,8 @@ void PathFollower::stop_each(std::size_t travel) noexcept {
   free(travel);
 }
 
-// One that faulted, was disabled or got another order is no longer on it, and the others do not go on without it.
-// False: they are to stop at once.
+// A joint that faulted, was disabled or got another order has left the path, and the path ends.
+// False: its other joints are to stop at once.
 bool PathFollower::release_lost(std::size_t travel) noexcept {
   bool lost = false;
   bool at_once = false;

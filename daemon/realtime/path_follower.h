@@ -1,5 +1,5 @@
-// Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock (control/trajectory/path_clock.h), so
-// that they leave, pause, go on and arrive in the same cycle, and are on the path in between. A joint may follow its plan later than another,
+// Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock
+// (control/trajectory/path_clock.h): they leave, pause, go on and arrive in the same cycle, and are on the path in between. A joint may follow its plan later than another,
 // by its delay, its jerk limit or its spring: the slowest gets the clock's own time, each other an earlier one, so that the joints are
 // together, where their setpoints are not. Real-time safe.
 //
@@ -32,7 +32,7 @@ class JointLoop;
 
 class PathFollower {
  public:
-  /// `joints` are told to ask this one, which they outlive.
+  /// `joints` outlive this object and refer to it.
   PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s);
   PathFollower(const PathFollower&) = delete;
   PathFollower& operator=(const PathFollower&) = delete;
@@ -80,7 +80,7 @@ class PathFollower {
   std::span<const std::unique_ptr<JointLoop>> joints_;
   double period_s_;
   std::vector<Member> members_;  ///< by joint
-  std::vector<Travel> travels_;  ///< by the joint that was told to begin
+  std::vector<Travel> travels_;  ///< by the joint that was ordered to begin
 };
 
 }  // namespace strainwave

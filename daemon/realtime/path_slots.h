@@ -1,5 +1,5 @@
-// The way of a path from the supervisor's thread to a joint's loop: two places, of which the loop uses one at most while the supervisor
-// fills the other. No number of paths takes more memory. The loop's side is real-time safe.
+// Hands a path from the supervisor's thread to a joint's loop: two slots. The loop uses one at most while the supervisor fills the
+// other. The loop's side is real-time safe.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ class PeriodicClock {
   void start() noexcept { next_ns_ = monotonic_now_ns() + period_ns_; }
 
   /// Sleeps until the next cycle begins. A cycle that is already over is skipped, never squeezed in. Instants are whole periods
-  /// apart; those skipped since the last cycle are told with the cycle that follows them, whatever delayed it.
+  /// apart; the next cycle says how many were skipped before it, whatever the cause.
   Wake wait() noexcept;
 
  private:

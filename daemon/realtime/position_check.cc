@@ -9,7 +9,7 @@ namespace strainwave {
 
 namespace {
 
-/// A sound sensor's worst reading: quantisation at both ends, and sampling that is not exactly periodic.
+/// The worst reading of a working sensor: quantisation at both ends, and sampling that is not exactly periodic.
 constexpr double kJumpFactor = 2.0;
 constexpr double kJumpCounts = 4.0;
 constexpr double kJumpFloor_rad = 1e-6;

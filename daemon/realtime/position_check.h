@@ -2,13 +2,13 @@
 //
 // Jump: between two readings the joint cannot have moved faster than twice its overspeed limit.
 //
-// Stuck: a joint at rest under a constant load L and torque T0 tells that |T0 - L| <= Fs. When the torque
+// Stuck: a joint at rest under a constant load L and torque T0 has |T0 - L| <= Fs. When the torque
 // then becomes T, at least |T - T0| - 2 Fs of it accelerates the joint, whatever L is:
 //     displacement >= integral integral max(0, |T - T0| - 2 Fs) / J  dt dt
 // A sensor that shows no change although that displacement, those to either side against each other, is many counts is stuck. T0 is the
 // lowest (highest) torque that has lasted since the reading last changed: a push of some milliseconds moves a joint within a
-// coarse count, and friction stops it there. A joint that stands with the load balanced is never taken
-// for stuck, and neither is one whose sensor stops while nothing is asked of it: that shows with the next motion.
+// coarse count, and friction stops it there. A joint that stands with the load balanced is never taken for stuck. A sensor that stops
+// while the joint rests shows with the next motion.
 #pragma once
 
 #include <array>

@@ -52,7 +52,7 @@ class ReadingWatch {
   int missed_limit_;
   ActuatorReading reading_;
   Freshness freshness_ = Freshness::kNone;
-  int missed_;  ///< periods in a row, counted to one beyond the limit, where it begins: nothing has been heard
+  int missed_;  ///< periods in a row, counted to one beyond the limit, where it begins: no reading has come
 };
 
 }  // namespace strainwave

@@ -32,7 +32,7 @@ struct LoopTotals {
   Histogram wakeup_latency;
   Histogram execution_time;
   Histogram period_error;
-  Histogram position_delay;  ///< of all joints whose drives let it be measured
+  Histogram position_delay;  ///< of all joints with drives that let it be measured
 };
 
 class RealtimeLoop {
@@ -51,7 +51,7 @@ class RealtimeLoop {
   /// What would have made wake-ups better but is not needed for real time; empty when granted.
   const std::string& sleep_state_refusal() const noexcept { return refusals_.sleep_states; }
 
-  /// Brings every joint to rest, then ends the loop; finished() tells when.
+  /// Brings every joint to rest, then ends the loop; then finished() is true.
   void request_stop() noexcept { signals_.stop_requested.store(true, std::memory_order_release); }
   bool finished() const noexcept { return signals_.finished.load(std::memory_order_acquire); }
 

@@ -119,7 +119,7 @@ std::string real_time_remedy(const RealTimeRights& rights, int priority) {
 }
 
 std::string lock_memory() {
-  // The kernel makes and splits huge pages behind the loop's back, and whoever touches one meanwhile waits.
+  // The kernel merges and splits huge pages at any time, and a thread that touches one meanwhile waits.
   if (::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) != 0)
     return "transparent huge pages cannot be switched off (" + error_text(errno) + ")";
   // Freed memory stays mapped and large blocks come from the heap: no page appears or disappears later.

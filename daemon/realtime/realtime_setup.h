@@ -8,8 +8,8 @@
 
 namespace strainwave {
 
-/// Locks all memory, present and future, does without transparent huge pages, and tells malloc to keep it. Empty when granted, else what was refused and
-/// what to do.
+/// Locks all memory, present and future, switches transparent huge pages off, and has malloc keep freed memory. Empty when granted, else
+/// what was refused and what to do.
 std::string lock_memory();
 
 /// What to do about a kernel that moves locked pages to make room for large ones; empty when it does not, or does not say

@@ -1,5 +1,5 @@
-// How fast a joint moves that nobody controls: a difference over long enough that an encoder's count weighs little. Real-time
-// safe; time is an argument.
+// The speed of a joint that is not under control: a difference over a time in which a count of the encoder weighs little. Real-time safe;
+// time is an argument.
 //
 //   velocity = (position - position before) / (now - then),   then: 50 to 100 ms ago
 #pragma once
@@ -23,7 +23,7 @@ class SpeedGauge {
     seen_ = now_ns > before_.at_ns ? Seen::kMotion : Seen::kPosition;
     now_ = {position_rad, now_ns};
   }
-  /// Somebody controls the joint, or it cannot be read: what was seen says nothing about what follows.
+  /// The joint is under control, or cannot be read: earlier positions are of no use.
   void forget() noexcept { seen_ = Seen::kNothing; }
 
   /// 0 before two positions have been seen.

@@ -1,4 +1,4 @@
-// What is told of one joint's cycle: pure functions from what the cycle came to. Real-time safe.
+// The published record of one joint's cycle, by pure functions. Real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +31,11 @@ struct JointCycle {
   double target_rad = 0.0;                        ///< of the controller
   double joint_velocity_rad_s = 0.0;              ///< measured or estimated, controlled or not
   std::int64_t table_id = 0;                      ///< 0: none
-  std::int64_t friction_rules_id = 0;             ///< likewise
+  std::int64_t friction_rules_id = 0;             ///< of the table; 0: none
   const FuzzyFriction* friction_rules = nullptr;  ///< of the table; null: none
   std::int32_t notices = 0;
   std::optional<double> inertia_kgm2{};  ///< as far as motions have shown it
-  std::optional<Yield> yield{};          ///< that the joint is to tell of
+  std::optional<Yield> yield{};          ///< to be published
   LearnedFriction learned{};
   double friction_factor = 1.0;  ///< at the present temperature
   FrictionHistory friction{};

@@ -14,8 +14,8 @@ class TemperatureSchedule {
   TemperatureSchedule(double update_period_s, double period_s, std::int64_t turn) noexcept
       : periods_(std::max<std::int64_t>(1, std::llround(update_period_s / period_s))), turn_(turn) {}
 
-  /// What the gains are for in this cycle, where the temperature is `temperature_C`. With `at_once` it is taken whoever's turn
-  /// it is: gains that come into use begin with the present.
+  /// The temperature for the gains in this cycle; the present one is `temperature_C`. With `at_once` it is used out of turn: gains that
+  /// come into use begin with it.
   double follow_C(double temperature_C, std::int64_t cycle, bool at_once) noexcept {
     if (at_once || cycle >= next_cycle_) {
       scheduled_C_ = temperature_C;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kOmega_rad_s = 2.0 * std::numbers::pi * 0.5;
 constexpr double kAmplitude_rad = 0.5;
 
-StreamSample sine(double t_s, const ToldLoad& load) {
+StreamSample sine(double t_s, const StreamLoad& load) {
   return {kAmplitude_rad * std::sin(kOmega_rad_s * t_s),
           kAmplitude_rad * kOmega_rad_s * std::cos(kOmega_rad_s * t_s),
           -kAmplitude_rad * kOmega_rad_s * kOmega_rad_s * std::sin(kOmega_rad_s * t_s),

@@ -177,9 +177,9 @@ TEST(StreamBuffer, LeadsTheLoadAlongALineFromSampleToSample) {
   StreamSample loaded = stamped({0.0}, 40);
   loaded.load = {8.0, 0.2};
   buffer.take(loaded, kReach);
-  ToldLoad before;
+  StreamLoad before;
   for (int k = 0; k < 40; ++k) {
-    const ToldLoad now = buffer.step().load;
+    const StreamLoad now = buffer.step().load;
     EXPECT_NEAR(now.torque_Nm - before.torque_Nm, 0.2, 1e-9);
     before = now;
   }

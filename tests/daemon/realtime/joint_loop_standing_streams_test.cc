@@ -109,7 +109,7 @@ TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoad
 // What it was told of the load is gone with the stream, and what it was held with against that is not forgotten either: the joint stays where it is.
 TEST(StandingStream, ThatToldOfALoadThatIsNoneLeaveNothingOfItForTheNextEnable) {
   for (const bool flexible : {false, true})
-    for (const double told_Nm : {8.0, 12.0, -12.0}) {
+    for (const double configured_Nm : {8.0, 12.0, -12.0}) {
       JointBench bench({flexible ? flexible_joint() : demo_joint()});
       bench.bring_to_hold(0, flexible ? flexible_table() : demo_table());
       for (int k = 0; k < 1000; ++k) {
@@ -120,7 +120,7 @@ TEST(StandingStream, ThatToldOfALoadThatIsNoneLeaveNothingOfItForTheNextEnable) 
           order.begins_stream = k == 0;
           order.sent_us = bench.sent_us();
           order.derivatives = 1;
-          order.torque_Nm = told_Nm * std::min(1.0, k / 500.0);
+          order.torque_Nm = configured_Nm * std::min(1.0, k / 500.0);
           ASSERT_TRUE(bench.joint(0).orders().push(order));
         }
         bench.step();
@@ -143,7 +143,7 @@ TEST(StandingStream, ThatToldOfALoadThatIsNoneLeaveNothingOfItForTheNextEnable) 
       }
       std::printf(
           "told %.0f N.m, %s: stood at %.2f mrad, enable moved it by %.2f mrad, moves end %.2f mrad beside\n",
-          told_Nm, flexible ? "spring" : "rigid", 1e3 * stood_rad, 1e3 * moved_rad, 1e3 * left_rad);
+          configured_Nm, flexible ? "spring" : "rigid", 1e3 * stood_rad, 1e3 * moved_rad, 1e3 * left_rad);
       EXPECT_LT(moved_rad, 1e-4);
       EXPECT_LT(left_rad, 1.2e-3);
     }
