@@ -112,8 +112,11 @@ std::string read_token(const std::string& file) {
 Access judge(const RequestFacts& request, const AccessRules& rules) {
   if (!rules.token.empty())
     return equal(token_in(request), rules.token) ? Access::kGranted : Access::kNoToken;
-  const bool known_page = request.origin.empty() || std::find(rules.origins.begin(), rules.origins.end(),
-                                                              request.origin) != rules.origins.end();
+  // The page that this server has at / has the address that was asked for as its origin.
+  const bool own_page = request.origin == "http://" + std::string(request.host);
+  const bool known_page =
+      request.origin.empty() || own_page ||
+      std::find(rules.origins.begin(), rules.origins.end(), request.origin) != rules.origins.end();
   return known_page && is_this_machine(request.host) ? Access::kGranted : Access::kForeignPage;
 }
 

@@ -45,7 +45,8 @@ strainwave::ExitStatus serve(const Options& options) {
   const std::string host =
       address.host.find(':') == std::string::npos ? address.host : "[" + address.host + "]";
   const std::string place = host + ":" + std::to_string(telemetry.port());
-  std::cout << "Foxglove: ws://" << place << "\nPrometheus: http://" << place << "/metrics" << std::endl;
+  std::cout << "Foxglove: ws://" << place << "\nPrometheus: http://" << place << "/metrics\nPage: http://"
+            << place << "/" << std::endl;
   telemetry.run();
   return ExitStatus::kDone;
 }
@@ -54,7 +55,8 @@ strainwave::ExitStatus serve(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App program(
-      "Serves what is said on LCM to Foxglove (WebSocket) and Prometheus (metrics). It only listens.");
+      "Shows what is said on LCM: as a page, in Foxglove (WebSocket) and in Prometheus (metrics). It only "
+      "listens.");
   strainwave::configure_program(
       program,
       {.program = "strainwave-telemetry",

@@ -13,6 +13,10 @@ namespace http = beast::http;
 
 constexpr auto kLongestRequest_s = std::chrono::seconds(10);
 constexpr std::uint32_t kLargestHeader = 8192;
+/// The page takes scripts and styles from here alone, and no other page may frame it. uPlot styles its elements by attribute.
+constexpr const char* kPagePolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; connect-src 'self' ws: wss:; "
+    "img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
@@ -46,6 +50,11 @@ void OpeningConnection::on_request(const beast::error_code& error) {
 
 void OpeningConnection::answer(const Request& request) {
   const std::string_view target = view(request.target());
+  // The page shows nothing by itself: what it draws comes by the WebSocket, which is judged below.
+  const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
+  if (const WebPage::File* file = shared_.page.find(path_of(target));
+      file != nullptr && reads && !beast::websocket::is_upgrade(request))
+    return respond(Status::ok, file->type.c_str(), file->bytes);
   const RequestFacts facts{target, view(request[http::field::authorization]),
                            view(request[http::field::origin]), view(request[http::field::host])};
   switch (judge(facts, shared_.rules)) {
@@ -59,14 +68,10 @@ void OpeningConnection::answer(const Request& request) {
       break;
   }
   if (beast::websocket::is_upgrade(request)) return become_viewer(request);
-  if (request.method() != http::verb::get && request.method() != http::verb::head)
-    return refuse(Status::method_not_allowed, "only GET and HEAD are answered");
+  if (!reads) return refuse(Status::method_not_allowed, "only GET and HEAD are answered");
   if (path_of(target) == "/metrics")
     return respond(Status::ok, "text/plain; version=0.0.4; charset=utf-8", shared_.metrics());
-  if (path_of(target) == "/")
-    return respond(Status::ok, "text/plain; charset=utf-8",
-                   "strainwave-telemetry: /metrics is for Prometheus; ws:// on this port is for Foxglove.\n");
-  refuse(Status::not_found, "there is /metrics, and ws:// for Foxglove");
+  refuse(Status::not_found, "there is / (the page), /metrics (Prometheus) and ws:// (Foxglove)");
 }
 
 void OpeningConnection::become_viewer(const Request& request) {
@@ -86,6 +91,9 @@ void OpeningConnection::refuse(Status status, const std::string& why) {
 void OpeningConnection::respond(Status status, const char* type, std::string body) {
   response_.result(status);
   response_.set(http::field::content_type, type);
+  response_.set("Content-Security-Policy", kPagePolicy);
+  response_.set("X-Content-Type-Options", "nosniff");
+  response_.set(http::field::cache_control, "no-cache");
   if (status == Status::unauthorized) response_.set(http::field::www_authenticate, "Bearer");
   response_.keep_alive(false);
   response_.body() = std::move(body);

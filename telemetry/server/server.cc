@@ -27,7 +27,7 @@ class TelemetryServer::Network {
       : acceptor_(context_),
         signals_(context_, SIGINT, SIGTERM),
         report_(context_),
-        shared_{std::move(rules), topics, std::move(metrics), std::to_string(utime_now()), {}, {}, 0, 0} {
+        shared_{std::move(rules), topics, std::move(metrics), {}, std::to_string(utime_now()), {}, {}, 0, 0} {
     const tcp::endpoint endpoint(asio::ip::make_address(address.host), address.port);
     try {
       acceptor_.open(endpoint.protocol());

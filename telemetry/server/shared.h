@@ -12,6 +12,7 @@
 #include <string>
 
 #include "telemetry/server/server.h"
+#include "telemetry/web_page.h"
 
 namespace strainwave {
 
@@ -22,6 +23,7 @@ struct ServerShared {
   AccessRules rules;
   const Topics& topics;
   std::function<std::string()> metrics;
+  const WebPage page{};
   std::string session;  ///< tells viewers one start of the server from the next
   std::list<std::weak_ptr<OpeningConnection>> opening;  ///< the oldest first
   std::set<std::shared_ptr<ViewerConnection>> viewers;
