@@ -5,8 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/input_error.h"
-
 namespace strainwave {
 
 namespace {
@@ -36,20 +34,22 @@ class GrowingProgram {
 
   const Eigen::VectorXd& x() const { return x_; }
 
-  void add(const Eigen::VectorXd& row) {
-    if (static_cast<Index>(rows_.size()) == kMaxNonnegativeUnknowns) forget_idle();
+  /// False: there is no room for it.
+  bool add(const Eigen::VectorXd& row) {
+    if (static_cast<Index>(rows_.size()) == kMaxNonnegativeUnknowns && !forget_idle()) return false;
     rows_.push_back(row);
     solve();
+    return true;
   }
 
  private:
-  void forget_idle() {
+  bool forget_idle() {
     std::vector<Eigen::VectorXd> kept;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (multipliers_(static_cast<Index>(i)) > 0.0) kept.push_back(rows_[i]);
-    if (kept.size() == rows_.size())
-      throw NotAchieved("fit: no friction that falls with temperature everywhere was found");
+    if (kept.size() == rows_.size()) return false;
     rows_ = std::move(kept);
+    return true;
   }
 
   void solve() {
@@ -88,8 +88,8 @@ std::optional<Eigen::VectorXd> most_violated(const Eigen::MatrixXd& allowed, con
 
 }  // namespace
 
-FuzzyFit fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& center_C,
-                              const Eigen::VectorXd& width_C, double min_C, double max_C) {
+std::optional<FuzzyFit> fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& center_C,
+                                             const Eigen::VectorXd& width_C, double min_C, double max_C) {
   FuzzyFit fit = fit_consequents(problem, center_C, width_C);
   const Index m = fit.center_C.size();
   const Eigen::MatrixXd U = sums_from_the_warm_end(m);
@@ -118,11 +118,11 @@ FuzzyFit fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& 
     for (Index p = 0; p < 3; ++p) {
       const auto row = most_violated(allowed, program.x(), p, tolerance);
       if (!row) continue;
-      program.add(*row);
+      if (!program.add(*row)) return std::nullopt;
       holds = false;
     }
   }
-  if (!holds) throw NotAchieved("fit: no friction that falls with temperature everywhere was found");
+  if (!holds) return std::nullopt;
   for (Index p = 0; p < 3; ++p)
     fit.consequents.col(p) = U * program.x().segment(p * m, m).cwiseMax(0.0) / unit(p);
   fit.cost =

@@ -6,14 +6,16 @@
 //   squares (the dual of a quadratic program; Boyd and Vandenberghe, Convex Optimization, 5.2).
 #pragma once
 
+#include <optional>
+
 #include "design/friction_fit.h"
 
 namespace strainwave {
 
-/// The best consequents for given memberships. The range may be wider than the data's. Throws NotAchieved when none is found
-/// within the number of steps that every well-posed fit needs many times less of.
-FuzzyFit fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& center_C,
-                              const Eigen::VectorXd& width_C, double min_C, double max_C);
+/// The best consequents for given memberships. The range may be wider than the data's. Nothing when none is found within many times the
+/// steps that a well-posed fit needs.
+std::optional<FuzzyFit> fit_descending_curve(const FitProblem& problem, const Eigen::VectorXd& center_C,
+                                             const Eigen::VectorXd& width_C, double min_C, double max_C);
 
 /// Where a curve stands highest above its own colder minimum.
 struct CurveRise {

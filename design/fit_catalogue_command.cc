@@ -18,6 +18,7 @@
 #include "design/estimation.h"
 #include "design/fit_checks.h"
 #include "design/friction_file.h"
+#include "design/ordered_memberships.h"
 
 namespace strainwave {
 
@@ -37,6 +38,8 @@ struct Job {
 };
 
 constexpr double kMaxGearRatio = 1e5;
+// A rule has a centre and a width, which two temperatures fix.
+constexpr int kTemperaturesPerRule = 2;
 
 void check(const FitCatalogueOptions& options) {
   const auto require = [](bool good, const char* key, double value, const std::string& allowed) {
@@ -111,44 +114,42 @@ Estimate<ExponentialFit> fit_law(const Job& job) {
   return estimate;
 }
 
+/// The better of two: the memberships that were found, with consequents under which the curve falls, and memberships that let it fall.
+/// Free memberships may lead back to a colder rule at the warm end, and then only a constant would fall.
+FuzzyFit fall_everywhere(const Job& job, const FitProblem& problem, const MembershipBox& box,
+                         const FuzzyFit& found) {
+  std::vector<FuzzyFit> candidates{found};
+  std::optional<FuzzyFit> best;
+  if (job.options.method == "epgs")
+    best = candidates.emplace_back(
+        fit_ordered_memberships(problem, job.options.rules, box, job.min_C, job.max_C, job.options.seed));
+  for (const FuzzyFit& memberships : candidates) {
+    const auto fit =
+        fit_descending_curve(problem, memberships.center_C, memberships.width_C, job.min_C, job.max_C);
+    if (fit && (!best || fit->cost < best->cost)) best = fit;
+  }
+  if (!best)
+    throw NotAchieved("fit: no friction that falls with temperature everywhere was found for " +
+                      std::to_string(job.options.rules) +
+                      " rules: use --method epgs, or --non-increasing rules");
+  return *best;
+}
+
 /// The rules whose search is `options`, of `problem`; memberships first, then consequents under the condition that is asked for.
 Estimate<FuzzyFit> fit_rules(const Job& job, const FitProblem& problem, const EpgsOptions& options) {
   Estimate<FuzzyFit> estimate;
+  MembershipBox box;
+  box.center_min_C = job.min_C - 5.0;
+  box.center_max_C = job.max_C + 5.0;
   if (job.options.method == "epgs") {
-    MembershipBox box;
-    box.center_min_C = job.min_C - 5.0;
-    box.center_max_C = job.max_C + 5.0;
     estimate = estimate_fuzzy(problem, job.options.rules, box, options);
   } else {
     const Memberships memberships = graded_memberships(job.options.rules, job.min_C, job.max_C);
     estimate.fit = fit_consequents(problem, memberships.center_C, memberships.width_C);
   }
   if (job.problem.physical && job.options.non_increasing == "curve")
-    estimate.fit =
-        fit_descending_curve(problem, estimate.fit.center_C, estimate.fit.width_C, job.min_C, job.max_C);
+    estimate.fit = fall_everywhere(job, problem, box, estimate.fit);
   return estimate;
-}
-
-/// How far law and rules are from data that they were not given.
-struct Between {
-  double law = 0.0;
-  double rules = 0.0;
-};
-
-Between judge_between(const Job& job) {
-  // Many fits: enough of a search to see whether rules lose themselves between the data.
-  EpgsOptions search = search_options(job, fuzzy_search_options());
-  search.generation_limit = 20;
-  Between between;
-  between.law = error_between(job.problem, [&](const FitProblem& others, double temperature_C) {
-    const ExponentialFit law = fit_exponential(others, job.least_decay_C(), job.largest_decay_C());
-    return Eigen::RowVector3d(predict(law, Eigen::VectorXd::Constant(1, temperature_C)).row(0));
-  });
-  between.rules = error_between(job.problem, [&](const FitProblem& others, double temperature_C) {
-    const FuzzyFit rules = fit_rules(job, others, search).fit;
-    return Eigen::RowVector3d(predict(rules, Eigen::VectorXd::Constant(1, temperature_C)).row(0));
-  });
-  return between;
 }
 
 /// The exponential law at as many temperatures as rules cannot lose themselves between.
@@ -164,22 +165,11 @@ FitProblem sampled_law(const Job& job, const ExponentialFit& law) {
 bool rules_follow_the_law(const Job& job) {
   if (job.options.rules_from != "auto") return job.options.rules_from == "exponential";
   const auto temperatures = static_cast<int>(job.problem.targets.temperature_C.size());
-  if (temperatures <= job.options.rules) {
-    std::printf(
-        "  WARNING: %d rules go through %d temperatures whatever lies between them: they follow the "
-        "exponential law instead "
-        "(--rules-from)\n",
-        job.options.rules, temperatures);
-    return true;
-  }
-  const Between between = judge_between(job);
+  if (temperatures >= kTemperaturesPerRule * job.options.rules) return false;
   std::printf(
-      "  between the temperatures (each foretold from the others): exponential %.2g %% off, rules %.2g %%\n",
-      100.0 * between.law, 100.0 * between.rules);
-  if (between.law >= between.rules) return false;
-  std::printf(
-      "  WARNING: there the exponential law is better: the rules follow it instead of the data "
-      "(--rules-from)\n");
+      "  WARNING: %d temperatures are few for %d rules, %d or more fix their curve: the rules follow the "
+      "exponential law instead (--rules-from)\n",
+      temperatures, job.options.rules, kTemperaturesPerRule * job.options.rules);
   return true;
 }
 

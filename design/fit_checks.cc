@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 namespace strainwave {
@@ -121,19 +120,6 @@ double growth_with_temperature(const FitProblem& problem) {
     warm += size_of(problem.targets.parameters.row(n - 1 - row), problem.metric);
   }
   return half == 0 ? 1.0 : std::sqrt(warm / cold);
-}
-
-double error_between(const FitProblem& problem, const Prediction& predicted) {
-  const Index n = problem.targets.temperature_C.size();
-  if (n < kLeastKept) return std::numeric_limits<double>::quiet_NaN();
-  double squares = 0.0;
-  for (Index row = 1; row + 1 < n; ++row) {
-    const Eigen::RowVector3d truth = problem.targets.parameters.row(row);
-    const Eigen::RowVector3d error =
-        truth - predicted(without_row(problem, row), problem.targets.temperature_C(row));
-    squares += size_of(error, problem.metric) / size_of(truth, problem.metric);
-  }
-  return std::sqrt(squares / static_cast<double>(n - 2));
 }
 
 }  // namespace strainwave

@@ -1,8 +1,6 @@
-// What a fit cannot say of itself: whether a temperature of the catalogue spoils it, and how good it is
-// between the temperatures. Offline.
+// Checks of a catalogue before its fit: temperatures that spoil it, and friction that grows with temperature. Offline.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "design/friction_fit.h"
@@ -30,11 +28,5 @@ std::vector<Outlier> find_outliers(const FitProblem& problem, double low_C, doub
 
 /// Friction of the warmer half of the temperatures over that of the colder, root mean square in the metric: a strain-wave gear's falls.
 double growth_with_temperature(const FitProblem& problem);
-
-/// Friction between the temperatures of the data: each but the first and the last is left out in turn and foretold from the others.
-/// Root of the mean square of the error over the friction there, both in the metric of the problem; NaN where less than four
-/// temperatures leave nothing to tell.
-using Prediction = std::function<Eigen::RowVector3d(const FitProblem& others, double temperature_C)>;
-double error_between(const FitProblem& problem, const Prediction& predicted);
 
 }  // namespace strainwave

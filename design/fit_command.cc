@@ -73,7 +73,8 @@ void add_fit_command(CLI::App& program, CommandBody& chosen) {
       ->capture_default_str();
   command
       ->add_option("--rules-from", options->fit.rules_from,
-                   "what the fuzzy rules follow; auto: whichever foretells left-out temperatures better")
+                   "what the fuzzy rules follow; auto: the data where there are two temperatures or more for "
+                   "each rule")
       ->check(CLI::IsMember({"auto", "data", "exponential"}))
       ->capture_default_str();
   command

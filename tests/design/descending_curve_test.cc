@@ -22,7 +22,7 @@ TEST(DescendingCurve, FallsEverywhereWhereTheRulesAloneDoNot) {
   const CurveRise before = worst_rise(rules, -10.0, 40.0);
   EXPECT_GT(before.share, 0.02) << "the test would show nothing";
   EXPECT_NEAR(before.temperature_C, 6.1, 1.0);
-  const FuzzyFit curve = fit_descending_curve(problem, kCenter, kWidth, -10.0, 40.0);
+  const FuzzyFit curve = fit_descending_curve(problem, kCenter, kWidth, -10.0, 40.0).value();
   EXPECT_LT(worst_rise(curve, -10.0, 40.0).share, 1e-5);
   EXPECT_GE(curve.cost, rules.cost * (1.0 - 1e-6));
   EXPECT_LT(curve.cost, 4.0 * rules.cost);
@@ -34,7 +34,7 @@ TEST(DescendingCurve, ChangesNothingThatFallsAlready) {
   const Eigen::VectorXd width = Eigen::VectorXd::Constant(5, 9.0);
   const FuzzyFit rules = fit_consequents(problem, center, width);
   ASSERT_LT(worst_rise(rules, -10.0, 40.0).share, 1e-9);
-  const FuzzyFit curve = fit_descending_curve(problem, center, width, -10.0, 40.0);
+  const FuzzyFit curve = fit_descending_curve(problem, center, width, -10.0, 40.0).value();
   EXPECT_TRUE(curve.consequents.isApprox(rules.consequents, 1e-4));
 }
 
@@ -52,7 +52,7 @@ TEST(DescendingCurve, HoldsForAnyMembershipsOfNoisyData) {
     const Eigen::VectorXd width =
         Eigen::VectorXd::NullaryExpr(5, [&] { return 2.0 + 13.0 * uniform(random); });
     rising += worst_rise(fit_consequents(problem, center, width), -10.0, 40.0).share > 0.01 ? 1 : 0;
-    const FuzzyFit curve = fit_descending_curve(problem, center, width, -10.0, 40.0);
+    const FuzzyFit curve = fit_descending_curve(problem, center, width, -10.0, 40.0).value();
     ASSERT_LT(worst_rise(curve, -10.0, 40.0).share, 1e-4) << trial;
     ASSERT_GE(curve.consequents.minCoeff(), 0.0) << trial;
     ASSERT_GE((curve.consequents.topRows(4) - curve.consequents.bottomRows(4)).minCoeff(), -1e-9) << trial;

@@ -91,29 +91,5 @@ TEST(FitChecks, TellWhetherFrictionGrowsWithTemperature) {
   EXPECT_NEAR(growth_with_temperature(problem), 1.0, 1e-12);
 }
 
-TEST(FitChecks, TellHowFarAFitIsOffBetweenTheData) {
-  FitProblem problem = source_problem();
-  problem.targets.parameters = predict(some_law(), problem.targets.temperature_C);
-  const auto by = [&](double factor) {
-    return error_between(problem, [factor](const FitProblem& others, double temperature_C) {
-      EXPECT_EQ(others.targets.temperature_C.size(), 20);
-      for (const double known_C : others.targets.temperature_C) EXPECT_NE(known_C, temperature_C);
-      return Eigen::RowVector3d(factor *
-                                predict(some_law(), Eigen::VectorXd::Constant(1, temperature_C)).row(0));
-    });
-  };
-  EXPECT_NEAR(by(1.0), 0.0, 1e-12);
-  EXPECT_NEAR(by(1.07), 0.07, 1e-12);
-}
-
-TEST(FitChecks, SaySoWhenThereAreTooFewTemperaturesToTell) {
-  FitProblem problem = source_problem();
-  while (problem.targets.temperature_C.size() > 3) problem = without_row(problem, 1);
-  EXPECT_EQ(problem.targets.temperature_C(0), -10.0);
-  EXPECT_EQ(problem.targets.temperature_C(2), 40.0);
-  EXPECT_TRUE(std::isnan(error_between(
-      problem, [](const FitProblem&, double) { return Eigen::RowVector3d(Eigen::RowVector3d::Zero()); })));
-}
-
 }  // namespace
 }  // namespace strainwave
