@@ -7,9 +7,8 @@
 
 namespace strainwave {
 
-/// `text` up to its first zero byte, without anything that could command a terminal, begin another line, or make it read as
-/// something else: each control character, each invisible one or one that turns the direction of writing, and each byte that is no
-/// UTF-8 is a question mark.
+/// `text` up to its first zero byte, without anything that could command a terminal, begin another line, or make it read as something else.
+/// A question mark replaces control characters, invisible ones, those that turn the direction of writing, and bytes that are no UTF-8.
 std::string printable(std::string_view text);
 
 /// The same of each line of `text`: line feeds stay, and zero bytes become question marks.
@@ -31,8 +30,8 @@ std::string number_text(double value);
 /// How near a bound a number is that was computed: one that is beyond it by no more than this share is at it.
 inline constexpr double kAtBound = 1e-9;
 
-/// A bound that a refusal names and that was computed, in six digits or as many more as read back to it within a tenth of kAtBound: who
-/// gives what is printed is not beyond it. Of a bound that somebody wrote down, and that is compared as it is, number_text().
+/// A computed bound that a refusal names, in six digits or as many more as read back to it within a tenth of kAtBound: the printed number
+/// itself is not beyond the bound. For a bound from a file or message, which is compared as it is, use number_text().
 std::string bound_text(double bound);
 
 /// A number that such a bound refuses, in six digits or as many more as tell it from the bound's text.

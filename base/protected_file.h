@@ -12,10 +12,10 @@ namespace strainwave {
 /// Who besides root and our own user may write.
 enum class Writers { kNobody, kGroup };
 
-/// Whoever can write the file, or put another in its place, decides. What is wrong with `path`, with a folder on the way to it from /
-/// or with a link there, whose own way counts as well; and the remedy: owned by a third user (neither root nor ours), or writable
-/// by more than `allowed` (a folder with the sticky bit excepted); or nothing. What does not exist is left to whoever opens it.
-/// In a user namespace that does not know root, folders and links of nobody's are taken for root's if / is one of them.
+/// A user who can write the file, or put another in its place, decides what the machine does. Returns what is wrong, with the remedy, or
+/// nothing. Checked are `path`, each folder from / to it, and links there with their own folders. Wrong are: an owner other than root and
+/// our user, and write access for more than `allowed` (except a folder with the sticky bit). A missing file is no finding.
+/// In a user namespace without root, the overflow user's folders and links count as root's if / is one of them.
 std::optional<std::string> find_exposure(const std::filesystem::path& path, Writers allowed);
 
 /// The same as an InputError.

@@ -1,4 +1,4 @@
-// Sums of counts that somebody else has counted: they stay at the largest or smallest number instead of wrapping round. Real-time safe.
+// Sums of counts from elsewhere, such as messages: they stay at the largest or smallest number instead of wrapping round. Real-time safe.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Strict reading of JSON, shared by the files of this project. Not real-time. Every complaint is an
-// InputError that names the source, the key and what is allowed; repeated, unknown and missing keys are errors.
+// InputError that names the file or message, the key and what is allowed; repeated, unknown and missing keys are errors.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxTextBytes = 4096;
 /// Parses `text`; malformed JSON and repeated keys are errors. `source` is named in messages.
 nlohmann::ordered_json parse_strict_json(std::string_view text, const std::string& source);
 
-/// One object that is read key by key, then finish()ed: keys that nobody asked for are errors. Refers to the
+/// One object that is read key by key, then finish()ed: keys that were not read are errors. Refers to the
 /// parsed document, which must outlive it.
 class StrictObject {
  public:

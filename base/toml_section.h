@@ -1,5 +1,5 @@
-// Strict reading of one TOML table: every key is asked for by name, with its allowed range, and what nobody asked for is
-// an error. The only door to toml++. Not real-time.
+// Strict reading of one TOML table: every key is asked for by name, with its allowed range, and a key that
+// was not read is an error. The only door to toml++. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ inline constexpr Range kPositive{1e-9, 1e9};
 
 /// One table of a file. Messages name it by its path ("joint[0].limits"). All methods throw InputError that names the file,
 /// line, key, value and what is allowed; of a key that is missing, the nearest that stands there instead. After collect_errors() a
-/// value that cannot be read is noted, and one that is allowed stands for it, so that all errors of a file are told at once.
+/// value that cannot be read is noted, and one that is allowed stands for it, so that all errors of a file are reported at once.
 class TomlSection {
  public:
   /// The outermost table of `text`; `file` is named in messages.

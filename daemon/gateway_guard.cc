@@ -99,8 +99,8 @@ void GatewayGuard::log_deafness() {
   const std::uint64_t deaf = count(inbound_.deaf);
   if (deaf != deaf_seen_)
     spdlog::error(
-        "what the gateway publishes does not come back: the network's adapter or route was taken away or is "
-        "another one; no order and no stop reaches the daemon until another gateway has joined it anew");
+        "what the gateway publishes does not come back: the network's adapter or route was removed or "
+        "changed. No order and no stop reaches the daemon until a new gateway has joined the group");
   deaf_seen_ = deaf;
 }
 

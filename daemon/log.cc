@@ -38,7 +38,7 @@ class NeverWaitingSink final : public spdlog::sinks::ansicolor_stderr_sink_mt {
       return;
     }
     if (const std::int64_t lost = lost_.exchange(0, std::memory_order_relaxed); lost > 0) {
-      const std::string loss = counted(lost, "line") + " of this log got lost: nobody was reading";
+      const std::string loss = counted(lost, "line") + " of this log lost: its reader was too slow";
       Base::log({message.logger_name, spdlog::level::warn, loss});
     }
     Base::log(message);

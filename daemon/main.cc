@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
                "load all that the start would, say whether the daemon would start here, and end");
   bool check_lines = false;
   app.add_flag("--check-lines", check_lines,
-               "show every digital line of the joints and who holds it, and end");
+               "list the digital lines of all joints with their holders, and exit");
   bool check_drives = false;
   app.add_flag("--check-drives", check_drives,
                "do to the drives all that start-up does, enable none, and end");
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
       {.program = "strainwaved",
        .section = 8,
        .files = {{"/etc/strainwave/strainwaved.toml", "the service's configuration"},
-                 {"/etc/strainwave/authorized_keys", "public keys of those who may order"},
+                 {"/etc/strainwave/authorized_keys", "the public keys that may give orders"},
                  {"/var/lib/strainwave/", "flight records"},
                  {"/usr/share/doc/strainwave/config/reference.toml", "every key of a configuration"}},
        .examples = {{"strainwaved --config strainwaved.toml --check", "whether it would start, and why not"},
@@ -65,8 +65,9 @@ int main(int argc, char** argv) {
         std::cout << "warning: " << strainwave::printable_paragraph(warning) << '\n';
     if (check_only) {
       strainwave::check_start(config, std::cout);
-      std::cout << strainwave::printable(config_path) << ": sound, "
-                << strainwave::counted(config.joints.size(), "joint") << ", prefix " << config.prefix << '\n';
+      std::cout << strainwave::printable(config_path) << ": OK ("
+                << strainwave::counted(config.joints.size(), "joint") << ", prefix " << config.prefix
+                << ")\n";
       return strainwave::ExitStatus::kDone;
     }
     if (check_lines) return as_status(strainwave::check_lines(config, std::cout));

@@ -37,9 +37,9 @@ struct FrictionData {
 ///   without either it exceeds it by the 1.6 N.cm of Zhao (2006);
 /// - parameters: temperature_C, viscous_Ncm_per_rpm, coulomb_Ncm, static_Ncm, used as they are, with the
 /// speeds of the
-///   catalogue of the source (500, 1000, 2000, 3500 RPM).
-/// Throws InputError: fewer than three temperatures, not ascending, unknown columns, two of one speed, torque that
-/// is not positive, or falls with speed at most temperatures, friction that is none (Coulomb below 0, static below Coulomb), numbers no gear can have.
+///   catalogue of Zhao (2006) (500, 1000, 2000, 3500 RPM).
+/// Throws InputError: fewer than three temperatures, not ascending, unknown columns, two of one speed, numbers no gear can have.
+/// Also for torque that is not positive, or falls with speed at most temperatures, and for Coulomb friction below 0 or above static.
 FrictionData read_catalogue(const std::filesystem::path& path,
                             std::optional<double> starting_torque_Ncm = std::nullopt);
 

@@ -29,7 +29,7 @@ constexpr Controller fallback_of(Controller controller) {
 struct DesignRequest {
   PlantIdentity plant;
   Sampling sampling =
-      Sampling::kZeroOrderHold;  ///< forward Euler: to reproduce the source, not for a machine
+      Sampling::kZeroOrderHold;  ///< forward Euler: to reproduce Zhao (2006), not for a machine
   FuzzyFriction friction;
   CostWeights weights;  ///< nominal; the integral's counts only for C3 and C4
   /// Initial states [integral rad.s, error rad, velocity rad/s] whose convex hull the bounds hold for; the

@@ -13,7 +13,7 @@
 //   5. the rest of the population is drawn afresh; everything is clamped to the box. The best point is never
 //      lost.
 //
-// Where this departs from the source, and why:
+// Where this departs from Zhao (2006), and why:
 // - a gradient step is a damped Newton step in the unit box (box_descent.h) instead of a fixed learning rate:
 //   costs with long curved valleys, such as that of the fuzzy memberships, otherwise take thousands of
 //   generations. A point takes up to `steps` of them in a generation and rests once it has converged;

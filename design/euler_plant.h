@@ -1,4 +1,4 @@
-// The joint sampled by forward Euler, as the source does it: for reproducing the source. No machine moves like
+// The joint sampled by forward Euler, as in Zhao (2006), to reproduce that paper. No machine moves like
 // this between samples; control/table/ts_plant.h has what the loop does. Offline.
 #pragma once
 

@@ -237,9 +237,9 @@ void report_growth(const Job& job) {
   const double growth = growth_with_temperature(job.problem);
   if (growth > kNoticeable)
     std::printf(
-        "  WARNING: friction is %.3g times as large in the warmer half of %g to %g degC as in the colder: "
-        "that of a strain-wave gear falls "
-        "as its grease warms, and the fit lets none rise; are the temperatures in the wrong order?\n",
+        "  WARNING: friction is %.3g times as large in the warmer half of %g to %g degC as in the colder. "
+        "The friction of a strain-wave gear falls with temperature, and the fit lets none rise. Are the "
+        "temperatures in the wrong order?\n",
         growth, job.min_C, job.max_C);
 }
 

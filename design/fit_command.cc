@@ -63,7 +63,7 @@ void add_fit_command(CLI::App& program, CommandBody& chosen) {
       ->capture_default_str();
   command
       ->add_option("--weighting", options->fit.weighting,
-                   "what the fit minimises: error of the torque, or the source's cost")
+                   "what the fit minimises: error of the torque, or the cost of Zhao (2006)")
       ->check(CLI::IsMember({"torque", "source"}))
       ->capture_default_str();
   command

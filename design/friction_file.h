@@ -57,8 +57,8 @@ FrictionFile friction_file_from_json(const std::string& text, const std::string&
 enum class GearSide { kMotor, kJoint };
 
 /// Fuzzy rules from `path`: a file of `fit` (.json) or a CSV with center_C, width_C, static_Ncm, coulomb_Ncm,
-/// viscous_Ncm_per_rpm at the side of the gear that `csv_side` says. A CSV has the source's velocity
-/// memberships and the temperature range -10 to 40 degC of its catalogue.
+/// viscous_Ncm_per_rpm at the side of the gear that `csv_side` says. A CSV has the paper's velocity memberships and the temperature range
+/// -10 to 40 degC of its catalogue.
 struct FrictionRules {
   FuzzyFriction friction;
   std::string sha256;

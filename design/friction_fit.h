@@ -54,8 +54,8 @@ ExponentialFit fit_exponential(const FitProblem& problem, double low_C, double h
 FuzzyFit fit_consequents(const FitProblem& problem, const Eigen::VectorXd& center_C,
                          const Eigen::VectorXd& width_C);
 
-/// Fixed memberships for plain least squares, for friction that falls steeply in the cold and levels off:
-/// from one centre to the next the gap grows by 1.6, from min to max; a width is 0.8 of the geometric mean of
+/// Fixed memberships for plain least squares, for friction that falls steeply in the cold and levels off.
+/// From one centre to the next the gap grows by 1.6, from min to max. A width is 0.8 of the geometric mean of
 /// the gaps beside it. count >= 2.
 struct Memberships {
   Eigen::VectorXd center_C, width_C;
@@ -68,7 +68,7 @@ Eigen::MatrixX3d predict(const FuzzyFit& fit, const Eigen::VectorXd& temperature
 
 /// To the joint side, SI.
 ExponentialTemperatureLaw to_joint_side(const ExponentialFit& fit, double gear_ratio);
-/// With the source's velocity memberships, given at the motor side in RPM; [min, max] is the range of the data.
+/// With the velocity memberships of Zhao (2006), given at the motor side in RPM; [min, max] is the range of the data.
 FuzzyFriction to_joint_side(const FuzzyFit& fit, double gear_ratio, double temperature_min_C,
                             double temperature_max_C);
 VelocityMemberships source_velocity_memberships(double gear_ratio);

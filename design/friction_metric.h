@@ -14,7 +14,7 @@ enum class FitWeighting {
   kSource,
   /// The error of the friction torque itself: that of static friction squared, plus the mean over the
   /// catalogue's speeds s of
-  /// (Coulomb error + s * viscous error)^2. Unit N.cm^2, as the source's, but every parameter counts as it is felt.
+  /// (Coulomb error + s * viscous error)^2. Unit N.cm^2, as in Zhao (2006), but every parameter counts as it is felt.
   kTorque,
 };
 

@@ -24,9 +24,10 @@ constexpr double kLeastVariance_N2m2 = 1e-18;
 
 [[noreturn]] void refuse(const std::vector<SteadyPoint>& points, const StribeckShape& shape) {
   std::ostringstream text;
-  text << "static, Coulomb and viscous friction cannot be told apart by " << counted(points.size(), "speed")
-       << " at " << points.front().temperature_C << " degC: at least " << kLeastRegressionPoints
-       << " are needed, some below " << shape.velocity_rad_s << " rad/s and some well above";
+  text << "static, Coulomb and viscous friction cannot be distinguished by "
+       << counted(points.size(), "speed") << " at " << points.front().temperature_C << " degC: at least "
+       << kLeastRegressionPoints << " are needed, some below " << shape.velocity_rad_s
+       << " rad/s and some well above";
   throw InputError(text.str());
 }
 

@@ -194,7 +194,7 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
                 std::string(table.fallback.controller.view()).c_str(),
                 request.design.sampling == Sampling::kZeroOrderHold
                     ? "certified"
-                    : "designed by forward Euler, for reproducing the source only",
+                    : "designed by forward Euler, for reproducing Zhao (2006) only",
                 table.primary.cost_bound);
   }
   return ExitStatus::kDone;
@@ -217,7 +217,7 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
   command.add_option("--period_s", options.period_s, "sample period")->capture_default_str();
   command
       .add_option("--sampling", options.sampling,
-                  "the joint as the loop sees it (zoh), or the source's approximation (euler): a "
+                  "the joint as the loop sees it (zoh), or the approximation of Zhao (2006) (euler): a "
                   "table for chapter 6, which the daemon refuses")
       ->check(CLI::IsMember({"euler", "zoh"}))
       ->capture_default_str();
@@ -266,7 +266,7 @@ void add_design_options(CLI::App& command, GainsOptions& options) {
 
 void add_gains_command(CLI::App& program, CommandBody& chosen) {
   CLI::App* command = program.add_subcommand(
-      "gains", "Design certified gains; the defaults are the RHS-17-6006 of the source");
+      "gains", "Design certified gains; the defaults are the RHS-17-6006 of Zhao (2006)");
   const auto options = std::make_shared<GainsOptions>();
   command->add_option(
       "--friction", options->friction,

@@ -1,4 +1,4 @@
-// What gains and verify need not be told of a joint whose gear's actuator the catalogue knows (control/joint/joint_catalogue.h). Offline.
+// Defaults of gains and verify for a joint whose actuator is in the catalogue (control/joint/joint_catalogue.h). Offline.
 #pragma once
 
 #include <string>

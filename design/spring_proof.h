@@ -40,9 +40,8 @@ struct SpringProof {
   int most_cells = 0;
 };
 
-/// Cuts `box` by stiffness and link inertia into cells until each has a P. What is proved is then that every joint of the box is stable
-/// with a stiffness and a link inertia that vary within a cell, and damping and viscous friction that vary within the box. Takes
-/// tenths of a second per cell.
+/// Cuts `box` by stiffness and link inertia into cells until each has a P. Then every joint of the box is proved stable. Its stiffness and
+/// link inertia may vary within a cell, its damping and viscous friction within the box. Takes tenths of a second per cell.
 SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                              int most_cells = 300);
 

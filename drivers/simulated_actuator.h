@@ -1,8 +1,8 @@
 // The simulated joint behind the seam: a drive with an enable delay, an encoder and a slow temperature sensor
-// around sim/joint/joint_plant.h. The joint lives by the time that read() is told, not by the calls: what passes between
-// two reads passes for the joint, under the last torque ordered, however long the loop stayed away. Nothing here reads a
-// clock, so the same times and orders give the same motion. read(), write(), stop() and clear_fault() are real-time safe
-// (a read after a long stall takes about a microsecond for each period of it); the constructor is not.
+// around sim/joint/joint_plant.h. The joint's time is the argument of read(): the time between two
+// reads passes for the joint under the last torque, however long the loop was stalled. Nothing here reads a clock, so the
+// same times and orders give the same motion. The constructor is not real-time safe; the other methods are. A read after a
+// long stall takes about a microsecond for each period of it.
 //
 // It never fails by itself. Faults are injected by a decorator: another Actuator that holds this one.
 #pragma once
@@ -63,7 +63,7 @@ class SimulatedActuator final : public Actuator {
   SimulatedInputs inputs_;
   double encoder_zero_rad_;
   TimeProfile load_torque_Nm_;
-  std::optional<double> set_load_Nm_;  ///< once somebody said so
+  std::optional<double> set_load_Nm_;  ///< once it was set
   long enable_delay_periods_;
   long watchdog_periods_;
   long temperature_periods_;

@@ -1,7 +1,6 @@
 // A temperature that Linux shows as a file: hwmon and IIO attributes, thermal zones, 1-wire sensors. Such a
 // read may take long (a 1-wire conversion about 750 ms), so a thread of normal priority reads now and then,
-// and the loop takes the newest value without waiting. newest() is real-time safe, for one thread; everything
-// else is not.
+// and the loop takes the newest value without waiting. Only newest() is real-time safe, for one thread.
 //
 // Formats: the kernel's Documentation/hwmon/sysfs-interface.rst, ABI/testing/sysfs-bus-iio,
 // w1/slaves/w1_therm.rst. Whether a value can be believed is the loop's judgement (range, rate, age); here

@@ -1,5 +1,5 @@
-// Which type travels on channels of which kind: the one list that recorders and viewers go by. Gain tables are left out, nobody looks
-// at these. Not real-time.
+// Which type travels on channels of which kind: the one list that recorders and viewers go by. Gain tables are left out, for they are
+// not displayed. Not real-time.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Where LCM's datagrams go, and whether one that this PC sends comes back to it. LCM needs that, and its own test of it
-// takes ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it disturbs
-// nobody, and reads nothing that comes. Not real-time.
+// takes ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it disturbs no other program,
+// and reads nothing that comes. Not real-time.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// Where daemon and programs meet unless they are told otherwise: LCM's own group, on this machine alone.
+/// Where daemon and programs meet by default: LCM's own group, on this machine alone.
 inline constexpr char kUsualLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0";
 
 /// Group and port of an LCM URL "udpm://GROUP:PORT?..."; LCM's own defaults for what is left out. Nothing for

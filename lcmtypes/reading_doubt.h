@@ -21,7 +21,7 @@ enum class ReadingDoubt : std::uint8_t {
   kCountsMissing = 6,  ///< the drive's own finding
 };
 
-/// More is told as this.
+/// More is reported as this.
 inline constexpr std::int64_t kMostDoubted_urad = 0xFFFFFF;
 
 /// `size_rad` >= 0, or infinite.

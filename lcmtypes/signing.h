@@ -1,6 +1,6 @@
 // Signatures of orders (Ed25519, libsodium). Signed are the channel's name, a zero byte, and every encoded
-// byte before key_id: an order for one joint is none for another, and nothing of it can be changed. key_id
-// and signature are the last 72 bytes of every order (setpoint_v2, path_v1, command_v1, gain_table_v2, inject_v1). Not real-time.
+// byte before key_id: an order for one joint is none for another, and nothing of it can be changed. The key_id
+// and the signature are the last 72 bytes of every order (setpoint_v2, path_v1, command_v1, gain_table_v2, inject_v1). Not real-time.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct PublicKey {
   std::array<std::uint8_t, 32> bytes{};
 
   KeyId id() const noexcept;
-  /// A point of the curve that nobody knows a secret for by construction (small order) is no key.
+  /// A point of small order has no secret key by construction, and is no key.
   bool is_valid() const noexcept;
   bool operator==(const PublicKey&) const = default;
 };

@@ -3,8 +3,8 @@
 
 namespace strainwave {
 
-/// At most this, of setpoint_v2.valid_for_s. Of a stream that says nothing: the joint rests by then, and the torque it was told of stays.
-/// Twice what an owner may be silent for.
+/// The largest setpoint_v2.valid_for_s. It holds for a stream that gives none: the joint rests by then, and the torque of its last sample
+/// stays. Twice what an owner may be silent for.
 inline constexpr double kLongestValidFor_s = 10.0;
 
 }  // namespace strainwave

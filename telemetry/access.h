@@ -1,7 +1,6 @@
 // Who may see telemetry: where the server listens, and what a request must show. Not real-time.
-//
-// Without a token it listens on loopback alone, and answers nothing to web pages that the operator's browser happens to visit: a page's
-// origin must be a viewer's, and the name that was asked for must be this machine's (or a page could give its own name our address).
+// Without a token it listens on loopback alone, and answers nothing to web pages that the operator's browser happens to visit. A page's
+// origin must be a viewer's, and the requested host name this machine's, as a page could give its own name our address.
 #pragma once
 
 #include <cstdint>

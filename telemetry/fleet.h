@@ -54,7 +54,7 @@ class Fleet {
   using Daemons = std::map<std::string, DaemonRecord>;
 
   /// One message from the channel `name`, sent by `from`. A joint is known by its states; without any, its other messages say nothing.
-  /// What counts below zero is nobody's: it is ignored.
+  /// Negative counts are ignored.
   void take(const ChannelName& name, const state_v1& message, double now_s, const LcmSource& from = {});
   void take(const ChannelName& name, const limits_v1& message, double now_s, const LcmSource& from = {});
   void take(const ChannelName& name, const temperature_v1& message, double now_s, const LcmSource& from = {});

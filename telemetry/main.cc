@@ -26,7 +26,7 @@ void define(CLI::App& program, Options& options) {
                   "where viewers and Prometheus connect; another address than loopback needs --token-file")
       ->capture_default_str()
       ->type_name("ADDRESS:PORT");
-  program.add_option("--token-file", options.token_file, "whoever connects must show the token in this file")
+  program.add_option("--token-file", options.token_file, "clients must show the token in this file")
       ->envname("STRAINWAVE_TELEMETRY_TOKEN_FILE")
       ->type_name("FILE");
   program.add_option("--origin", options.origins, "web pages that may show telemetry without a token")
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
                   "what to do in Foxglove and Prometheus, with a layout and alerts beside it"}},
        .examples = {{"strainwave-telemetry", "serve this machine: ws://127.0.0.1:8765 and /metrics there"},
                     {"strainwave-telemetry --listen 0.0.0.0:8765 --token-file /etc/strainwave/token",
-                     "serve others, who show the token"}},
+                     "serve other machines, by token"}},
        .see_also = {"strainwaved(8)", "strainwavectl(1)"}});
   Options options;
   define(program, options);

@@ -47,7 +47,7 @@ std::string Telemetry::metrics() {
   const ServerCounts counts = server_.counts();
   const auto count = [](std::uint64_t number) { return static_cast<double>(number); };
   page.family("strainwave_telemetry_messages_total", MetricType::kCounter,
-              "Messages heard on LCM, by whether they are of Strainwave.");
+              "Messages received on LCM, by whether they belong to Strainwave.");
   page.sample({{"kind", "strainwave"}}, count(heard_));
   page.sample({{"kind", "other"}}, count(not_ours_));
   page.family("strainwave_telemetry_datagrams_malformed_total", MetricType::kCounter,

@@ -1,5 +1,5 @@
-// What one viewer has not been told of the topics yet. Bounded by the number of topics, however slowly the viewer reads and however often
-// names come and go: of a topic that came and went meanwhile nothing is said. Not real-time.
+// The news of topics that one viewer has not received yet. Bounded by the number of topics, however slowly the viewer reads and however
+// often names come and go: a topic that came and went meanwhile is left out. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace strainwave {
 
 class TopicNews {
  public:
-  /// Topics that are told of in one message: some ten kilobytes.
+  /// Topics in one message: some ten kilobytes.
   static constexpr std::size_t kAtOnce = 16;
 
   void offer(std::uint32_t topic) { offered_.insert(topic); }

@@ -1,5 +1,5 @@
-// The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: who makes up names pushes out his own
-// (transport/fair_places.h), and topics are not made faster than viewers can be told of them. Not real-time.
+// The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: a source that makes up names loses only its own
+// (transport/fair_places.h), and topics are not made faster than viewers can receive them. Not real-time.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Topic {
 class Topics {
  public:
   static constexpr std::size_t kMax = 1024;
-  /// New ones a second, once kMax came at once. Each is told to every viewer in some kilobytes of schema.
+  /// New ones a second, once kMax came at once. Each goes to every viewer with some kilobytes of schema.
   static constexpr double kNewPerSecond = 50.0;
 
   /// The topic `name`, or null when it is not known.

@@ -1,6 +1,6 @@
-// Who keeps a place where names from the network have a bounded number of them: each name belongs to the source it was first heard
-// from, and in a crowd the source with the most names loses the one that has been silent the longest. First whole hosts are compared,
-// then the ports of that host; so who makes up names pushes out his own, and who speaks from a port of his own stays. Not real-time.
+// Places for a bounded number of names from the network. Each name belongs to the address it was first heard from. When all places are
+// taken, the address with the most names loses the one that has been silent the longest. First whole hosts are compared, then the ports of
+// that host. So a sender that makes up names loses only its own, and one with a port of its own stays. Not real-time.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Empties LCM's socket in a thread of its own into bounded memory: what comes while its owner is busy, or does not get a processor, is
-// lost only when that is full. One other thread takes from it. The system's queue before a socket is a fraction of that where nobody
-// enlarged it: 208 KB on Debian, 26 ms of 64 joints. Not real-time.
+// lost only when that is full. One other thread takes from it. The system's own queue before a socket is much smaller by default:
+// 208 KB on Debian, 26 ms of 64 joints. Not real-time.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ class LcmReadAhead {
   using Take =
       std::function<void(const LcmSource& from, std::int64_t received_us, std::span<const std::uint8_t>)>;
 
-  /// Reads `socket`, which must outlive it and which nobody else reads meanwhile. `room_bytes`: what may wait while as much is being
+  /// Reads `socket`, which must outlive it and which no other thread reads meanwhile. `room_bytes`: what may wait while as much is being
   /// taken; memory is used as it fills. Throws std::system_error.
   LcmReadAhead(LcmSocket& socket, std::size_t room_bytes);
   ~LcmReadAhead();

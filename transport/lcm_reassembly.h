@@ -3,7 +3,7 @@
 //
 // A source (address and port) has one slot, as LCM sends the fragments of one message after the other. Fragments may
 // come in any order and more than once. When every slot is taken, the oldest one of the *host* with the most slots is given
-// up, the newcomer counted: whoever opens many can only push out his own. All of 127.0.0.0/8 is one host.
+// up, the newcomer counted: a host that opens many loses only its own. All of 127.0.0.0/8 is one host.
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ class LcmSocket {
   static constexpr int kQueueBytes = 1 << 20;
 
   /// Joins the group. With a ttl of 0 nothing from another machine is heard, even where the route leads to a real
-  /// interface. `queue_bytes`: room for what comes while nobody receives; the system may give less, unless this
+  /// interface. `queue_bytes`: room for what comes between two calls; the system may give less, unless this
   /// process administers the network. Throws std::system_error.
   LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes,
             int queue_bytes = kQueueBytes);

@@ -23,7 +23,7 @@ void configure_program(CLI::App& app, const Manual& manual);
 /// What a subcommand does. The parser leaves it with the program when the subcommand is given; nothing runs inside the parser.
 using CommandBody = std::function<ExitStatus()>;
 
-/// Why a program ends, to be told: its status, the sentence for the user, and what was thrown.
+/// Why a program ends: its status, the sentence for the user, and what was thrown.
 struct ProgramFailure {
   ExitStatus status;
   std::string why;
@@ -31,9 +31,9 @@ struct ProgramFailure {
 };
 using FailureTeller = std::function<void(const ProgramFailure&)>;
 
-/// Parses the words after the program's name ("-.5" counts as "-0.5"): help and version go to `out`, and a ProgramError says what was given,
-/// what is allowed, the nearest right word. Then calls `action`. `tell` is called with what was thrown: a ProgramError has its status,
-/// NotAchieved is kRefused, InputError and a file that cannot be had are kUsage, anything else kNoAnswer.
+/// Parses the words after the program's name ("-.5" counts as "-0.5"): help and version go to `out`, and a ProgramError says what was
+/// given, what is allowed, the nearest right word. Then calls `action`. `tell` is called with what was thrown: a ProgramError has its
+/// status, NotAchieved is kRefused, InputError and a file that cannot be had are kUsage, anything else kNoAnswer.
 ExitStatus run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out,
                        const FailureTeller& tell, const CommandBody& action);
 /// One line "program: why" on `err`, as programs usually tell it.

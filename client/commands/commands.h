@@ -86,12 +86,12 @@ struct PlotRecordArguments {
 };
 void plot_record(const Output& output, const PlotRecordArguments& arguments);
 
-/// An order to each of `joints`, or when there are none to every joint that is heard of the prefix, one after the other. A failure of one
-/// does not keep it from the others; all are told, and the worst one's status is that of the error.
+/// An order to each of `joints`, or when there are none to every joint of the prefix, one after the other. A failure of one does not keep
+/// it from the others. The error names all failures and has the status of the worst.
 using JointOrder = void (*)(Client& client, const Output& output, const std::string& joint);
 void order_each(Client& client, const Output& output, const std::vector<std::string>& joints,
                 JointOrder order);
-/// A disable likewise: every joint is told before any is waited for.
+/// A disable likewise: it is sent to every joint before any answer is waited for.
 void disable(Client& client, const Output& output, const std::vector<std::string>& joints);
 
 /// Orders to one joint. enable() returns once the joint holds. What is so already is no error, and nothing is sent for it.
@@ -142,9 +142,9 @@ struct LoadTableArguments {
 };
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments);
 
-/// The joint is this user's, whoever has it; an engineer's right.
+/// Makes this user the owner of the joint, also where another client owns it. Needs the role engineer.
 void take_over(Client& client, const Output& output, const std::string& joint);
-/// The joint is nobody's.
+/// Gives the joint up: it has no owner.
 void release(Client& client, const Output& output, const std::string& joint);
 
 /// What the joint has learned of its friction: a line for each temperature rule of its table.

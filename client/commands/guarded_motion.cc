@@ -25,7 +25,7 @@ std::string hold_joint(Client& client, const std::string& joint) {
     if (answer.accepted) return joint + " holds where it stops";
     return fmt::format("{} did not take the hold ({})", joint, to_text(answer.reason));
   } catch (const ClientError& error) {
-    return fmt::format("{} could not be told to hold ({}); its stream of setpoints expires by itself", joint,
+    return fmt::format("the hold did not reach {} ({}); its stream of setpoints expires by itself", joint,
                        error.what());
   }
 }
@@ -55,7 +55,7 @@ void GuardedJoint::require_undisturbed() {
     require_accepted(*refusal, joint_, "a setpoint");
   }
   if (seconds_between(view_.received, now()) > kLongestSilence_s)
-    fail(ExitStatus::kNoAnswer, fmt::format("nothing heard for {} s", kLongestSilence_s));
+    fail(ExitStatus::kNoAnswer, fmt::format("no state for {} s", kLongestSilence_s));
   if (view_.state.session_id != session_id_) fail(ExitStatus::kRefused, "the daemon was restarted");
   const Mode mode = mode_of(view_);
   if (mode == Mode::kFaulted) throw faulted(client_, joint_);

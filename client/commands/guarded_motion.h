@@ -11,8 +11,8 @@
 
 namespace strainwave {
 
-/// Runs `motion`. When it throws (also because of Ctrl-C), the joint is told to hold, and the error says so
-/// or that it could not be told.
+/// Runs `motion`. When it throws (also because of Ctrl-C), a hold is sent to the joint, and the error says
+/// whether it arrived.
 void run_guarded(Client& client, const std::string& joint, const std::function<void()>& motion);
 
 /// A joint that a program moves, setpoint by setpoint.
@@ -24,8 +24,8 @@ class GuardedJoint {
   /// A setpoint was accepted: what states tell of a load from now on, old ones aside, is this motion's.
   void accepted() { old_states_ = Deadline(kOldStates_s); }
 
-  /// Throws ClientError unless the joint is as it must be: the same daemon, heard of within the last half second, enabled, without a fault, not
-  /// yielding to a load, no order of this client refused.
+  /// Throws ClientError unless the joint is as it must be: the same daemon, heard of within the last half second, enabled, without a
+  /// fault, not yielding to a load, no order of this client refused.
   void require_undisturbed();
 
  private:

@@ -42,13 +42,14 @@ void revert_table(Client& client, const Output& output, const std::string& joint
 
 void take_over(Client& client, const Output& output, const std::string& joint) {
   order_accepted(client, joint, Action::kTakeOver);
-  say(output, joint + ": taken over; who had it is refused from now on",
+  say(output, joint + ": taken over; orders of the previous owner are refused from now on",
       {{"joint", joint}, {"accepted", true}});
 }
 
 void release(Client& client, const Output& output, const std::string& joint) {
   order_accepted(client, joint, Action::kRelease);
-  say(output, joint + ": released; the next who orders has it", {{"joint", joint}, {"accepted", true}});
+  say(output, joint + ": released; the next client that gives it an order owns it",
+      {{"joint", joint}, {"accepted", true}});
 }
 
 }  // namespace strainwave

@@ -102,7 +102,7 @@ void play(Client& client, const Output& output, const PlayArguments& arguments) 
   if (client.options().key_file.empty())
     throw ClientError(
         ExitStatus::kUsage,
-        "play: recorded setpoints are sent only as new orders of somebody: say who with --key FILE");
+        "play: recorded setpoints are sent only as new, signed orders: give the key with --key FILE");
   const std::vector<TimedSetpoint> setpoints = read_setpoints(arguments);
   say(output,
       fmt::format("{}: {} over {:.1f} s", arguments.joint, counted(setpoints.size(), "setpoint"),

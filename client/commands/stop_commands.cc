@@ -17,10 +17,9 @@ std::vector<std::string> joints_to_stop(Client& client, const std::vector<std::s
   try {
     return joints_or_all(client, joints);
   } catch (const NoAnswer& error) {
-    throw NoAnswer(
-        std::string(error.what()) +
-        " NO STOP WAS SENT: no joint is heard that it could be for. One that is named gets it all the "
-        "same: strainwavectl disable JOINT");
+    throw NoAnswer(std::string(error.what()) +
+                   " NO STOP WAS SENT, because no joint publishes its state. To send a stop in any case, "
+                   "name the joint: strainwavectl disable JOINT");
   }
 }
 

@@ -31,7 +31,7 @@ class OpenInbox {
     Client& client = link_.client();
     if (!client.wait_until([&] { return !states_.empty(); }, Deadline(client.options().timeout_s))) {
       client.wait_for_joint(link_.name());  // says more when there never was one
-      throw NoAnswer(link_.silence("fell silent"), link_.name());
+      throw NoAnswer(link_.silence("lost contact with strainwaved"), link_.name());
     }
     const State next = states_.front();
     states_.pop_front();

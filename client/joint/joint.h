@@ -52,7 +52,7 @@ class Joint {
   /// Constant while the daemon runs; waits for the first, which may take a second.
   Limits limits();
 
-  /// Calls `visit` for every state that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`.
+  /// Calls `visit` for every state that comes, in order, for `duration_s`. A caller that is too slow sees gaps in `cycle`.
   void states(double duration_s, const std::function<void(const State&)>& visit);
 
   /// Switches the drive on; returns once the joint holds. What is so already is no error, and nothing is sent for it.
@@ -65,9 +65,9 @@ class Joint {
   void clear_fault();
   /// Finds the home position; returns once the joint holds there.
   void home();
-  /// The joint is this user's, whoever has it; an engineer's right.
+  /// Makes this user the owner of the joint, also where another client owns it. Needs the role engineer.
   void take_over();
-  /// The joint is nobody's, before its lease ends.
+  /// Gives the joint up before its lease ends: it has no owner.
   void release();
   /// Forgets the learned friction and load: the joint takes its table's friction. It must hold or be off.
   void reset_learning();

@@ -91,7 +91,7 @@ const JointView& JointLink::view() {
   const JointView& view = client_.wait_for_joint(name_);
   const double silent_s = seconds_between(view.received, now());
   if (silent_s > client_.options().timeout_s)
-    throw NoAnswer(fmt::format("{}: has been silent for {:.1f} s; its state is not known", name_, silent_s));
+    throw NoAnswer(fmt::format("{}: no state for {:.1f} s; is strainwaved running?", name_, silent_s));
   return view;
 }
 

@@ -19,7 +19,7 @@ namespace strainwave {
 
 class JointLink {
  public:
-  /// States that wait for whoever asked for every one; the oldest are lost when nobody takes them.
+  /// States that wait for a caller of states(); the oldest are lost when the caller is too slow.
   static constexpr std::size_t kInbox = 4096;
   using Inbox = std::deque<State>;
 
@@ -36,7 +36,7 @@ class JointLink {
   /// The latest, with what came by now; waits for the first. Throws NoAnswer when there is none that is new enough.
   const JointView& view();
   const limits_v1& limits();
-  /// "elbow: fell silent: its state stopped coming 3.2 s ago"; `what`: how that is to be called.
+  /// "elbow: lost contact with strainwaved: no state for 3.2 s"; `what`: the words before the time.
   std::string silence(const std::string& what) const;
   /// The cycle that the daemon is in by now, see CycleClock; a state must have come.
   double cycle_now(double period_s) const { return clock_.cycle_at(now(), period_s); }
@@ -60,7 +60,8 @@ class JointLink {
   std::jthread listener_;  ///< the last, so that it ends first
 };
 
-/// Throws InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles. `who_are`: "the joints of a path are".
+/// Throws InvalidInput where the two joints are not of one daemon; each daemon counts its own cycles. `who_are`: "the joints of a path
+/// are".
 void require_same_daemon(JointLink& joint, JointLink& other, const std::string& who_are);
 
 /// `value`, if it is finite and `is_allowed`. `joint`: whose it is; `key`: of the daemon's configuration that says what is allowed, if one

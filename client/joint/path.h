@@ -35,8 +35,8 @@ class Path {
   Path(const Path&) = delete;
   Path& operator=(const Path&) = delete;
 
-  /// All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Throws Refused, which names knot and limit when
-  /// the path asks for more than a joint can do.
+  /// All joints begin in one cycle, or none: each must hold within 1 mrad of its first knot. Throws Refused, which names knot and limit
+  /// when the path asks for more than a joint can do.
   void start();
   /// Stops on the path, with all joints, as quickly as their accelerations allow.
   void pause();
@@ -45,7 +45,7 @@ class Path {
   /// Ends the path, with all joints, and returns once they hold. Needs no key.
   void hold();
   /// Returns once every joint is within `tolerance_rad` of its last knot and stays there: in the order of the parts, timed from now. Waits
-  /// while somebody has paused the path, too: State::has(Notice::kPathPaused) and State::path_time_s tell. Throws Faulted, NoAnswer, and
+  /// while the path is paused, too: see State::has(Notice::kPathPaused) and State::path_time_s. Throws Faulted, NoAnswer, and
   /// NotDone: after `timeout_s`, which says where the path is and whether it is paused, or when something else ended it.
   /// Of a path that another program started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at
   /// its end.
@@ -54,8 +54,8 @@ class Path {
 
  private:
   JointLink& first() { return *links_.front(); }
-  /// Of those that are not on their way to this path's end the first; null: it is under way. Joints that stand at its end may have come there in
-  /// any way.
+  /// Of those that are not on their way to this path's end the first; null: it is under way. Joints that stand at its end may have come
+  /// there in any way.
   const JointPath* joint_elsewhere();
   void check_under_way();
 

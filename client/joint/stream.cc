@@ -150,7 +150,7 @@ void Stream::wait_for_end() {
   Client& client = link_->client();
   if (!client.wait_until([&] { return restarted() || view.state.cycle >= *last_cycle_; },
                          Deadline(options_.ahead_s + client.options().timeout_s)))
-    throw NoAnswer(link_->silence("fell silent before the stream's end"), link_->name());
+    throw NoAnswer(link_->silence("lost contact with strainwaved before the stream's end"), link_->name());
   check_refusals();
 }
 

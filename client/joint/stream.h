@@ -29,7 +29,7 @@ struct CarriedLoad {
   double load_inertia_kgm2 = 0.0;  ///< >= 0, carried besides the joint's own
 };
 
-/// Made by Joint::stream(). Its destructor closes it; after an exception the joint is told to hold at once.
+/// Made by Joint::stream(). Its destructor closes it; after an exception the joint is ordered to hold at once.
 class Stream {
  public:
   ~Stream();
@@ -40,13 +40,13 @@ class Stream {
 
   /// The joint shall be at `position_rad` at time `t_s` (rising; the first is `ahead_s` from now), with the velocity and
   /// acceleration then if they are known. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
-  /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, Faulted, Yielded, NotDone (also when the stream
-  /// is over), NoAnswer, InvalidInput.
+  /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, Faulted, Yielded, NotDone (also when the
+  /// stream is over), NoAnswer, InvalidInput.
   bool put(double t_s, double position_rad, std::optional<double> velocity_rad_s = {},
            std::optional<double> acceleration_rad_s2 = {}, const CarriedLoad& load = {});
 
-  /// Waits for the last sample's time, ends the stream and waits until the joint holds. Where that goes wrong, the joint is told to hold
-  /// first, and then it throws what went wrong. The destructor does the same, once, but cannot tell.
+  /// Waits for the last sample's time, ends the stream and waits until the joint holds. Where that fails, the joint is ordered to
+  /// hold first, and then the error is thrown. The destructor does the same, once, but reports nothing.
   void close();
 
   /// Samples that came after their time and were left out.
@@ -82,7 +82,7 @@ class Stream {
   std::optional<std::int64_t> last_cycle_;  ///< of the last sample that was sent; nothing: not begun, or over
   std::int64_t first_cycle_ = 0;            ///< of the sample that it began with
   std::int64_t session_id_ = 0;             ///< of the daemon that it began with
-  bool over_ = false;                       ///< closed, or ended by somebody
+  bool over_ = false;                       ///< closed, or ended by another order
   long late_ = 0;
   int exceptions_;  ///< under way when it was made
 };

@@ -111,7 +111,7 @@ class Client {
   /// The daemon's oldest refusal of a message of send() that was not yet taken.
   std::optional<Answer> take_refusal();
   bool has_refusals() const noexcept { return !refusals_.empty(); }
-  /// What send() sent before is answered to nobody.
+  /// Answers to what send() sent before are dropped.
   void forget_sent() noexcept;
 
   /// Dispatches what has come so far.

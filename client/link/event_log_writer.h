@@ -20,7 +20,7 @@ std::string recorded_channels(const std::string& prefix, const std::vector<std::
 class EventLogWriter {
  public:
   /// Creates `file` and writes every message of `prefix` from now on, or only those of `joints` and the
-  /// daemon as a whole. Throws ClientError (file): it exists and `overwrite` is false, somebody else writes it, or it cannot
+  /// daemon as a whole. Throws ClientError (file): it exists and `overwrite` is false, another process writes it, or it cannot
   /// be created.
   EventLogWriter(Connection& connection, const std::string& prefix, const std::vector<std::string>& joints,
                  const std::filesystem::path& file, bool overwrite);

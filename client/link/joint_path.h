@@ -34,7 +34,7 @@ void start_path(Client& client, const std::vector<JointPath>& path);
 /// From its first knot to the last of all joints.
 double path_duration_s(const std::vector<JointPath>& path);
 
-/// Somebody has paused a path, or it goes on.
+/// A path was paused, or it goes on.
 struct PathPause {
   bool paused = false;
   double at_s = 0.0;  ///< of the path
@@ -61,8 +61,8 @@ struct StraightMove {
   double deceleration_rad_s2 = 0.0;
 };
 
-/// The path on which all joints leave at rest, keep the same share of their ways behind them at every instant, and arrive at rest together: as
-/// fast as the one that takes longest. With the largest share rates that all allow,
+/// The path on which all joints leave at rest, keep the same share of their ways behind them at every instant, and arrive at rest
+/// together: as fast as the one that takes longest. With the largest share rates that all allow,
 ///
 ///   V = min V_i / |d_i|
 ///   A = min A_i / |d_i|

@@ -57,7 +57,7 @@ class LatestMessages {
   using Message = typename View::Message;
   using Name = std::pair<std::string, std::string>;  ///< prefix, joint (empty: the daemon as a whole)
 
-  /// More names than any network of ours has, besides those that are kept; whoever sends more is not a daemon.
+  /// More names than any network of ours has, besides those that are kept.
   static constexpr std::size_t kMaxNames = 1024;
   /// Prefixes on which another version was heard.
   static constexpr std::size_t kMaxOthers = 64;
@@ -66,7 +66,7 @@ class LatestMessages {
   explicit LatestMessages(Connection& connection)
       : subscription_(connection.subscribe(pattern(), &LatestMessages::on_message, this)) {}
 
-  /// From now on `name` loses its place to nobody: what find() returned of it lasts as long as this object.
+  /// From now on `name` keeps its place: what find() returned of it lasts as long as this object.
   void keep(const Name& name) {
     if (kept_.insert(name).second) places_.leave(name);
   }

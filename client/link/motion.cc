@@ -62,8 +62,9 @@ class MotionWatch {
   bool look(double silence_s) {
     if (seconds_between(view_->received, now()) > silence_s)
       throw NoAnswer(
-          fmt::format("{}: the daemon fell silent during the motion: {}; what the joint does is not known",
-                      joint_, silence_of(*view_, silence_s)),
+          fmt::format(
+              "{}: lost contact with strainwaved during the motion: {}; the joint may still be moving",
+              joint_, silence_of(*view_, silence_s)),
           joint_);
     if (motion_.observe && !motion_.replaced(*view_)) motion_.observe(*view_);
     if (!in_force()) return false;

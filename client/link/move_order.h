@@ -3,7 +3,7 @@
 
 namespace strainwave {
 
-/// A move that takes longer is refused: nobody waits for it, and no path is as long.
+/// A move that takes longer is refused: it is most likely a mistake.
 inline constexpr double kLongestMove_s = 3600.0;
 
 /// Where to, joint side.

@@ -26,11 +26,13 @@ inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite)
     throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
 }
 
-/// Opens `file`, which is made if it is not there, for one writer: as long as the descriptor is open nobody else claims it. Throws ClientError
-/// (usage) as above, when it is a folder, when it cannot be written, and when somebody else writes it now; then it is as it was.
+/// Opens `file`, which is made if it is not there, for one writer: no other process can claim it while the descriptor is open. Throws
+/// ClientError (usage) as above, when it is a folder, when it cannot be written, and when another process writes it now; then it is
+/// unchanged.
 UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
 
-/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one, and when one that is to be it has another format's name.
+/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one, and when one that is to be it has another format's
+/// name.
 inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
   if (!mcap && is_named(file, ".mcap"))
     throw ClientError(ExitStatus::kUsage,

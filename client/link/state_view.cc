@@ -24,7 +24,7 @@ std::string silence_of(const JointView& view, double timeout_s) {
   constexpr double kLongest_s = 0.5;  // states come ten times a second at the least
   const double silent_s = seconds_between(view.received, now());
   if (silent_s < std::min(kLongest_s, timeout_s)) return "";
-  return fmt::format("its state stopped coming {:.1f} s ago", silent_s);
+  return fmt::format("no state for {:.1f} s", silent_s);
 }
 
 double tracking_error_rad(const JointView& view) noexcept {

@@ -22,7 +22,7 @@ struct JointView {
   void take(const state_v1& latest);
 };
 
-/// "its state stopped coming 3.2 s ago" where none came for half a second, or for `timeout_s` if that is less; else empty.
+/// "no state for 3.2 s" where none came for half a second, or for `timeout_s` if that is less; else empty.
 std::string silence_of(const JointView& view, double timeout_s);
 
 /// See lcmtypes/cycle_fields.h.

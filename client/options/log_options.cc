@@ -54,7 +54,7 @@ void add_play(CLI::App& app, Invocation& invocation) {
       "play", "the setpoints of a log once more, signed afresh with --key, in their own time");
   auto arguments = std::make_shared<PlayArguments>();
   command->add_option("LOG", arguments->log, "from record, or from lcm-logger")->required()->type_name("");
-  command->add_option("--joint", arguments->joint, "whose setpoints, and who moves")
+  command->add_option("--joint", arguments->joint, "the joint that the setpoints were for, and that moves")
       ->required()
       ->type_name("JOINT");
   command->callback([&invocation, arguments] {

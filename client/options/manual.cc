@@ -26,7 +26,7 @@ Manual manual_of_strainwavectl() {
       .files = {{"~/.strainwave-key", "a secret key (keygen), where STRAINWAVE_KEY or --key names it"},
                 {"/usr/share/strainwave/tables/", "gain tables that are shipped, for load-table"},
                 {"/usr/share/doc/strainwave/docs/", "the documentation, beginning with quick-start.md"}},
-      .examples = {{"strainwavectl status", "every joint that is heard"},
+      .examples = {{"strainwavectl status", "every joint of the prefix"},
                    {"strainwavectl enable elbow", "switch the drive on and hold the position"},
                    {"strainwavectl move elbow 0.5 --wait", "go to 0.5 rad, and say how long it took"},
                    {"strainwavectl move elbow 0.5 wrist -0.2", "two joints leave and arrive together"},

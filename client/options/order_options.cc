@@ -34,7 +34,7 @@ void add_order_to_each(CLI::App& app, Invocation& invocation, const std::string&
   auto joints = std::make_shared<std::vector<std::string>>();
   auto all = std::make_shared<bool>(false);
   CLI::Option* names = add_joints(*command, *joints, "joints, one or several");
-  command->add_flag("--all", *all, "every joint that is heard of the prefix")->excludes(names);
+  command->add_flag("--all", *all, "every joint of the prefix")->excludes(names);
   command->callback([&invocation, name, joints, all, order] {
     if (joints->empty() && !*all) throw InvalidInput(name + ": JOINT is required, or --all for every joint");
     invocation.command = [joints, order](Client& client, const Output& output) {
@@ -78,8 +78,9 @@ void add_path(CLI::App& app, Invocation& invocation) {
                        std::to_string(JointPath::kMostKnots) + " knots for each joint")
       ->required()
       ->type_name("");
-  command->add_flag("--wait", arguments->wait,
-                    "return once all joints are where it ends; says when somebody pauses it");
+  command->add_flag(
+      "--wait", arguments->wait,
+      "return once all joints have reached the end of the path; reports when the path is paused");
   add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
       ->capture_default_str();
   command->callback([&invocation, arguments] {
@@ -205,8 +206,8 @@ void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_order(app, invocation, "resume", "go on along that path, with all of its joints", resume_path);
   add_order_to_each(app, invocation, "hold", "stop and hold where it stops", hold);
   add_order_to_each(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
-  add_order_to_each(app, invocation, "take-over", "have the joint instead of whoever has it (engineer)",
-                    take_over);
+  add_order_to_each(app, invocation, "take-over",
+                    "become the owner of a joint that another client owns (role engineer)", take_over);
   add_order_to_each(app, invocation, "release", "give the joint up before its lease ends", release);
   add_order_to_each(app, invocation, "home", "find the home position", home);
   add_load_table(app, invocation);

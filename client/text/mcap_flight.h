@@ -15,9 +15,9 @@ struct FlightMcap {
   std::uint64_t messages = 0;
 };
 
-/// Times are those of the wall clock, which the record knows to the second of its fault. Numbers that name somebody are texts, modes and
-/// faults come a second time as words, and tracking_error_rad is the setpoint less the position at one instant; a number that is none is null.
-/// Throws InputError for what is no complete record, and when `mcap` cannot be written.
+/// Times are those of the wall clock, which the record knows to the second of its fault. Ids of senders and keys are texts, modes and
+/// faults come a second time as words, and tracking_error_rad is the setpoint less the position at one instant; a number that is none is
+/// null. Throws InputError for what is no complete record, and when `mcap` cannot be written.
 FlightMcap write_flight_mcap(const std::filesystem::path& file, const std::filesystem::path& mcap);
 
 }  // namespace strainwave

@@ -27,8 +27,8 @@ class OrderDesk {
   OrderDesk(Connection& connection, const StateView& states, const std::filesystem::path& key_file,
             double timeout_s);
 
-  /// A disable of each, signed if that is possible and unsigned if not: nothing that is wrong with key or session keeps it back,
-  /// and nobody who forges stops its answer. Of several, the message counts the answers and names who did not give one.
+  /// A disable of each, signed if that is possible and unsigned if not: a wrong key or session does not keep it back,
+  /// and forged messages do not stop its answer. Of several, the message counts the answers and names who did not give one.
   void stop(const std::vector<Name>& joints);
   /// Signed if there is a key. Throws InputError when the key cannot be used. What is refused unread, since another program of this
   /// key was ahead, is sent with a higher sequence, a few times. To clear a fault that is not there is not sent.

@@ -61,7 +61,7 @@ std::string keys(const WatchModel& model, int columns) {
 
 void draw_body(const WatchModel& model, Screen& screen, int first, int end) {
   if (model.joints.empty()) {
-    screen.put(first, 0, "nothing heard yet", Style::kWarning);
+    screen.put(first, 0, "no state received yet", Style::kWarning);
     return;
   }
   const int rows = end - first;

@@ -77,8 +77,8 @@ std::optional<Verdict> Admission::check_envelope(const WireMessage& message, con
     return refuse(requester, Reason::kWrongSession,
                   "the message is meant for session " + std::to_string(envelope.session_id) +
                       ", this daemon's is " + std::to_string(session_id_) +
-                      " (session_id on the STATE channel): it was started anew since; see what the joint "
-                      "does, then give the order anew");
+                      " (session_id on the STATE channel): strainwaved has restarted since. See what the "
+                      "joint does, then send the order again");
   if (auto verdict = check_fresh(message, envelope.challenge, requester)) return verdict;
   if (auto verdict = check_sender(message, envelope.needed, requester, verifications_)) return verdict;
   return envelope.needs_joint ? check_owner(requester) : std::nullopt;
@@ -92,7 +92,7 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     return refuse(
         requester, Reason::kTooOld,
         "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
-        "kept back on its way, or made from an old state; it is not obeyed any more, give it anew");
+        "kept back on its way, or made from an old state; send it again");
   }
   const Sent order{requester.sender_id, requester.sequence, claimed_key(message)};
   switch (challenges_.since(challenge, requester.joint, order)) {
@@ -101,13 +101,13 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     case Since::kOwnStop:
       return refuse(requester, Reason::kTooOld,
                     "the order quotes a challenge from before a stop that its sender gave, or from before a "
-                    "fault: give it anew from the next state");
+                    "fault: send it again, made from the next state");
     case Since::kOthersStop:
       break;
   }
-  return refuse(requester, Reason::kSuperseded,
-                "somebody stopped or held the joint since this order was made: see whether it may still be "
-                "wanted, then give it anew");
+  return refuse(
+      requester, Reason::kSuperseded,
+      "the joint was stopped or held after this order was made: see why, then send the order again");
 }
 
 // What is only claimed is enough to say why an order is refused.
@@ -188,9 +188,9 @@ std::optional<Verdict> Admission::check_owner(Requester& requester) {
   text << "sender " << owner.sender_id;
   if (owner.key >= 0)
     text << " (key of " << security_.keys[static_cast<std::size_t>(owner.key)].comment << ")";
-  text << " has " << joints_[requester.joint].name << " until he is silent for " << security_.lease_s
-       << " s (security.lease_s) or releases it; an engineer's key takes it over, and a stop or hold is "
-          "always possible";
+  text << " owns " << joints_[requester.joint].name << " until it gives no order for " << security_.lease_s
+       << " s (security.lease_s) or releases it; an engineer's key takes it over. A stop or hold is always "
+          "possible";
   return refuse(requester, Reason::kNotOwner, text.str());
 }
 
@@ -210,10 +210,11 @@ Verdict Admission::change_owner(Action action, Requester requester) {
   requester.takes_over = action == Action::kTakeOver;
   if (requester.takes_over) return pass(requester, OrderKind::kEndStream, 0);
   if (!ownership_.release(requester.joint, {requester.key, requester.sender_id}, now_ns_))
-    return refuse(requester, Reason::kNotOwner,
-                  ownership_.owner_id(requester.joint, now_ns_) == 0
-                      ? "nobody has the joint, its lease has ended or it was released: there is nothing to do"
-                      : "only who has the joint can release it");
+    return refuse(
+        requester, Reason::kNotOwner,
+        ownership_.owner_id(requester.joint, now_ns_) == 0
+            ? "the joint has no owner, its lease has ended or it was released: there is nothing to do"
+            : "only the owner of the joint can release it");
   Verdict verdict;
   verdict.kind = Verdict::Kind::kDone;
   verdict.requester = requester;

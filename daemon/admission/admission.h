@@ -2,7 +2,7 @@
 // signature and role, sequence, owner, finite, range, table certificate. Pure: bytes in, verdict out; no threads,
 // sockets or clocks. Not real-time.
 //
-// What somebody without a key can change here: the counts of rejects and the budget of wasted verifications,
+// What a sender without a key can change here: the counts of rejects and the budget of wasted verifications,
 // nothing else. Sequences are remembered per key and joint, and only of messages whose signature is right.
 #pragma once
 
@@ -45,7 +45,7 @@ struct Requester {
   std::int64_t sender_id = 0;
   std::int64_t sequence = 0;
   bool wants_acknowledgement = true;
-  /// From somebody who may give orders, and new: its answer is worth remembering for a resend. Others could
+  /// From a sender that may give orders, and new: its answer is worth remembering for a resend. Others could
   /// make the daemon forget answers or flood the bus with new ones.
   bool authentic = false;
   bool stop = false;  ///< of a disable or hold, whose answers have a share of their own
@@ -64,7 +64,7 @@ struct Verdict {
     kRefuse,   ///< answer with reason and text
     kRepeat,   ///< a resend of the last message of this sender: give the same answer again
     kDone,     ///< obeyed here: answer that it is accepted
-    kDiscard,  ///< nobody to answer; only counted
+    kDiscard,  ///< no sender to answer; only counted
   };
   Kind kind = Kind::kDiscard;
   Reason reason = Reason::kAccepted;

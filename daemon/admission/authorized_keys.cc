@@ -94,7 +94,7 @@ AuthorizedKeys read_authorized_keys(const std::filesystem::path& path) {
   }
   if (keys.empty())
     throw InputError(path.string() +
-                     ": has no key, so nobody could give an order: make one with strainwavectl keygen "
+                     ": has no key, so no client could give an order: make one with strainwavectl keygen "
                      "and put the line of its .pub file here");
   return AuthorizedKeys(std::move(keys));
 }

@@ -1,7 +1,7 @@
 // What an order must quote to be obeyed: a random number from the daemon's state that is not older than an order may become. It
-// cannot be known before it is published, so that an order which somebody keeps back is worthless soon after, whatever clocks and
-// states that somebody forges. A stop or a fault of a joint ends all that were drawn until then for that joint: what was sent before a stop is
-// not obeyed after it, whichever of the two came first. Whose stop it was tells what the sender of such an order is to make of it. Time is
+// cannot be known before it is published. So an order that an attacker delays is soon worthless, whatever clocks and states are forged.
+// A stop or a fault of a joint ends all that were drawn until then for that joint: an order that was sent before a stop is not obeyed after
+// it, whichever came first. The sender may repeat its order after its own stop, but not after that of another. Time is
 // the loop's own count of periods. Not real-time.
 #pragma once
 
@@ -26,8 +26,8 @@ struct Sent {
 /// What has become of a joint since an order's challenge was new.
 enum class Since {
   kNothing,
-  kOwnStop,     ///< its sender stopped it before he gave the order, or it has faulted: he may give it anew
-  kOthersStop,  ///< somebody else stopped it, or he himself after he gave the order: it is overtaken
+  kOwnStop,  ///< its sender stopped it before it gave the order, or it has faulted: the order may be repeated
+  kOthersStop,  ///< another stopped it, or its sender did after it gave the order: it is overtaken
 };
 
 class Challenges {

@@ -1,13 +1,12 @@
-// Bounds how often something may happen on the average, with a reserve for bursts, whoever asks for it, and shares it among those who
-// ask: whoever took more of late must leave more for the others, so that one who floods is refused while one who comes for the first
-// time is not. Sources that proved who they are have the last of the reserve to themselves, and what comes from their addresses the last
-// but that. Bounded memory. Time is an argument. Not for the loop.
+// Bounds how often something may happen on the average, with a reserve for bursts, and shares it among the sources that ask. A source
+// that took more lately must leave more for the others: one that floods is refused, and a new one is not. The last of the reserve is kept
+// for proven sources, and the part before it for the addresses of proven sources. Bounded memory. Time is an argument. Not for the loop.
 //
 // A source that took w within the last seconds (each counts for exp(-age / 4 s)) gets another one only where more is left than
 //   (burst / 2) w / (w + burst / 8) + burst / 8
 // without the last burst / 8 for a proven source, and with half of it for the address of one. The first one that a source takes so weighs
-// four. Against k that take what they can, once each has had its first: all together get the rate, and one that is new finds enough as
-// long as k is fewer than two seconds' rate, and than the sources that are remembered.
+// four. Let k sources take all they can, once each has had its first. Together they get the rate. A new source finds enough as long as k
+// is below two seconds' rate and below the number of remembered sources.
 #pragma once
 
 #include <array>
@@ -29,8 +28,7 @@ class FairShare {
   /// Beyond it the one whose proof is oldest is.
   static constexpr std::size_t kProven = 64;
 
-  /// `per_second` > 0 on the average, `burst` >= 1 at once, of all sources together. `salt`: nobody outside can tell which sources have
-  /// one row.
+  /// `per_second` > 0 on the average, `burst` >= 1 at once, of all sources together. `salt`: keeps secret which sources share a row.
   FairShare(double per_second, double burst, std::uint64_t salt = std::random_device{}())
       : bucket_(per_second, burst), salt_(salt), takers_(kRows * kTakersInRow) {}
 

@@ -23,7 +23,7 @@ class Ownership {
 
   Ownership(std::size_t joints, double lease_s) : lease_ns_(nanoseconds(lease_s)), leases_(joints) {}
 
-  /// Whether `holder` may order `joint`: nobody has it, or he has. A free joint is reserved for him.
+  /// Whether `holder` may order `joint`: it is free or owned by `holder`. A free joint is reserved for it.
   bool reserve(std::size_t joint, const Holder& holder, std::int64_t now_ns) {
     Lease& lease = leases_[joint];
     if (now_ns < lease.until_ns && !(lease.holder == holder)) return false;
@@ -53,7 +53,7 @@ class Ownership {
     return true;
   }
 
-  /// sender_id of who has the joint, 0: nobody.
+  /// sender_id of the owner, 0: none.
   std::int64_t owner_id(std::size_t joint, std::int64_t now_ns) const {
     const Lease& lease = leases_[joint];
     return lease.confirmed && now_ns < lease.until_ns ? lease.holder.sender_id : 0;
@@ -62,7 +62,7 @@ class Ownership {
   double lease_s(std::size_t joint, std::int64_t now_ns) const {
     return owner_id(joint, now_ns) == 0 ? 0.0 : seconds(leases_[joint].until_ns - now_ns);
   }
-  /// Of whoever keeps `joint` from others, reserved or owned.
+  /// The holder of `joint`, which is reserved or owned.
   const Holder& holder(std::size_t joint) const { return leases_[joint].holder; }
 
  private:

@@ -58,7 +58,7 @@ void PendingOrders::take_proved_table(std::int64_t now_ns) {
     return refuse(verdict, proved->box.reason, proved->box.text, now_ns);
   if (verdict.stop_count != admission_.stop_count(verdict.requester.joint))
     return refuse(verdict, Reason::kSuperseded,
-                  "the joint was stopped or faulted while the table was proved: give it anew", now_ns);
+                  "the joint was stopped or faulted while the table was proved: send it again", now_ns);
   verdict.text += proved->box.text;
   verdict.order.expires_cycle =
       loop_.statistics().cycle.load() + admission_.order_lifetime_cycles();  // fresh when it came

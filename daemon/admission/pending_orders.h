@@ -28,7 +28,7 @@ class PendingOrders {
   static constexpr std::int64_t kReplyTimeout_ns = 500'000'000;
   /// Of the places in which orders of a joint wait for its loop: a disable and a hold always find one.
   static constexpr std::size_t kPlacesForStops = 2;
-  /// Senders of equal stops that are told the one reply to them, beyond the first; half of the places are for those who sign.
+  /// Senders of equal stops that get the one reply to them, beyond the first; half of the places are for those who sign.
   static constexpr std::size_t kCompanions = 1024;
 
   PendingOrders(RealtimeLoop& loop, Admission& admission, Answers& answers);

@@ -36,8 +36,7 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
          << " rad/s (joint.supervision.standstill_rad_s)";
   else if (reply.reason == Reason::kTooOld)
     text << std::fixed << std::setprecision(0) << ": at_cycle = " << reply.value
-         << " is not to come any more, it is cycle " << reply.limit << "; from " << reply.limit + 1.0
-         << " is allowed";
+         << " has passed, this is cycle " << reply.limit << "; from " << reply.limit + 1.0 << " is allowed";
   else if (reply.reason == Reason::kStreamEnded)
     text << " and yielded to a load of " << std::setprecision(kShownDigits) << reply.value
          << " N.m (joint.limits.load_Nm allows " << limit
@@ -61,8 +60,7 @@ std::string path_advice(const Reply& reply, OrderKind kind) {
                                         : ": one of the path's joints moves, hold it first";
   if (reply.reason != Reason::kWrongMode) return "";
   if (kind == OrderKind::kLoadPath) return ": a path needs it enabled, and holding";
-  return ": it is on no path, and has none to begin or to go on with, or one of the path's joints is not "
-         "enabled";
+  return ": no path is loaded or in progress, or one of the path's joints is not enabled";
 }
 
 // Of an order that does nothing in the mode that it met: why, and what does.
@@ -121,7 +119,7 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
     case Reason::kTooOld:
       return mode +
              ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
-             "give it anew";
+             "send it again";
     case Reason::kVelocitiesContradict:
       return mode +
              ": velocity_rad_s is not the rate at which position_rad changes, and the stream has ended; send "

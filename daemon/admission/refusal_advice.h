@@ -1,5 +1,4 @@
-// What a refusal of the loop means for whoever gave the order: the mode that it met, the number that stood in its way, and the way on. In
-// words. Not real-time.
+// The text of a refusal by the loop: the mode of the joint, the number that was not allowed, and what to do. Not real-time.
 #pragma once
 
 #include <string>

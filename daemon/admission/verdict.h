@@ -34,7 +34,7 @@ inline Verdict repeat(const Requester& requester) {
   return verdict;
 }
 
-/// Counted, and not answered: nobody knows whom.
+/// Counted, and not answered: the sender is unknown.
 inline Verdict discard(Reason reason) {
   Verdict verdict;
   verdict.reason = reason;

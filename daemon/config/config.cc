@@ -119,8 +119,7 @@ SecurityPolicy read_security(TomlSection section, const LoopConfig& loop,
   const bool simulated = std::all_of(joints.begin(), joints.end(),
                                      [](const JointConfig& joint) { return joint.driver == "simulated"; });
   if (security.unsigned_allowed && !simulated)
-    section.fail("unsigned_orders",
-                 "\"refuse\" is allowed: only simulated joints may move for anybody who asks");
+    section.fail("unsigned_orders", "\"refuse\" is allowed: only simulated joints may take unsigned orders");
   const std::string keys = section.text_or("authorized_keys", "");
   section.refuse_unknown_keys();  // first: what is missing may be there under another name
   if (section.has("authorized_keys"))

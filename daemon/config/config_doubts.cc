@@ -168,8 +168,7 @@ void doubt_folder(const TomlSection& section, std::string_view key, const std::f
                           there.string() + ": " + std::generic_category().message(errno) +
                           "; name another folder, or have this one made for the daemon's user");
   else if (const auto exposure = find_exposure(there, Writers::kGroup))
-    section.warn(key,
-                 "somebody else can write there, and put what never was in place of a record: " + *exposure);
+    section.warn(key, "other users can write there, and could replace a record: " + *exposure);
   else if (there == std::filesystem::absolute(folder).lexically_normal() &&
            (std::filesystem::status(there, error).permissions() & std::filesystem::perms::others_write) !=
                std::filesystem::perms::none)

@@ -26,16 +26,16 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
 /// Of [[joint]]: an inertia that the torque limit can never accelerate as acceleration_rad_s2 has it.
 void doubt_inertia(const TomlSection& section, const JointConfig& joint);
 
-/// Of a joint's torque limit, of the configuration or the table, whichever is smaller: where the table's friction and the gravity that is told
-/// leave so little that the joint hardly moves or does not move at all.
+/// Of a joint's torque limit, of the configuration or the table, whichever is smaller: where the table's friction and the configured
+/// gravity leave so little that the joint hardly moves or does not move at all.
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table);
 
 /// Of [daemon], already read into `loop`.
 void doubt_loop(const TomlSection& section, const LoopConfig& loop);
 
-/// Of the folder that `key` names, which is made when something is written: that it cannot be made, or nothing written into it, by whoever asks; or
-/// that others can, too, as they may with no file that decides something.
+/// Of the folder that `key` names, which is made when something is written: that this user cannot make it or write into it; or that
+/// other users can, too.
 void doubt_folder(const TomlSection& section, std::string_view key, const std::filesystem::path& folder);
 
 }  // namespace strainwave

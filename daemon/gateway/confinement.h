@@ -15,7 +15,7 @@ bool has_system_call_filter() noexcept;
 /// every descriptor from `first_descriptor` on. One thread only.
 void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
 
-/// Silences the standard streams (whoever takes the gateway over writes no line into a log), forbids new processes and
+/// Silences the standard streams (an attacker in the gateway writes no line into a log), forbids new processes and
 /// growing files, bounds memory, and leaves the system calls of receiving and sending: any other ends the process. All threads.
 void confine();
 

@@ -39,8 +39,7 @@ bool wait_for_network(const strainwave::OutboundMemory& outbound, strainwave::In
     if (!said)
       std::fprintf(
           stderr,
-          "strainwave-gateway: LCM is not available on '%s', waiting for it: nobody hears the daemon "
-          "or reaches it meanwhile: %s\n",
+          "strainwave-gateway: waiting for LCM on '%s'; no client reaches the daemon until then: %s\n",
           url.c_str(), problem->c_str());
     if (!core_is_there()) return false;
     std::this_thread::sleep_for(kLookForNetwork);

@@ -91,7 +91,7 @@ struct InboundMemory {
 /// An anonymous memory file, mapped. Throws std::system_error. Not real-time.
 class MemoryFile {
  public:
-  /// A new file of `size` bytes, mapped writable; with `seal_writes` nobody else can map it writable afterwards.
+  /// A new file of `size` bytes, mapped writable; with `seal_writes` no other process can map it writable afterwards.
   static MemoryFile create(const char* name, std::size_t size, bool seal_writes);
   /// An existing one, mapped read-only or writable. Refuses a file smaller than `size`.
   static MemoryFile open(int descriptor, std::size_t size, bool writable);

@@ -17,7 +17,7 @@ class WakePipe {
   int core_end() const noexcept { return core_end_; }
   /// The end for the gateway to inherit: one byte is one wake.
   int gateway_end() const noexcept { return gateway_end_; }
-  /// Takes the wakes that wait, in one bounded read: whoever keeps writing keeps nobody here.
+  /// Takes the wakes that wait, in one bounded read, however much is written meanwhile.
   void take() noexcept;
 
  private:

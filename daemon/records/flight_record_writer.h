@@ -1,5 +1,5 @@
-// Writes flight records to files: from a thread of its own, so that a slow, full or absent disk holds up
-// nobody. Bounded in number, size and rate; oldest records make room. Not real-time.
+// Writes flight records to files: from a thread of its own, so that a slow, full or absent disk delays
+// nothing else. Bounded in number, size and rate; oldest records make room. Not real-time.
 #pragma once
 
 #include <condition_variable>

@@ -1,4 +1,4 @@
-// The order of amplifier and brake: a state machine that is told what is wanted and says what the outputs
+// The order of amplifier and brake: a state machine from what is wanted to what the outputs
 // are. Pure, real-time safe; time is an argument.
 //
 //   off --enable--> amplifier on, no torque, brake shut

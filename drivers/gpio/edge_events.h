@@ -1,6 +1,6 @@
-// Edges of GPIO lines of one chip, in their order and with proof that none is missing. It speaks the kernel's
-// GPIO uAPI v2 itself (linux/gpio.h): libgpiod 1.6 knows only v1, which has one queue of 16 events per line,
-// tells no order between lines and drops silently. read() and levels() are one system call each, never block
+// Edges of GPIO lines of one chip, in their order and with proof that none is missing. It uses the kernel's
+// GPIO uAPI v2 directly (linux/gpio.h). The API v1, the only one of libgpiod 1.6, has one queue of 16 events per line, no order
+// between lines, and silent losses. read() and levels() are one system call each, never block
 // and are real-time safe. Source: the kernel's include/uapi/linux/gpio.h.
 #pragma once
 

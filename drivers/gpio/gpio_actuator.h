@@ -1,7 +1,7 @@
-// A bare DC motor behind the seam: amplifier or H-bridge by PWM and digital lines, encoder by a hardware
-// counter or, slowly, by edges, temperature by a file. read(), write(), stop() and clear_fault() are
-// real-time safe as far as this side goes: each makes a few system calls (one per group of lines, one for the
-// PWM, one for the counter), none of which waits for anything but locks of the kernel's own drivers.
+// A bare DC motor behind the interface Actuator: amplifier or H-bridge by PWM and digital lines, encoder by a hardware
+// counter or, slowly, by edges, temperature by a file. The calls read(), write(), stop() and clear_fault() are real-time
+// safe on this side. Each makes a few system calls: one per group of lines, one for the PWM, one for the counter. None of
+// them waits for anything but locks of the kernel's own drivers.
 //
 // What stops the joint when this process dies is wiring, not software: docs/gpio.md.
 #pragma once
@@ -29,7 +29,7 @@ struct GpioMotionConfig {
   double period_s = 0.001;
 };
 
-/// The parts, made by whoever knows the configuration; `index` may be null.
+/// The parts, as the configuration has them; `index` may be null.
 struct GpioParts {
   std::unique_ptr<DigitalLines> lines;
   std::unique_ptr<PwmChannel> pwm;

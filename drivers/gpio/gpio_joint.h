@@ -32,8 +32,8 @@ struct GpioJointConfig {
 std::unique_ptr<Actuator> make_gpio_actuator(const GpioJointConfig& config);
 
 /// One line of text per line: role, place, direction, level, holder. Outputs are not requested, inputs only
-/// as they are and only when nobody holds them. False when a line is missing or held by somebody else; what
-/// is wrong with it is in its text.
+/// as they are and only when they are free. False when a line is missing or held by another process; the text
+/// says what is wrong.
 bool report_lines(const GpioJointConfig& config, std::ostream& out);
 
 }  // namespace strainwave

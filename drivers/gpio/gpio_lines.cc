@@ -98,7 +98,7 @@ LinePlace find_line(const LineOptions& options, const std::string& where) {
 
 std::string describe_holder(const LineInfo& info) {
   const std::string holder =
-      info.consumer.empty() ? "somebody without a name" : "\"" + printable(info.consumer) + "\"";
+      info.consumer.empty() ? "a process without a name" : "\"" + printable(info.consumer) + "\"";
   return "held by " + holder + ": end what uses it, or take its driver off the line";
 }
 

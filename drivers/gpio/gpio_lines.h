@@ -1,6 +1,5 @@
-// The digital lines of a joint by what they are for, wherever they are wired: names are looked up once, lines
-// of one chip with the same settings are requested together. read() and write() are real-time safe; the rest
-// is not.
+// The digital lines of a joint by what they are for, wherever they are wired. Names are looked up once, and lines
+// of one chip with the same settings are requested together. Real-time safe are read() and write() alone.
 //
 // True is active, whatever the polarity. Every output is inactive when it is requested and when this object
 // ends: wire them so that inactive is safe.
@@ -78,7 +77,7 @@ class DigitalLines {
 class GpioLines final : public DigitalLines {
  public:
   /// Requests every line of `lines` but edge inputs. Throws InputError before anything is driven: missing
-  /// chip, unknown or repeated line, a line that somebody holds. `where` is how messages name the section.
+  /// chip, unknown or repeated line, a line that is held. `where` is how messages name the section.
   GpioLines(const JointLines& lines, const std::string& consumer, const std::string& where);
   /// Outputs inactive, then released.
   ~GpioLines() override;

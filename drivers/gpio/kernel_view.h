@@ -1,5 +1,5 @@
-// Levels of lines that somebody holds, as the kernel's own list shows them (debugfs, for root only): nobody
-// else may ask. Not real-time. Source: gpiolib_dbg_show() of the kernel; its format is not promised, so what
+// Levels of lines that a process holds, as the kernel's own list shows them (debugfs, for root only); others
+// cannot request them. Not real-time. Source: gpiolib_dbg_show() of the kernel; its format is not promised, so what
 // does not look as expected is nothing.
 #pragma once
 

@@ -1,6 +1,6 @@
-// Lines of one GPIO chip, requested together with the same settings: the narrow seam to libgpiod, which has
-// two incompatible APIs. line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13);
-// pkg-config chooses one. read() and write() are one system call each and real-time safe; everything else is not.
+// Lines of one GPIO chip, requested together with the same settings. It hides libgpiod, which has two incompatible
+// APIs: line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13). The build chooses one by
+// pkg-config. Real-time safe are read() and write() alone, with one system call each.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class LineDirection { kAsIs, kInput, kOutput };
 struct LineInfo {
   unsigned offset = 0;
   std::string name;      ///< empty: none
-  std::string consumer;  ///< who holds it; empty: nobody, or somebody without a name
+  std::string consumer;  ///< its holder; empty: none, or one without a name
   bool held = false;
   bool output = false;
   bool active_low = false;

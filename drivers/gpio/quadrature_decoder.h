@@ -1,6 +1,7 @@
 // Counts of an incremental encoder from the edges of its two lines, four per line pair. Pure, real-time safe.
 //
-// A leads B in the direction of rising counts:   A  _/‾‾\__/‾‾\_      B  ___/‾‾\__/‾‾
+// A leads B in the direction of rising counts:
+//   A  _/‾‾\__/‾‾\_      B  ___/‾‾\__/‾‾
 // Every edge must change its line, follow its predecessor in sequence, and not come faster than the cap: a
 // breach is a fault, and what is counted afterwards means nothing until reset().
 #pragma once

@@ -1,6 +1,5 @@
 // One attribute file of sysfs that is kept open: a number is read or written in one system call, without
-// allocation. read() and write() are real-time safe as far as this side goes: behind a sysfs file stands a
-// kernel driver that may take locks.
+// allocation. On this side read() and write() are real-time safe; the kernel's driver may take locks.
 #pragma once
 
 #include <cstdint>

@@ -26,8 +26,8 @@ std::string introduction(const Chapter6& chapter) {
          "on the same joint: the plant has the Stribeck curve, the exponential law over temperature and true "
          "stiction; "
          "the controllers know only their gain tables. <b>Ideal</b>: exact state, no torque limit, as in the "
-         "source. "
-         "<b>Limited</b>: exact state, 34 N.m. <b>Realistic</b>: encoder of 320000 counts per revolution and "
+         "paper. <b>Limited</b>: exact state, 34 N.m. <b>Realistic</b>: encoder of 320000 counts per "
+         "revolution and "
          "no "
          "velocity sensor, one sample of computation delay, 34 N.m, supply and back-EMF. C1 and C3 know no "
          "temperature and no friction; C2 and C4 are scheduled and feed friction forward; C4+ is what "
@@ -36,7 +36,7 @@ std::string introduction(const Chapter6& chapter) {
          "motor and known "
          "friction, free to move at once; a controller with one sample of delay cannot come below the limit "
          "plus one "
-         "sample. The source states neither its sampling period nor its run length: compare "
+         "sample. The paper states neither its sampling period nor its run length: compare "
          "orderings.</p>\n<p>" +
          std::to_string(chapter.runs.size()) + " runs, " + number(static_cast<double>(chapter.periods), 4) +
          " periods of 1 ms with 10 sub-steps each, computed in " + number(chapter.computation_s, 3) +
@@ -79,7 +79,7 @@ void run(const Chapter6Options& options) {
 void add_chapter6_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<Chapter6Options>();
   CLI::App* command =
-      program.add_subcommand("chapter6", "Every controller in every scenario of the source's chapter 6");
+      program.add_subcommand("chapter6", "Every controller in every scenario of Zhao (2006), chapter 6");
   command->add_option("--tables", options->tables,
                       "folder with c1.json .. c4.json and rhs17-6006.json (default: the installed tables)");
   command->add_option("--data", options->data,

@@ -54,7 +54,7 @@ void add_loop_options(CLI::App& command, LoopOptions& options);
 /// Throws InputError.
 ClosedLoopConfig loop_config(const LoopOptions& options);
 
-/// "extended" (as the daemon runs it), "told" (as it does when told of the plant's spring and gravity), "plain" or "fallback"
+/// "extended" (as the daemon runs it), "told" (with the plant's spring and gravity in its model), "plain" or "fallback"
 /// with `table`, or "pid". Throws InputError for another kind.
 Contender contender_of_kind(const std::string& kind, const GainTable& table);
 

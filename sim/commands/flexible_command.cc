@@ -117,9 +117,9 @@ void add_flexible_command(CLI::App& program, CommandBody& chosen) {
   command->add_flag("--peers", options->peers,
                     "the daemon against servo cascades, disturbance observer and LQG, on "
                     "the grid alone");
-  command->add_flag("--wrong", options->wrong,
-                    "the daemon, and told load, stiffness, friction or delay wrongly; "
-                    "prints, writes nothing");
+  command->add_flag(
+      "--wrong", options->wrong,
+      "the daemon with a wrong load, stiffness, friction or delay in its model; prints, writes nothing");
   add_random_joints_options(*command, options->joints, "number of random joints, with --full or --wrong");
   command->callback([&chosen, options] {
     chosen = [options] {

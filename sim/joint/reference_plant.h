@@ -41,7 +41,7 @@ constexpr ThermalParameters reference_thermal() {
   return {1.2, 960.0, 0.0};
 }
 
-/// The source's setting: exact state, no torque limit, no delay.
+/// The setting of Zhao (2006): exact state, no torque limit, no delay.
 inline JointPlantConfig ideal_plant() {
   JointPlantConfig config;
   config.joint = reference_joint();

@@ -8,7 +8,7 @@
 
 namespace strainwave {
 
-/// Ideal: exact state, no torque limit (the source's). Limited: exact state, peak torque. Realistic: the datasheet.
+/// Ideal: exact state, no torque limit (Zhao, 2006). Limited: exact state, peak torque. Realistic: the datasheet.
 enum class Setting { kIdeal, kLimited, kRealistic };
 inline constexpr std::array kSettings = {Setting::kIdeal, Setting::kLimited, Setting::kRealistic};
 

@@ -1,4 +1,4 @@
-// The counterparts of the source's figures 4-6, 8-12 and 15-20. Offline.
+// The counterparts of the figures 4-6, 8-12 and 15-20 of Zhao (2006). Offline.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // The closed loop without real time: a controller against the plant over a reference and a temperature
-// profile, and the source's performance indices. Offline. Source: Zhao (2006), chapter 6; docs/theory.md, "Scenarios".
+// profile, and the paper's performance indices. Offline. Source: Zhao (2006), chapter 6; docs/theory.md, "Scenarios".
 //
 // Sample k at t = k ts: the controller sees the measurement and the setpoint of t; its torque acts over
 // [t, t + ts) after the plant's own delay and limits. With the true position:

@@ -1,4 +1,4 @@
-// Who takes part in a comparison: the source's PID, the plain table controllers C1..C4, and C4 as the daemon
+// Who takes part in a comparison: the PID of Zhao (2006), the plain table controllers C1..C4, and C4 as the daemon
 // runs it. Offline.
 #pragma once
 
@@ -60,14 +60,14 @@ class ExtendedLoopController final : public LoopController {
 };
 
 struct Chapter6Tables {
-  std::vector<GainTable> source;  ///< C1..C4, designed as the source does: by forward Euler, from his rules
+  std::vector<GainTable> source;  ///< C1..C4, designed as in Zhao (2006): by forward Euler, from its rules
   GainTable shipped;              ///< what a daemon runs: certified as sampled and held, from the catalogue
 };
 
 /// c1.json .. c4.json and rhs17-6006.json of `directory`. Throws InputError.
 Chapter6Tables read_chapter6_tables(const std::filesystem::path& directory);
 
-/// PID and C1..C4 of the source, and "C4+": the shipped table in the daemon's controller.
+/// PID and C1..C4 of Zhao (2006), and "C4+": the shipped table in the daemon's controller.
 std::vector<Contender> chapter6_contenders(const Chapter6Tables& tables);
 
 }  // namespace strainwave

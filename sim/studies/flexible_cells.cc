@@ -83,17 +83,17 @@ struct Wrong {
 
 const std::vector<Wrong>& wrongs() {
   static const std::vector<Wrong> list = {
-      {"load told 30 % too heavy", 1.3},
-      {"load told 30 % too light", 0.7},
-      {"stiffness told 25 % too high", 1.0, 1.25},
-      {"stiffness told 25 % too low", 1.0, 0.75},
+      {"load in the model 30 % too heavy", 1.3},
+      {"load in the model 30 % too light", 0.7},
+      {"stiffness in the model 25 % too high", 1.0, 1.25},
+      {"stiffness in the model 25 % too low", 1.0, 0.75},
       {"friction +30 %", 1.0, 1.0, 1.3},
       {"friction -30 %", 1.0, 1.0, 0.7},
       {"one period of delay more", 1.0, 1.0, 1.0, 1.0},
       {"one period of delay less", 1.0, 1.0, 1.0, -1.0},
       {"jitter 0.3 ms", 1.0, 1.0, 1.0, 0.0, 0.3},
-      {"told too slow, friction -30 %, jitter", 1.3, 0.75, 0.7, 0.0, 0.3},
-      {"told too fast, friction +30 %, jitter", 0.7, 1.25, 1.3, 0.0, 0.3}};
+      {"model too slow, friction -30 %, jitter", 1.3, 0.75, 0.7, 0.0, 0.3},
+      {"model too fast, friction +30 %, jitter", 0.7, 1.25, 1.3, 0.0, 0.3}};
   return list;
 }
 
@@ -115,7 +115,7 @@ double draw(std::mt19937_64& random, double low, double high) {
 
 void add_misconfigurations(const FlexibleCell& cell, std::vector<FlexibleCell>& cells) {
   FlexibleCell late = cell;
-  late.effect = "one more period of delay than told";
+  late.effect = "one more period of delay than configured";
   late.plant.delay.periods += 1.0;
   cells.push_back(late);
   FlexibleCell link = cell;
@@ -185,7 +185,7 @@ std::vector<FlexibleCell> wrongly_told_joints(int count, std::uint64_t seed) {
     cell.nominal.effects.gravity = cell.plant.effects.gravity;
     cell.effect = "none";
     cells.push_back(cell);
-    cells.push_back(wrongly_told(cell, {"random joints, told wrongly", draw(random, 0.7, 1.3),
+    cells.push_back(wrongly_told(cell, {"random joints, wrong model", draw(random, 0.7, 1.3),
                                         draw(random, 0.75, 1.25), draw(random, 0.7, 1.3)}));
   }
   return cells;

@@ -18,7 +18,7 @@ struct FlexibleCell {
   double temperature_C = 0.0;
   double step_rad = 0.0;
   std::string effect = "none";  ///< what the joint has besides
-  JointPlantConfig nominal;     ///< what the controllers are told
+  JointPlantConfig nominal;     ///< what the controllers know
   JointPlantConfig plant;       ///< what they run on
   double duration_s = 2.0;      ///< of a run; its last quarter is rest
 };
@@ -29,11 +29,11 @@ std::vector<FlexibleCell> flexible_grid();
 std::vector<FlexibleCell> effect_grid();
 /// JL / Jm 0.3, 1, 3 on two stiffnesses with 2 % damping: where the first controller of this project was found to oscillate.
 std::vector<FlexibleCell> first_grid();
-/// The joints of the grid with links up to 0.267 kg m2 as a controller is told of them (effect "none"), and each with one thing, or
-/// several, that it is told wrongly or not at all; what it is told then differs from the joint in `nominal`.
+/// The joints of the grid with links up to 0.267 kg m2, first with the right model (effect "none"). Then each has one thing or several
+/// that are wrong or missing in the model: `nominal` differs from the joint.
 std::vector<FlexibleCell> wrongly_told_grid();
-/// `count` joints of random_joints, effects and all, each twice: told as it is (effect "none") and with load, stiffness and friction
-/// told wrongly by up to 30, 25 and 30 %.
+/// `count` joints of random_joints, effects and all, each twice: with the right model (effect "none"), and with load, stiffness and
+/// friction wrong by up to 30, 25 and 30 %.
 std::vector<FlexibleCell> wrongly_told_joints(int count, std::uint64_t seed);
 /// Joints drawn at random around the grid, effects included; the cell depends on the seed and its number alone.
 std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed);

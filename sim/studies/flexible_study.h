@@ -54,7 +54,7 @@ struct FlexibleRow {
   std::vector<FlexibleResult> results;  ///< one per contender
 };
 
-/// Runs every contender on every cell; `progress` is told how many are done, from any thread, one call at a time.
+/// Runs every contender on every cell; `progress` gets how many are done, from any thread, one call at a time.
 std::vector<FlexibleRow> run_flexible(const std::vector<FlexibleCell>& cells,
                                       const std::vector<Contender>& contenders,
                                       const std::function<void(std::size_t)>& progress);

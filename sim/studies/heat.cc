@@ -129,7 +129,7 @@ std::vector<HeatRun> run_heat(const HeatConfig& config, const GainTable& table) 
 
 TextTable heat_summary(const std::vector<HeatRun>& runs) {
   TextTable table;
-  table.title = "What the controller is told of the temperature, and what it costs";
+  table.title = "What the controller knows of the temperature, and what it costs";
   table.header = {"temperature", "mean PI2 per move", "relative to exact",
                   "mean |error| at the end of a move (urad)", "joint at the end (degC)"};
   for (const HeatRun& run : runs)

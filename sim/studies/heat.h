@@ -1,4 +1,4 @@
-// What a wrong temperature costs: a joint works for minutes, its losses warm it, and the controller is told
+// What a wrong temperature costs: a joint works for minutes, its losses warm it, and the controller knows
 // the temperature exactly, late, biased, only that of the surroundings, or not at all. Offline.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The controllers of chapter 6 as the closed loop runs them: a gain table's controller and the source's PID.
+// The controllers of chapter 6 as the closed loop runs them: a gain table's controller and the PID of Zhao (2006).
 // torque_Nm() is real-time safe.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace strainwave {
 /// What the daemon's controller is given of `sample`, with a temperature that need not be the sensor's; NaN: it is not known.
 JointMeasurement measurement_of(const LoopSample& sample, double temperature_C) noexcept;
 
-/// Backward difference of the measured position, as the source takes velocity from the encoder; 0 at the
+/// Backward difference of the measured position, as Zhao (2006) takes velocity from the encoder; 0 at the
 /// first sample.
 class BackwardDifference {
  public:
@@ -50,14 +50,14 @@ class FeedbackLoopController final : public LoopController {
   double temperature_C_ = std::numeric_limits<double>::quiet_NaN();  ///< of the last layer-1 evaluation
 };
 
-/// Gains of the source's PID on e = setpoint - position.
+/// Gains of that PID on e = setpoint - position.
 struct PidGains {
   double proportional_Nm_rad = 430.1;
   double integral_Nm_rads = 1430.1;
   double derivative_Nms_rad = 7.95;
 };
 
-/// The source's PID: P e + I sum ts e + D (e_k - e_(k-1)) / ts, no anti-windup. Before the first sample the
+/// The PID of Zhao (2006): P e + I sum ts e + D (e_k - e_(k-1)) / ts, no anti-windup. Before the first sample the
 /// error is taken as that of the first sample.
 class PidLoopController final : public LoopController {
  public:

@@ -16,7 +16,7 @@ namespace strainwave {
 /// ahead of what the controller needs (JointController::lead_s()).
 class StreamedController final : public LoopController {
  public:
-  /// What it is told of the temperature: the sensor's plus `shift_C`, always the same, or nothing.
+  /// What it knows of the temperature: the sensor's plus `shift_C`, always the same, or nothing.
   struct Told {
     std::optional<double> fixed_C;
     double shift_C = 0.0;  ///< NaN: the sensor is missing

@@ -1,4 +1,4 @@
-// Tables 8 to 11 of the source beside ours. Offline.
+// Tables 8 to 11 of Zhao (2006) beside ours. Offline.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace strainwave {
 
-/// What the source reports: data/performance_index.csv.
+/// What Zhao (2006) reports: data/performance_index.csv.
 struct SourceIndex {
   int table = 0;
   std::string index;  ///< "PI1" or "PI2"
@@ -21,7 +21,7 @@ struct SourceIndex {
 std::vector<SourceIndex> read_source_indices(const std::filesystem::path& path);
 
 /// One table per index, scenario and setting: a row per contender, in each range our value and, in the next
-/// column, the source's where it has one; for PI2 also the ratio to the physical limit.
+/// column, the paper's where it has one; for PI2 also the ratio to the physical limit.
 std::vector<TextTable> performance_tables(const Chapter6& chapter, const std::vector<SourceIndex>& source);
 
 /// Every number of every run, one row each, for further use.

@@ -14,8 +14,8 @@ struct PhysicalLimit {
 };
 
 /// The programme of a run of a joint with a spring: one step from rest at one temperature under one load. Throws InputError that names
-/// the key, its value and what is allowed for every effect that is not linear (gravity, contact, friction of the link that sticks, kinematic
-/// error, lost motion, presliding, friction by torque, current loop, ripple, jitter), and for what changes during the run.
+/// the key, its value and what is allowed for every effect that is not linear, and for what changes during the run. Not linear are gravity,
+/// contact, stiction of the link, kinematic error, lost motion, presliding, friction by torque, current loop, ripple and jitter.
 LinkLimitConfig link_limit_of_run(const ClosedLoopConfig& config);
 
 /// Throws InputError as above; of a rigid joint for the effects, too, and as run_time_optimal() does.

@@ -1,4 +1,4 @@
-// The scenarios of Zhao (2006), chapter 6, with what the source leaves open fixed (docs/theory.md): which
+// The scenarios of Zhao (2006), chapter 6, with what it leaves open fixed (docs/theory.md): which
 // setpoints, which temperature, for how long, on which plant. Offline.
 #pragma once
 

@@ -1,6 +1,6 @@
-// What it is worth to know the temperature: ways to meet friction, each on the joint with a spring, cold and warm, on moves and in slow
-// tracking, the sensor right or wrong, at the first move and at the hundredth. Every way follows the same path; what counts is the
-// link's distance from it. Offline; uses all cores; the result does not depend on how many. Source: docs/why-temperature.md.
+// What it is worth to know the temperature: ways to compensate friction, each on the joint with a spring. The joint is cold or warm, moves
+// or tracks slowly, its sensor is right or wrong, at the first move and at the hundredth. Every way follows the same path; what counts is
+// the link's distance from it. Offline; uses all cores; the result does not depend on how many. Source: docs/why-temperature.md.
 #pragma once
 
 #include <array>

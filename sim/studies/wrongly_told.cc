@@ -69,7 +69,8 @@ TextTable wrongly_told_summary(const std::vector<WronglyToldRow>& rows) {
       wrongs.push_back(row.cell.effect);
   TextTable table;
   table.title =
-      "Told wrongly: the link's sum above 40 urad over that of the same joint told as it is; median, 95 %";
+      "Wrong model: the link's sum above 40 urad over that of the same joint with the right model; median, "
+      "95 %";
   table.header = {"wrong",
                   "joints",
                   "0.001 rad",

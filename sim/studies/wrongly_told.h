@@ -1,5 +1,5 @@
-// What it costs the daemon's controller to be told a joint's spring, load, friction or delay wrongly: the same joint twice, once told as
-// it is. Offline; uses all cores; the result does not depend on how many. Source: docs/flexible-joint.md.
+// What a wrong spring, load, friction or delay in its model costs the daemon's controller: the same joint twice, once with the right
+// model. Offline; uses all cores; the result does not depend on how many. Source: docs/flexible-joint.md.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ struct WronglyToldRow {
 std::vector<WronglyToldRow> run_wrongly_told(const std::vector<FlexibleCell>& cells,
                                              const Contender& contender);
 
-/// A row for each thing that is told wrongly, in the order of the cells.
+/// A row for each thing that is wrong in the model, in the order of the cells.
 TextTable wrongly_told_summary(const std::vector<WronglyToldRow>& rows);
 
 }  // namespace strainwave

@@ -1,8 +1,8 @@
 // The server that viewers and Prometheus connect to: HTTP, and on the same port the Foxglove WebSocket protocol. One thread, which also
 // hears LCM. Not real-time.
 //
-// Whoever connects may be hostile: requests and messages have a longest size and a time in which they must be here; as many as wait
-// for their request, or watch, are limited; what a slow viewer does not fetch is dropped (send_queue.h).
+// A client may be hostile: requests and messages have a largest size and a time in which they must be complete. The numbers of
+// waiting connections and of viewers are limited. What a slow viewer does not fetch is dropped (send_queue.h).
 #pragma once
 
 #include <cstdint>

@@ -90,11 +90,11 @@ class Conversation:
         self.wait_for_state()
         seen = self.messages
         if now_s() - self.received_s > self.timeout_s and not self.network.wait_until(lambda: self.messages > seen, _OLD_STATE_S):
-            raise NoAnswer(f"{self.joint}: has been silent for {now_s() - self.received_s:.1f} s; its state is not known")
+            raise NoAnswer(f"{self.joint}: no state for {now_s() - self.received_s:.1f} s; is strainwaved running?")
         return self.state
 
     def open_inbox(self):
-        """A queue that gets every state from now on, with when it came; the oldest are lost when nobody takes them."""
+        """A queue that gets every state from now on, with when it came; the oldest are lost when they are not taken."""
         inbox = collections.deque(maxlen=_INBOX)
         with self.network.changed:
             self._inboxes.append(inbox)
@@ -115,7 +115,7 @@ class Conversation:
         state, stood_s = self.state, now_s() - begin_s
         if stood_s > patience_s:
             raise NotDone(f"{self.joint}: this program stood still for {stood_s:.1f} s after the call, and the order was not sent: see what the "
-                          "joint does, then give it anew")
+                          "joint does, then give it again")
         return state
 
     def request(self, kind, message, order, prepare=None, hint="", state=None):
@@ -173,7 +173,7 @@ class Conversation:
         return Reason(ack.reason), text_of(ack.text), overtaken
 
     def forget_sent(self):
-        """What send() sent before is answered to nobody."""
+        """Answers to what send() sent before are dropped."""
         with self.network.changed:
             self._sent.clear()
             self._refusals.clear()
@@ -227,9 +227,9 @@ class Conversation:
             self._refusals.append(ack)
 
     def silence(self):
-        """"its state stopped coming 3.2 s ago" where none came for half a second, or for the time-out if that is less; else empty."""
+        """"no state for 3.2 s" where none came for half a second, or for the time-out if that is less; else empty."""
         silent_s = now_s() - self.received_s
-        return f"its state stopped coming {silent_s:.1f} s ago" if silent_s >= min(_SILENCE_S, self.timeout_s) else ""
+        return f"no state for {silent_s:.1f} s" if silent_s >= min(_SILENCE_S, self.timeout_s) else ""
 
     def fell_silent(self, what):
         """The NoAnswer of a joint that did; what: how that is to be called."""

@@ -49,7 +49,7 @@ class Joint:
         return Limits(self._conversation.limits, self._conversation.received_s)
 
     def states(self, duration_s=math.inf):
-        """Every State that comes, in order, for `duration_s`. Whoever is too slow for them sees gaps in `cycle`. Raises NoAnswer,
+        """Every State that comes, in order, for `duration_s`. A caller that is too slow sees gaps in `cycle`. Raises NoAnswer,
         InvalidInput.
         """
         if duration_s != math.inf:
@@ -63,7 +63,7 @@ class Joint:
             while True:
                 if not self._wait_until(lambda: inbox, self._timeout_s):
                     self._conversation.wait_for_state()  # says more when there never was one
-                    raise self._conversation.fell_silent("fell silent")
+                    raise self._conversation.fell_silent("lost contact with strainwaved")
                 message, received_s = inbox.popleft()
                 end_s = received_s + duration_s if end_s is None else end_s
                 if received_s > end_s:
@@ -124,11 +124,11 @@ class Joint:
             raise NotDone(f"{self.name}: homing was stopped before it found home")
 
     def take_over(self):
-        """The joint is this user's, whoever has it; an engineer's right."""
+        """Makes this user the owner of the joint, also where another client owns it. Needs the role engineer."""
         self._order(Action.TAKE_OVER)
 
     def release(self):
-        """The joint is nobody's, before its lease ends."""
+        """Gives the joint up before its lease ends: it has no owner."""
         self._order(Action.RELEASE)
 
     def reset_learning(self):

@@ -60,7 +60,7 @@ def _host_of(source):
 class Reassembly:
     """Whole messages from datagrams: one slot for a source, SLOTS in all, each with one message of at most LARGEST_MESSAGE bytes.
 
-    When all slots are taken, the host that holds most of them loses its oldest: whoever opens many pushes out his own alone.
+    When all slots are taken, the host that holds most of them loses its oldest, so a host that opens many loses only its own.
     """
 
     def __init__(self):

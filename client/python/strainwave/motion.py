@@ -130,7 +130,7 @@ class MotionWatch:
         """True once it is done. Raises NotDone, NoAnswer when it ended otherwise."""
         joint, conversation = self.conversation.joint, self.conversation
         if now_s() - conversation.received_s > conversation.timeout_s:
-            raise NoAnswer(f"{joint}: the daemon fell silent during the motion: {conversation.silence()}; what the joint does is not known")
+            raise NoAnswer(f"{joint}: lost contact with strainwaved during the motion: {conversation.silence()}; the joint may still be moving")
         state = State(conversation.state, conversation.received_s)
         if self._replaced is not None and not self._replaced(state):
             self._observe(state)

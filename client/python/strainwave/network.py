@@ -1,4 +1,4 @@
-"""The LCM network: a socket that hears the group, one that sends, and a thread that hands messages to whoever listens.
+"""The LCM network: a socket that hears the group, one that sends, and a thread that hands messages to the listeners.
 
 The thread ends with the program. Handlers run in it, one message at a time, while `changed` is held; waiting is done with wait_until().
 """

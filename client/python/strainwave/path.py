@@ -70,7 +70,7 @@ class Path:
 
     def wait(self, tolerance_rad=1e-3, timeout_s=None):
         """Returns once every joint is within `tolerance_rad` of its last knot and stays there: {joint: Arrival}, timed from now. Waits while
-        somebody has paused the path, too: Notice.PATH_PAUSED and path_time_s of the state tell. Raises Faulted, NoAnswer, and NotDone: after
+        the path is paused, too: see Notice.PATH_PAUSED and path_time_s of the state. Raises Faulted, NoAnswer, and NotDone: after
         `timeout_s`, which says where the path is and whether it is paused, or when something else ended it. Of a path that another program
         started, too, while it is under way; of one that is not, NotDone soon, also where the joints stand at its end.
         """

@@ -108,7 +108,7 @@ class Stream:
             self._check_refusals()
             if not network.wait_until(lambda: self._restarted() or conversation.state.cycle >= self._last_cycle,
                                       self._ahead_s + conversation.timeout_s):
-                raise conversation.fell_silent("fell silent before the stream's end")
+                raise conversation.fell_silent("lost contact with strainwaved before the stream's end")
             self._check_refusals()
         finally:
             if self._last_cycle is not None:
@@ -127,7 +127,7 @@ class Stream:
             if self._last_cycle is not None:
                 self._joint.hold()
         except StrainwaveError as second:
-            error.add_note(f"and the joint could not be told to hold: {second}")
+            error.add_note(f"and the hold did not reach the joint: {second}")
 
     def _checked(self, name, value, allowed, is_allowed, keys="", hint=lambda number: ""):
         return check_number(name, value, allowed, is_allowed, self._joint.name, keys, hint)

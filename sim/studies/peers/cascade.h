@@ -1,7 +1,7 @@
 // The cascade of a servo drive: a proportional position loop around a proportional-integral velocity loop, with or without velocity and
-// acceleration fed forward, with or without a notch in its torque. Real-time safe. Sources: the symmetrical optimum (sim/studies/peers/servo_peer.h), whose integral time is
-// twice the reciprocal of its crossover; position loop at a quarter of the velocity loop, within the makers' "at least twice" (Kinco
-// CD420 manual, 8.1).
+// acceleration fed forward, with or without a notch in its torque. Real-time safe. Sources: the symmetrical optimum
+// (sim/studies/peers/servo_peer.h), whose integral time is twice the reciprocal of its crossover; position loop at a quarter of the
+// velocity loop, within the makers' "at least twice" (Kinco CD420 manual, 8.1).
 //
 //   wv = velocity bandwidth,  kp = wv / 4,  Kv = J wv,  Ti = 2 / wv
 //   v  = kp (p_r - p) + v_r
@@ -32,8 +32,8 @@ class CascadePeer final : public ServoPeer {
   double integral_Nm_ = 0.0;
 };
 
-/// With feed-forward and a notch at the resonance. It is a tenth as wide: the narrowest of the drives that are named in notch_filter.h,
-/// and the best of a tenth to the whole of it on the grid of docs/flexible-joint.md, for a wider one delays the loop that damps the swing.
+/// With feed-forward and a notch at the resonance. It is a tenth as wide: the narrowest of the drives that are named in notch_filter.h.
+/// Of a tenth to the whole it is the best on the grid of docs/flexible-joint.md, for a wider one delays the loop that damps the swing.
 std::unique_ptr<CascadePeer> notched_cascade(ServoJoint joint);
 
 }  // namespace strainwave

@@ -1,5 +1,5 @@
 // Linear quadratic Gaussian control of both masses from the motor's encoder: a Kalman filter of the joint with its spring, to which
-// friction and load are a torque at the motor, and the optimal regulator of what the filter finds. step() is real-time safe.
+// friction and load are a torque at the motor, and the optimal regulator of the filter's estimate. Real-time safe: step().
 // Sources: Anderson and Moore, "Optimal Control: Linear Quadratic Methods" (1990), chapters 7 and 8; weights as Bryson and Ho (1975) set
 // them, each one over the square of what is acceptable.
 //
@@ -21,7 +21,7 @@
 
 namespace strainwave {
 
-/// All > 0. Of each error what is acceptable for `torque_Nm`, and what the Kalman filter is told of noise: standard deviations.
+/// All > 0. Of each error what is acceptable for `torque_Nm`, and the noise in the Kalman filter's model: standard deviations.
 struct LqgWeights {
   double torque_Nm = 0.0;
   double link_position_rad = 0.0;

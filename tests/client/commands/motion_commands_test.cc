@@ -164,9 +164,8 @@ TEST_F(CommandsTest, MoveSaysSoWhenTheDaemonFallsSilent) {
   daemon.modes_after_answer = {Mode::kTracking};
   EXPECT_EQ(move_and_wait(0.5), ExitStatus::kNoAnswer);
   EXPECT_EQ(message,
-            "elbow: the daemon fell silent during the motion: its state stopped coming 0.3 s ago; what the "
-            "joint does is not "
-            "known");
+            "elbow: lost contact with strainwaved during the motion: no state for 0.3 s; the joint may still "
+            "be moving");
 }
 
 TEST_F(CommandsTest, AMoveOfMoreThanAnHourIsRefusedWithTheLeastSpeedThatIsAllowed) {

@@ -37,7 +37,7 @@ TEST_F(PublishedLimitsTest, OfADaemonThatWasStartedAnewAreNotThoseFromBefore) {
     (void)limits.wait_for("elbow");
     ADD_FAILURE() << "they were those from before";
   } catch (const NoAnswer& error) {
-    EXPECT_STREQ(error.what(), "elbow: its limits are not known: its state stopped coming 2.0 s ago");
+    EXPECT_STREQ(error.what(), "elbow: its limits are not known: no state for 2.0 s");
   }
   daemon.limits.position_max_rad = 2.0;
   daemon.publish_limits();

@@ -183,8 +183,8 @@ TEST_F(AdmissionTest, RefusesAnotherSession) {
   message.session_id = kSession + 1;
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
   EXPECT_EQ(verdict.reason, Reason::kWrongSession);
-  EXPECT_TRUE(
-      verdict.text.ends_with("it was started anew since; see what the joint does, then give the order anew"))
+  EXPECT_TRUE(verdict.text.ends_with(
+      "strainwaved has restarted since. See what the joint does, then send the order again"))
       << verdict.text;
 }
 
@@ -269,7 +269,7 @@ TEST_F(AdmissionTest, ReleasesWithoutTheLoopAndTakesOverWithTheEndOfAStream) {
   EXPECT_EQ(admission_.ownership().owner_id(0, 0), 0);
   const Verdict again = consider(wire("SW.elbow.COMMAND", command(Action::kRelease)));
   EXPECT_EQ(again.reason, Reason::kNotOwner);
-  EXPECT_NE(again.text.find("nobody has the joint"), std::string::npos) << again.text;
+  EXPECT_NE(again.text.find("the joint has no owner"), std::string::npos) << again.text;
   command_v1 take = command(Action::kTakeOver);
   take.sender_id = 2;
   const Verdict taken = consider(wire("SW.elbow.COMMAND", take));
