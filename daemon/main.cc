@@ -26,17 +26,17 @@ int main(int argc, char** argv) {
   bool check_only = false;
   app.add_option("--config", config_path, "configuration file (TOML)")->required();
   app.add_flag("--check", check_only,
-               "load all that the start would, say whether the daemon would start here, and end");
+               "load every file, report whether the daemon would start here, and exit");
   bool check_lines = false;
   app.add_flag("--check-lines", check_lines,
                "list the digital lines of all joints with their holders, and exit");
   bool check_drives = false;
   app.add_flag("--check-drives", check_drives,
-               "do to the drives all that start-up does, enable none, and end");
+               "set up and check the drives as at start-up, enable none, and exit");
   std::string data_sheet;
   app.add_option(
       "--check-data-sheet", data_sheet,
-      "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and end");
+      "run start-up against a CANopen drive's electronic data sheet (EDS) instead of the drive, and exit");
   std::string gateway_socket;
   app.add_option(
       "--gateway-socket", gateway_socket,
@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
                  {"/var/lib/strainwave/", "flight records"},
                  {"/usr/share/doc/strainwave/config/reference.toml", "every key of a configuration"}},
        .examples = {{"strainwaved --config strainwaved.toml --check", "whether it would start, and why not"},
-                    {"strainwaved --config strainwaved.toml", "run, until a signal ends it in order"}},
+                    {"strainwaved --config strainwaved.toml",
+                     "run until a signal; every joint comes to rest before the end"}},
        .see_also = {"strainwavectl(1)", "strainwave-telemetry(8)", "strainwave-design(1)"}});
   // A log that may not grow or has lost its reader is no reason to end.
   ::signal(SIGXFSZ, SIG_IGN);

@@ -30,12 +30,12 @@ void add_log_options(CLI::App& command, FitOptions& options) {
     return command.add_option(name, value, help)->needs(logs)->capture_default_str();
   };
   logs->needs(add("--prior", log.prior, "friction file of the catalogue, which the logs correct"));
-  add("--joint", log.joint, "which joint, when a log holds several");
+  add("--joint", log.joint, "the joint, where a log holds several");
   add("--prior-common", log.weights.common,
       "relative deviation from the catalogue that all temperatures share");
   add("--prior-own", log.weights.own, "relative deviation of each temperature rule by itself");
   add("--torque-uncertainty", log.weights.torque_uncertainty, "relative deviation of the torque measurement");
-  add("--confidence", log.confidence, "of the intervals");
+  add("--confidence", log.confidence, "confidence level of the intervals");
   add("--wanted", log.wanted, "relative half width above which a temperature is called missing");
 }
 
@@ -83,7 +83,7 @@ void add_fit_command(CLI::App& program, CommandBody& chosen) {
       ->check(CLI::IsMember({"keep", "leave-out"}))
       ->capture_default_str();
   command->add_flag("--unconstrained", options->fit.unconstrained, "allow negative or rising friction");
-  command->add_option("--seed", options->fit.seed, "of the search; the same seed gives the same result")
+  command->add_option("--seed", options->fit.seed, "seed of the search; the same seed gives the same result")
       ->capture_default_str();
   command->add_option("--threads", options->fit.threads, "0: every core; the result does not depend on it")
       ->capture_default_str();

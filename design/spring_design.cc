@@ -45,8 +45,10 @@ SpringDesign design_on_spring(Controller controller, TableRequest request, const
     refused = certified;
     certified += kQuarters;
     if (certified > kSoftest * kQuarters)
-      throw NotAchieved("gains: no gains are certified on this spring, down to a torque weight of " +
-                        number_text(request.design.weights.torque) + ": " + verdict.text);
+      throw NotAchieved(
+          "gains: no gains are certified for this range of flexible joints, down to a torque weight of " +
+          number_text(request.design.weights.torque) +
+          ". Narrow --load-inertia_kgm2, or give a --damping_Nms_rad above 0. " + verdict.text);
     best.table = try_weight(certified);
   }
   best.text = verdict.text;

@@ -25,9 +25,8 @@ BoxRange parse_range(const std::string& place, const std::string& key, const std
 }  // namespace
 
 void add_spring_options(CLI::App& command, SpringOptions& options) {
-  CLI::Option* const load =
-      command.add_option("--load-inertia_kgm2", options.load_inertia_kgm2,
-                         "also on a joint whose gear is a spring, with links of FROM..TO behind it");
+  CLI::Option* const load = command.add_option("--load-inertia_kgm2", options.load_inertia_kgm2,
+                                               "also for a flexible joint, with a link inertia of FROM..TO");
   command
       .add_option(
           "--motor-inertia_kgm2", options.motor_inertia_kgm2,

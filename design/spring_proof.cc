@@ -177,8 +177,8 @@ std::string describe(const SpringProof& proof) {
       break;
     case SpringOutcome::kNotFound:
       text << "NOT CERTIFIED: no proof found with at most " << proof.most_cells
-           << " cells; the cutting ended from " << describe(corner_plant(proof.cell, false)) << " to "
-           << describe(corner_plant(proof.cell, true));
+           << " cells; the last one without a proof reaches from "
+           << describe(corner_plant(proof.cell, false)) << " to " << describe(corner_plant(proof.cell, true));
       break;
   }
   return text.str();

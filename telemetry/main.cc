@@ -55,8 +55,8 @@ strainwave::ExitStatus serve(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App program(
-      "Shows what is said on LCM: as a page, in Foxglove (WebSocket) and in Prometheus (metrics). It only "
-      "listens.");
+      "Shows the messages on LCM as a page, in Foxglove (WebSocket) and in Prometheus (metrics). It sends "
+      "nothing on LCM.");
   strainwave::configure_program(
       program,
       {.program = "strainwave-telemetry",

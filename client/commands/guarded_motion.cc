@@ -23,7 +23,7 @@ std::string hold_joint(Client& client, const std::string& joint) {
     order.action = static_cast<std::int32_t>(Action::kHold);
     const Answer answer = client.request(joint, channel_kind::kCommand, order);
     if (answer.accepted) return joint + " holds where it stops";
-    return fmt::format("{} did not take the hold ({})", joint, to_text(answer.reason));
+    return fmt::format("{} refused the hold ({})", joint, to_text(answer.reason));
   } catch (const ClientError& error) {
     return fmt::format("the hold did not reach {} ({}); its stream of setpoints expires by itself", joint,
                        error.what());

@@ -30,7 +30,7 @@ void keygen(const Output& output, const KeygenArguments& arguments) {
   const std::string file = arguments.out.string();
   say(output,
       fmt::format(
-          "{0}: the secret key; keep it to yourself, use it with --key {0} or STRAINWAVE_KEY={0}\n"
+          "{0}: the secret key; keep it secret, use it with --key {0} or STRAINWAVE_KEY={0}\n"
           "{0}.pub: its public line, for the file that the daemon's security.authorized_keys names:\n{1}",
           file, to_line(key)),
       {{"secret_key", file}, {"public_key", file + ".pub"}, {"line", to_line(key)}});

@@ -282,10 +282,10 @@ void Stream::lose() {
 void Stream::leave_out(std::int64_t cycle) {
   ++late_;
   if (static_cast<double>(cycle - *last_cycle_) * period_s_ > options_.valid_for_s)
-    throw NotDone(fmt::format(
-        "{}: no sample came in time for valid_for_s = {} s: the stream is over; compute faster, or "
-        "farther ahead with ahead_s",
-        link_->name(), options_.valid_for_s));
+    throw NotDone(
+        fmt::format("{}: stream timed out after {} late samples (valid_for_s = {} s). Send samples earlier, "
+                    "or give a larger ahead_s; Joint::stream() opens a new stream",
+                    link_->name(), late_, options_.valid_for_s));
 }
 
 }  // namespace strainwave

@@ -31,7 +31,7 @@ void wait_for_mode(Client& client, const std::string& joint, const Decided& deci
   const std::string mode(to_text(mode_of(view)));
   throw NoAnswer(silence.empty()
                      ? fmt::format("{}: accepted, but still {} after {} s", joint, mode, timeout_s)
-                     : fmt::format("{}: accepted, but {}, when it was {}", joint, silence, mode),
+                     : fmt::format("{}: accepted, but then {}; it was {}", joint, silence, mode),
                  joint);
 }
 

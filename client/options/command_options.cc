@@ -77,9 +77,8 @@ void add_common_options(CLI::App& app, Invocation& invocation) {
   app.add_option("--key", invocation.options.key_file, "the secret key to sign orders with (see keygen)")
       ->envname("STRAINWAVE_KEY")
       ->type_name("FILE");
-  app.add_option(
-         "--timeout_s", invocation.options.timeout_s,
-         "longest wait for a state, an answer or a change of mode; not of --wait for a motion or a pause")
+  app.add_option("--timeout_s", invocation.options.timeout_s,
+                 "longest wait for a state, an answer or a change of mode; does not limit --wait")
       ->check(time_out_validator())
       ->capture_default_str()
       ->type_name("SECONDS");

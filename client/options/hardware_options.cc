@@ -18,12 +18,11 @@ std::shared_ptr<std::filesystem::path> add_config(CLI::App& command) {
 
 void add_can_check(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
-      app.add_subcommand("can-check", "do to the drives all that start-up does, enable none (no daemon)");
+      app.add_subcommand("can-check", "set up and check the drives as at start-up, enable none (no daemon)");
   const auto config = add_config(*command);
   auto data_sheet = std::make_shared<std::filesystem::path>();
   command
-      ->add_option("--eds", *data_sheet,
-                   "a drive's electronic data sheet, to check against in the drives' place")
+      ->add_option("--eds", *data_sheet, "electronic data sheet (EDS) to check against instead of the drives")
       ->type_name("FILE");
   command->callback([&invocation, config, data_sheet] {
     invocation.local_command = [config, data_sheet](const Output& output) {
@@ -34,7 +33,7 @@ void add_can_check(CLI::App& app, Invocation& invocation) {
 
 void add_gpio_check(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand(
-      "gpio-check", "digital lines of a configuration: level and who holds them (no daemon)");
+      "gpio-check", "show the digital lines of a configuration: level and holder (no daemon)");
   const auto config = add_config(*command);
   command->callback([&invocation, config] {
     invocation.local_command = [config](const Output& output) { gpio_check(output, *config); };
@@ -44,7 +43,7 @@ void add_gpio_check(CLI::App& app, Invocation& invocation) {
 }  // namespace
 
 void add_hardware_commands(CLI::App& app, Invocation& invocation) {
-  CLI::App* scan = app.add_subcommand("can-scan", "who is on a CAN bus: reads only (no daemon)");
+  CLI::App* scan = app.add_subcommand("can-scan", "list the nodes of a CAN bus; reads only (no daemon)");
   auto interface_name = std::make_shared<std::string>();
   scan->add_option("IFACE", *interface_name, "CAN interface, such as can0")->required()->type_name("");
   scan->callback([&invocation, interface_name] {

@@ -8,7 +8,8 @@ namespace strainwave {
 
 void add_identify_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand(
-      "identify", "steady speeds in both directions, recorded for strainwave-design fit --log; Ctrl-C holds");
+      "identify",
+      "move at steady speeds in both directions, recorded for strainwave-design fit --log; Ctrl-C holds");
   auto arguments = std::make_shared<IdentifyArguments>();
   auto range = std::make_shared<std::vector<double>>();
   auto torque_Nm = std::make_shared<double>(0.0);

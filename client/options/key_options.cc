@@ -7,7 +7,7 @@
 namespace strainwave {
 
 void add_key_commands(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("keygen", "a new key to sign orders with");
+  CLI::App* command = app.add_subcommand("keygen", "make a new key to sign orders with");
   auto arguments = std::make_shared<KeygenArguments>();
   auto role = std::make_shared<std::string>(to_text(Role::kOperator));
   command->add_option("--out", arguments->out, "the secret key; its public line goes to FILE.pub")
@@ -16,7 +16,7 @@ void add_key_commands(CLI::App& app, Invocation& invocation) {
   command->add_option("--role", *role, "operator: setpoints and commands; engineer: also gain tables")
       ->check(CLI::IsMember({"operator", "engineer"}))
       ->capture_default_str();
-  command->add_option("--comment", arguments->comment, "whose key it is; otherwise user@host");
+  command->add_option("--comment", arguments->comment, "owner of the key; otherwise user@host");
   command->callback([&invocation, arguments, role] {
     arguments->role = *parse_role(*role);
     invocation.local_command = [arguments](const Output& output) { keygen(output, *arguments); };

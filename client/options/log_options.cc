@@ -10,7 +10,7 @@ namespace {
 
 void add_record(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
-      app.add_subcommand("record", "every message of the prefix to an LCM event log, until Ctrl-C");
+      app.add_subcommand("record", "record every message of the prefix in an LCM event log, until Ctrl-C");
   auto arguments = std::make_shared<RecordArguments>();
   add_joints(*command, arguments->joints, "only these joints; none: all of the prefix");
   command->add_option("--out", arguments->file, "the log, readable by lcm-logplayer")
@@ -50,8 +50,8 @@ void add_export(CLI::App& app, Invocation& invocation) {
 }
 
 void add_play(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand(
-      "play", "the setpoints of a log once more, signed afresh with --key, in their own time");
+  CLI::App* command =
+      app.add_subcommand("play", "replay the setpoints of a log with their timing, signed again with --key");
   auto arguments = std::make_shared<PlayArguments>();
   command->add_option("LOG", arguments->log, "from record, or from lcm-logger")->required()->type_name("");
   command->add_option("--joint", arguments->joint, "the joint that the setpoints were for, and that moves")
@@ -71,7 +71,7 @@ void add_plot_record(CLI::App& app, Invocation& invocation) {
   auto around_s = std::make_shared<double>(0.0);
   command->add_option("FILE", arguments->file, "the record")->required()->type_name("");
   command->add_option("--out", arguments->out, "the picture; otherwise FILE.png")->type_name("PNG");
-  add_seconds(*command, "--around_s", *around_s, "draw only so much before and after the fault");
+  add_seconds(*command, "--around_s", *around_s, "draw only this much time before and after the fault");
   command->callback([&invocation, arguments, around_s] {
     if (*around_s > 0.0) arguments->around_s = *around_s;
     invocation.local_command = [arguments](const Output& output) { plot_record(output, *arguments); };

@@ -9,7 +9,8 @@ namespace strainwave {
 namespace {
 
 void add_status(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("status", "what every joint does now, or every field of one joint");
+  CLI::App* command =
+      app.add_subcommand("status", "show the state of every joint, or every field of one joint");
   auto joint = std::make_shared<std::string>();
   add_joint(*command, *joint);
   command->callback([&invocation, joint] {
@@ -20,14 +21,13 @@ void add_status(CLI::App& app, Invocation& invocation) {
 }
 
 void add_timing(CLI::App& app, Invocation& invocation) {
-  app.add_subcommand("timing", "real time or not, overruns, worst latencies, refused messages")
+  app.add_subcommand("timing", "show real-time state, overruns, worst latencies and refused messages")
       ->callback([&invocation] { invocation.command = show_timing; });
 }
 
 void add_watch(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand(
-      "watch",
-      "a full screen of joints over time; keys stop, enable, hold, clear and jog; ? explains, q ends");
+      "watch", "watch joints on a full screen; keys stop, enable, hold, clear and jog; ? explains, q quits");
   auto arguments = std::make_shared<WatchArguments>();
   add_joints(*command, arguments->joints, "joints; none: all");
   add_seconds(*command, "--interval_s", arguments->interval_s,

@@ -81,7 +81,7 @@ void add_path(CLI::App& app, Invocation& invocation) {
   command->add_flag(
       "--wait", arguments->wait,
       "return once all joints have reached the end of the path; reports when the path is paused");
-  add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
+  add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "tolerance of --wait")
       ->capture_default_str();
   command->callback([&invocation, arguments] {
     invocation.command = [arguments](Client& client, const Output& output) {
@@ -97,17 +97,19 @@ void add_move(CLI::App& app, Invocation& invocation) {
   auto position = std::make_shared<std::string>();
   auto others = std::make_shared<std::vector<std::string>>();
   add_joint(*command, arguments->joint)->required();
-  command->add_option("POSITION_rad", *position, "where to, in rad, joint side")->required()->type_name("");
+  command->add_option("POSITION_rad", *position, "target position in rad, joint side")
+      ->required()
+      ->type_name("");
   command
       ->add_option("JOINT POSITION_rad", *others,
                    "other joints of the daemon, which leave and arrive with this one")
       ->type_name("");
   add_positive(
       *command, "--speed-limit_rad_s", arguments->speed_limit_rad_s, "RAD/S",
-      "no faster than this; otherwise calmly: a quarter of the limit, or joint.limits.move_speed_share");
+      "speed limit of the move; otherwise a quarter of the joint's, or joint.limits.move_speed_share of it");
   command->add_flag("--wait", arguments->wait,
-                    "return once the joint is there and stays; says how long it took");
-  add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "what --wait takes for there")
+                    "return once the joint has arrived and stays; prints the time");
+  add_positive(*command, "--tolerance_rad", arguments->tolerance_rad, "RAD", "tolerance of --wait")
       ->capture_default_str();
   command->callback([&invocation, arguments, position, others] {
     arguments->position_rad = parse_position_rad(*position);
@@ -174,7 +176,7 @@ void add_friction(CLI::App& app, Invocation& invocation) {
 
 void add_inject(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
-      app.add_subcommand("inject", "give a simulated drive a fault, for tests (none: end them)");
+      app.add_subcommand("inject", "inject a fault into a simulated drive, for tests (none: end all)");
   auto joint = std::make_shared<std::string>();
   auto kind = std::make_shared<std::string>();
   auto amount = std::make_shared<double>(0.0);
@@ -185,7 +187,7 @@ void add_inject(CLI::App& app, Invocation& invocation) {
       ->type_name("");
   command->add_option("--amount", *amount, "how much, for the faults that have an amount")
       ->type_name("NUMBER");
-  add_seconds(*command, "--for_s", *for_s, "how long; otherwise until ended");
+  add_seconds(*command, "--for_s", *for_s, "duration; otherwise until ended");
   command->callback([&invocation, joint, kind, amount, for_s] {
     const InjectArguments arguments = parse_injection(*joint, *kind, *amount, *for_s);
     invocation.command = [arguments](Client& client, const Output& output) {
@@ -201,11 +203,12 @@ void add_order_commands(CLI::App& app, Invocation& invocation) {
   add_order_to_each(app, invocation, "disable", "stop and switch the drive off", disable);
   add_move(app, invocation);
   add_path(app, invocation);
-  add_order(app, invocation, "pause", "stop on the path that the joint is on, with all of its joints",
-            pause_path);
-  add_order(app, invocation, "resume", "go on along that path, with all of its joints", resume_path);
+  add_order(app, invocation, "pause", "pause the path of this joint, for all joints of the path", pause_path);
+  add_order(app, invocation, "resume", "resume the path of this joint, for all joints of the path",
+            resume_path);
   add_order_to_each(app, invocation, "hold", "stop and hold where it stops", hold);
-  add_order_to_each(app, invocation, "clear-fault", "leave a latched fault, to off", clear_fault);
+  add_order_to_each(app, invocation, "clear-fault", "clear a latched fault; the joint stays off",
+                    clear_fault);
   add_order_to_each(app, invocation, "take-over",
                     "become the owner of a joint that another client owns (role engineer)", take_over);
   add_order_to_each(app, invocation, "release", "give the joint up before its lease ends", release);

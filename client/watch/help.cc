@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 21> kHelp{
     "temp_C       what schedules the gains; 'from' says where it comes from",
     "notes        faults, and limits in force; docs/faults.md explains each",
     "rules        weight of each temperature rule, cold to warm",
-    "rejects      orders that the daemon refused, of anybody, by reason",
+    "rejects      orders that the daemon refused, from all clients, by reason",
     "",
     "white on red: fault, silence, or two daemons on the same channels",
     "black on amber: a limit is in force, or an order was refused",

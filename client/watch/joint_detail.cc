@@ -112,7 +112,7 @@ void put_text(const WatchModel& model, const WatchedJoint& joint, Lines& lines) 
   if (joint.limits) lines.put("limits", limits_text(joint));
   lines.put("gains", gains_text(model, joint));
   if (const std::string rejects = rejects_text(model, joint); !rejects.empty())
-    lines.put("rejects", rejects + " (since the daemon's start, from anybody)");
+    lines.put("rejects", rejects + " (since the daemon's start, from all clients)");
 }
 
 struct Curve {

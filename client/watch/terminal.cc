@@ -51,7 +51,7 @@ Terminal::Terminal() {
   opened = ::newterm(nullptr, stdout, stdin);
   if (opened == nullptr)
     throw ClientError(ExitStatus::kUsage,
-                      "this terminal cannot be used as a whole (TERM is not known): say watch --plain");
+                      "this terminal cannot be used as a whole (TERM is not known): use watch --plain");
   ::cbreak();
   ::noecho();
   ::nonl();

@@ -92,7 +92,7 @@ std::optional<Verdict> Admission::check_fresh(const WireMessage& message, std::i
     return refuse(
         requester, Reason::kTooOld,
         "the order quotes a challenge that the STATE channel has not carried for about a second: it was "
-        "kept back on its way, or made from an old state; send it again");
+        "delayed on its way, or made from an old state; send it again");
   }
   const Sent order{requester.sender_id, requester.sequence, claimed_key(message)};
   switch (challenges_.since(challenge, requester.joint, order)) {
@@ -153,7 +153,7 @@ std::optional<Verdict> Admission::check_signed(const WireMessage& message, std::
   const AuthorizedKey& signer = security_.keys[key];
   if (!verify(message.channel.view(), signer.key, payload(message)))
     return refuse(requester, Reason::kBadSignature,
-                  "the signature is not that of this message on this channel by the key it names");
+                  "the signature does not match this message, its channel and its key");
   if (signer.role < needed)
     return refuse(requester, Reason::kRoleNotAllowed,
                   "the key of " + signer.comment + " has the role " + std::string(to_text(signer.role)) +

@@ -70,7 +70,7 @@ std::string mode_advice(Mode mode, OrderKind kind) {
       return ": it has no torque, and there is no motion to stop; enable it, and it holds where it is";
     if (mode == Mode::kFaulted)
       return ": its drive is off already; clear the fault and enable it, and it holds where it is";
-    return mode == Mode::kStopping ? ": it comes to rest already, and is off then"
+    return mode == Mode::kStopping ? ": it is stopping already, and will be off"
                                    : ": it will hold once it is on";
   }
   if (kind == OrderKind::kClearFault) return ": it has no fault to clear";
@@ -114,8 +114,8 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
       return mode + ", and the daemon brings every joint to rest: start it again";
     case Reason::kStreamEnded:
       return mode +
-             ", and this stream of setpoints is not under way: it expired, or a hold, stop, fault, enable or "
-             "another order ended it; begin a new one";
+             ", and this stream of setpoints has ended: it expired, or a hold, stop, fault, enable or "
+             "another order ended it. Begin a new one";
     case Reason::kTooOld:
       return mode +
              ": the order waited in the daemon for longer than an order lives, or is from before a fault; "
@@ -130,7 +130,7 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
     case Reason::kAtLimitSwitch:
       return mode + " at a limit switch: only a move away from it is possible";
     case Reason::kNoHoming:
-      return mode + ", and joint.homing says of no switch or index that it is home";
+      return mode + ", and joint.homing names no switch or index as its home";
     case Reason::kDriveNotReady:
       return mode + ", and its drive gives no position: check supply and connection";
     case Reason::kWrongMode:

@@ -92,8 +92,9 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
   }
   doubt_motion(section, loop);
   if (limits.temperature_limit_C > kHottest_C)
-    section.warn("temperature_limit_C", "no gear's grease bears it; if degrees Fahrenheit are meant, write " +
-                                            rounded((limits.temperature_limit_C - 32.0) / 1.8));
+    section.warn("temperature_limit_C",
+                 "too hot for the grease of any gear; if degrees Fahrenheit are meant, write " +
+                     rounded((limits.temperature_limit_C - 32.0) / 1.8));
   if (section.has("overspeed_rad_s") && limits.overspeed_rad_s > kLargeOverspeed * speed_rad_s)
     section.warn("overspeed_rad_s", "a joint that runs away is stopped only at " +
                                         number_text(limits.overspeed_rad_s / speed_rad_s) +
@@ -173,8 +174,7 @@ void doubt_folder(const TomlSection& section, std::string_view key, const std::f
            (std::filesystem::status(there, error).permissions() & std::filesystem::perms::others_write) !=
                std::filesystem::perms::none)
     section.warn(
-        key,
-        "everybody can write there, and leave what looks like a record: name a folder of the daemon's own");
+        key, "every user can write there, and could leave a false record: name a folder of the daemon's own");
 }
 
 void doubt_loop(const TomlSection& section, const LoopConfig& loop) {

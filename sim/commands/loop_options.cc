@@ -20,7 +20,7 @@ void add_random_joints_options(CLI::App& command, RandomJoints& joints, const st
   command.add_option("--joints", joints.count, number_of)
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command.add_option("--seed", joints.seed, "of the random joints")->capture_default_str();
+  command.add_option("--seed", joints.seed, "seed of the random joints")->capture_default_str();
 }
 
 void add_loop_options(CLI::App& command, LoopOptions& options) {

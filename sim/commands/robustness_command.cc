@@ -48,7 +48,7 @@ void add_robustness_command(CLI::App& program, CommandBody& chosen) {
                    "nominal plant: flexible, realistic, limited, ideal or a plant file")
       ->capture_default_str();
   command->add_option("--draws", study.draws, "number of joints")->capture_default_str();
-  command->add_option("--seed", study.seed, "of the draws")->capture_default_str();
+  command->add_option("--seed", study.seed, "seed of the draws")->capture_default_str();
   command->add_option("--inertia-spread", study.inertia_spread, "relative, either way")
       ->capture_default_str();
   command->add_option("--friction-spread", study.friction_spread, "relative, either way")
@@ -57,7 +57,7 @@ void add_robustness_command(CLI::App& program, CommandBody& chosen) {
       ->capture_default_str();
   command->add_option("--payload-torque_Nm", study.payload_torque_Nm, "load torque up to this, either way")
       ->capture_default_str();
-  command->add_option("--setpoint_rad", study.setpoint_rad, "where it is to go")->capture_default_str();
+  command->add_option("--setpoint_rad", study.setpoint_rad, "target position")->capture_default_str();
   command->add_option("--duration_s", study.duration_s, "length of a run")->capture_default_str();
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->callback([&chosen, options] {

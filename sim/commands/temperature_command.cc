@@ -54,7 +54,7 @@ void run(const TemperatureOptions& options) {
 void add_temperature_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<TemperatureOptions>();
   CLI::App* command = program.add_subcommand(
-      "temperature", "What it is worth to know the temperature: ways to meet friction, cold and warm");
+      "temperature", "What it is worth to know the temperature: ways to compensate friction, cold and warm");
   add_tables_option(*command, options->tables);
   command->add_option("--out", options->out, "folder to write to")->capture_default_str();
   command->callback([&chosen, options] {

@@ -207,4 +207,4 @@ class Joint:
     def _wait_for(self, decided):
         if not self._wait_until(decided, self._timeout_s):
             mode, silence = self._mode().text, self._conversation.silence()
-            raise NoAnswer(f"{self.name}: accepted, but " + (f"{silence}, when it was {mode}" if silence else f"still {mode} after {self._timeout_s:g} s"))
+            raise NoAnswer(f"{self.name}: accepted, but " + (f"then {silence}; it was {mode}" if silence else f"still {mode} after {self._timeout_s:g} s"))

@@ -235,6 +235,6 @@ class Stream:
     def _leave_out(self, cycle):
         self.late += 1
         if (cycle - self._last_cycle) * self._period_s > self._valid_for_s:
-            raise NotDone(f"{self._joint.name}: no sample came in time for valid_for_s = {self._valid_for_s} s: the stream is over; "
-                          "compute faster, or farther ahead with ahead_s")
+            raise NotDone(f"{self._joint.name}: stream timed out after {self.late} late samples "
+                          f"(valid_for_s = {self._valid_for_s} s). Send samples earlier, or give a larger ahead_s; Joint.stream() opens a new stream")
         return False

@@ -127,7 +127,7 @@ TEST_F(CommandsTest, EnableThatNeverEndsIsNoSuccess) {
   daemon.publish_state();
   daemon.modes_after_answer = {Mode::kStarting};
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);
-  EXPECT_EQ(message, "elbow: accepted, but no state for 0.3 s, when it was starting");
+  EXPECT_EQ(message, "elbow: accepted, but then no state for 0.3 s; it was starting");
   StateAfterState states(connection, daemon);
   daemon.publish_state();
   EXPECT_EQ(status_of([&] { enable(client, output, "elbow"); }), ExitStatus::kNoAnswer);

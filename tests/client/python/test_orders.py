@@ -148,7 +148,7 @@ class Orders(PlayedOrders):
 
         self.publish_state(Mode.OFF)
         self.network.daemon = daemon
-        with self.assertRaisesRegex(NoAnswer, "^elbow: accepted, but no state for 0.2 s, when it was starting$"):
+        with self.assertRaisesRegex(NoAnswer, "^elbow: accepted, but then no state for 0.2 s; it was starting$"):
             self.impatient_elbow.enable()
         self.publish_state(Mode.HOLDING)
         self.network.daemon = lambda *entry: self.answer(published(*entry))
