@@ -162,7 +162,7 @@ TEST_F(HostileSystem, ALogThatNobodyReadsKeepsNoOrderBack) {
   EXPECT_EQ(daemon_->wait_for_end(seconds(10)), 0);
   const ssize_t length = ::read(pipe[0], text.data(), text.size());
   ASSERT_GT(length, 0);
-  EXPECT_NE(text.substr(0, static_cast<std::size_t>(length)).find("lines of this log got lost"),
+  EXPECT_NE(text.substr(0, static_cast<std::size_t>(length)).find("lines of this log lost"),
             std::string::npos);
   ::close(pipe[0]);
   ::close(pipe[1]);

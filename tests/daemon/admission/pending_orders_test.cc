@@ -126,7 +126,7 @@ TEST_F(PendingOrdersTest, ThatDoNothingInTheModeThatTheyMetSayWhatDoes) {
       {OrderKind::kHold, Mode::kOff,
        "the joint is off: it has no torque, and there is no motion to stop; enable it"},
       {OrderKind::kHold, Mode::kFaulted, "the joint is faulted: its drive is off already; clear the fault"},
-      {OrderKind::kHold, Mode::kStopping, "it comes to rest already"},
+      {OrderKind::kHold, Mode::kStopping, "it is stopping already"},
       {OrderKind::kSetpoint, Mode::kOff, "motion needs it enabled"},
       {OrderKind::kSetpoint, Mode::kHoming, "wait until it has found home"},
       {OrderKind::kSetpoint, Mode::kReleasing, "it is being enabled, wait until it holds"},

@@ -105,7 +105,7 @@ TEST_F(RecorderConfigTest, DoubtsADirectoryInWhichOthersCanWrite) {
   };
   expect_mentions(doubts("open", perms::all), {"recorder.directory = \"open\"", "can write there"});
   expect_mentions(doubts("open/made/later", perms::all), {"other users can write there", "/open"});
-  expect_mentions(doubts("open", perms::all | perms::sticky_bit), {"everybody can write there"});
+  expect_mentions(doubts("open", perms::all | perms::sticky_bit), {"every user can write there"});
   EXPECT_EQ(doubts("open/made/later", perms::all | perms::sticky_bit), "") << "as a folder under /tmp";
   EXPECT_EQ(doubts("open", perms::owner_all | perms::group_all), "");
 }
