@@ -86,7 +86,7 @@ class Streams(PlayedOrders):
         self.assertFalse(stream.put(1, 0.5))
         self.assertEqual((stream.late, len(self.network.published)), (1, 1))
         self.publish_state(Mode.TRACKING, cycle=9000)
-        with self.assertRaisesRegex(NotDone, "the stream is over"):
+        with self.assertRaisesRegex(NotDone, "stream timed out after 2 late samples"):
             stream.put(4, 0.5)
 
     def test_know_the_cycle_though_their_program_stood_still_and_hears_old_states_first(self):
