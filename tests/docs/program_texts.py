@@ -15,7 +15,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include.*$', re.MULTILINE)
 
 def comments(text):
     """(line, text) of each paragraph: comments of consecutive lines, apart at an empty or indented line (a formula) or a bullet."""
-    block, last, trailing = [], -1, False
+    block, last, beside = [], -1, False
     for token in TOKEN.finditer(text):
         if not token['comment']:
             continue
@@ -25,13 +25,14 @@ def comments(text):
             said = re.sub(r'^\s*(?:/\*+|///?<?|\*(?!/))|\*/\s*$', '', raw)
             formula = bool(re.match(r'\s{2,}\S', said))
             item = re.match(r'\s*(?:[-*]|\d+[.)])\s', said)
-            if block and (number != last + 1 or not said.strip() or formula or item or begin):
+            new = begin or beside and not raw.lstrip().startswith('///<')  # another member than the one that the last line is beside
+            if block and (number != last + 1 or not said.strip() or formula or item or new):
                 yield block[0][0], '\n'.join(part for _, part in block)
                 block = []
             last = number
             if said.strip() and not formula and not re.match(r'\s*(?:NOLINT|clang-format|SPDX)', said):
                 block.append((number, said.strip()))
-            begin = False
+            begin, beside = False, begin or beside and not new
     if block:
         yield block[0][0], '\n'.join(part for _, part in block)
 
