@@ -1,5 +1,5 @@
-// Keeps a gateway at work: starts it and waits for it, starts it again when it has ended, ends it when it hangs, and says in
-// the log what it drops. Not real-time.
+// Keeps a gateway running: starts it and waits for it, restarts it when it has ended, and ends it when it hangs. The log says what
+// it drops. Not real-time.
 #pragma once
 
 #include <cstdint>

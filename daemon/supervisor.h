@@ -1,6 +1,6 @@
-// The core's ordinary thread: everything around the loop that may block, allocate or log. It starts the gateway, admits
-// what comes from it, passes orders to the joints and answers, publishes slow messages, logs, tells systemd how it goes,
-// and ends the daemon in order. Not real-time.
+// The core's ordinary thread: everything around the loop that may block, allocate or log. It starts the gateway, admits its messages,
+// passes orders to the joints and answers them. It also publishes slow messages, logs, reports to systemd, and ends the daemon in order.
+// Not real-time.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // The seam between the loop and a drive. Everything behind it (CAN, GPIO, the simulated plant) looks the same: once a
 // period the loop reads, computes, writes. All quantities at the joint side, SI.
 //
-// Real-time rules: the constructor of a driver may block, allocate and throw InputError; read(), write() and stop() are
-// called from the real-time thread, never block, allocate or throw, and report trouble as a fault in the reading.
+// Real-time rules: the constructor of a driver may block, allocate and throw InputError. The real-time thread calls
+// read(), write() and stop(), which never block, allocate or throw. They report trouble as a fault in the reading.
 #pragma once
 
 #include <cstdint>

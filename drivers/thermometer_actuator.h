@@ -1,5 +1,5 @@
-// A drive whose temperature is measured beside it: holds another Actuator and puts the temperature of a file in the
-// place of the drive's own. read(), write(), stop() and clear_fault() are real-time safe; the constructor is not.
+// A drive whose temperature is measured beside it: holds another Actuator and replaces the drive's temperature by that of a
+// file. All but the constructor is real-time safe.
 #pragma once
 
 #include <memory>

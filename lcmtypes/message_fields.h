@@ -1,6 +1,5 @@
-// Every field of the messages that people look at, under its own name, in the message's order: the one list
-// that CSV and JSON are made from. key_id and signature are left out: they say nothing to a reader. A test
-// compares the lists with lcmtypes/*.lcm. Not real-time.
+// Every field of the messages for people, by its name and in the message's order. CSV and JSON are made from this one list. key_id and
+// signature are left out: they say nothing to a reader. A test compares the lists with lcmtypes/*.lcm. Not real-time.
 #pragma once
 
 #include <span>

@@ -51,9 +51,8 @@ struct ExportArguments {
 };
 void export_log(const Output& output, const ExportArguments& arguments);
 
-/// Sends the setpoints that a log holds for `joint` once more, in their own time, as new orders: signed with
-/// the key that must be given, for the session of now. A pause after a stream becomes a hold. An interrupt or
-/// a refusal holds the joint.
+/// Replays the setpoints of a log for `joint` with their timing, as new orders. They are signed with the key, for the present session. A
+/// pause after a stream becomes a hold. An interrupt or a refusal holds the joint.
 struct PlayArguments {
   std::filesystem::path log;
   std::string joint;
@@ -61,8 +60,8 @@ struct PlayArguments {
 void play(Client& client, const Output& output, const PlayArguments& arguments);
 
 /// Moves `joint` at steady speeds, each in both directions, and records everything for strainwave-design fit
-/// --log. Limits are checked before anything moves; an interrupt, a fault, another order or too much torque
-/// ends it in a hold, and so does the end of this program, because the setpoints are a stream.
+/// --log. Limits are checked before anything moves. An interrupt, a fault, another order or too much torque ends it in a hold. So
+/// does the end of this program, because the setpoints are a stream.
 struct IdentifyArguments {
   std::string joint;
   std::filesystem::path file;

@@ -24,8 +24,8 @@ class GuardedJoint {
   /// A setpoint was accepted: what states tell of a load from now on, old ones aside, is this motion's.
   void accepted() { old_states_ = Deadline(kOldStates_s); }
 
-  /// Throws ClientError unless the joint is as it must be: the same daemon, heard of within the last half second, enabled, without a
-  /// fault, not yielding to a load, no order of this client refused.
+  /// Throws ClientError unless the daemon is the same, with a state within the last half second. The joint must be enabled,
+  /// without a fault and not yielding to a load, and no order of this client refused.
   void require_undisturbed();
 
  private:

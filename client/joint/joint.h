@@ -1,5 +1,6 @@
-// A joint of a Strainwave daemon, for programs of users: orders that are signed, acknowledged and repeated, streams of setpoints, states
-// with names and units. docs/client.md has programs of ten lines. Not real-time: every call may wait, at most `timeout_s` for one answer.
+// A joint of a Strainwave daemon, for users' programs. Orders are signed, acknowledged and repeated; there are streams of setpoints, and
+// states with names and units. docs/client.md has programs of ten lines. Not real-time: every call may wait, at most `timeout_s` for one
+// answer.
 //
 //     strainwave::Joint joint{"elbow", {.key = "~/.strainwave-key"}};
 //     joint.enable();

@@ -1,5 +1,5 @@
-// What Joint and its Streams share: one connection, what is heard of the joint on it, and a thread that listens while the program does
-// something else, so that what the system keeps of the network never grows old. Not real-time.
+// What Joint and its Streams share: one connection, the joint's messages on it, and a thread that receives them. The thread works while the
+// program does something else, so that no message waits in the system's queue. Not real-time.
 #pragma once
 
 #include <deque>

@@ -63,8 +63,8 @@ class Client {
   std::vector<JointName> wait_for_heard();
 
   /// Sends `message` (setpoint_v2, command_v1, gain_table_v2 or inject_v1) to `joint` on the channel of `kind` and waits
-  /// for the answer. Throws ClientError when the joint is not heard or no answer comes. Whatever becomes of it, it quotes one
-  /// state, the latest of now: so the daemon refuses it once it is a second old, or the joint was stopped or has faulted since.
+  /// for the answer. Throws ClientError when the joint is not heard or no answer comes. It quotes the latest state, also when it is
+  /// repeated. So the daemon refuses it once that is a second old, or the joint was stopped or has faulted since.
   template <typename Message>
   Answer request(const std::string& joint, std::string_view kind, const Message& message) {
     Message prepared = message;

@@ -81,8 +81,8 @@ class Connection {
   /// Throws ClientError when LCM does not take the message.
   void publish(const std::string& channel, std::span<const std::uint8_t> bytes);
 
-  /// From now on a thread of its own reads the network, ahead of handle() by as much as memory has room for, and missing() counts: for who
-  /// wants to have everything. With memq:// nothing changes.
+  /// From now on a separate thread reads the network, ahead of handle() by as much as memory has room for, and missing() counts.
+  /// This is for recorders, which need every message. With memq:// nothing changes.
   void read_ahead();
   /// Messages that `from` sent since then and that did not come; all of the network's losses and ours.
   std::uint64_t missing(const LcmSource& from) const noexcept { return missing_.of(from); }

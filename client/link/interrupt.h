@@ -1,10 +1,11 @@
-// Ctrl-C, SIGTERM and the SIGHUP of a terminal that is lost as a flag, so that a wait ends in order: files closed, the user told what goes on. Not real-time.
+// A flag for Ctrl-C, SIGTERM and the SIGHUP of a lost terminal. With it a wait ends in order: files are closed, and the user is informed.
+// Not real-time.
 #pragma once
 
 namespace strainwave {
 
-/// From now on SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program; one that is ignored, as below nohup, stays so. The same
-/// one again ends it at once.
+/// From now on SIGINT, SIGTERM and SIGHUP set the flag instead of ending the program; one that is ignored, as below nohup, stays so. The
+/// same one again ends it at once.
 void catch_interrupts();
 
 /// True once a signal has come.

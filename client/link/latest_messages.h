@@ -1,5 +1,5 @@
 // The latest message of one kind from every joint (or daemon) that is heard, under any prefix. Bytes from the network are
-// hostile: messages of another size or type, and channels that are none of ours, are ignored, and who makes up names pushes out his own
+// hostile: messages of another size or type, and other channels, are ignored. A sender that makes up names loses only its own
 // (transport/fair_places.h). Not real-time.
 #pragma once
 

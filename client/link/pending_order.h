@@ -27,9 +27,9 @@ Answer to_answer(const ack_v1& ack);
 class PendingOrder {
  public:
   static constexpr int kRepetitions = 3;
-  /// How often an order of so many bytes is sent before it is given up: four times, and once more for each further packet that Ethernet
-  /// cuts it into. A message is lost with any one of its packets. At a loss of 1 packet in 10, four transmissions of a path's part would
-  /// leave 1 of 14 without an answer. These leave 1 of 350, and of commands 1 of 770.
+  /// How often an order of so many bytes is sent before it is given up: four times, and once more for each further packet of Ethernet. A
+  /// message is lost with any one of its packets. At a loss of 1 packet in 10, four transmissions of a path's part would leave 1 of 14
+  /// without an answer. These leave 1 of 350, and of commands 1 of 770.
   static constexpr int most_transmissions(std::size_t bytes) noexcept {
     constexpr std::size_t kPacketBytes = 1472;  // of 1500, without the headers of IP and UDP
     const std::size_t packets = std::max<std::size_t>(1, (bytes + kPacketBytes - 1) / kPacketBytes);

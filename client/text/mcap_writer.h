@@ -1,7 +1,7 @@
 // An MCAP file, which Foxglove, PlotJuggler and the mcap readers of many languages open. Not real-time.
 //
-// Messages are gathered into chunks that are compressed by themselves (zstd) and written whole: a file whose writer was killed is
-// readable to its last chunk. finish() adds the indexes and the statistics that make opening a large file quick.
+// Messages are gathered into chunks, each compressed by itself (zstd) and written whole. So a file whose writer
+// was killed is readable to its last chunk. The call of finish() adds indexes and statistics, with which a large file opens quickly.
 //
 // Source: the MCAP specification, https://mcap.dev/spec, version 0 (magic "\x89MCAP0\r\n"); all numbers little-endian.
 #pragma once

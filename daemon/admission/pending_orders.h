@@ -1,5 +1,5 @@
-// Orders that were admitted, until they are answered: hands them to their joints' loops, puts tables where the loop does not look,
-// waits for the replies, and says to whom an answer is owed. Not real-time.
+// Orders that were admitted, until they are answered. It hands them to the joints' loops, stores tables where the loop does not look,
+// waits for the replies, and names the clients to answer. Not real-time.
 #pragma once
 
 #include <cstdint>

@@ -26,8 +26,8 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
 /// Of [[joint]]: an inertia that the torque limit can never accelerate as acceleration_rad_s2 has it.
 void doubt_inertia(const TomlSection& section, const JointConfig& joint);
 
-/// Of a joint's torque limit, of the configuration or the table, whichever is smaller: where the table's friction and the configured
-/// gravity leave so little that the joint hardly moves or does not move at all.
+/// Of a joint's torque limit, the smaller of configuration and table: where the table's friction and the configured gravity leave so little
+/// of it that the joint hardly moves or does not move at all.
 std::vector<std::string> doubt_torque(const std::string& joint, const JointControllerConfig& controller,
                                       const GainTable& table);
 

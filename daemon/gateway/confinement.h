@@ -16,7 +16,7 @@ bool has_system_call_filter() noexcept;
 void give_up_privileges(std::int64_t uid, std::int64_t gid, unsigned int first_descriptor);
 
 /// Silences the standard streams (an attacker in the gateway writes no line into a log), forbids new processes and
-/// growing files, bounds memory, and leaves the system calls of receiving and sending: any other ends the process. All threads.
+/// growing files, and bounds memory. Of the system calls those of receiving and sending remain; any other ends the process. All threads.
 void confine();
 
 /// Writes that filter, as a program of struct sock_filter, to `descriptor`: for `architecture` (AUDIT_ARCH_...), which

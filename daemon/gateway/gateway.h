@@ -1,5 +1,5 @@
-// The gateway: the only process of the daemon with a network socket. It passes raw bytes from LCM's network to the core and
-// publishes what the core wrote; it judges nothing and knows no secret, so that losing it loses nothing. What comes in is
+// The gateway: the only process of the daemon with a network socket. It passes raw bytes from LCM's network to the core and publishes what
+// the core wrote. It decides nothing and knows no secret, so an attacker gains little by it. What comes in is
 // read by our own receiver: LCM's library only sends. Stops go first, and sources take turns. Not real-time.
 #pragma once
 

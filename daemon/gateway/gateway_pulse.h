@@ -11,8 +11,8 @@ class GatewayPulse {
  public:
   /// One that went round and then does nothing for this long hangs, however young it is.
   static constexpr std::int64_t kSilence_ns = 2'000'000'000;
-  /// Until its first turn a gateway reads nothing that came in, so that no message from outside can make it hang; what makes it slow is
-  /// this machine, and ending it would make it slower. strainwave-gateway@.service has the same time.
+  /// Until its first turn a gateway reads nothing that came in, so that no message from outside can make it hang. Before
+  /// that only this machine makes it slow, and a restart would make it slower. The unit strainwave-gateway@.service has the same time.
   static constexpr std::int64_t kStart_ns = 5'000'000'000;
 
   /// Whether the gateway that was started at `started_ns` hangs at `now_ns`. `turns`: of it and all before it. Ask every turn of the

@@ -1,6 +1,5 @@
-// Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as
-// a quadrature decoder of the SoC. read() is real-time safe as far as SysfsFile is; the constructor
-// configures the counter.
+// Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as a
+// quadrature decoder of the SoC. Real-time safe as far as SysfsFile: read(). The constructor configures the counter.
 //
 // The count wraps at its ceiling: from one period to the next it moves the shorter way round. A joint must
 // therefore move less than half the ceiling in a period. Source: the kernel's

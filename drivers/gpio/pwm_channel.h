@@ -1,5 +1,5 @@
-// One channel of a PWM chip (sysfs). set_duty() is one system call into the kernel's PWM driver, which may
-// take a lock there, and allocates nothing; the constructor exports and configures the channel and may wait.
+// One channel of a PWM chip (sysfs). One system call into the kernel's PWM driver is
+// set_duty(): it may take a lock there, and allocates nothing. The constructor exports and configures the channel and may wait.
 // Source: the kernel's Documentation/driver-api/pwm.rst, ABI/testing/sysfs-class-pwm.
 #pragma once
 

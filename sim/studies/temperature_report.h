@@ -34,8 +34,8 @@ TextTable learned_table(const std::vector<TemperatureRow>& rows);
 /// The same of run_friction_known(): geometric mean and worst of the motions, per temperature.
 TextTable friction_known_table(const std::vector<TemperatureRow>& rows);
 
-/// What the daemon's controller knows of friction at each temperature, what it is, and how far the difference alone takes a joint
-/// from its path: over the gain of the position.
+/// What the daemon's controller knows of friction at each temperature, and what it is. The last column is how far the
+/// difference alone takes a joint from its path: over the gain of the position.
 TextTable friction_table(const GainTable& gains, const JointPlantConfig& plant);
 
 std::vector<Figure> temperature_figures(const std::vector<TemperatureRow>& rows,

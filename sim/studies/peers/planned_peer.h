@@ -1,5 +1,5 @@
-// One of the peers on setpoints: a drive plans its motion there itself, a trapezoid of velocity, smoothed by a mean over one period of
-// the resonance, which then does not swing (Singer and Seering 1990). torque_Nm() is real-time safe. Joint side, SI.
+// One of the peers on setpoints: a drive plans its motion there itself. The plan is a trapezoid of velocity, smoothed by a mean over one
+// period of the resonance, which then does not swing (Singer and Seering 1990). Real-time safe: torque_Nm(). Joint side, SI.
 //
 //   acceleration  0.6 of the peak torque over the inertia: the rest is friction's and the feedback's
 //   velocity      where the supply leaves 0.85 of the peak torque
