@@ -1,4 +1,4 @@
-// docs/faults.md against the vocabulary and the table of injected faults.
+// docs/faults.md against how faults stop a path, and the table of injected faults.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -59,33 +59,6 @@ std::map<int, std::string> declared(const std::string& name) {
   return enumerators;
 }
 
-template <typename Enum>
-void expect_page_lists(const std::string& title, const std::string& enumeration) {
-  const auto enumerators = declared(enumeration);
-  ASSERT_FALSE(enumerators.empty());
-  std::set<int> documented;
-  for (const Row& row : rows_under(title)) {
-    const int number = std::stoi(row.at(0));
-    documented.insert(number);
-    ASSERT_TRUE(enumerators.contains(number)) << number;
-    EXPECT_EQ(row.at(1), enumerators.at(number)) << number;
-    EXPECT_EQ(row.at(2), to_text(static_cast<Enum>(number))) << number;
-    EXPECT_EQ(row.size(), rows_under(title).front().size()) << number;
-    EXPECT_EQ(row.back(), configuration_key(static_cast<Enum>(number))) << number;
-    const bool explained = number == 0 || !row.at(3).empty();
-    EXPECT_TRUE(explained) << number;
-  }
-  EXPECT_EQ(documented.size(), enumerators.size()) << title;
-}
-
-TEST(FaultsPage, ListsEveryFaultWithItsNumberTextAndKey) {
-  expect_page_lists<Fault>("Faults", "Fault");
-}
-
-TEST(FaultsPage, ListsEveryNoticeWithItsNumberTextAndKey) {
-  expect_page_lists<Notice>("Notices", "Notice");
-}
-
 TEST(FaultsPage, SaysOfEveryFaultHowTheOthersOfAPathStopAndWhy) {
   const auto text = [](OthersStop stop) {
     return std::string(stop == OthersStop::kAtOnce ? "at once" : "along the path");
@@ -102,15 +75,6 @@ TEST(FaultsPage, SaysOfEveryFaultHowTheOthersOfAPathStopAndWhy) {
     EXPECT_FALSE(row.at(3).empty()) << row.at(1);
   }
   EXPECT_EQ(told.size() + 1, declared("Fault").size()) << "all but none";
-}
-
-TEST(FaultsPage, SaysOfEveryFaultWhatToDoAndHowFastItWorks) {
-  for (const Row& row : rows_under("Faults")) {
-    if (row.at(0) == "0") continue;
-    EXPECT_FALSE(row.at(4).empty()) << row.at(2) << ": effect";
-    EXPECT_FALSE(row.at(5).empty()) << row.at(2) << ": within";
-    EXPECT_FALSE(row.at(6).empty()) << row.at(2) << ": remedy";
-  }
 }
 
 std::string doing_text(Doing doing) {

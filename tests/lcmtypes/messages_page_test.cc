@@ -1,15 +1,11 @@
-// The pages of the messages against the declarations: every field with its type in its order, every number with its text.
-// tests/daemon/faults_page_test.cc does it for faults and notices.
+// The pages of the messages against the declarations: every field with its type in its order.
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 
-#include "lcmtypes/vocabulary.h"
 #include "tests/support/message_files.h"
 
 namespace strainwave {
@@ -70,31 +66,6 @@ TEST(MessagesPages, ListsEveryFieldOfEveryMessageInItsOrder) {
     ASSERT_FALSE(declared.empty()) << name;
     EXPECT_EQ(documented, declared) << name;
   }
-}
-
-/// The pages' numbers and texts under `title` are exactly those that `text_of` knows.
-void expect_numbers(const std::string& title, const std::function<std::string_view(int)>& text_of) {
-  std::map<int, std::string> documented;
-  for (const Row& row : table_under(title)) documented[std::stoi(row.at(0))] = row.at(1);
-  std::map<int, std::string> known;
-  for (int number = 0; number < 1 << 20; ++number) {
-    if (text_of(number) != "unknown") known[number] = text_of(number);
-  }
-  EXPECT_FALSE(known.empty());
-  EXPECT_EQ(documented, known) << title;
-}
-
-template <typename Enum>
-std::string_view text_of_number(int number) {
-  return to_text(static_cast<Enum>(number));
-}
-
-TEST(MessagesPages, GivesEveryNumberItsText) {
-  expect_numbers("Modes", text_of_number<Mode>);
-  expect_numbers("Reasons", text_of_number<Reason>);
-  expect_numbers("Actions", text_of_number<Action>);
-  expect_numbers("Temperature status", text_of_number<TemperatureStatus>);
-  expect_numbers("Gains in use", text_of_number<GainsInUse>);
 }
 
 }  // namespace

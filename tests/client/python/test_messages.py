@@ -1,4 +1,4 @@
-"""Messages against the bytes of C++, signatures against libsodium's use there, numbers against their header and page."""
+"""Messages against the bytes of C++, signatures against libsodium's use there, and the words of numbers."""
 import os
 import pathlib
 import re
@@ -109,32 +109,6 @@ class KeyFiles(unittest.TestCase):
 
 
 class Vocabulary(unittest.TestCase):
-    PAGES = {"Mode": ("messages.md", "Modes"), "Fault": ("faults.md", "Faults"), "Reason": ("commands.md", "Reasons"),
-             "Action": ("commands.md", "Actions"), "TemperatureStatus": ("messages.md", "Temperature status"),
-             "GainsInUse": ("messages.md", "Gains in use")}
-
-    @staticmethod
-    def texts_under(page, title):
-        """Number and text of each row of the table under "## title"; faults.md has the number's name between them."""
-        table = (SOURCE / "docs" / page).read_text().split(f"\n## {title}\n")[1].split("\n#")[0]
-        return {int(number): text for number, text in re.findall(r"^\| (\d+) \| (?:`k\w+` \| )?([^|]+?) \|", table, re.M)}
-
-    def test_has_the_numbers_and_texts_of_the_pages(self):
-        for name, (page, title) in self.PAGES.items():
-            words = {int(word): word.text for word in getattr(vocabulary, name)}
-            self.assertEqual(words, self.texts_under(page, title), name)
-        notices = self.texts_under("faults.md", "Notices")
-        self.assertGreater(len(notices), 10)
-        for number, text in notices.items():
-            self.assertEqual(str(vocabulary.Notice(number)), text)
-
-    def test_has_the_names_of_the_header(self):
-        header = (SOURCE / "lcmtypes/vocabulary.h").read_text() + (SOURCE / "control/table/gains_in_use.h").read_text()
-        for name in (*self.PAGES, "Notice"):
-            body = re.search(rf"enum class {name}\b[^{{]*{{(.*?)}};", header, re.S)[1]
-            names = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", word).upper() for word in re.findall(r"\bk(\w+) =", body)]
-            self.assertEqual([word.name for word in getattr(vocabulary, name)], names)
-
     def test_lets_a_stream_be_silent_for_as_long_as_the_header_does(self):
         header = (SOURCE / "lcmtypes/stream_validity.h").read_text()
         self.assertEqual(stream.LONGEST_VALID_FOR_S, float(re.search(r"kLongestValidFor_s = ([\d.]+);", header)[1]))
