@@ -28,16 +28,17 @@ TEST(FaultWords, SayWhatWasSeenOfAnOscillation) {
   const auto words = [](const OscillationEvidence& evidence) {
     return fault_words(Fault::kChatter, evidence_number(evidence));
   };
-  EXPECT_EQ(words({86.2, 20.0, 1.5}),
-            "joint chatters: the torque reversed 86 times within a second, by up to 20 N.m; motions show 1.5 "
-            "times the "
-            "configured inertia: check load_inertia_kgm2 and motor_inertia_kgm2 (inertia_kgm2)");
+  EXPECT_EQ(
+      words({86.2, 20.0, 1.5}),
+      "torque oscillation: the torque reversed 86 times within a second, by up to 20 N.m; motions show 1.5 "
+      "times the "
+      "configured inertia: check load_inertia_kgm2 and motor_inertia_kgm2 (inertia_kgm2)");
   EXPECT_EQ(words({160.0, 34.0, 0.0}),
-            "joint chatters: the torque reversed 160 times within a second, by up to 34 N.m: check "
+            "torque oscillation: the torque reversed 160 times within a second, by up to 34 N.m: check "
             "delay_periods, the "
             "encoder's side, the gear and the load");
   EXPECT_EQ(words({1e9, 1e9, 1e9}).find("4095 times"),
-            std::string("joint chatters: the torque reversed ").size());
+            std::string("torque oscillation: the torque reversed ").size());
 }
 
 TEST(FaultWords, SayWhichOfTheCausesOfFaultFiveItWas) {

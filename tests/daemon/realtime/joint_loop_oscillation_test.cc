@@ -32,7 +32,7 @@ TEST(AnOscillatingJoint, IsStoppedAndSaysWhatWasSeenWhereTheDelayIsLonger) {
   BenchJoint joint = flexible_joint();
   joint.drive.plant.delay.periods += 3.0;
   const std::string words = words_of_fault(joint, flexible_table());
-  EXPECT_EQ(words.find("joint chatters: the torque reversed "), 0U);
+  EXPECT_EQ(words.find("torque oscillation: the torque reversed "), 0U);
   EXPECT_NE(words.find("check delay_periods"), std::string::npos);
 }
 
@@ -41,7 +41,7 @@ TEST(AnOscillatingJoint, IsStoppedWhereTheMotorIsLighterAndTheDelayLonger) {
   joint.drive.plant.joint.inertia_kgm2 *= 0.3;
   joint.drive.plant.delay.periods += 1.0;
   const std::string words = words_of_fault(joint, flexible_table());
-  EXPECT_EQ(words.find("joint chatters: the torque reversed "), 0U);
+  EXPECT_EQ(words.find("torque oscillation: the torque reversed "), 0U);
 }
 
 TEST(AJointAsConfigured, NeverOscillates) {
