@@ -75,7 +75,9 @@ void GatewayGuard::restart(std::int64_t now_ns) {
 
 void GatewayGuard::end_hung(std::int64_t now_ns) {
   if (!pulse_.hangs(process_.started_ns(), count(inbound_.turns), now_ns) || !process_.running()) return;
-  spdlog::error("the gateway has done nothing for {} s: ending it", pulse_.patience_s());
+  spdlog::error(
+      "the gateway has done nothing for {} s: ending it; what was sent to it meanwhile is lost, stops too",
+      pulse_.patience_s());
   process_.kill();
 }
 

@@ -82,12 +82,11 @@ bool Client::rises_above(const Answer& refusal) {
   return true;
 }
 
-Answer Client::exchange(const std::string& joint, SealedMessage order) {
+Answer Client::exchange(const std::string& joint, SealedMessage order, const Patience& patience) {
   ack_.reset();
   awaited_.emplace(connection_, std::move(order), channel(options_.prefix, joint, channel_kind::kAck),
-                   options_.timeout_s);
+                   patience);
   while (!ack_ && awaited_->keep_on()) handle(awaited_->remaining_ms());
-  const int transmissions = awaited_->most_transmissions();
   awaited_.reset();
   if (ack_) return to_answer(*ack_);
   const JointView* const view = find(joint);
@@ -97,7 +96,7 @@ Answer Client::exchange(const std::string& joint, SealedMessage order) {
       fmt::format(
           "{0}: no acknowledgement in {1} s, after {2} transmissions: {3} Whether the order was carried "
           "out is not known: see {4}",
-          joint, options_.timeout_s, transmissions,
+          joint, patience.timeout_s, patience.transmissions,
           silence.empty() ? "the daemon publishes its state but does not answer; see its log."
                           : silence + "; is strainwaved running?",
           advice("Joint::state()", "status", joint)),

@@ -78,7 +78,9 @@ class Client {
     Answer answer;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       prepare(message);
-      answer = exchange(joint, sender_.seal(channel(options_.prefix, joint, kind), message, quote));
+      SealedMessage sealed = sender_.seal(channel(options_.prefix, joint, kind), message, quote);
+      const Patience patience = PendingOrder::patience(sealed.bytes.size(), options_.timeout_s);
+      answer = exchange(joint, std::move(sealed), patience);
       if (answer.accepted || !rises_above(answer)) break;
     }
     return answer;
@@ -90,7 +92,8 @@ class Client {
   Answer request_unseen(const std::string& joint, std::string_view kind, const Message& message) {
     const JointView* view = find(joint);
     const Quote quote = view != nullptr ? quote_of(view->state) : Quote{};
-    Answer answer = exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote));
+    Answer answer = exchange(joint, sender_.seal_stop(channel(options_.prefix, joint, kind), message, quote),
+                             PendingOrder::stop_patience(options_.timeout_s));
     if (find(joint) != nullptr) stopped_[joint] = find(joint)->messages;
     return answer;
   }
@@ -130,7 +133,7 @@ class Client {
  private:
   const JointView& wait_until_settled(const std::string& joint);
   bool rises_above(const Answer& refusal);
-  Answer exchange(const std::string& joint, SealedMessage order);
+  Answer exchange(const std::string& joint, SealedMessage order, const Patience& patience);
   void handle(int timeout_ms);
   void on_ack(const ReceivedMessage& message);
   [[noreturn]] void explain_silence(const std::string& joint) const;

@@ -118,7 +118,7 @@ void send_stop(Client& client, const std::string& joint, Action stop) {
     require_accepted(answer, joint, std::string(to_text(stop)));
   } catch (const NoAnswer& error) {
     throw NoAnswer(fmt::format("{}: the stop was sent {} times, and nothing answered: {}", joint,
-                               1 + PendingOrder::kRepetitions, error.what()),
+                               PendingOrder::kStopTransmissions, error.what()),
                    joint);
   }
 }

@@ -13,18 +13,19 @@ Answer to_answer(const ack_v1& ack) {
 }
 
 PendingOrder::PendingOrder(Connection& connection, SealedMessage order, std::string ack_channel,
-                           double timeout_s)
+                           const Patience& patience)
     : connection_(&connection),
       order_(std::move(order)),
       ack_channel_(std::move(ack_channel)),
-      repeat_s_(timeout_s / most_transmissions()),
+      most_transmissions_(patience.transmissions),
+      repeat_s_(patience.timeout_s / patience.transmissions),
       next_(repeat_s_) {
   transmit();
 }
 
 bool PendingOrder::keep_on() {
   if (!next_.passed()) return true;
-  if (transmissions_ >= most_transmissions()) return false;
+  if (transmissions_ >= most_transmissions_) return false;
   transmit();
   return true;
 }

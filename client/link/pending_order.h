@@ -24,26 +24,36 @@ struct Answer {
 
 Answer to_answer(const ack_v1& ack);
 
+/// How often an order is sent at the most, and how long its answer is awaited, repetitions included.
+struct Patience {
+  int transmissions;
+  double timeout_s;
+};
+
 class PendingOrder {
  public:
   static constexpr int kRepetitions = 3;
   /// How often an order of so many bytes is sent before it is given up: four times, and once more for each further packet of Ethernet. A
   /// message is lost with any one of its packets. At a loss of 1 packet in 10, four transmissions of a path's part would leave 1 of 14
   /// without an answer. These leave 1 of 350, and of commands 1 of 770.
-  static constexpr int most_transmissions(std::size_t bytes) noexcept {
+  static constexpr Patience patience(std::size_t bytes, double timeout_s) noexcept {
     constexpr std::size_t kPacketBytes = 1472;  // of 1500, without the headers of IP and UDP
     const std::size_t packets = std::max<std::size_t>(1, (bytes + kPacketBytes - 1) / kPacketBytes);
-    return static_cast<int>(packets) + kRepetitions;
+    return {static_cast<int>(packets) + kRepetitions, timeout_s};
+  }
+  /// A stop is also repeated for longer than the daemon takes to replace a gateway that hangs, 2 to 3 s: what that one had not read is lost.
+  static constexpr int kStopTransmissions = 8;
+  static constexpr double kStopPatience_s = 4.0;
+  static constexpr Patience stop_patience(double timeout_s) noexcept {
+    return {kStopTransmissions, std::max(timeout_s, kStopPatience_s)};
   }
 
-  /// Transmits `order` for the first time. `ack_channel`: where its answer comes from; `timeout_s`: how long it is given for the
-  /// answer, repetitions included.
-  PendingOrder(Connection& connection, SealedMessage order, std::string ack_channel, double timeout_s);
+  /// Transmits `order` for the first time. `ack_channel`: where its answer comes from.
+  PendingOrder(Connection& connection, SealedMessage order, std::string ack_channel,
+               const Patience& patience);
 
   /// Transmits it once more if its time has come. False when the last repetition has waited in vain, too.
   bool keep_on();
-
-  int most_transmissions() const noexcept { return most_transmissions(order_.bytes.size()); }
 
   /// Until keep_on() has something to do.
   int remaining_ms() const noexcept { return next_.remaining_ms(); }
@@ -59,6 +69,7 @@ class PendingOrder {
   Connection* connection_;
   SealedMessage order_;
   std::string ack_channel_;
+  int most_transmissions_;
   double repeat_s_;
   Deadline next_;
   int transmissions_ = 0;

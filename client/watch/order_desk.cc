@@ -55,7 +55,7 @@ void OrderDesk::stop(const std::vector<Name>& joints) {
           return sender_.seal_stop(channel(joint.first, joint.second, channel_kind::kCommand),
                                    command(Action::kDisable), quoted);
         },
-        batch);
+        PendingOrder::stop_patience(timeout_s_), batch);
   report(*batch);
 }
 
@@ -72,7 +72,7 @@ void OrderDesk::post(const Name& joint, std::string_view kind, const Message& me
       [this, message, to = channel(joint.first, joint.second, kind), quoted = quote(joint)] {
         return sender_.seal(to, message, quoted);
       },
-      batch);
+      PendingOrder::patience(encode(message).size(), timeout_s_), batch);
   report(*batch);
 }
 
@@ -91,10 +91,11 @@ void OrderDesk::move(const Name& joint, double position_rad) {
   post(joint, channel_kind::kSetpoint, message, fmt::format("move to {:.6g} rad", position_rad));
 }
 
-void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, std::shared_ptr<Batch> batch) {
-  const auto send = [this, seal = std::move(seal),
+void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, const Patience& patience,
+                     std::shared_ptr<Batch> batch) {
+  const auto send = [this, seal = std::move(seal), patience,
                      to = channel(joint.first, joint.second, channel_kind::kAck)] {
-    return PendingOrder(connection_, seal(), to, timeout_s_);
+    return PendingOrder(connection_, seal(), to, patience);
   };
   waiting_.push_back({send(), send, full_name(joint), std::move(batch), 0});
 }

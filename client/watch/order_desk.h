@@ -67,7 +67,8 @@ class OrderDesk {
   };
   template <typename Message>
   void post(const Name& joint, std::string_view kind, const Message& message, std::string what);
-  void post(const Name& joint, std::function<SealedMessage()> seal, std::shared_ptr<Batch> batch);
+  void post(const Name& joint, std::function<SealedMessage()> seal, const Patience& patience,
+            std::shared_ptr<Batch> batch);
   Quote quote(const Name& joint) const;
   bool renew(Waiting& waiting, const ack_v1& refusal);
   void fail(const Waiting& waiting, const std::string& why);

@@ -13,6 +13,8 @@ from .vocabulary import Reason
 
 ATTEMPTS = 3  # how often an order is sent with another sequence, when another program of its key was ahead
 TRANSMISSIONS = 4  # of the identical message, until it is answered; of one that fits into a packet
+STOP_TRANSMISSIONS = 8  # of a stop
+STOP_PATIENCE_S = 4.0  # at the least: longer than the daemon takes to replace a gateway that hangs
 _PACKET_BYTES = 1472  # of Ethernet's 1500, without the headers of IP and UDP
 _INBOX = 4096
 _CLOCK_STATES = 64
@@ -126,7 +128,7 @@ class Conversation:
         for attempt in range(ATTEMPTS):
             if prepare:
                 prepare(message)
-            answer = self._exchange(kind, message, state)
+            answer = self._exchange(kind, message, state, most_transmissions(len(message.encode())), self.timeout_s)
             if answer is None:
                 raise NoAnswer(f"{self.joint}: no acknowledgement of {order} in {self.timeout_s:g} s, after "
                                f"{most_transmissions(len(message.encode()))} transmissions: {self._why_no_answer()} Whether the order was carried "
@@ -141,10 +143,10 @@ class Conversation:
 
     def request_stop(self, kind, message, order):
         """The same for a stop: waits for no state first, and says that it was sent when nothing answers."""
-        answer = self._exchange(kind, message, self.state)
+        answer = self._exchange(kind, message, self.state, STOP_TRANSMISSIONS, max(self.timeout_s, STOP_PATIENCE_S))
         self._stopped = self.messages
         if answer is None:
-            raise NoAnswer(f"{self.joint}: the stop was sent {TRANSMISSIONS} times, and nothing answered: "
+            raise NoAnswer(f"{self.joint}: the stop was sent {STOP_TRANSMISSIONS} times, and nothing answered: "
                            + (self._why_no_answer() if self.state else self._silence()))
         if answer.accepted != 1:
             raise Refused(self.joint, order, Reason(answer.reason), text_of(answer.text))
@@ -178,17 +180,16 @@ class Conversation:
             self._sent.clear()
             self._refusals.clear()
 
-    def _exchange(self, kind, message, state):
+    def _exchange(self, kind, message, state, transmissions, timeout_s):
         channel = self.channel(kind)
         encoded = self.sender.seal(channel, message, state)
         sequence = message.sequence
         with self.network.changed:
             self._awaited[sequence] = None
         try:
-            transmissions = most_transmissions(len(encoded))
             for _ in range(transmissions):
                 self.network.publish(channel, encoded)
-                if self.network.wait_until(lambda: self._awaited[sequence] is not None, self.timeout_s / transmissions):
+                if self.network.wait_until(lambda: self._awaited[sequence] is not None, timeout_s / transmissions):
                     break
             return self._awaited[sequence]
         finally:

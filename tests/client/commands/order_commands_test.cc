@@ -151,7 +151,7 @@ TEST_F(CommandsTest, EnableAndClearFaultAreDoneAlreadyWhenThereIsNothingToDo) {
 
 TEST_F(CommandsTest, AStopThatNobodyAnswersWasSentAllTheSame) {
   EXPECT_EQ(status_of([&] { disable(client, output, {"ghost"}); }), ExitStatus::kNoAnswer);
-  EXPECT_TRUE(message_has("ghost: the stop was sent 4 times, and nothing answered")) << message;
+  EXPECT_TRUE(message_has("ghost: the stop was sent 8 times, and nothing answered")) << message;
 }
 
 TEST_F(CommandsTest, DisableAllThatHearsNoJointSaysThatItStoppedNone) {

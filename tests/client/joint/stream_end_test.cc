@@ -38,7 +38,7 @@ TEST_F(StreamTest, OfAJointThatHasFallenSilentIsClosedByAHoldThatIsSentOnce) {
       ADD_FAILURE() << "something answered";
     } catch (const NoAnswer& error) {
       EXPECT_TRUE(
-          std::string(error.what()).starts_with("elbow: the stop was sent 4 times, and nothing answered: "))
+          std::string(error.what()).starts_with("elbow: the stop was sent 8 times, and nothing answered: "))
           << error.what();
       EXPECT_NE(std::string(error.what()).find("no state for"), std::string::npos) << error.what();
     }

@@ -45,7 +45,7 @@ TEST_F(OrderDeskTest, RepeatsTheSameOrderUntilItIsAnswered) {
   daemon_.drop = 2;
   OrderDesk desk(connection_, states_, "", 0.4);
   desk.stop({{"ARM2", "elbow"}});
-  handle(0.5, desk);
+  handle(1.3, desk);
   ASSERT_EQ(daemon_.heard().size(), 3U);
   EXPECT_EQ(daemon_.heard()[0].bytes, daemon_.heard()[2].bytes);
   EXPECT_EQ(desk.message(), "ARM2.elbow: disable accepted");
@@ -55,17 +55,18 @@ TEST_F(OrderDeskTest, SaysSoWhenNobodyAnswers) {
   daemon_.drop = 100;
   OrderDesk desk(connection_, states_, "", 0.2);
   desk.stop({{"ARM2", "elbow"}});
-  handle(0.5, desk);
+  handle(PendingOrder::kStopPatience_s + 0.3, desk);
   EXPECT_EQ(desk.message(), "ARM2.elbow: disable: no answer");
   EXPECT_TRUE(desk.alarm());
-  EXPECT_EQ(daemon_.heard().size(), 4U) << "and does not go on for ever";
+  EXPECT_EQ(daemon_.heard().size(), static_cast<std::size_t>(PendingOrder::kStopTransmissions))
+      << "and does not go on for ever";
 }
 
 TEST_F(OrderDeskTest, AStopOfSeveralCountsItsAnswersAndNamesWhoIsSilent) {
   OrderDesk desk(connection_, states_, "", 0.2);
   desk.stop({{"ARM2", "elbow"}, {"ARM2", "ghost"}});
   EXPECT_EQ(desk.message(), "2 joints: disable sent");
-  handle(0.5, desk);
+  handle(PendingOrder::kStopPatience_s + 0.3, desk);
   EXPECT_EQ(desk.message(), "2 joints: disable, 1 accepted; ARM2.ghost: no answer");
   EXPECT_TRUE(desk.alarm());
 }
