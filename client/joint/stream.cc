@@ -16,12 +16,14 @@ namespace strainwave {
 
 namespace {
 
-// The daemon takes a second; the way there takes some of it.
-constexpr double kFarthestAhead_s = 0.9;
-
+constexpr double kFarthestAhead_s = 0.9;  // the daemon takes a second; the way there takes some of it
+constexpr double kFarthestTime_s = 1e12;  // its cycle fits into a message
 constexpr auto kAnotherOne = "this stream is over; Joint::stream() makes another one";
+std::string over_after(long late) {
+  return late == 0 ? kAnotherOne
+                   : fmt::format("{} samples of it were late or quoted an old state; {}", late, kAnotherOne);
+}
 
-/// Of what became of the joint.
 bool tells_less_than_the_state(Reason refusal) {
   return refusal == Reason::kFaulted || refusal == Reason::kStreamEnded || refusal == Reason::kWrongSession;
 }
@@ -130,6 +132,14 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
   return true;
 }
 
+std::int64_t Stream::cycle_of(double t_s) const {
+  checked_number(link_->name(), "t_s", t_s, "a time from -1e12 to 1e12 s", std::abs(t_s) <= kFarthestTime_s);
+  const auto held = link_->lock();
+  if (!base_->origin_t_s)
+    throw NotDone(link_->name() + ": the stream has not begun: its first put() sets its time");
+  return base_->cycle_of(t_s, period_s_);
+}
+
 void Stream::close() {
   over_ = true;
   if (!last_cycle_) return;
@@ -212,16 +222,18 @@ void Stream::begin(double t_s, setpoint_v2 message) {
   session_id_ = client.find(link_->name())->state.session_id;
 }
 
-// A refusal needs no waiting for the time that it is too late for.
 void Stream::wait_until_due(std::int64_t cycle) {
   Client& client = link_->client();
   client.catch_up();
-  const double wait_s =
+  const double due_s =
       (static_cast<double>(cycle) - link_->cycle_now(period_s_)) * period_s_ - options_.ahead_s;
-  client.wait_until([&] { return client.has_refusals() || restarted(); }, Deadline(std::max(0.0, wait_s)));
+  const double longest_s =
+      static_cast<double>(cycle - *last_cycle_) * period_s_ + 1.0;  // cycles may jump back
+  client.wait_until([&] { return client.has_refusals() || restarted(); },
+                    Deadline(std::clamp(due_s, 0.0, longest_s)));
 }
 
-// What ended the stream, if that is the joint's own doing, is told before what became of the samples since.
+// What the joint did to end it is told before what became of the samples since.
 void Stream::check_refusals() {
   check_state(first_cycle_);
   while (const auto refusal = link_->client().take_refusal()) {
@@ -229,7 +241,7 @@ void Stream::check_refusals() {
       if (tells_less_than_the_state(refusal->reason)) check_joint();
       if (ends_stream(refusal->reason)) lose();
       require_accepted(*refusal, link_->name(), "a setpoint of the stream",
-                       ends_stream(refusal->reason) ? kAnotherOne : "");
+                       ends_stream(refusal->reason) ? over_after(late_) : "");
     }
     ++late_;
   }
@@ -257,7 +269,6 @@ void Stream::check_state(std::int64_t from_cycle) {
   throw yielded(link_->name(), "did not follow the stream to its end", view);
 }
 
-// Each daemon counts its own cycles: the samples' times are none of the new one's.
 bool Stream::restarted() const {
   return link_->client().find(link_->name())->state.session_id != session_id_;
 }
@@ -265,15 +276,13 @@ bool Stream::restarted() const {
 void Stream::check_restart() {
   if (!restarted()) return;
   lose();
-  const Mode mode = mode_of(*link_->client().find(link_->name()));
   throw NotDone(
       fmt::format("{}: did not follow the stream to its end: the daemon was restarted, and the joint is {}; "
                   "enable it, and go on with a new stream: Joint::stream()",
-                  link_->name(), to_text(mode)),
+                  link_->name(), to_text(mode_of(*link_->client().find(link_->name())))),
       link_->name());
 }
 
-// Whoever, or whatever, ended it has the joint.
 void Stream::lose() {
   over_ = true;
   last_cycle_.reset();

@@ -49,6 +49,10 @@ class Stream {
   /// hold first, and then the error is thrown. The destructor does the same, once, but reports nothing.
   void close();
 
+  /// The daemon's cycle that the sample of time `t_s` is for, as `cycle` of the states counts: what was ordered can be compared with what the
+  /// joint did. Throws NotDone before the first put(), which sets the time, and InvalidInput for a `t_s` beyond -1e12 to 1e12.
+  std::int64_t cycle_of(double t_s) const;
+
   /// Samples that came after their time and were left out.
   long late() const noexcept { return late_; }
 

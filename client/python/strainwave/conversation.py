@@ -100,11 +100,13 @@ class Conversation:
         inbox = collections.deque(maxlen=_INBOX)
         with self.network.changed:
             self._inboxes.append(inbox)
+            self.network.read_wholly[self.channel("STATE").encode()] += 1
         return inbox
 
     def close_inbox(self, inbox):
         with self.network.changed:
             self._inboxes = [other for other in self._inboxes if other is not inbox]
+            self.network.read_wholly[self.channel("STATE").encode()] -= 1
 
     def deciding_state(self):
         """The state that an order of now is decided on, which it quotes whatever becomes of it: so the daemon refuses it once it is a second

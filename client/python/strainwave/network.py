@@ -2,6 +2,7 @@
 
 The thread ends with the program. Handlers run in it, one message at a time, while `changed` is held; waiting is done with wait_until().
 """
+import collections
 import logging
 import os
 import re
@@ -23,6 +24,8 @@ MAX_NAMES = 1024  # more joints than any network of ours has
 _QUEUE_BYTES = 1 << 20
 _LOOK_EVERY_S = 0.5
 _LARGEST_DATAGRAM = 65536
+_LONGEST_WAIT_S = 1e9  # the system's clocks take no much longer one
+_AT_ONCE = 128  # datagrams that are read before they are handled
 _SO_TIMESTAMPNS = 35  # of Linux
 _NOTE_BYTES = socket.CMSG_SPACE(16)
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,23}")
@@ -75,6 +78,7 @@ class Network:
         self.joints = {}  # (prefix, joint) of whoever publishes a state: when the last came
         self.came_s = now_s()  # when the message that is handled now reached this machine
         self._caught_up_s = now_s()
+        self.read_wholly = collections.Counter()  # channels of states of which somebody wants every one
         self._handlers = {}
         self._reassembly = Reassembly()
         self._group, self._port, self._ttl = parse_url(url)
@@ -125,7 +129,7 @@ class Network:
     def wait_until(self, condition, timeout_s):
         """The last value of condition(), which is asked again with every message; it is true, or `timeout_s` have passed."""
         with self.changed:
-            return self.changed.wait_for(condition, timeout_s)
+            return self.changed.wait_for(condition, min(timeout_s, _LONGEST_WAIT_S))
 
     def _run(self):
         looked_s = now_s()
@@ -136,7 +140,6 @@ class Network:
             if now_s() - looked_s >= _LOOK_EVERY_S:
                 looked_s = now_s()
                 self._follow_route()
-            self._caught_up_s = now_s()
 
     # An adapter that comes back under its name and address is another one to the system, and nothing of the group reaches who joined on the
     # one before. Joining again is refused as long as the route leads to the same one.
@@ -151,13 +154,21 @@ class Network:
         self._sender, self._own_address, self._receiver = sender, own_address, receiver
         _log.warning("the route to %s leads to another or a new adapter: joined the group there anew", self._group)
 
+    # All that is here is read before any of it is handled: where states come faster than this program handles them, it goes on with the newest.
     def _receive(self):
-        try:
-            datagram, notes, _, source = self._receiver.recvmsg(_LARGEST_DATAGRAM, _NOTE_BYTES)
-        except OSError:
-            return False
-        self.accept(source, datagram, self._age_s(notes))
-        return True
+        messages = []
+        for _ in range(_AT_ONCE):
+            try:
+                datagram, notes, _, source = self._receiver.recvmsg(_LARGEST_DATAGRAM, _NOTE_BYTES)
+            except OSError:
+                self._caught_up_s = now_s()
+                break
+            messages.append(self._understand(source, datagram, self._age_s(notes)))
+        newest = {message[0]: i for i, message in enumerate(messages) if message is not None}
+        for i, message in enumerate(messages):
+            if message is not None and (newest[message[0]] == i or not message[0].endswith(b".STATE") or self.read_wholly[message[0]]):
+                self._hand_over(*message)
+        return len(messages) == _AT_ONCE
 
     def _age_s(self, notes):
         # The kernel tells by a clock that may be set meanwhile: what was not here when there was nothing left came after that.
@@ -167,13 +178,19 @@ class Network:
 
     def accept(self, source, datagram, age_s=0.0):
         """Takes one datagram, of any content, that came `age_s` ago. With ttl=0 only what this machine sends is heard."""
+        message = self._understand(source, datagram, age_s)
+        if message is not None:
+            self._hand_over(*message)
+
+    def _understand(self, source, datagram, age_s):
+        """(channel, message, when it came) if `datagram` completes a message."""
         came_s = now_s() - age_s
         if self._ttl == 0 and source[0] != self._own_address and not source[0].startswith("127."):
-            return
+            return None
         message = self._reassembly.take(source, datagram)
-        if message is None:
-            return
-        channel, content = message
+        return None if message is None else (*message, came_s)
+
+    def _hand_over(self, channel, content, came_s):
         with self.changed:
             self.came_s = came_s
             self._note_joint(channel)

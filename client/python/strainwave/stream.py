@@ -98,6 +98,14 @@ class Stream:
         self._last_cycle = message.at_cycle
         return True
 
+    def cycle_of(self, t):
+        """The daemon's cycle that the sample of time `t` is for, as `state.cycle` counts: what was ordered can be compared with what the joint
+        did. Raises NotDone before the first put(), which sets the time, and InvalidInput."""
+        t = self._checked("t", t, f"a finite time in s, from -{_LARGEST_T_S:g} to {_LARGEST_T_S:g}", lambda s: abs(s) <= _LARGEST_T_S)
+        if self._base.origin_t is None:
+            raise NotDone(f"{self._joint.name}: the stream has not begun: its first put() says which cycle its time is")
+        return self._base.cycle_of(t, self._period_s)
+
     def close(self):
         """Waits for the last sample's time, ends the stream and waits until the joint holds."""
         self._over = True
@@ -175,7 +183,8 @@ class Stream:
             return self._conversation.clock.cycle_at(now_s(), self._period_s)
 
     def _wait_until_due(self, cycle):
-        wait_s = (cycle - self._now_cycle()) * self._period_s - self._ahead_s
+        # A daemon whose cycles jump back keeps nobody waiting for ever.
+        wait_s = min((cycle - self._now_cycle()) * self._period_s - self._ahead_s, (cycle - self._last_cycle) * self._period_s + 1)
         # A refusal needs no waiting for the time that it is too late for.
         self._conversation.network.wait_until(lambda: self._conversation.has_refusals or self._restarted(), max(0.0, wait_s))
 
@@ -196,8 +205,11 @@ class Stream:
                 ends = reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED, Reason.WRONG_SESSION, Reason.VELOCITIES_CONTRADICT)
                 if ends:
                     self._lose()
-                raise Refused(self._joint.name, "a setpoint of the stream", reason, text, _ANOTHER_ONE if ends else "")
+                raise Refused(self._joint.name, "a setpoint of the stream", reason, text, self._why_it_ended() if ends else "")
             self.late += 1
+
+    def _why_it_ended(self):
+        return f"{self.late} samples of it were late or quoted an old state; {_ANOTHER_ONE}" if self.late else _ANOTHER_ONE
 
     # A refusal may be here before the state that says why.
     def _check_joint(self):

@@ -20,12 +20,16 @@ TEST_F(StreamTest, SendsEachSampleForTheCycleThatItsTimeIs) {
   for (int i = 0; i < 40; ++i)
     if (stream.put(100.0 + 0.01 * i, 0.02 * i, 2.0, {}, {.torque_Nm = -0.5, .load_inertia_kgm2 = 0.01}))
       sent.push_back(0.02 * i);
+  const std::int64_t begin = stream.cycle_of(100.0);
+  const std::int64_t middle = stream.cycle_of(100.2);
   stream.close();
   const auto setpoints = heard<setpoint_v2>();
   ASSERT_EQ(setpoints.size(), sent.size());
   const setpoint_v2& first = setpoints.front();
   EXPECT_EQ(first.begins_stream, 1);
   EXPECT_NE(first.stream_id, 0);
+  EXPECT_EQ(begin, first.at_cycle);
+  EXPECT_EQ(middle, first.at_cycle + 200);
   for (std::size_t i = 0; i < setpoints.size(); ++i) {
     EXPECT_EQ(setpoints[i].position_rad, sent[i]);
     EXPECT_EQ(setpoints[i].at_cycle - first.at_cycle, std::llround(500.0 * sent[i]));
@@ -38,6 +42,15 @@ TEST_F(StreamTest, SendsEachSampleForTheCycleThatItsTimeIs) {
     EXPECT_EQ(setpoints[i].valid_for_s, 5.0);
     EXPECT_EQ(setpoints[i].speed_limit_rad_s, 0.5);
   }
+}
+
+TEST_F(StreamTest, TellsNoCycleBeforeItHasBegunAndNoneOfWhatIsNoTime) {
+  auto stream = joint.stream();
+  EXPECT_THROW((void)stream.cycle_of(0.0), NotDone);
+  stream.put(0.0, 0.1);
+  for (const double t_s : {std::nan(""), HUGE_VAL, 1e300})
+    EXPECT_THROW((void)stream.cycle_of(t_s), InvalidInput);
+  EXPECT_EQ(stream.cycle_of(-1e12), stream.cycle_of(0.0) - 1'000'000'000'000'000);
 }
 
 TEST_F(StreamTest, BesideAnotherHasTheSameCycleForTheSameTime) {

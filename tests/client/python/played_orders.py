@@ -1,4 +1,5 @@
 """A network that a test plays, and a test of the orders that a joint sends on it; each kind of order has a test file of its own."""
+import collections
 import threading
 import unittest
 
@@ -19,6 +20,7 @@ class PlayedNetwork:
     def __init__(self):
         self.changed = threading.Condition(threading.RLock())
         self.joints = {}
+        self.read_wholly = collections.Counter()
         self._handlers = {}
         self.published = []
         self.came_s = now_s()

@@ -3,7 +3,9 @@ import os
 import pathlib
 import random
 import socket
+import statistics
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -55,16 +57,16 @@ class HostileDatagrams(unittest.TestCase):
 
         class Listener:
             def hear(self, content):
-                if bytes(content) == b"x":  # states of the test before may still come
+                if bytes(content) == b"x":
                     heard.append(network.came_s)
 
         listener = Listener()
-        network.listen("SW.elbow.STATE", listener.hear)
+        network.listen("SW.elbow.ACK", listener.hear)
         sent_s = []
         with network.changed:  # nothing is handled meanwhile
             for i in range(4):
                 sent_s.append(time.monotonic())
-                self.send(encode_short(i, "SW.elbow.STATE", b"x"))
+                self.send(encode_short(i, "SW.elbow.ACK", b"x"))
                 time.sleep(0.2)
         network.wait_until(lambda: len(heard) == 4, 20)
         for came_s, sent in zip(heard, sent_s, strict=True):
@@ -77,6 +79,47 @@ class HostileDatagrams(unittest.TestCase):
         self.assertNotIn(("SW", "stranger"), network.joints)
         network.accept(("127.0.0.1", 7), datagram)
         self.assertIn(("SW", "stranger"), network.joints)
+
+
+class ADaemonThatPublishesFasterThanTheyAreHandled(unittest.TestCase):
+    URL = f"udpm://{GROUP}:{20001 + os.getpid() % 20000}?ttl=0"
+    PUBLISH = """
+import sys, time
+from strainwave import messages, state_v1
+from strainwave.network import Network
+network, state = Network(sys.argv[1]), messages.blank(state_v1)
+while True:
+    state.utime, state.cycle = time.time_ns() // 1000, state.cycle + 1
+    network.publish("SW.elbow.STATE", state.encode())
+    time.sleep(1e-3)
+"""
+
+    class SlowMachine:
+        def hear(self, content):
+            time.sleep(5e-3)
+
+    def setUp(self):
+        self.elbow = Joint("elbow", key="", lcm_url=self.URL, timeout_s=20)
+        self.slow = self.SlowMachine()
+        Network.shared(self.URL).listen("SW.elbow.STATE", self.slow.hear)
+        daemon = subprocess.Popen([sys.executable, "-c", self.PUBLISH, self.URL])
+        self.addCleanup(daemon.wait)
+        self.addCleanup(daemon.kill)
+
+    def test_is_heard_by_its_newest_states(self):
+        self.assertIsNotNone(self.elbow.state)
+        time.sleep(2)
+        ages_s = []
+        for _ in range(20):
+            time.sleep(0.02)
+            ages_s.append(time.time() - 1e-6 * self.elbow.state.utime)
+        self.assertLess(min(ages_s), 0.2, ages_s)  # an order that quotes one of a second ago is refused
+
+    def test_is_heard_wholly_by_who_asks_for_every_state(self):
+        self.assertIsNotNone(self.elbow.state)
+        cycles = [state.cycle for state in self.elbow.states(0.5)]
+        steps = [later - earlier for earlier, later in zip(cycles, cycles[1:])]
+        self.assertEqual(statistics.median(steps), 1, cycles)  # a full queue of the system may lose some
 
 
 class AnAdapterThatComesBack(unittest.TestCase):

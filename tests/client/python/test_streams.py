@@ -52,9 +52,15 @@ class Streams(PlayedOrders):
     def test_send_samples_for_cycles_that_far_apart(self):
         self.network.daemon = lambda *entry: self.answer(published(*entry))
         stream = self.stream(ahead_s=0.9)
+        with self.assertRaisesRegex(NotDone, "elbow: the stream has not begun"):
+            stream.cycle_of(5.0)
         for t in (5.0, 5.01, 5.0251):
             self.assertTrue(stream.put(t, 0.5, 2.0))
         first, second, third = self.orders()
+        self.assertEqual([stream.cycle_of(t) for t in (5.0, 5.01, 5.0251)], [order.at_cycle for order in self.orders()])
+        for t in (float("nan"), float("inf"), 1e300, "5"):
+            with self.assertRaisesRegex(InvalidInput, "elbow: t = "):
+                stream.cycle_of(t)
         self.assertEqual((second.at_cycle - first.at_cycle, third.at_cycle - first.at_cycle), (10, 25))
         self.assertGreaterEqual(first.at_cycle, 1900)
         self.assertEqual([order.begins_stream for order in self.orders()], [1, 0, 0])
@@ -132,6 +138,14 @@ class Streams(PlayedOrders):
                 with self.assertRaisesRegex(NotDone, "this stream is over"):
                     stream.put(0.03, 0.1)
                 self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
+
+    def test_whose_samples_quoted_old_states_say_so_at_their_end(self):
+        reasons = [Reason.ACCEPTED, Reason.TOO_OLD, Reason.TOO_OLD, Reason.SUPERSEDED]
+        self.network.daemon = lambda *entry: self.answer(published(*entry), int(reasons[0] == Reason.ACCEPTED), reasons.pop(0))
+        stream = self.stream(ahead_s=0.9)
+        with self.assertRaisesRegex(Refused, "; 2 samples of it were late or quoted an old state; this stream is over; Joint.stream"):
+            for k in range(5):
+                stream.put(0.01 * k, 0.1)
 
     def stream_ended(self, reason, mode, **fields):
         """A stream whose second sample is refused, and only then come the states that say why."""
