@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/input_error.h"
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
 
@@ -14,7 +13,6 @@ namespace {
 constexpr int kBatchesAtOnce = 8;
 
 MulticastAddress checked(const std::string& lcm_url) {
-  if (const auto defect = find_udpm_defect(lcm_url)) throw InputError("--lcm-url: " + *defect);
   if (const auto problem = find_multicast_problem(lcm_url)) throw std::runtime_error(*problem);
   return *parse_udpm_url(lcm_url);
 }

@@ -1,12 +1,20 @@
 #include "telemetry/telemetry.h"
 
 #include <chrono>
+#include <memory>
 
 #include "base/utime.h"
 #include "lcmtypes/message_json.h"
 #include "lcmtypes/message_kinds.h"
 
 namespace strainwave {
+
+namespace {
+
+// Making a page of 512 joints takes some milliseconds: many who ask at once get the same one.
+constexpr double kPageIsNew_s = 0.1;
+
+}  // namespace
 
 Telemetry::Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules)
     : listener_(lcm_url), server_(address, std::move(rules), topics_, [this] { return metrics(); }) {}
@@ -39,7 +47,15 @@ const Topic* Telemetry::topic_of(const std::string& channel, const LcmSource& fr
   return topic;
 }
 
-std::string Telemetry::metrics() {
+TelemetryServer::Page Telemetry::metrics() {
+  if (!page_ || now_s() - page_made_s_ > kPageIsNew_s) {
+    page_ = std::make_shared<const std::string>(expose());
+    page_made_s_ = now_s();
+  }
+  return page_;
+}
+
+std::string Telemetry::expose() {
   fleet_.forget_silent(now_s());
   Exposition page;
   expose_joints(page, fleet_.joints(), now_s());

@@ -46,13 +46,14 @@ WebPage::WebPage() {
   const std::filesystem::path folder = program.parent_path().parent_path() / "share/strainwave/web";
   for (const auto& [name, type] : kFiles) {
     try {
-      files_["/" + std::string(name)] = {type, read_text_file(folder / name)};
+      files_["/" + std::string(name)] = {type,
+                                         std::make_shared<const std::string>(read_text_file(folder / name))};
     } catch (const InputError&) {
       // Not installed: the request for it is answered with 404.
     }
   }
   if (const auto index = files_.find("/index.html"); index != files_.end()) files_["/"] = index->second;
-  files_["/vocabulary.json"] = {"application/json", vocabulary_json()};
+  files_["/vocabulary.json"] = {"application/json", std::make_shared<const std::string>(vocabulary_json())};
 }
 
 const WebPage::File* WebPage::find(std::string_view path) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,7 @@ class WebPage {
  public:
   struct File {
     std::string type;  ///< of its content
-    std::string bytes;
+    std::shared_ptr<const std::string> bytes;
   };
 
   /// Reads ../share/strainwave/web beside the program's own folder. A file that is missing there is not served.

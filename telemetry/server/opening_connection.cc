@@ -22,6 +22,10 @@ std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
 }
 
+TelemetryServer::Page page(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
+
 }  // namespace
 
 OpeningConnection::OpeningConnection(boost::asio::ip::tcp::socket&& socket, ServerShared& shared)
@@ -85,10 +89,10 @@ void OpeningConnection::become_viewer(const Request& request) {
 
 void OpeningConnection::refuse(Status status, const std::string& why) {
   ++shared_.refused;
-  respond(status, "text/plain; charset=utf-8", why + "\n");
+  respond(status, "text/plain; charset=utf-8", page(why + "\n"));
 }
 
-void OpeningConnection::respond(Status status, const char* type, std::string body) {
+void OpeningConnection::respond(Status status, const char* type, TelemetryServer::Page body) {
   response_.result(status);
   response_.set(http::field::content_type, type);
   response_.set("Content-Security-Policy", kPagePolicy);
@@ -96,10 +100,10 @@ void OpeningConnection::respond(Status status, const char* type, std::string bod
   response_.set(http::field::cache_control, "no-cache");
   if (status == Status::unauthorized) response_.set(http::field::www_authenticate, "Bearer");
   response_.keep_alive(false);
-  response_.body() = std::move(body);
+  body_ = std::move(body);
+  response_.body() = {body_->data(), body_->size()};
   response_.prepare_payload();
-  if (parser_.get().method() == http::verb::head)
-    response_.body().clear();  // its length is told all the same
+  if (parser_.get().method() == http::verb::head) response_.body() = {};  // its length is told all the same
   stream_.expires_after(kLongestRequest_s);
   http::async_write(stream_, response_, [self = shared_from_this()](const beast::error_code&, std::size_t) {
     beast::error_code ignored;

@@ -21,13 +21,14 @@ class OpeningConnection : public std::enable_shared_from_this<OpeningConnection>
   void on_request(const boost::beast::error_code& error);
   void answer(const Request& request);
   void become_viewer(const Request& request);
-  void respond(Status status, const char* type, std::string body);
+  void respond(Status status, const char* type, TelemetryServer::Page body);
   void refuse(Status status, const std::string& why);
 
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
   boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
-  boost::beast::http::response<boost::beast::http::string_body> response_;
+  TelemetryServer::Page body_;  ///< that the response shows
+  boost::beast::http::response<boost::beast::http::span_body<const char>> response_;
   ServerShared& shared_;
 };
 

@@ -23,7 +23,7 @@ constexpr auto kReport_s = std::chrono::seconds(1);
 class TelemetryServer::Network {
  public:
   Network(const ListenAddress& address, AccessRules rules, const Topics& topics,
-          std::function<std::string()> metrics)
+          std::function<Page()> metrics)
       : acceptor_(context_),
         signals_(context_, SIGINT, SIGTERM),
         report_(context_),
@@ -113,7 +113,7 @@ class TelemetryServer::Network {
 };
 
 TelemetryServer::TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                                 std::function<std::string()> metrics)
+                                 std::function<Page()> metrics)
     : network_(std::make_unique<Network>(address, std::move(rules), topics, std::move(metrics))) {}
 
 TelemetryServer::~TelemetryServer() = default;

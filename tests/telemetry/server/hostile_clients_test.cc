@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <strainwave/timing_v1.hpp>
 #include <thread>
 
+#include "tests/support/private_network.h"
 #include "tests/support/test_client.h"
 #include "tests/telemetry/server/running_telemetry.h"
 
@@ -61,6 +63,33 @@ std::uint32_t timing_topic(const RawClient& viewer) {
 
 std::string subscribe(std::uint32_t topic) {
   return Json{{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", topic}}}}}.dump();
+}
+
+// Of 512 joints a page takes long to make: a crowd would keep everybody else waiting.
+TEST(HostileClient, WhoFetchesTheMetricsWithOthersGetsTheSamePage) {
+  const RunningTelemetry telemetry;
+  const Chatter chatter;
+  int same = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::string page = telemetry.metrics();
+    std::this_thread::sleep_for(std::chrono::milliseconds(15));  // its count of messages rises meanwhile
+    same += telemetry.metrics() == page ? 1 : 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  }
+  EXPECT_GT(same, 0) << "each made anew";
+  EXPECT_LT(same, 20) << "never made anew";
+}
+
+TEST(TelemetryStart, WaitsForARouteToTheGroup) {
+  if (!enter_private_network()) GTEST_SKIP() << "this system allows no network of a test's own";
+  const std::jthread administrator([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    EXPECT_EQ(std::system("PATH=$PATH:/usr/sbin:/sbin; ip link set lo up multicast on; "
+                          "ip route add 239.255.76.99/32 dev lo src 127.0.0.1"),
+              0);
+  });
+  const RunningTelemetry telemetry({"--lcm-url", "udpm://239.255.76.99:7667?ttl=0"});
+  EXPECT_FALSE(telemetry.metrics().empty());
 }
 
 TEST(HostileClient, WhoReadsNothingLosesMessagesAndCostsNoMemory) {
