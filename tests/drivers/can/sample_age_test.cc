@@ -69,6 +69,19 @@ TEST_F(SampleAgeTest, SeesADriveThatBecomesLateByWholePeriods) {
   }
 }
 
+TEST_F(SampleAgeTest, SeesWholePeriodsThatADriveIsLateFromTheFirstSyncOnUntilItHasCaughtUp) {
+  for (const int periods : {1, 3, 12}) {
+    age_ = SampleAge(kPeriod_ns, kSlowEvery);
+    age_.restart(kUsual_ns);
+    due_.clear();
+    run(1000, kUsual_ns + periods * kPeriod_ns);
+    EXPECT_EQ(age_.late_periods(), periods);
+    run(5 * kSlowEvery, kUsual_ns);
+    // From TPDO2 a catching up by more than half of its distance cannot be told from lateness; the fault stays the safe side.
+    EXPECT_EQ(age_.late_periods() == 0, periods < kSlowEvery / 2) << "after " << periods;
+  }
+}
+
 TEST_F(SampleAgeTest, TakesASyncOfWhichItWasNotToldForNoLateness) {
   run(100, kUsual_ns);
   for (int i = 0; i < 5; ++i) {
@@ -112,6 +125,7 @@ TEST_F(SampleAgeTest, OneThatIsElsewhereFromTheFirstSampleOnIsDisplaced) {
 
 TEST_F(SampleAgeTest, BearsTheJitterOfAnOrdinaryAdapter) {
   std::mt19937 random(6);
+  run(1, kUsual_ns);
   for (int i = 0; i < 2000; ++i) {
     run(1, random() % 10 == 0 ? -1 : kUsual_ns + static_cast<std::int64_t>(random() % 150'000));
     ASSERT_EQ(age_.lag_periods(), 0) << i;

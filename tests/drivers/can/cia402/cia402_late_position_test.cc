@@ -102,7 +102,7 @@ TEST_F(Cia402LatePosition, ADriveThatBecomesLateWhileItIsOffIsAFaultOnceItIsUsed
 }
 
 TEST_F(Cia402LatePosition, ADriveThatIsLateFromTheLoopsFirstPeriodIsAFaultOnceItIsUsed) {
-  for (const char* late : {"1400", "6400", "10400"}) {
+  for (const char* late : {"1400", "2000", "3100", "6400", "10000", "10400"}) {
     DriveBench bench({bench_drive(3)});
     bench.config().quick_stop_after = 20;
     bench.start();
