@@ -37,6 +37,8 @@ constexpr std::uint32_t kSyncProducerBit = 1U << 30U;
 constexpr std::uint32_t kTorqueModeBit = 1U << 3U;
 constexpr std::uint32_t kCyclicTorqueModeBit = 1U << 9U;
 
+/// Of an SDO. Start-up needs about 120, so it takes some 13 s at most.
+constexpr std::int64_t kSlowestAnswer_ns = 100'000'000;
 constexpr std::int64_t kPoll_ns = 5'000'000;
 constexpr std::int64_t kModeWait_ns = 1'000'000'000;
 constexpr std::int64_t kDisableWait_ns = 500'000'000;
@@ -47,21 +49,29 @@ std::int64_t boot_timeout_ns(const DriveConfig& config) {
   return nanoseconds(config.boot_timeout_s);
 }
 
-/// A drive that has just been switched on is silent for a while; resetting it would only let it begin anew.
+/// A drive that has just been switched on is silent or slow for a while; resetting it would only let it begin anew. One that stays
+/// slow would keep start-up busy for half a minute.
 void wait_until_it_answers(SdoClient& client, const DriveConfig& config) {
   const std::int64_t deadline_ns = client.port().now_ns() + boot_timeout_ns(config);
-  for (;;) {
+  std::optional<std::int64_t> took_ns;
+  do {
+    const std::int64_t asked_ns = client.port().now_ns();
     try {
       (void)client.upload(kDeviceType);
-      return;
+      took_ns = client.port().now_ns() - asked_ns;
+      if (*took_ns <= kSlowestAnswer_ns) return;
     } catch (const canopen::SdoError& error) {
       if (!error.no_answer()) throw;
     }
-    if (client.port().now_ns() >= deadline_ns)
-      refuse(client,
-             "no answer within boot_timeout_s = " + std::to_string(config.boot_timeout_s) +
-                 ": check supply, node_id, bit rate and wiring; `strainwavectl can-scan` shows who answers");
-  }
+  } while (client.port().now_ns() < deadline_ns);
+  const std::string within = " within boot_timeout_s = " + std::to_string(config.boot_timeout_s);
+  if (took_ns)
+    refuse(client, "answers an SDO in " + std::to_string(*took_ns / 1'000'000) + " ms, at most " +
+                       std::to_string(kSlowestAnswer_ns / 1'000'000) + " ms are allowed" + within +
+                       ": look for traffic on the bus that delays it, or for its setting of the SDO server");
+  refuse(client,
+         "no answer" + within +
+             ": check supply, node_id, bit rate and wiring; `strainwavectl can-scan` shows who answers");
 }
 
 void reset_communication(SdoClient& client, const DriveConfig& config) {

@@ -1,5 +1,5 @@
-"""Our driver against a drive that shares no line with our own (strict_node.py): a foreign one stays untouched, a slow or late one is
-started all the same, two with one id are noticed."""
+"""Our driver against a drive that shares no line with our own (strict_node.py): a foreign one, one that answers slowly and one of two with
+one id stay untouched, one that boots slowly is waited for."""
 import signal
 import time
 
@@ -42,17 +42,23 @@ class StrictPeer(StrictBench):
             time.sleep(0.5)
         self.assertEqual(joint_state()['mode'], MODES['holding'])
 
-    def test_a_drive_that_answers_after_300_ms_is_started_and_ended_in_time(self):
-        self.start_node('--sdo-delay', '0.3')
+    def test_a_drive_that_answers_after_80_ms_is_started_and_ended_in_time(self):
+        self.start_node('--sdo-delay', '0.08')
         begun = time.monotonic()
         daemon = self.start_daemon(wait_for=None)
-        wait_until(lambda: ctl('status', JOINT, timeout_s=0.5)[0] == 0, 120, 'the daemon runs: ' + daemon.text())
+        wait_until(lambda: ctl('status', JOINT, timeout_s=0.5)[0] == 0, 20, 'the daemon runs: ' + daemon.text())
         print(f'started in {time.monotonic() - begun:.1f} s')
         self.enable()
         begun = time.monotonic()
         self.assertEqual(daemon.end(), 0)
         print(f'ended in {time.monotonic() - begun:.1f} s')
         self.assertNotEqual([line for line in self.done_to() if line.startswith('controlword')][-1], 'controlword F')
+
+    def test_a_drive_that_answers_after_300_ms_is_refused_and_left_alone(self):
+        self.start_node('--sdo-delay', '0.3')
+        said = self.start_daemon(wait_for=None).refusal(30)
+        self.assertIn('at most 100 ms', said)
+        self.assertFalse([line for line in self.done_to() if line.startswith(('write', 'nmt', 'controlword'))])
 
     def test_two_drives_with_one_id_are_noticed_before_either_is_changed(self):
         self.start_node(log='first.log')
