@@ -15,10 +15,11 @@ namespace {
 constexpr std::chrono::milliseconds kServeEvery{20};
 constexpr std::int64_t kTellEvery_ns = 10'000'000'000;
 
-/// Sends our heartbeat while it waits.
+/// Sends our heartbeat while it waits, once the loop that sent it is `over`. Before that a loop that hangs must be missed.
 class HeartbeatPort final : public CanPort {
  public:
-  HeartbeatPort(CanPort& port, const CanBusConfig& config) : port_(port), config_(config) {}
+  HeartbeatPort(CanPort& port, const CanBusConfig& config, const std::atomic<bool>& over)
+      : port_(port), config_(config), over_(over) {}
 
   SendResult send(const CanFrame& frame) noexcept override { return port_.send(frame); }
   ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept override { return port_.receive(frames); }
@@ -30,7 +31,8 @@ class HeartbeatPort final : public CanPort {
     while (now_ns() < end_ns) {
       if (now_ns() >= due_ns_) {
         due_ns_ = now_ns() + nanoseconds(config_.heartbeat_period_s);
-        (void)send(canopen::heartbeat_frame(config_.our_node_id, canopen::NmtState::kOperational));
+        if (over_.load(std::memory_order_acquire))
+          (void)send(canopen::heartbeat_frame(config_.our_node_id, canopen::NmtState::kOperational));
       }
       if (port_.wait(std::min(end_ns, due_ns_) - now_ns())) return true;
     }
@@ -40,6 +42,7 @@ class HeartbeatPort final : public CanPort {
  private:
   CanPort& port_;
   const CanBusConfig& config_;
+  const std::atomic<bool>& over_;
   std::int64_t due_ns_ = 0;
 };
 
@@ -104,7 +107,7 @@ void CanBus::close() {
   for (const auto& node : nodes_) node->end_operation(*port_);
   if (background_.joinable()) background_.join();
   // Drives whose answers take long must not miss our heartbeat before they have been told that it ends.
-  HeartbeatPort port(*setup_port_, config_);
+  HeartbeatPort port(*setup_port_, config_, ending_);
   for (const auto& node : nodes_) node->shut_down(port);
 }
 
@@ -179,8 +182,11 @@ std::vector<std::string> CanBus::take_messages() {
 }
 
 void CanBus::serve() {
+  // The end may come while a drive is waited for.
+  HeartbeatPort port(*setup_port_, config_, ending_);
   for (const auto& node : nodes_) {
-    const std::vector<std::string> lines = node->serve(*setup_port_);
+    if (ending_.load(std::memory_order_acquire)) return;
+    const std::vector<std::string> lines = node->serve(port);
     if (!lines.empty()) say(lines);
   }
   tell_losses();
