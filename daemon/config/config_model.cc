@@ -62,9 +62,10 @@ TorsionSpring named_spring(TomlSection& joint, PlantIdentity& plant) {
     joint.fail("gear", "a gear of the catalogue is allowed: " + gear_names() +
                            "; for another give stiffness_Nm_rad in its place");
   if (std::abs(gear->ratio - plant.gear_ratio) > 1e-6 * gear->ratio)
-    joint.fail("gear", "a gear of joint.gear_ratio = " + number_text(plant.gear_ratio) +
-                           " is allowed; that of this one is " + number_text(gear->ratio) +
-                           ": set joint.gear_ratio to it if this is the gear");
+    // What follows is read all the same: all errors of a file are said at once.
+    joint.note_error(joint.place("gear") + ": a gear of joint.gear_ratio = " + number_text(plant.gear_ratio) +
+                     " is allowed; that of this one is " + number_text(gear->ratio) +
+                     ": set joint.gear_ratio to it if this is the gear");
   plant.gear = FixedString<32>(gear->name);
   return gear->spring;
 }

@@ -88,6 +88,15 @@ TEST_F(ModelConfigTest, OfAFlexibleJointIsRefusedWithAllLinesThatAreMissingAndNo
   EXPECT_EQ(no_load.find("motor_inertia_kgm2"), std::string::npos) << no_load;
 }
 
+TEST_F(ModelConfigTest, OfAGearWithAnotherRatioIsRefusedTogetherWithAllOtherErrorsOfTheFile) {
+  const std::string wrong = replaced(flexible(), "torque_limit_Nm = 34", "torque_limit_Nm = -34");
+  expect_mentions(error_of(replaced(wrong, "gear_ratio = 50", "gear_ratio = 100")),
+                  {"a gear of joint.gear_ratio = 100 is allowed", "torque_limit_Nm = -34"});
+  const std::string impossible = error_of(replaced(wrong, "gear_ratio = 50", "gear_ratio = 0"));
+  expect_mentions(impossible, {"joint[0].gear_ratio = 0", "torque_limit_Nm = -34"});
+  EXPECT_EQ(impossible.find("a gear of"), std::string::npos) << "it follows: " << impossible;
+}
+
 TEST_F(ModelConfigTest, RefusesTheKeysOfTheOtherModelWithTheReason) {
   expect_mentions(error_of(flexible("gear = \"csf-17-50\"\ninertia_kgm2 = 0.189")),
                   {"joint[0].inertia_kgm2 = 0.189", "only with model = \"rigid\"", "a spring is between"});
