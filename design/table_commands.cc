@@ -11,6 +11,7 @@
 #include "design/commands.h"
 #include "design/joint_defaults.h"
 #include "design/spring_options.h"
+#include "design/table_reach.h"
 #include "design/table_report.h"
 
 namespace strainwave {
@@ -83,6 +84,7 @@ ExitStatus verify(const VerifyOptions& options) {
     certified = certified && report.certified;
     std::printf("box: %s\n  %s; %s, %d inequalities\n", describe(table.box).c_str(),
                 report.certified ? "certified" : "NOT CERTIFIED", report.text.c_str(), report.inequalities);
+    if (report.certified) std::fputs(describe(reach_of(table), table.torque_limit_Nm).c_str(), stdout);
   }
   if (spring) certified = verify_spring(table, gear_of(options, table), *spring) && certified;
   std::printf("%s: %s\n", options.path.c_str(), certified ? "certified" : "NOT CERTIFIED");

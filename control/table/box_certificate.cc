@@ -24,15 +24,6 @@ std::string periods_text(const BoxRange& range) {
   return text_of(range) + (range.to == 1.0 ? " period" : " periods");
 }
 
-ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods) {
-  const int n = spring_loop_states(cell.delay_periods, lead_periods);
-  ProofMatrix P(n, n);
-  std::size_t entry = 0;
-  for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j) P(i, j) = P(j, i) = cell.P[entry++];
-  return P;
-}
-
 std::span<const BoxCell> cells_of(const CertifiedBox& box) {
   return std::span(box.cells).first(static_cast<std::size_t>(box.cell_count));
 }
@@ -80,6 +71,15 @@ std::string outside(const char* quantity, const std::string& value, const std::s
 
 }  // namespace
 
+ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods) {
+  const int n = spring_loop_states(cell.delay_periods, lead_periods);
+  ProofMatrix P(n, n);
+  std::size_t entry = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) P(i, j) = P(j, i) = cell.P[entry++];
+  return P;
+}
+
 SpringBox spring_box(const GainTable& table, const BoxCell& cell) {
   return {table.box.motor_inertia_kgm2,
           cell.link_inertia_kgm2,
@@ -92,10 +92,7 @@ BoxReport certify_box(const GainTable& table) {
   BoxReport report;
   const CertifiedBox& box = table.box;
   for (int delay = box.least_delay; delay <= box.most_delay; ++delay) {
-    if (const auto gap = find_gap(box, delay)) {
-      report.text = *gap;
-      return report;
-    }
+    if (const auto gap = find_gap(box, delay)) return {false, 0, *gap};
   }
   const std::vector<GainRow> gains = gains_of(table);
   double margin = std::numeric_limits<double>::infinity();

@@ -1,12 +1,12 @@
-// The certificate of a table that carries a box of joints with a spring: whoever receives it proves anew, without a solver, that every
-// gain rule, every blend of them and the fallback are stable on every joint of the box, and that the cells leave nothing of it out.
+// The certificate of a table that carries a box of joints with a spring. The receiver proves it anew without a solver: every gain rule,
+// every blend of them and the fallback are stable on every joint of the box, and the cells cover the box.
 // Not real-time. Source: spring_certificate.h, of each cell.
 //
-// Proved is the feedback in the loop that the daemon closes around the encoder on the box's side (its velocity from the readings, its lead,
-// torques under way), for every delay of the box, any temperature taken for any other, viscous friction from 0 to the largest of the rules; stiffness
-// and link inertia may vary within a cell from sample to sample, damping and friction within the box. Not proved: what varies across
-// cells, as a wind-up over several slopes does where those have cells of their own; observer, planned motion and friction that is fed
-// forward; counts, stiction, a torque at its limit.
+// Proved is the feedback in the loop that the daemon closes around the encoder on the box's side: its velocity from the readings, its lead,
+// torques under way. It holds for every delay of the box, for any temperature taken for any other, and for viscous friction from 0 to the largest of
+// the rules. Stiffness and link inertia may vary within a cell from sample to sample, damping and friction within the box.
+// Not proved: what varies across cells, as a wind-up over several slopes does where those have cells of their own; planned motion and friction
+// that is fed forward; counts, static friction, a torque at its limit.
 #pragma once
 
 #include <optional>
@@ -33,6 +33,9 @@ BoxReport certify_box(const GainTable& table);
 
 /// The joints of `cell`, with the box's motor, damping and rules.
 SpringBox spring_box(const GainTable& table, const BoxCell& cell);
+
+/// P of `cell`, whole.
+ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods);
 
 /// Which quantity of a flexible joint is outside the table's box, its value and what is allowed, or nothing.
 std::optional<std::string> find_outside_box(const GainTable& table, const LinkModel& link, int delay_periods);
