@@ -15,10 +15,9 @@
 //     step reference       torque = clamp(u + f + known load)
 //     planned motion       torque = clamp(u + planned torque)
 //
-// Source: Zhao (2006), (3-9)..(3-35), section 5.4. What he leaves open: d, which here is where the joint must
-// go (the sign of the velocity keeps an overshoot going, the sign of u chatters while the integral settles),
-// and the joint at rest, which needs all of Fs to move again. Controllers without temperature (one rule) know
-// no friction: f = 0.
+// Source: Zhao (2006), (3-9)..(3-35), section 5.4. He leaves two things open. d here is where the joint must
+// go: the sign of the velocity would keep an overshoot going, the sign of u would chatter while the integral settles. A joint at rest
+// needs all of Fs to move again. Controllers without temperature (one rule) have f = 0.
 //
 // The integral is one number with two duties; only the slow one is wanted: what friction and load leave to
 // correct. With P the Lyapunov matrix of rule 0,

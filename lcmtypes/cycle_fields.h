@@ -7,7 +7,7 @@
 namespace strainwave {
 
 /// Of flight records; another list of fields is another format. Written by daemon/records, read by client/text.
-inline constexpr int kFlightRecordFormat = 2;
+inline constexpr int kFlightRecordFormat = 1;
 
 struct FieldName {
   std::string_view name;

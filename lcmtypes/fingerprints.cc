@@ -2,7 +2,7 @@
 
 #include <array>
 #include <optional>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/path_v1.hpp>
 #include <utility>
 
@@ -20,12 +20,12 @@ std::optional<std::uint64_t> fingerprint_of(std::string_view kind) {
        {channel_kind::kTemperature, temperature_v1::getHash()},
        {channel_kind::kLimits, limits_v1::getHash()},
        {channel_kind::kTiming, timing_v1::getHash()},
-       {channel_kind::kSetpoint, setpoint_v2::getHash()},
+       {channel_kind::kSetpoint, setpoint_v1::getHash()},
        {channel_kind::kCommand, command_v1::getHash()},
        {channel_kind::kInject, inject_v1::getHash()},
        {channel_kind::kAck, ack_v1::getHash()},
        {channel_kind::kPath, path_v1::getHash()},
-       {channel_kind::kTable, gain_table_v2::getHash()}}};
+       {channel_kind::kTable, gain_table_v1::getHash()}}};
   for (const auto& [name, fingerprint] : fingerprints)
     if (name == kind) return static_cast<std::uint64_t>(fingerprint);
   return std::nullopt;

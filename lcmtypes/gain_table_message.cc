@@ -105,13 +105,13 @@ struct MessageToTable {
 
 }  // namespace
 
-gain_table_v2 to_message(const GainTable& table) {
-  gain_table_v2 message{};
+gain_table_v1 to_message(const GainTable& table) {
+  gain_table_v1 message{};
   visit_table(TableToMessage{}, table, message);
   return message;
 }
 
-GainTable to_gain_table(const gain_table_v2& message) {
+GainTable to_gain_table(const gain_table_v1& message) {
   GainTable table;
   visit_table(MessageToTable{}, table, message);
   return table;

@@ -7,7 +7,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/limits_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 #include <string_view>
@@ -95,7 +95,7 @@ void visit_envelope(const Order& order, Visit&& visit) {
 }  // namespace field
 
 template <typename Visit>
-void visit_fields(const setpoint_v2& message, Visit&& visit) {
+void visit_fields(const setpoint_v1& message, Visit&& visit) {
   field::visit_envelope(message, visit);
   visit("stream_id", message.stream_id);
   visit("position_rad", message.position_rad);

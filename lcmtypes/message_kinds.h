@@ -8,7 +8,7 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/limits_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
@@ -31,7 +31,7 @@ bool visit_message(std::string_view kind, std::span<const std::uint8_t> bytes, V
   if (kind == channel_kind::kTemperature) return as.template operator()<temperature_v1>();
   if (kind == channel_kind::kLimits) return as.template operator()<limits_v1>();
   if (kind == channel_kind::kTiming) return as.template operator()<timing_v1>();
-  if (kind == channel_kind::kSetpoint) return as.template operator()<setpoint_v2>();
+  if (kind == channel_kind::kSetpoint) return as.template operator()<setpoint_v1>();
   if (kind == channel_kind::kCommand) return as.template operator()<command_v1>();
   if (kind == channel_kind::kInject) return as.template operator()<inject_v1>();
   if (kind == channel_kind::kAck) return as.template operator()<ack_v1>();

@@ -3,7 +3,7 @@
 
 namespace strainwave {
 
-/// The largest setpoint_v2.valid_for_s. It holds for a stream that gives none: the joint rests by then, and the torque of its last sample
+/// The largest setpoint_v1.valid_for_s. It holds for a stream that gives none: the joint rests by then, and the torque of its last sample
 /// stays. Twice what an owner may be silent for.
 inline constexpr double kLongestValidFor_s = 10.0;
 

@@ -103,7 +103,7 @@ class ChannelExport {
     if (name.kind == channel_kind::kTemperature) return write<temperature_v1>(event);
     if (name.kind == channel_kind::kLimits) return write<limits_v1>(event);
     if (name.kind == channel_kind::kTiming) return write<timing_v1>(event);
-    if (name.kind == channel_kind::kSetpoint) return write<setpoint_v2>(event);
+    if (name.kind == channel_kind::kSetpoint) return write<setpoint_v1>(event);
     if (name.kind == channel_kind::kCommand) return write<command_v1>(event);
     if (name.kind == channel_kind::kInject) return write<inject_v1>(event);
     if (name.kind == channel_kind::kAck) return write<ack_v1>(event);

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
@@ -43,7 +43,7 @@ class Identification {
 
   /// There at this speed, and at rest.
   void leg(double target_rad, double speed_rad_s) {
-    setpoint_v2 setpoint{};
+    setpoint_v1 setpoint{};
     setpoint.position_rad = target_rad;
     setpoint.valid_for_s = kValidFor_s;
     setpoint.speed_limit_rad_s = speed_rad_s;
@@ -66,7 +66,7 @@ class Identification {
   }
 
   /// A stream begins with a setpoint that is answered, so that it cannot be lost.
-  void begin(setpoint_v2 setpoint) {
+  void begin(setpoint_v1 setpoint) {
     setpoint.begins_stream = 1;
     setpoint.approach = 1;
     setpoint.acknowledge = 1;

@@ -1,7 +1,7 @@
 // play: the setpoints of a log as new orders.
 #include <fmt/format.h>
 
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "base/printable.h"
 #include "client/commands/commands.h"
@@ -17,7 +17,7 @@ namespace {
 
 struct TimedSetpoint {
   double at_s = 0.0;  ///< since the first one
-  setpoint_v2 setpoint{};
+  setpoint_v1 setpoint{};
 };
 
 std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
@@ -27,7 +27,7 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
   for (LogEvent event; reader.next(event);) {
     const auto name = parse_channel(event.channel);
     if (!name || name->joint != arguments.joint || name->kind != channel_kind::kSetpoint) continue;
-    const auto setpoint = decode_exactly<setpoint_v2>(event.data);
+    const auto setpoint = decode_exactly<setpoint_v1>(event.data);
     if (!setpoint) continue;
     if (setpoints.empty()) first_us = event.received_us;
     // A clock that was set back while recording must not turn the order round.
@@ -44,8 +44,8 @@ std::vector<TimedSetpoint> read_setpoints(const PlayArguments& arguments) {
 
 /// Only what was wanted is taken over; who, when and for whom, the sender says anew. The cycle that a sample was for belongs to
 /// the session that it was recorded in.
-setpoint_v2 order_of(const setpoint_v2& recorded) {
-  setpoint_v2 order{};
+setpoint_v1 order_of(const setpoint_v1& recorded) {
+  setpoint_v1 order{};
   order.position_rad = recorded.position_rad;
   order.velocity_rad_s = recorded.velocity_rad_s;
   order.acceleration_rad_s2 = recorded.acceleration_rad_s2;
@@ -58,7 +58,7 @@ setpoint_v2 order_of(const setpoint_v2& recorded) {
 }
 
 /// The first, and every one that begins a stream, must not get lost.
-void require_order(Client& client, const std::string& joint, setpoint_v2 order) {
+void require_order(Client& client, const std::string& joint, setpoint_v1 order) {
   order.acknowledge = 1;
   order.begins_stream = order.stream_id != 0 ? 1 : 0;
   order.approach = order.begins_stream;
@@ -81,7 +81,7 @@ void send_all(Client& client, const std::string& joint, const std::vector<TimedS
     const bool begins = streamed && (last == nullptr || last->setpoint.stream_id != next.setpoint.stream_id ||
                                      next.at_s - last->at_s > last->setpoint.valid_for_s);
     if (begins) stream_id = client.new_stream();
-    setpoint_v2 order = order_of(next.setpoint);
+    setpoint_v1 order = order_of(next.setpoint);
     order.stream_id = streamed ? stream_id : 0;
     if (last == nullptr || begins) {
       require_order(client, joint, order);

@@ -12,7 +12,7 @@ namespace strainwave {
 
 void load_table(Client& client, const Output& output, const LoadTableArguments& arguments) {
   const GainTable table = read_gain_table(arguments.file);
-  const gain_table_v2 message = to_message(table);
+  const gain_table_v1 message = to_message(table);
   const std::vector<std::string> named =
       arguments.joint ? std::vector<std::string>{*arguments.joint} : std::vector<std::string>{};
   Failures failures;

@@ -110,7 +110,7 @@ bool Stream::put(double t_s, double position_rad, std::optional<double> velocity
     link_->client().catch_up();
     check_restart();
   }
-  setpoint_v2 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2, load);
+  setpoint_v1 message = sample(position_rad, velocity_rad_s, acceleration_rad_s2, load);
   last_t_s_ = t_s;
   if (!last_cycle_) {
     begin(t_s, message);
@@ -169,10 +169,10 @@ void Stream::hold() {
   if (std::exchange(last_cycle_, std::nullopt)) send_stop(link_->client(), link_->name(), Action::kHold);
 }
 
-setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_rad_s,
+setpoint_v1 Stream::sample(double position_rad, std::optional<double> velocity_rad_s,
                            std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const {
   const limits_v1& limits = link_->limits();
-  setpoint_v2 message{};
+  setpoint_v1 message{};
   require_in_range(link_->name(), position_rad, limits);
   message.position_rad = position_rad;
   if (acceleration_rad_s2 && !velocity_rad_s)
@@ -200,12 +200,12 @@ setpoint_v2 Stream::sample(double position_rad, std::optional<double> velocity_r
   return message;
 }
 
-void Stream::begin(double t_s, setpoint_v2 message) {
+void Stream::begin(double t_s, setpoint_v1 message) {
   message.begins_stream = 1;
   message.acknowledge = 1;
   message.approach = options_.approach ? 1 : 0;
   const bool sets_the_base = !base_->origin_t_s;
-  const auto prepare = [&](setpoint_v2& next) {
+  const auto prepare = [&](setpoint_v1& next) {
     if (sets_the_base) {
       base_->origin_t_s = t_s;
       base_->origin_cycle =

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 namespace strainwave {
 
@@ -62,9 +62,9 @@ class Stream {
   Stream(std::shared_ptr<JointLink> link, const StreamOptions& options);
   static std::shared_ptr<TimeBase> base_of(JointLink& link, const Stream* beside);
 
-  setpoint_v2 sample(double position_rad, std::optional<double> velocity_rad_s,
+  setpoint_v1 sample(double position_rad, std::optional<double> velocity_rad_s,
                      std::optional<double> acceleration_rad_s2, const CarriedLoad& load) const;
-  void begin(double t_s, setpoint_v2 message);
+  void begin(double t_s, setpoint_v1 message);
   void wait_until_due(std::int64_t cycle);
   void check_refusals();
   void check_joint();

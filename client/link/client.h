@@ -62,7 +62,7 @@ class Client {
   /// The same after waiting as wait_for_joints() does.
   std::vector<JointName> wait_for_heard();
 
-  /// Sends `message` (setpoint_v2, command_v1, gain_table_v2 or inject_v1) to `joint` on the channel of `kind` and waits
+  /// Sends `message` (setpoint_v1, command_v1, gain_table_v1 or inject_v1) to `joint` on the channel of `kind` and waits
   /// for the answer. Throws ClientError when the joint is not heard or no answer comes. It quotes the latest state, also when it is
   /// repeated. So the daemon refuses it once that is a second old, or the joint was stopped or has faulted since.
   template <typename Message>

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <utility>
 #include <vector>
 
@@ -238,7 +238,7 @@ std::string duration_text(double duration_s) {
 
 void start_move(Client& client, const std::string& joint, const MoveOrder& order) {
   require_quick_enough(joint, order, client.wait_for_joint(joint).state.setpoint_position_rad);
-  setpoint_v2 message{};
+  setpoint_v1 message{};
   message.position_rad = order.position_rad;
   message.speed_limit_rad_s = order.speed_limit_rad_s;
   message.acknowledge = 1;

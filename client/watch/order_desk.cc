@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "client/link/client.h"
 #include "client/link/orders.h"
@@ -85,7 +85,7 @@ void OrderDesk::order(const Name& joint, Action action) {
 }
 
 void OrderDesk::move(const Name& joint, double position_rad) {
-  setpoint_v2 message{};
+  setpoint_v1 message{};
   message.position_rad = position_rad;
   message.acknowledge = 1;
   post(joint, channel_kind::kSetpoint, message, fmt::format("move to {:.6g} rad", position_rad));

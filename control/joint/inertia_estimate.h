@@ -3,7 +3,7 @@
 //   J (w(t) - w(t - T)) = I(t) - I(t - T) - k (R(t) - R(t - T)) - c T
 //   I = integral of (torque - known load),   R = integral of the table's friction, with the sign of the motion
 //
-// Recursive least squares with forgetting fits J, k (friction over the table's) and c (an unknown load) over windows of T. The means of w,
+// Recursive least squares with forgetting fits J, k and c over windows of T: k is friction over the table's, c an unknown load. The means of w,
 // I and R over 4 ms are used, which smooths the encoder's counts and keeps the equation exact. T is 20 ms, about one swing of the gear's
 // spring (catalogue: 12 to 36 ms), so that motor and link act as one inertia. Only windows of motion in one direction are used, since
 // static friction balances any torque. The prior is k = 1, c = 0; the configured J is not used.

@@ -30,7 +30,7 @@ struct CatalogueJoint {
   FrictionParameters friction_at(double temperature_C, double gear_ratio) const noexcept;
 };
 
-/// Every joint; the source's, the reference of the design, is the first.
+/// Every joint; the first is that of Zhao (2006), the reference of the design.
 const std::vector<CatalogueJoint>& joint_catalogue();
 
 /// The joint of this model, or with this gear; null when the catalogue has none.

@@ -1,5 +1,5 @@
-// The certificate of a gain table: whoever receives a table can prove, in milliseconds and without a solver,
-// that its gains stabilise the sampled and held joint for any time-varying weights, right or wrong. Not real-time.
+// The certificate of a gain table. The receiver proves in milliseconds, without a solver, that the gains stabilise the sampled and held
+// joint for any time-varying weights, right or wrong. Not real-time.
 //
 // With A_i, B_i rule i of the plant under a zero-order hold, H_ij = A_i + B_i F_j and r the decay rate:
 //

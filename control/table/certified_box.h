@@ -52,7 +52,7 @@ struct CertifiedBox {
   BoxRange damping_Nms_rad;         ///< >= 0, of the wind-up's speed
   std::int32_t least_delay = 0;  ///< periods between a torque's computation and its effect, 0..kMaxBoxDelay
   std::int32_t most_delay = 0;
-  /// Of the feedback on these joints, 0..kMaxLeadPeriods: scheduled_controller.h. Joints that are told of no spring have none.
+  /// Of the feedback on these joints, 0..kMaxLeadPeriods: scheduled_controller.h. Rigid joints have none.
   double lead_periods = 0.0;
   std::int32_t cell_count = 0;  ///< 0: rigid
   std::array<BoxCell, kMaxBoxCells> cells{};

@@ -25,7 +25,7 @@ namespace strainwave {
 inline constexpr int kMaxStates = 3;
 /// The zero-velocity rule and one high-velocity rule per temperature rule.
 inline constexpr int kMaxRules = 1 + kMaxTemperatureRules;
-inline constexpr int kGainTableFormat = 4;
+inline constexpr int kGainTableFormat = 1;
 
 using StateVector = Eigen::Vector3d;
 using StateMatrix = Eigen::Matrix3d;
@@ -73,7 +73,7 @@ struct FeedbackGains {
   bool scheduled() const noexcept { return rule_count > 1; }
 };
 
-/// How the plant was sampled for the design: as the loop does it, or as the source did.
+/// How the plant was sampled for the design: as the loop does it, or as Zhao (2006) did.
 enum class Sampling : std::int32_t { kForwardEuler = 0, kZeroOrderHold = 1 };
 
 /// Where a table came from. Nothing in the loop reads it, and no proof does.

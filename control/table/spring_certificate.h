@@ -1,11 +1,11 @@
-// The certificate of gains on a joint whose gear is a spring: whoever receives gains and a matrix P can prove, without a solver, that
+// The certificate of gains on a joint with a gear that is a spring. From gains and a matrix P the receiver proves, without a solver, that
 // the sampled and held loop of spring_plant.h is stable everywhere in a box of joints. Not real-time.
 //
 //   P - H' P H / r^2 > 0,   P > 0        H = H(K, 1/Jl, D, b, j)
 //
 // for every stiffness K, link inertia Jl, damping D and viscous friction b of the box and every gain j. Then V = x' P x falls by r^2
-// each sample, whatever K, Jl, D, b and the blend of the gains do from one sample to the next: a spring of several slopes, friction
-// that changes, a temperature that is taken for any other. Within a sample they stand still.
+// each sample, however K, Jl, D, b and the blend of the gains change from one sample to the next. That covers a spring of several slopes,
+// friction that changes, and a temperature that is taken for any other. Within a sample they stand still.
 //
 // Corners are enough: h [Ac Bc; 0 0] is affine in each of K, 1/Jl, D and b, so that its exponential is what interpolates those of the
 // box's 16 corners, within E (interpolation_error(), summed over the four). With |E_v| <= E

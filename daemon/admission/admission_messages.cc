@@ -4,9 +4,9 @@
 #include <initializer_list>
 #include <sstream>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "base/printable.h"
 #include "daemon/admission/admission.h"
@@ -42,7 +42,7 @@ std::optional<std::string> complaint_about_numbers(std::initializer_list<Number>
 }
 
 // What a setpoint says beyond its position must be possible, and is for streams only.
-std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
+std::optional<std::string> complaint_about_motion(const setpoint_v1& setpoint) {
   std::ostringstream text;
   if (setpoint.derivatives < 0 || setpoint.derivatives > 2)
     text << "derivatives = " << setpoint.derivatives
@@ -69,7 +69,7 @@ std::optional<std::string> complaint_about_motion(const setpoint_v2& setpoint) {
 }
 
 // What a sample tells of its load may be no more than the joint could carry, and is for streams only.
-std::optional<std::string> complaint_about_load(const setpoint_v2& setpoint, const ExpectedJoint& joint) {
+std::optional<std::string> complaint_about_load(const setpoint_v1& setpoint, const ExpectedJoint& joint) {
   std::ostringstream text;
   const double heaviest_kgm2 = kHeaviestLoad * joint.plant.inertia_kgm2;
   if (setpoint.stream_id == 0 && (setpoint.torque_Nm != 0.0 || setpoint.load_inertia_kgm2 != 0.0))
@@ -120,7 +120,7 @@ std::optional<OrderKind> order_of(Action action) {
 }  // namespace
 
 Verdict Admission::judge_setpoint(std::size_t joint, const WireMessage& message) {
-  const auto setpoint = decode_exactly<setpoint_v2>(payload(message));
+  const auto setpoint = decode_exactly<setpoint_v1>(payload(message));
   if (!setpoint) return discard(Reason::kMalformed);
   Requester requester{joint, setpoint->sender_id, setpoint->sequence, setpoint->acknowledge != 0};
   if (auto verdict = check_envelope(
@@ -207,7 +207,7 @@ Verdict Admission::judge_command(std::size_t joint, const WireMessage& message) 
 }
 
 Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& message) {
-  const auto table_message = decode_exactly<gain_table_v2>(payload(message));
+  const auto table_message = decode_exactly<gain_table_v1>(payload(message));
   if (!table_message) return discard(Reason::kMalformed);
   Requester requester{joint, table_message->sender_id, table_message->sequence};
   if (auto verdict = check_envelope(

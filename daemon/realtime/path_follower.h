@@ -1,7 +1,7 @@
 // Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock
-// (control/trajectory/path_clock.h): they leave, pause, go on and arrive in the same cycle, and are on the path in between. A joint may follow its plan later than another,
-// by its delay, its jerk limit or its spring: the slowest gets the clock's own time, each other an earlier one, so that the joints are
-// together, where their setpoints are not. Real-time safe.
+// (control/trajectory/path_clock.h): they leave, pause, go on and arrive in the same cycle, and are on the path in between.
+// A joint may follow its plan later than another, by its delay, its jerk limit or its spring. The slowest gets the clock's own time, each other
+// an earlier one: the joints are together, their setpoints are not. Real-time safe.
 //
 //   resume   -> all joints of the path begin in the next cycle, or none
 //   pause    -> the path's time comes to rest, as quickly as the accelerations allow

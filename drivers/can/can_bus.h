@@ -49,7 +49,7 @@ struct CanBusConfig {
   std::uint8_t our_node_id = 127;   ///< in our heartbeat
   double heartbeat_period_s = 0.0;  ///< of ours; 0: none
   int stuck_periods = 3;            ///< periods that frames may wait for the bus before it is a fault
-  bool background_thread = true;    ///< false: nobody serves but tests, by serve()
+  bool background_thread = true;    ///< false: only tests serve, by serve()
 };
 
 class CanBus final : public Fieldbus, private CanTransmitter {

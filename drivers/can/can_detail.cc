@@ -25,13 +25,13 @@ std::string can_detail_text(std::uint32_t drive_error) {
     case CanDetail::kInterfaceGone:
       return "the CAN interface has gone: plug it in and restart the daemon";
     case CanDetail::kFramesStuck:
-      return "frames do not leave: nobody acknowledges, the bus is full, or the interface goes down";
+      return "frames do not leave: no node acknowledges, the bus is full, or the interface goes down";
     case CanDetail::kBusOff:
       return "bus-off: set the interface down and up, then clear the fault";
     case CanDetail::kErrorPassive:
       return "the controller is error-passive";
     case CanDetail::kForeignSender:
-      return "somebody else sends our identifier " + hexadecimal(value, 4);
+      return "another node sends our identifier " + hexadecimal(value, 4);
     case CanDetail::kHeartbeatMissing:
       return "the drive's heartbeat is missing";
     case CanDetail::kBootUp:

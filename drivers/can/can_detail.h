@@ -14,7 +14,7 @@ enum class CanDetail : std::uint8_t {
   kFramesStuck = 3,  ///< what was sent one period does not leave before the next
   kBusOff = 4,
   kErrorPassive = 5,
-  kForeignSender = 6,     ///< below: the identifier that somebody else uses
+  kForeignSender = 6,     ///< below: the identifier that another node uses
   kHeartbeatMissing = 7,  ///< of the drive
   kBootUp = 8,
   kNetworkState = 9,  ///< below: the NMT state that the drive fell into

@@ -67,7 +67,7 @@ class CanPort {
   virtual SendResult send(const CanFrame& frame) noexcept = 0;
   /// Takes up to `frames.size()` frames that have arrived; never waits.
   virtual ReceiveResult receive(std::span<ReceivedFrame> frames) noexcept = 0;
-  /// Frames that the kernel lost because nobody took them, since the port was opened.
+  /// Frames that the kernel lost because they were not taken, since the port was opened.
   virtual std::uint32_t overflows() const noexcept = 0;
 
   /// Waits until a frame has arrived (true) or `timeout_ns` has passed.

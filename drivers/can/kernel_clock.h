@@ -22,7 +22,7 @@ class KernelClock {
   void echoed(std::int64_t kernel_time_ns) noexcept {
     if (kernel_time_ns == 0 || sent_ns_ == 0) return;
     const std::int64_t offset_ns = kernel_time_ns - sent_ns_;
-    // An echo that comes late belongs to another cycle; when all do, somebody has set the clock.
+    // An echo that comes late belongs to another cycle; when all do, the clock was set.
     const bool agrees = known_ && std::llabs(offset_ns - offset_ns_) <= period_ns_ / kPlaceShare;
     strangers_ = agrees ? 0 : strangers_ + 1;
     if (agrees)

@@ -75,7 +75,7 @@ class SampleAge {
   bool displaced() const noexcept { return displaced_samples_ >= kSettled; }
   /// How many SYNCs later than the newest one before it came it was sampled.
   int lag_periods() const noexcept { return std::max(lag_, usual_lag_ + slow_.late_from_start + slow_.late); }
-  /// Those beyond what was measured at start-up, and beyond the last `left_out` periods, in which nobody sent a SYNC: what comes then is
+  /// Those beyond what was measured at start-up, and beyond the last `left_out` periods, in which no SYNC was sent: what comes then is
   /// of the last one before them, or of as many more before it as is usual.
   int late_periods(int left_out = 0) const noexcept {
     return lag_periods() - usual_lag_ + std::max(0, left_out - usual_lag_);

@@ -1,5 +1,5 @@
 // How far the set-up of a drive is, between the background thread, which does it, and the loop, which asks for it and uses
-// the drive only when it is done. What set-up writes may be read by the loop once ready(), and by nobody else meanwhile.
+// the drive only when it is done. What set-up writes may be read by the loop once ready(), and by no other thread meanwhile.
 // Real-time safe.
 //
 // As the loop sees it:

@@ -48,7 +48,7 @@ constexpr double kBound_ms = 50.0;
 
 /// Floods with sound orders that cost the core most: a table to certify, ten thousand times a second from as many ports as the gateway
 /// keeps orders, so that no order of another finds a place.
-[[noreturn]] void flood_with_tables(gain_table_v2 table) {
+[[noreturn]] void flood_with_tables(gain_table_v1 table) {
   TestClient listener;
   std::vector<PortSender> ports(256);
   table.sequence += 1'000'000'000;  // or what is answered to these would pass for the answer to a stop
@@ -72,7 +72,7 @@ class Flooder {
   explicit Flooder(std::uint64_t seed) : pid_(::fork()) {
     if (pid_ == 0) flood(seed);
   }
-  explicit Flooder(const gain_table_v2& table) : pid_(::fork()) {
+  explicit Flooder(const gain_table_v1& table) : pid_(::fork()) {
     if (pid_ == 0) flood_with_tables(table);
   }
   ~Flooder() {
@@ -165,7 +165,7 @@ TEST_F(FlooderTest, StopsGoBeforeOrdersForWhichThereIsNoRoom) {
   Stop longest;
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(hold_position()) << i << daemon_->log();
-    gain_table_v2 table = client_.make_table("elbow", shipped_table());
+    gain_table_v1 table = client_.make_table("elbow", shipped_table());
     const Flooder flooder(table);
     client_.pump(seconds(1));
     const Stop one = stop();

@@ -18,7 +18,7 @@
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/limits_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
@@ -74,7 +74,7 @@ class HostileDaemon {
     const std::span<const std::uint8_t> bytes(static_cast<const std::uint8_t*>(buffer->data),
                                               buffer->data_size);
     if (const auto command = decode_exactly<command_v1>(bytes)) answer(command->sender_id, command->sequence);
-    if (const auto move = decode_exactly<setpoint_v2>(bytes)) answer(move->sender_id, move->sequence);
+    if (const auto move = decode_exactly<setpoint_v1>(bytes)) answer(move->sender_id, move->sequence);
     (void)channel;
   }
   void answer(std::int64_t sender_id, std::int64_t sequence) {

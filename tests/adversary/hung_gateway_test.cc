@@ -21,7 +21,7 @@ class HungGateway : public DaemonTest {
     ASSERT_TRUE(client_->load("elbow", shipped_table()).accepted);
     ASSERT_TRUE(client_->command("elbow", Action::kEnable).accepted);
     ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
-    setpoint_v2 slow = client_->make_setpoint("elbow", kFar_rad);
+    setpoint_v1 slow = client_->make_setpoint("elbow", kFar_rad);
     slow.speed_limit_rad_s = kSpeed_rad_s;
     ASSERT_TRUE(client_->send_and_wait("elbow", "SETPOINT", slow).accepted);
   }

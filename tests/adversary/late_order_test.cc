@@ -6,7 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <string>
 #include <thread>
 #include <utility>
@@ -122,7 +122,7 @@ TEST_F(LateOrder, DoesNotMoveAJointThatWasHeldWhileItsProgramWasSuspended) {
 }
 
 TEST_F(LateOrder, IsNotGivenAnewOverAHoldByAProgramThatStoodStill) {
-  setpoint_v2 move{};
+  setpoint_v1 move{};
   move.position_rad = 0.5;
   move.acknowledge = 1;
   EXPECT_EQ(reason_after_standing_still("SETPOINT", move, [&] { other_orders(Action::kHold); }),
@@ -131,7 +131,7 @@ TEST_F(LateOrder, IsNotGivenAnewOverAHoldByAProgramThatStoodStill) {
 }
 
 TEST_F(LateOrder, IsNotGivenAnewOverADisableAndEnable) {
-  setpoint_v2 move{};
+  setpoint_v1 move{};
   move.position_rad = 0.5;
   move.acknowledge = 1;
   EXPECT_EQ(reason_after_standing_still("SETPOINT", move,

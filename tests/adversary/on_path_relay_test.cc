@@ -61,7 +61,7 @@ TEST_F(OnPathRelay, CannotEnableAJointThatWasDisabledMeanwhile) {
 // At once: neither is too old. A stop in between would refuse the first one for itself (stranger_test).
 TEST_F(OnPathRelay, CannotDeliverAMoveAfterALaterOne) {
   relay_->keep_back(true);
-  const setpoint_v2 move = client_->make_setpoint("elbow", 0.5);
+  const setpoint_v1 move = client_->make_setpoint("elbow", 0.5);
   publish(*client_, "SETPOINT", move);
   while (relay_->kept() == 0) client_->pump(std::chrono::milliseconds(5));
   relay_->keep_back(false);

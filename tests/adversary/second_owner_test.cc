@@ -53,7 +53,7 @@ TEST_F(SecondOwner, WhoHoldsTheJointIsNotOverruledByAMoveThatWasOrderedBefore) {
   ASSERT_TRUE(owner_moves(0.1).accepted);
   for (int i = 0; i < 10; ++i) {
     owner_->pump(std::chrono::milliseconds(300));
-    const setpoint_v2 move = owner_->make_setpoint("elbow", i % 2 == 0 ? 0.6 : 0.1);
+    const setpoint_v1 move = owner_->make_setpoint("elbow", i % 2 == 0 ? 0.6 : 0.1);
     ASSERT_TRUE(intruder_orders(Action::kHold).accepted);
     const Answer overtaken = send(*owner_, "SETPOINT", move);
     EXPECT_EQ(overtaken.reason, Reason::kSuperseded) << overtaken.text;

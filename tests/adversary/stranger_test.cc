@@ -158,13 +158,13 @@ class StrangerTest : public SignedDaemonTest {
 };
 
 TEST_F(StrangerTest, CannotMoveTheJointAfterAHoldWithAMoveThatHeWithheld) {
-  const setpoint_v2 first = client_->make_setpoint("elbow", 0.05);
+  const setpoint_v1 first = client_->make_setpoint("elbow", 0.05);
   stranger_.send("SW.elbow.SETPOINT", signed_bytes("SETPOINT", first));
   ASSERT_TRUE(client_->wait_for_answer(first.sequence).accepted)
       << "without a hold it is as good as sent by its owner";
   for (int i = 0; i < 10; ++i) {
     client_->pump(milliseconds(100));
-    const setpoint_v2 move = client_->make_setpoint("elbow", 0.5);
+    const setpoint_v1 move = client_->make_setpoint("elbow", 0.5);
     const Bytes withheld = signed_bytes("SETPOINT", move);
     stranger_stops(Action::kHold);
     stranger_.send("SW.elbow.SETPOINT", withheld);

@@ -12,12 +12,12 @@ namespace strainwave {
 namespace {
 
 /// A message whose table part is random bytes: NaNs with payloads, impossible counts, text without an end.
-gain_table_v2 random_message(unsigned seed) {
-  static_assert(std::is_trivially_copyable_v<gain_table_v2>);
+gain_table_v1 random_message(unsigned seed) {
+  static_assert(std::is_trivially_copyable_v<gain_table_v1>);
   std::mt19937 random(seed);
-  std::vector<unsigned char> bytes(sizeof(gain_table_v2));
+  std::vector<unsigned char> bytes(sizeof(gain_table_v1));
   for (auto& byte : bytes) byte = static_cast<unsigned char>(random());
-  gain_table_v2 message;
+  gain_table_v1 message;
   std::memcpy(&message, bytes.data(), sizeof(message));
   message.utime = message.session_id = message.challenge = message.sender_id = message.sequence = 0;
   std::fill(std::begin(message.key_id), std::end(message.key_id), std::uint8_t{0});
@@ -27,7 +27,7 @@ gain_table_v2 random_message(unsigned seed) {
 
 TEST(GainTableMessage, CarriesTheTableBitForBit) {
   for (unsigned seed = 0; seed < 100; ++seed) {
-    const gain_table_v2 message = random_message(seed);
+    const gain_table_v1 message = random_message(seed);
     EXPECT_EQ(encode(to_message(to_gain_table(message))), encode(message)) << seed;
   }
 }
@@ -35,18 +35,18 @@ TEST(GainTableMessage, CarriesTheTableBitForBit) {
 TEST(GainTableMessage, LosesNoBitOfAnyField) {
   const std::vector<std::uint8_t> good = encode(random_message(4));
   constexpr std::size_t kBeforeTable = 8 + 5 * sizeof(std::int64_t);  // fingerprint, envelope
-  constexpr std::size_t kAfterTable = sizeof(gain_table_v2::key_id) + sizeof(gain_table_v2::signature);
+  constexpr std::size_t kAfterTable = sizeof(gain_table_v1::key_id) + sizeof(gain_table_v1::signature);
   for (std::size_t i = kBeforeTable; i < good.size() - kAfterTable; ++i) {
     std::vector<std::uint8_t> bytes = good;
     bytes[i] ^= 0x10;
-    const auto message = decode_exactly<gain_table_v2>(bytes);
+    const auto message = decode_exactly<gain_table_v1>(bytes);
     ASSERT_TRUE(message);
     ASSERT_EQ(encode(to_message(to_gain_table(*message))), bytes) << "byte " << i;
   }
 }
 
 TEST(GainTableMessage, LeavesTheEnvelopeToTheSender) {
-  const gain_table_v2 message = to_message(to_gain_table(random_message(5)));
+  const gain_table_v1 message = to_message(to_gain_table(random_message(5)));
   EXPECT_EQ(message.utime, 0);
   EXPECT_EQ(message.session_id, 0);
   EXPECT_EQ(message.challenge, 0);
@@ -69,7 +69,7 @@ TEST(GainTableMessage, PutsEachFieldWhereItsNameSays) {
   table.fallback.weights.torque = 1e-6;
   table.box.lead_periods = 2.0;
   table.box.cells[23].P[44] = 7.0;
-  const gain_table_v2 message = to_message(table);
+  const gain_table_v1 message = to_message(table);
   EXPECT_EQ(std::string(std::begin(message.name), std::begin(message.name) + 8), std::string("example\0", 8));
   EXPECT_EQ(std::string(std::begin(message.joint_model), std::begin(message.joint_model) + 10), "rhs17-6006");
   EXPECT_EQ(std::string(std::begin(message.gear), std::begin(message.gear) + 9), "csf-17-50");

@@ -25,7 +25,7 @@ TEST(MessageFields, AreThoseOfEachMessageInItsOrder) {
   expect_fields<temperature_v1>("temperature_v1");
   expect_fields<timing_v1>("timing_v1");
   expect_fields<limits_v1>("limits_v1");
-  expect_fields<setpoint_v2>("setpoint_v2");
+  expect_fields<setpoint_v1>("setpoint_v1");
   expect_fields<command_v1>("command_v1");
   expect_fields<inject_v1>("inject_v1");
   expect_fields<ack_v1>("ack_v1");

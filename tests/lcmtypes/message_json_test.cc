@@ -44,7 +44,7 @@ TEST(MessageJson, HasTheKeysOfItsSchema) {
   expect_keys_of_schema<temperature_v1>();
   expect_keys_of_schema<limits_v1>();
   expect_keys_of_schema<timing_v1>();
-  expect_keys_of_schema<setpoint_v2>();
+  expect_keys_of_schema<setpoint_v1>();
   expect_keys_of_schema<command_v1>();
   expect_keys_of_schema<inject_v1>();
   expect_keys_of_schema<ack_v1>();

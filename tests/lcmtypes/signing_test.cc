@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/path_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <vector>
 
 #include "lcmtypes/wire.h"
@@ -82,10 +82,10 @@ void expect_seal_at_the_end() {
 }
 
 TEST(Signing, FindsKeyAndSignatureAtTheEndOfEveryOrder) {
-  expect_seal_at_the_end<setpoint_v2>();
+  expect_seal_at_the_end<setpoint_v1>();
   expect_seal_at_the_end<path_v1>();
   expect_seal_at_the_end<command_v1>();
-  expect_seal_at_the_end<gain_table_v2>();
+  expect_seal_at_the_end<gain_table_v1>();
 }
 
 TEST(Signing, MakesNothingOfMessagesTooShortForASignature) {

@@ -6,11 +6,11 @@
 #include <random>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/path_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
@@ -39,7 +39,7 @@ class WireTest : public ::testing::Test {
   }
 };
 
-using Messages = ::testing::Types<ack_v1, command_v1, gain_table_v2, path_v1, setpoint_v2, state_v1,
+using Messages = ::testing::Types<ack_v1, command_v1, gain_table_v1, path_v1, setpoint_v1, state_v1,
                                   temperature_v1, timing_v1>;
 class MessageNames {
  public:
@@ -90,13 +90,13 @@ TYPED_TEST(WireTest, FitsIntoOneDatagram) {
 
 TEST(Wire, NoTypeIsTakenForAnother) {
   const std::vector<std::vector<std::uint8_t>> all{
-      encode(ack_v1{}),   encode(command_v1{}), encode(gain_table_v2{}), encode(setpoint_v2{}),
+      encode(ack_v1{}),   encode(command_v1{}), encode(gain_table_v1{}), encode(setpoint_v1{}),
       encode(state_v1{}), encode(timing_v1{}),  encode(temperature_v1{})};
   int taken = 0;
   for (const auto& bytes : all) {
     taken += decode_exactly<ack_v1>(bytes).has_value() + decode_exactly<command_v1>(bytes).has_value() +
-             decode_exactly<gain_table_v2>(bytes).has_value() +
-             decode_exactly<setpoint_v2>(bytes).has_value() + decode_exactly<state_v1>(bytes).has_value() +
+             decode_exactly<gain_table_v1>(bytes).has_value() +
+             decode_exactly<setpoint_v1>(bytes).has_value() + decode_exactly<state_v1>(bytes).has_value() +
              decode_exactly<timing_v1>(bytes).has_value() + decode_exactly<temperature_v1>(bytes).has_value();
   }
   EXPECT_EQ(taken, static_cast<int>(all.size()));
@@ -129,12 +129,12 @@ TEST(Fingerprint, OfEachKindOfChannelIsThatOfItsOwnTypeAlone) {
       {channel_kind::kTemperature, encode(temperature_v1{})},
       {channel_kind::kLimits, encode(limits_v1{})},
       {channel_kind::kTiming, encode(timing_v1{})},
-      {channel_kind::kSetpoint, encode(setpoint_v2{})},
+      {channel_kind::kSetpoint, encode(setpoint_v1{})},
       {channel_kind::kCommand, encode(command_v1{})},
       {channel_kind::kInject, encode(inject_v1{})},
       {channel_kind::kAck, encode(ack_v1{})},
       {channel_kind::kPath, encode(path_v1{})},
-      {channel_kind::kTable, encode(gain_table_v2{})}};
+      {channel_kind::kTable, encode(gain_table_v1{})}};
   for (const auto& [kind, own] : kinds)
     for (const auto& [other, bytes] : kinds)
       EXPECT_EQ(is_of_another_version(kind, bytes), kind != other) << kind << " and " << other;

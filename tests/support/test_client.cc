@@ -91,8 +91,8 @@ command_v1 TestClient::make_command(const std::string& joint, Action action) {
   return message;
 }
 
-setpoint_v2 TestClient::make_setpoint(const std::string& joint, double position_rad, double valid_for_s) {
-  setpoint_v2 message{};
+setpoint_v1 TestClient::make_setpoint(const std::string& joint, double position_rad, double valid_for_s) {
+  setpoint_v1 message{};
   fill_envelope(joint, message);
   message.position_rad = position_rad;
   message.valid_for_s = valid_for_s;
@@ -105,8 +105,8 @@ setpoint_v2 TestClient::make_setpoint(const std::string& joint, double position_
   return message;
 }
 
-gain_table_v2 TestClient::make_table(const std::string& joint, const GainTable& table) {
-  gain_table_v2 message = to_message(table);
+gain_table_v1 TestClient::make_table(const std::string& joint, const GainTable& table) {
+  gain_table_v1 message = to_message(table);
   fill_envelope(joint, message);
   return message;
 }

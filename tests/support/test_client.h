@@ -9,9 +9,9 @@
 #include <optional>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 #include <string>
@@ -61,8 +61,8 @@ class TestClient {
 
   /// The messages themselves, for tests that bend them before they are sent.
   command_v1 make_command(const std::string& joint, Action action);
-  setpoint_v2 make_setpoint(const std::string& joint, double position_rad, double valid_for_s = 0.0);
-  gain_table_v2 make_table(const std::string& joint, const GainTable& table);
+  setpoint_v1 make_setpoint(const std::string& joint, double position_rad, double valid_for_s = 0.0);
+  gain_table_v1 make_table(const std::string& joint, const GainTable& table);
   inject_v1 make_injection(const std::string& joint, std::int32_t kind, double for_s, double amount);
   template <typename Message>
   Answer send_and_wait(const std::string& joint, const char* kind, const Message& message) {

@@ -86,7 +86,7 @@ class AttackedDaemon : public DaemonTest {
     LoopObserver::Summary summary;
     const auto start = Clock::now();
     while (seconds_since(start) < duration_s) {
-      const setpoint_v2 unsigned_order = client.make_setpoint("elbow", 0.0);
+      const setpoint_v1 unsigned_order = client.make_setpoint("elbow", 0.0);
       client.lcm().publish("SW.elbow.SETPOINT", &unsigned_order);
       client.pump(std::chrono::milliseconds(5));
       observer_->observe(summary);

@@ -123,10 +123,10 @@ TEST_F(DaemonSystem, RefusesSetpointsThatAreNotNumbersOrOutOfRange) {
 
 TEST_F(DaemonSystem, AnswersAResentOrderTheSameWayAndObeysItOnce) {
   start_holding();
-  const setpoint_v2 move = client_->make_setpoint("elbow", 0.01);
+  const setpoint_v1 move = client_->make_setpoint("elbow", 0.01);
   EXPECT_TRUE(client_->send_and_wait("elbow", "SETPOINT", move).accepted);
   ASSERT_TRUE(client_->move("elbow", 0.02).accepted);
-  setpoint_v2 late = move;
+  setpoint_v1 late = move;
   EXPECT_TRUE(client_->send_and_wait("elbow", "SETPOINT", late).accepted);  // the first answer is still known
   EXPECT_TRUE(client_->wait_for_state("elbow", [](const state_v1& state) {
     return state.mode == static_cast<std::int32_t>(Mode::kHolding) &&

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <chrono>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <thread>
 
 #include "lcmtypes/vocabulary.h"
@@ -111,7 +111,7 @@ void HostileDatagrams::order_with_random_fields() {
   switch (random_() % 3) {
     case 0:
       put_text("SW.elbow.SETPOINT", true);
-      order = encode(setpoint_v2{});
+      order = encode(setpoint_v1{});
       break;
     case 1:
       put_text("SW.elbow.COMMAND", true);
@@ -119,7 +119,7 @@ void HostileDatagrams::order_with_random_fields() {
       break;
     default:
       put_text("SW.elbow.TABLE", true);
-      order = encode(gain_table_v2{});
+      order = encode(gain_table_v1{});
       break;
   }
   // A stop (action 2) is everybody's right; a random action is one in four thousand million.

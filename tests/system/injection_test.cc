@@ -56,7 +56,7 @@ TEST_F(DaemonInjection, LatchesTheFaultAndLeavesAFlightRecord) {
   std::ifstream record(records().front());
   std::string line;
   ASSERT_TRUE(std::getline(record, line));
-  EXPECT_EQ(line, "# strainwave-flight-record 2");
+  EXPECT_EQ(line, "# strainwave-flight-record 1");
   int rows = -1;
   while (std::getline(record, line)) rows += line.starts_with("#") ? 0 : 1;
   EXPECT_GT(rows, 100);

@@ -146,7 +146,7 @@ TEST_F(Logs, PlayMovesTheJointAgainWithAKeyAndNotWithout) {
 TEST_F(Logs, PlaySendsTheVelocitiesAccelerationsAndLoadsOfARecordedStream) {
   EventLogFile log(path("stream.lcm"));
   for (int i = 0; i < 3; ++i) {
-    setpoint_v2 sample{};
+    setpoint_v1 sample{};
     sample.stream_id = 7;
     sample.begins_stream = i == 0 ? 1 : 0;
     sample.valid_for_s = 0.5;

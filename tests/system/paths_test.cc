@@ -37,7 +37,7 @@ class DaemonPaths : public DaemonTest {
   static double way_rad(std::size_t joint) { return 0.1 * static_cast<double>(joint + 1); }
   /// To way_rad() in 1 s, in `knots` knots of one cubic.
   path_v1 part(std::size_t joint, int knots = 3) {
-    const setpoint_v2 envelope = client_.make_setpoint(kNames[joint], 0.0);
+    const setpoint_v1 envelope = client_.make_setpoint(kNames[joint], 0.0);
     path_v1 message{};
     message.session_id = envelope.session_id;
     message.challenge = envelope.challenge;

@@ -62,7 +62,7 @@ class PureLoop : public DaemonTest {
   void stream(double start_rad, int setpoints) {
     client_.begin_stream();
     for (int i = 0; i < setpoints; ++i) {
-      setpoint_v2 setpoint = client_.make_setpoint("elbow", start_rad + 1e-3 * i, 0.05);
+      setpoint_v1 setpoint = client_.make_setpoint("elbow", start_rad + 1e-3 * i, 0.05);
       setpoint.acknowledge = 0;
       client_.lcm().publish("SW.elbow.SETPOINT", &setpoint);
       client_.pump(milliseconds(10));

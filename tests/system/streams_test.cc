@@ -70,10 +70,10 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     const std::int64_t base = client_->state("elbow")->cycle + 10;
     std::mt19937 random(5);
     const auto chance = [&] { return bad && random() % 10 == 0; };
-    std::optional<setpoint_v2> late;
+    std::optional<setpoint_v1> late;
     for (std::int64_t k = 0; k < kEnd; k += every) {
       while (client_->state("elbow")->cycle < base + k) client_->pump(milliseconds(1));
-      const setpoint_v2 sample = sample_for(base, k + kAhead, derivatives);
+      const setpoint_v1 sample = sample_for(base, k + kAhead, derivatives);
       const bool gap = bad && k % 500 >= 200 && k % 500 < 230;
       const bool reordered = k > 0 && !late && chance();
       if (reordered) {
@@ -93,9 +93,9 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     return result;
   }
 
-  setpoint_v2 sample_for(std::int64_t base, std::int64_t k, int derivatives) {
+  setpoint_v1 sample_for(std::int64_t base, std::int64_t k, int derivatives) {
     const double phase = kOmega_rad_s * 1e-3 * static_cast<double>(k);
-    setpoint_v2 sample = client_->make_setpoint("elbow", kAmplitude_rad * std::sin(phase), 0.3);
+    setpoint_v1 sample = client_->make_setpoint("elbow", kAmplitude_rad * std::sin(phase), 0.3);
     sample.derivatives = derivatives;
     if (derivatives > 0) sample.velocity_rad_s = kAmplitude_rad * kOmega_rad_s * std::cos(phase);
     sample.at_cycle = base + k;
@@ -138,7 +138,7 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     client_->pump(milliseconds(2000));
     client_->begin_stream();
     client_->forget_states();
-    setpoint_v2 first = client_->make_setpoint("elbow", 0.0, 0.3);
+    setpoint_v1 first = client_->make_setpoint("elbow", 0.0, 0.3);
     first.utime = utime_now();
     client_->lcm().publish("SW.elbow.SETPOINT", &first);
     EXPECT_TRUE(client_->wait_for_answer(first.sequence).accepted);
@@ -146,7 +146,7 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
     base_ = client_->state("elbow")->cycle + 10;
     std::mt19937 random(7);
     const auto chance = [&] { return harm == Harm::kAll && random() % 10 == 0; };
-    std::optional<setpoint_v2> late;
+    std::optional<setpoint_v1> late;
     int missing = 0;
     for (int i = 0; i < kSamples; ++i) {
       const std::int64_t due_us = base_us + i * kInterval_us + static_cast<std::int64_t>(random() % 2000);
@@ -155,7 +155,7 @@ class DaemonStreams : public DaemonTest, public ::testing::WithParamInterface<bo
       }
       const std::int64_t now_us = utime_now();
       const double phase = kOmega_rad_s * 1e-6 * static_cast<double>(now_us - base_us);
-      setpoint_v2 sample = client_->make_setpoint("elbow", kAmplitude_rad * std::sin(phase), 0.3);
+      setpoint_v1 sample = client_->make_setpoint("elbow", kAmplitude_rad * std::sin(phase), 0.3);
       sample.acknowledge = 0;
       sample.utime = now_us;
       const bool gap = harm == Harm::kAll && i % 10 == 4;

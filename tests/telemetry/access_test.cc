@@ -39,7 +39,8 @@ TEST(Access, WithoutATokenIsNotForForeignPages) {
   EXPECT_FALSE(granted({"/", "", "https://evil.example", "localhost:8765"}));
   EXPECT_FALSE(granted({"/", "", "null", "localhost:8765"}));
   EXPECT_TRUE(granted({"/", "", "http://localhost:8765", "localhost:8765"})) << "the page at /";
-  EXPECT_FALSE(granted({"/", "", "http://localhost:8080", "localhost:8765"})) << "another server of this machine";
+  EXPECT_FALSE(granted({"/", "", "http://localhost:8080", "localhost:8765"}))
+      << "another server of this machine";
   EXPECT_FALSE(granted({"/", "", "http://evil.example:8765", "evil.example:8765"}));
   // A page that gives its own name this machine's address.
   for (const char* host :

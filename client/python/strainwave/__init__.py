@@ -16,11 +16,11 @@ from .ack_v1 import ack_v1
 from .command_v1 import command_v1
 from .box_cell_v1 import box_cell_v1
 from .feedback_gains_v1 import feedback_gains_v1
-from .gain_table_v2 import gain_table_v2
+from .gain_table_v1 import gain_table_v1
 from .inject_v1 import inject_v1
 from .limits_v1 import limits_v1
 from .path_v1 import path_v1
-from .setpoint_v2 import setpoint_v2
+from .setpoint_v1 import setpoint_v1
 from .state_v1 import state_v1
 from .temperature_v1 import temperature_v1
 from .timing_v1 import timing_v1
@@ -36,5 +36,5 @@ from .vocabulary import Action, Fault, GainsInUse, Mode, Notice, Reason, Tempera
 __all__ = ["Joint", "Path", "Stream", "Arrival", "State", "Limits",
            "StrainwaveError", "InvalidInput", "NoAnswer", "Refused", "Faulted", "NotDone", "Yielded",
            "Mode", "Fault", "Reason", "Notice", "Action", "GainsInUse", "TemperatureStatus",
-           "ack_v1", "box_cell_v1", "command_v1", "feedback_gains_v1", "gain_table_v2", "inject_v1", "limits_v1", "path_v1", "setpoint_v2",
+           "ack_v1", "box_cell_v1", "command_v1", "feedback_gains_v1", "gain_table_v1", "inject_v1", "limits_v1", "path_v1", "setpoint_v1",
            "state_v1", "temperature_v1", "timing_v1"]

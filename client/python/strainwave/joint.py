@@ -9,7 +9,7 @@ from .messages import blank
 from .motion import LONGEST_PATH_S, OLD_STATES_S, Arrival, ArrivalWatch, degrees_hint, faulted, wait_for_motion
 from .network import Network, check_name, now_s
 from .sender import Sender
-from .setpoint_v2 import setpoint_v2
+from .setpoint_v1 import setpoint_v1
 from .state import Limits, State
 from .stream import Stream, check_number
 from .vocabulary import Action, Mode, Notice
@@ -152,7 +152,7 @@ class Joint:
         """
         position_rad = check_number("position_rad", position_rad, "a finite number of rad", lambda _: True, self.name)
         tolerance_rad = check_number("tolerance_rad", tolerance_rad, "a number above 0", lambda rad: rad > 0, self.name)
-        message = blank(setpoint_v2)
+        message = blank(setpoint_v1)
         message.position_rad = position_rad
         message.speed_limit_rad_s = self._speed_limit(speed_limit_rad_s)
         message.acknowledge = 1

@@ -5,7 +5,7 @@ from .errors import InvalidInput, NoAnswer, NotDone, Refused, StrainwaveError, s
 from .messages import blank
 from .motion import OLD_STATES_S, degrees_hint, faulted, has_yielded, yielded
 from .network import now_s
-from .setpoint_v2 import setpoint_v2
+from .setpoint_v1 import setpoint_v1
 from .vocabulary import Mode, Reason
 
 FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
@@ -142,7 +142,7 @@ class Stream:
 
     def _message(self, position_rad, velocity_rad_s, acceleration_rad_s2):
         limits = self._joint.limits
-        message = blank(setpoint_v2)
+        message = blank(setpoint_v1)
         message.position_rad = self._checked(
             "position_rad", position_rad, f"from {limits.position_min_rad} to {limits.position_max_rad}",
             lambda rad: limits.position_min_rad <= rad <= limits.position_max_rad,

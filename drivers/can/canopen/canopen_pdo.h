@@ -1,4 +1,4 @@
-// Process data objects: what a drive is told so that it sends and takes what we want, and the fields of a
+// Process data objects: the settings by which a drive sends and takes what we want, and the fields of a
 // frame. Pure functions; reading and writing fields is real-time safe. Source: CiA 301 v4.2.0, sections 7.2.2
 // and 7.5.2.35 to 38.
 #pragma once
@@ -52,7 +52,7 @@ struct SdoWrite {
 /// `old_identifier` is what the drive holds now; its bit 30 is kept. An identifier may not change while its PDO
 /// exists, so the first write changes bit 31 alone and the last one brings the new identifier.
 std::vector<SdoWrite> pdo_configuration(const Pdo& pdo, std::uint8_t node, std::uint32_t old_identifier);
-/// Switches off a PDO that nobody wants.
+/// Switches off a PDO that is not wanted.
 SdoWrite pdo_switched_off(PdoDirection direction, int number, std::uint32_t old_identifier);
 
 }  // namespace strainwave::canopen

@@ -50,7 +50,7 @@ void SdoClient::send(const CanFrame& frame) {
   }
   throw InputError(
       who_ +
-      ": the CAN interface's queue stays full: nobody acknowledges; check cable, termination, bit rate "
+      ": the CAN interface's queue stays full: no node acknowledges; check cable, termination, bit rate "
       "and the drives' supply");
 }
 

@@ -58,7 +58,7 @@ class SdoClient {
   bool reset_communication(std::int64_t timeout_ns);
   /// Waits for a heartbeat that shows `state`; false when none came.
   bool wait_for_state(NmtState state, std::int64_t timeout_ns);
-  /// Reads `entry` and listens for `wait_ns` whether somebody else answers as well.
+  /// Reads `entry` and listens for `wait_ns` whether another node answers as well.
   bool two_answer(Entry entry, std::int64_t wait_ns);
 
   CanPort& port() noexcept { return port_; }

@@ -2,7 +2,7 @@
 // fail. The constructor takes a checked configuration; set_up() and serve() block and run outside the loop;
 // everything from begin_cycle() on is real-time safe.
 //
-// Faults are latched while the drive is in use. While it is not, they are told as long as their cause lasts,
+// Faults are latched while the drive is in use. While it is not, they are reported as long as their cause lasts,
 // so that enabling shows them. A drive that has restarted or was out of sight is set up again by the
 // background thread, after clear_fault() only; unless its encoder is absolute, its position is then not known
 // any more. A drive with torque that process data do not reach is disabled by other ways: last_resort.h.

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "client/link/joint_path.h"
 #include "client/link/motion.h"
@@ -29,7 +29,7 @@ TEST_F(CommandsTest, HomeReturnsOnceTheJointHoldsAndOnlyCallsAHomedJointHomed) {
 TEST_F(CommandsTest, MoveAsksForAnAcknowledgementOfAMoveNotAStream) {
   daemon.publish_state(Mode::kHolding);
   move(client, output, {"elbow", -0.25, false});
-  const auto setpoint = decode_exactly<setpoint_v2>(daemon.heard().at(0).bytes);
+  const auto setpoint = decode_exactly<setpoint_v1>(daemon.heard().at(0).bytes);
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->position_rad, -0.25);
   EXPECT_EQ(setpoint->valid_for_s, 0.0);

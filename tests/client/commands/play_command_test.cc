@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
 #include "client/link/key_file.h"
@@ -18,7 +18,7 @@ class PlayTest : public testing::CommandsTest {
   PlayTest() {
     write_new_key(folder_.path() / "key", Role::kOperator, "");
     testing::EventLogFile log(folder_.path() / "a.lcm");
-    setpoint_v2 sample{};
+    setpoint_v1 sample{};
     sample.stream_id = 5;
     sample.valid_for_s = 2.0;
     for (int i = 0; i < 20; ++i) log.add(100 + 10'000 * i, "SW.elbow.SETPOINT", sample);

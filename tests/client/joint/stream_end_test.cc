@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "tests/client/joint/stream_fixture.h"
 
@@ -20,7 +20,7 @@ TEST_F(StreamTest, EndsInAHoldOnceItsLastSamplesTimeHasCome) {
     stream.put(0.2, 0.1);
   }
   const std::int64_t end = daemon.cycle();
-  const auto setpoints = heard<setpoint_v2>();
+  const auto setpoints = heard<setpoint_v1>();
   const auto commands = heard<command_v1>();
   ASSERT_EQ(commands.size(), 1U);
   EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
@@ -71,7 +71,7 @@ TEST_F(StreamTest, HoldsAtOnceAfterAnException) {
     throw Trouble{};
   } catch (const Trouble&) {
   }
-  const auto setpoints = heard<setpoint_v2>();
+  const auto setpoints = heard<setpoint_v1>();
   const auto commands = heard<command_v1>();
   ASSERT_EQ(commands.size(), 1U);
   EXPECT_EQ(commands[0].action, static_cast<std::int32_t>(Action::kHold));
@@ -228,7 +228,7 @@ TEST_F(StreamTest, IsNotBegunAnewByASampleAfterItsEnd) {
   closed.close();
   EXPECT_THROW(closed.put(0.5, 0.2), NotDone);
   int begun = 0;
-  for (const setpoint_v2& setpoint : heard<setpoint_v2>()) begun += setpoint.begins_stream;
+  for (const setpoint_v1& setpoint : heard<setpoint_v1>()) begun += setpoint.begins_stream;
   EXPECT_EQ(begun, 2);
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <map>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "tests/client/joint/stream_fixture.h"
 
@@ -23,9 +23,9 @@ TEST_F(StreamTest, SendsEachSampleForTheCycleThatItsTimeIs) {
   const std::int64_t begin = stream.cycle_of(100.0);
   const std::int64_t middle = stream.cycle_of(100.2);
   stream.close();
-  const auto setpoints = heard<setpoint_v2>();
+  const auto setpoints = heard<setpoint_v1>();
   ASSERT_EQ(setpoints.size(), sent.size());
-  const setpoint_v2& first = setpoints.front();
+  const setpoint_v1& first = setpoints.front();
   EXPECT_EQ(first.begins_stream, 1);
   EXPECT_NE(first.stream_id, 0);
   EXPECT_EQ(begin, first.at_cycle);
@@ -64,7 +64,7 @@ TEST_F(StreamTest, BesideAnotherHasTheSameCycleForTheSameTime) {
   first.close();
   second.close();
   std::map<double, std::vector<std::int64_t>> cycles;
-  for (const setpoint_v2& setpoint : heard<setpoint_v2>())
+  for (const setpoint_v1& setpoint : heard<setpoint_v1>())
     cycles[setpoint.position_rad].push_back(setpoint.at_cycle);
   EXPECT_EQ(cycles.at(0.1), cycles.at(0.2));
 }
@@ -92,7 +92,7 @@ TEST_F(StreamTest, LeavesOutWhatComesAfterItsTime) {
   EXPECT_FALSE(stream.put(0.1, 0.2));
   EXPECT_EQ(stream.late(), 1);
   stream.close();
-  for (const setpoint_v2& setpoint : heard<setpoint_v2>()) EXPECT_EQ(setpoint.position_rad, 0.1);
+  for (const setpoint_v1& setpoint : heard<setpoint_v1>()) EXPECT_EQ(setpoint.position_rad, 0.1);
 }
 
 TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
@@ -126,7 +126,7 @@ TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   }
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.load_inertia_kgm2 = -0.1}), InvalidInput);
   stream.close();
-  EXPECT_TRUE(heard<setpoint_v2>().empty());
+  EXPECT_TRUE(heard<setpoint_v1>().empty());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <strainwave/command_v1.hpp>
 #include <strainwave/path_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "client/link/client_error.h"
 #include "tests/client/link/fake_daemon.h"
@@ -17,7 +17,7 @@ constexpr double kShort_s = 0.2;
 class ClientTest : public testing::Test {
  protected:
   Answer order(const std::string& joint) {
-    return client.request(joint, channel_kind::kSetpoint, setpoint_v2{});
+    return client.request(joint, channel_kind::kSetpoint, setpoint_v1{});
   }
 
   std::string failure(const std::string& joint) {
@@ -41,7 +41,7 @@ TEST_F(ClientTest, LearnsTheSessionFromTheStateAndQuotesIt) {
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 1U);
   EXPECT_EQ(daemon.heard()[0].channel, "SW.elbow.SETPOINT");
-  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->session_id, 4711);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->session_id, 4711);
 }
 
 TEST_F(ClientTest, RepeatsWhatANetworkCutsIntoPacketsOftenerAndSaysHowOften) {
@@ -66,7 +66,7 @@ TEST_F(ClientTest, SaysWhereToLookWhenNothingAnswersInTheWordsOfItsUser) {
   Client command_line{connection, {.prefix = "SW", .timeout_s = kShort_s, .names_commands = true}};
   daemon.publish_state();
   try {
-    (void)command_line.request("elbow", channel_kind::kSetpoint, setpoint_v2{});
+    (void)command_line.request("elbow", channel_kind::kSetpoint, setpoint_v1{});
     ADD_FAILURE() << "nothing answered";
   } catch (const NoAnswer& error) {
     EXPECT_TRUE(std::string(error.what()).ends_with("is not known: see strainwavectl status elbow"))
@@ -145,8 +145,8 @@ TEST_F(ClientTest, UsesANewSequenceForEveryOrder) {
   daemon.publish_state();
   order("elbow");
   order("elbow");
-  EXPECT_GT(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->sequence,
-            decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->sequence);
+  EXPECT_GT(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->sequence,
+            decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->sequence);
 }
 
 TEST_F(ClientTest, SaysThatNoDaemonIsThere) {
@@ -191,7 +191,7 @@ TEST_F(ClientTest, QuotesTheSameStateWhenAnotherProgramOfItsKeyWasAhead) {
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 2U);
   for (const auto& heard : daemon.heard())
-    EXPECT_EQ(decode_exactly<setpoint_v2>(heard.bytes)->challenge, 100);
+    EXPECT_EQ(decode_exactly<setpoint_v1>(heard.bytes)->challenge, 100);
 }
 
 TEST_F(ClientTest, GivesAnOrderAfterItsOwnStopFromAStateThatCameAfterTheAnswer) {
@@ -205,7 +205,7 @@ TEST_F(ClientTest, GivesAnOrderAfterItsOwnStopFromAStateThatCameAfterTheAnswer) 
   };
   ASSERT_TRUE(client.request_unseen("elbow", channel_kind::kCommand, command_v1{}).accepted);
   EXPECT_TRUE(order("elbow").accepted);
-  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->challenge, 101);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->challenge, 101);
 }
 
 TEST_F(ClientTest, GivesAnOrderAfterAFaultFromAStateWithAChallengeFromAfterIt) {
@@ -218,7 +218,7 @@ TEST_F(ClientTest, GivesAnOrderAfterAFaultFromAStateWithAChallengeFromAfterIt) {
   ++daemon.state.challenge;
   daemon.publish_state();
   EXPECT_TRUE(order("elbow").accepted);
-  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[0].bytes)->challenge, 101);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[0].bytes)->challenge, 101);
 }
 
 TEST_F(ClientTest, GivesNoOrderAnewThatAStopOfSomebodyElseHasOvertaken) {
@@ -240,7 +240,7 @@ TEST_F(ClientTest, RisesAboveTheSequenceThatTheDaemonNames) {
   daemon.after_answer = [&] { daemon.reason = Reason::kAccepted; };
   EXPECT_TRUE(order("elbow").accepted);
   ASSERT_EQ(daemon.heard().size(), 2U);
-  EXPECT_EQ(decode_exactly<setpoint_v2>(daemon.heard()[1].bytes)->sequence, INT64_MAX / 2 + 1);
+  EXPECT_EQ(decode_exactly<setpoint_v1>(daemon.heard()[1].bytes)->sequence, INT64_MAX / 2 + 1);
 }
 
 TEST_F(ClientTest, ListsAllJointsOfItsPrefixOnly) {

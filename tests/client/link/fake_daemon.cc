@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <optional>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/path_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "lcmtypes/wire.h"
 
@@ -56,7 +56,7 @@ void FakeDaemon::on_order(const ReceivedMessage& message) {
     --drop;
     return;
   }
-  if (const auto setpoint = decode_exactly<setpoint_v2>(bytes)) {
+  if (const auto setpoint = decode_exactly<setpoint_v1>(bytes)) {
     if (obeys_moves && reason == Reason::kAccepted)
       state.target_position_rad = state.joint_position_rad = setpoint->position_rad;
     answer(setpoint->sender_id, setpoint->sequence);
@@ -64,7 +64,7 @@ void FakeDaemon::on_order(const ReceivedMessage& message) {
     answer(path->sender_id, path->sequence);
   } else if (const auto command = decode_exactly<command_v1>(bytes)) {
     answer(command->sender_id, command->sequence);
-  } else if (const auto table = decode_exactly<gain_table_v2>(bytes)) {
+  } else if (const auto table = decode_exactly<gain_table_v1>(bytes)) {
     answer(table->sender_id, table->sequence);
   } else if (const auto injection = decode_exactly<inject_v1>(bytes)) {
     answer(injection->sender_id, injection->sequence);

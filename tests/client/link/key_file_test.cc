@@ -6,7 +6,7 @@
 
 #include <fstream>
 #include <sstream>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
 #include "client/link/sender.h"
@@ -97,15 +97,15 @@ TEST_F(KeyFile, SaysWhatIsWrongWithAFileThatIsNone) {
 TEST_F(KeyFile, SignsEveryOrderOfASenderButAStop) {
   const AuthorizedKey key = write_new_key(path_, Role::kOperator, "");
   Sender sender(path_);
-  const SealedMessage order = sender.seal("SW.elbow.SETPOINT", setpoint_v2{}, {1, 2});
+  const SealedMessage order = sender.seal("SW.elbow.SETPOINT", setpoint_v1{}, {1, 2});
   EXPECT_TRUE(verify("SW.elbow.SETPOINT", key.key, order.bytes));
-  EXPECT_TRUE(is_unsigned(sender.seal_unsigned("SW.elbow.SETPOINT", setpoint_v2{}, {1, 2}).bytes));
+  EXPECT_TRUE(is_unsigned(sender.seal_unsigned("SW.elbow.SETPOINT", setpoint_v1{}, {1, 2}).bytes));
 }
 
 TEST_F(KeyFile, IsReadOnlyWhenSomethingMustBeSignedSoThatAStopNeverWaitsForIt) {
   Sender sender(folder_ / "none");
-  EXPECT_NO_THROW(sender.seal_unsigned("SW.elbow.COMMAND", setpoint_v2{}, {1, 2}));
-  EXPECT_THROW(sender.seal("SW.elbow.COMMAND", setpoint_v2{}, {1, 2}), InputError);
+  EXPECT_NO_THROW(sender.seal_unsigned("SW.elbow.COMMAND", setpoint_v1{}, {1, 2}));
+  EXPECT_THROW(sender.seal("SW.elbow.COMMAND", setpoint_v1{}, {1, 2}), InputError);
 }
 
 }  // namespace

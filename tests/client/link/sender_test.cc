@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <thread>
 
 #include "base/utime.h"
@@ -21,8 +21,8 @@ TEST(Sender, SequencesRiseOverAllKindsOfMessages) {
   std::int64_t last = 0;
   for (int i = 0; i < 10; ++i) {
     for (const std::int64_t sequence :
-         {sender.seal("a", setpoint_v2{}, {1, 2}).sequence, sender.seal("b", command_v1{}, {1, 2}).sequence,
-          sender.seal("c", gain_table_v2{}, {1, 2}).sequence}) {
+         {sender.seal("a", setpoint_v1{}, {1, 2}).sequence, sender.seal("b", command_v1{}, {1, 2}).sequence,
+          sender.seal("c", gain_table_v1{}, {1, 2}).sequence}) {
       EXPECT_GT(sequence, last);
       last = sequence;
     }
@@ -31,10 +31,10 @@ TEST(Sender, SequencesRiseOverAllKindsOfMessages) {
 
 TEST(Sender, WritesTheEnvelopeIntoTheMessageAndKeepsItsContent) {
   Sender sender(5);
-  setpoint_v2 message{};
+  setpoint_v1 message{};
   message.position_rad = 0.25;
   const SealedMessage sealed = sender.seal("SW.elbow.SETPOINT", message, {77, 815});
-  const auto read = decode_exactly<setpoint_v2>(sealed.bytes);
+  const auto read = decode_exactly<setpoint_v1>(sealed.bytes);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->session_id, 77);
   EXPECT_EQ(read->challenge, 815);
@@ -49,9 +49,9 @@ TEST(Sender, TellsWhenAMessageIsSent) {
   Sender sender(5);
   std::int64_t before = utime_now();
   for (int i = 0; i < 3; ++i) {
-    setpoint_v2 message{};
+    setpoint_v1 message{};
     message.utime = 17;  // of another one, from a recording
-    const auto read = decode_exactly<setpoint_v2>(sender.seal("SW.elbow.SETPOINT", message, {77, 815}).bytes);
+    const auto read = decode_exactly<setpoint_v1>(sender.seal("SW.elbow.SETPOINT", message, {77, 815}).bytes);
     ASSERT_TRUE(read);
     EXPECT_GE(read->utime, before);
     before = utime_now();

@@ -3,12 +3,12 @@ import collections
 import threading
 import unittest
 
-from strainwave import Joint, Mode, Notice, Reason, ack_v1, command_v1, messages, path_v1, setpoint_v2, state_v1
+from strainwave import Joint, Mode, Notice, Reason, ack_v1, command_v1, messages, path_v1, setpoint_v1, state_v1
 from strainwave.network import Network, now_s
 
 COMMAND, SETPOINT, PATH = "SW.elbow.COMMAND", "SW.elbow.SETPOINT", "SW.elbow.PATH"
 YIELDED = dict(notices=int(Notice.YIELDED), yield_load_Nm=-13.1042, yield_limit_Nm=12.0, yield_position_rad=0.3011)
-TYPES = {COMMAND: command_v1, SETPOINT: setpoint_v2, PATH: path_v1}
+TYPES = {COMMAND: command_v1, SETPOINT: setpoint_v1, PATH: path_v1}
 
 
 class PlayedNetwork:

@@ -6,11 +6,11 @@
 #include <span>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
 #include <strainwave/inject_v1.hpp>
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/path_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/temperature_v1.hpp>
 #include <strainwave/timing_v1.hpp>
@@ -47,8 +47,8 @@ void print_words(Fault fault, std::uint32_t drive_error) {
         {reinterpret_cast<const std::uint8_t*>(words.data()), words.size()});
 }
 
-setpoint_v2 setpoint() {
-  setpoint_v2 message{};
+setpoint_v1 setpoint() {
+  setpoint_v1 message{};
   message.utime = 1;
   message.session_id = -2;
   message.challenge = 3;
@@ -75,11 +75,11 @@ setpoint_v2 setpoint() {
 int main() {
   print_counting<ack_v1>("ack_v1");
   print_counting<command_v1>("command_v1");
-  print_counting<gain_table_v2>("gain_table_v2");
+  print_counting<gain_table_v1>("gain_table_v1");
   print_counting<inject_v1>("inject_v1");
   print_counting<limits_v1>("limits_v1");
   print_counting<path_v1>("path_v1");
-  print_counting<setpoint_v2>("setpoint_v2");
+  print_counting<setpoint_v1>("setpoint_v1");
   print_counting<state_v1>("state_v1");
   print_counting<temperature_v1>("temperature_v1");
   print_counting<timing_v1>("timing_v1");

@@ -12,7 +12,7 @@ from strainwave.errors import InvalidInput
 from strainwave.key import SecretKey, read_secret_key
 
 SOURCE = pathlib.Path(os.environ["STRAINWAVE_SOURCE_DIR"])
-TYPES = ("ack_v1", "command_v1", "gain_table_v2", "inject_v1", "limits_v1", "path_v1", "setpoint_v2", "state_v1", "temperature_v1", "timing_v1")
+TYPES = ("ack_v1", "command_v1", "gain_table_v1", "inject_v1", "limits_v1", "path_v1", "setpoint_v1", "state_v1", "temperature_v1", "timing_v1")
 SAMPLES = dict(line.split() for line in subprocess.run([os.environ["STRAINWAVE_PYTHON_SAMPLES"]], check=True, capture_output=True,
                                                        text=True).stdout.splitlines())
 
@@ -22,7 +22,7 @@ def sample(name):
 
 
 def a_setpoint():
-    message = messages.blank(strainwave.setpoint_v2)
+    message = messages.blank(strainwave.setpoint_v1)
     values = dict(utime=1, session_id=-2, challenge=3, sender_id=4, sequence=5, stream_id=6, position_rad=0.25, velocity_rad_s=-1.5,
                   acceleration_rad_s2=1e-300, torque_Nm=-3.5, load_inertia_kgm2=0.125, at_cycle=7, derivatives=2, valid_for_s=0.5,
                   speed_limit_rad_s=2.0, begins_stream=1, approach=1)

@@ -15,7 +15,7 @@ namespace strainwave {
 namespace {
 
 constexpr const char* kHead =
-    "# strainwave-flight-record 2\n# joint: elbow\n# joint_model: rhs17-6006\n# session_id: 1\n# fault: 13 "
+    "# strainwave-flight-record 1\n# joint: elbow\n# joint_model: rhs17-6006\n# session_id: 1\n# fault: 13 "
     "speed limit\n"
     "# fault_cycle: 2\n# fault_utc: 2026-11-21T03:04:05Z\n# period_s: 0.001\n# rows: 3\n# lost_rows: 0\n# "
     "units: s,1\n";
@@ -56,8 +56,8 @@ TEST_F(FlightRecordPlot, ReadsTheHeadAndNumbersTheColumns) {
 TEST_F(FlightRecordPlot, RefusesWhatIsNoRecordAndSaysWhy) {
   EXPECT_NE(refusal(folder_ / "absent").find("cannot be read"), std::string::npos);
   EXPECT_NE(refusal(folder_).find("cannot be read"), std::string::npos);
-  EXPECT_NE(refusal(file("cycle,time_s\n")).find("not a flight record of format 2"), std::string::npos);
-  EXPECT_NE(refusal(file("# strainwave-flight-record 3\n")).find("not a flight record of format 2"),
+  EXPECT_NE(refusal(file("cycle,time_s\n")).find("not a flight record of format 1"), std::string::npos);
+  EXPECT_NE(refusal(file("# strainwave-flight-record 2\n")).find("not a flight record of format 1"),
             std::string::npos);
   EXPECT_NE(refusal(file(std::string(kHead) + "cycle,time_s\n")).find("no column mode"), std::string::npos);
   EXPECT_NE(refusal(file(kHead)).find("no column"), std::string::npos);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
 #include "client/link/key_file.h"
@@ -169,7 +169,7 @@ TEST_F(OrderDeskTest, AJogIsAnAcknowledgedMove) {
   desk.move({"ARM2", "elbow"}, 0.25);
   handle(0.1, desk);
   ASSERT_EQ(daemon_.heard().size(), 1U);
-  const auto setpoint = decode_exactly<setpoint_v2>(daemon_.heard()[0].bytes);
+  const auto setpoint = decode_exactly<setpoint_v1>(daemon_.heard()[0].bytes);
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->position_rad, 0.25);
   EXPECT_EQ(setpoint->session_id, 4711);

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "daemon/admission/admission.h"
 #include "lcmtypes/wire.h"
@@ -46,8 +46,8 @@ class HostileOrders : public ::testing::Test {
     admission_.advance(0, kChallenge);
   }
 
-  setpoint_v2 next_setpoint() {
-    setpoint_v2 message{};
+  setpoint_v1 next_setpoint() {
+    setpoint_v1 message{};
     message.session_id = kSession;
     message.challenge = kChallenge;
     message.sender_id = 1;
@@ -60,7 +60,7 @@ class HostileOrders : public ::testing::Test {
 
   /// The attack's message, and the cause it must be counted under.
   std::pair<WireMessage, Reason> make(Attack attack) {
-    setpoint_v2 message = next_setpoint();
+    setpoint_v1 message = next_setpoint();
     switch (attack) {
       case Attack::kUnsigned:
         return {wire(kSetpoint, message, nullptr), Reason::kUnsigned};
@@ -91,7 +91,7 @@ class HostileOrders : public ::testing::Test {
     }
     return {};
   }
-  WireMessage forged(const setpoint_v2& message) {
+  WireMessage forged(const setpoint_v1& message) {
     WireMessage result = wire(kSetpoint, message, &key_);
     // Somewhere behind the fingerprint, the session and the challenge, which are judged earlier, but not in the key's name.
     const std::size_t key_id = result.size - kSealBytes;
@@ -102,7 +102,7 @@ class HostileOrders : public ::testing::Test {
   }
   /// A good order in between: it is obeyed whatever came before.
   void send_good_order() {
-    const setpoint_v2 message = next_setpoint();
+    const setpoint_v1 message = next_setpoint();
     last_good_ = wire(kSetpoint, message, &key_);
     last_good_sequence_ = message.sequence;
     ASSERT_EQ(consider(last_good_).kind, Verdict::Kind::kOrder);

@@ -5,8 +5,8 @@
 #include <array>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/gain_table_v2.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/gain_table_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
 
 #include "daemon/admission/admission.h"
 #include "lcmtypes/wire.h"
@@ -60,28 +60,28 @@ class SignedAdmission : public ::testing::Test {
 };
 
 TEST_F(SignedAdmission, ObeysAnOperatorsSetpointsAndCommands) {
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kEnable, 1, 2), &operator_)).kind, Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, TellsWhoOrderedForTheAnswer) {
-  EXPECT_TRUE(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).requester.authentic);
-  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v2>(1, 2), nullptr)).requester.authentic);
-  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v2>(1, 2), &stranger_)).requester.authentic);
+  EXPECT_TRUE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), nullptr)).requester.authentic);
+  EXPECT_FALSE(consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_)).requester.authentic);
   EXPECT_FALSE(consider(wire(kCommand, command(Action::kDisable, 1, 3), nullptr)).requester.authentic);
 }
 
 TEST_F(SignedAdmission, LetsOnlyAnEngineerTouchTables) {
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v2>(1, 1), &operator_)).reason, Reason::kRoleNotAllowed);
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &operator_)).reason, Reason::kRoleNotAllowed);
   const Verdict revert = consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &operator_));
   EXPECT_EQ(revert.reason, Reason::kRoleNotAllowed);
   EXPECT_NE(revert.text.find("Otto"), std::string::npos);
   EXPECT_NE(revert.text.find("needs engineer"), std::string::npos);
   // The empty table passes the role and fails on its own account.
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v2>(1, 1), &engineer_)).reason, Reason::kTableDefect);
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 1), &engineer_)).reason, Reason::kTableDefect);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kRevertTable, 1, 2), &engineer_)).kind,
             Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 3), &engineer_)).kind, Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, LetsAnOperatorResetFreezeAndResumeLearningAndNoStranger) {
@@ -109,20 +109,20 @@ TEST_F(SignedAdmission, LetsEverybodyStop) {
 }
 
 TEST_F(SignedAdmission, RefusesAnOrderThatWasSignedForAnotherJoint) {
-  WireMessage message = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
+  WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
   message.channel = FixedString<64>("SW.wrist.SETPOINT");
   EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, ASignatureWithoutAKeyIdIsNotTakenForNoSignature) {
-  WireMessage message = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
+  WireMessage message = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
   std::fill_n(message.bytes.begin() + static_cast<std::ptrdiff_t>(message.size - kSealBytes), sizeof(KeyId),
               0);
   EXPECT_EQ(consider(message).reason, Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, TellsWhoeverDoesNotSignHowAKeyIsGiven) {
-  const Verdict verdict = consider(wire(kSetpoint, filled<setpoint_v2>(1, 5), nullptr));
+  const Verdict verdict = consider(wire(kSetpoint, filled<setpoint_v1>(1, 5), nullptr));
   for (const char* const way :
        {"strainwavectl --key FILE", "Joint in Python and C++", "STRAINWAVE_KEY", "keygen"})
     EXPECT_NE(verdict.text.find(way), std::string::npos) << verdict.text;
@@ -130,12 +130,12 @@ TEST_F(SignedAdmission, TellsWhoeverDoesNotSignHowAKeyIsGiven) {
 }
 
 TEST_F(SignedAdmission, AForgeryDoesNotUseUpASequenceNumber) {
-  const auto order = filled<setpoint_v2>(1, 5);
-  WireMessage forged = wire(kSetpoint, filled<setpoint_v2>(1, INT64_MAX), &operator_);
+  const auto order = filled<setpoint_v1>(1, 5);
+  WireMessage forged = wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &operator_);
   forged.bytes[forged.size - 1] ^= 1;
   EXPECT_EQ(consider(forged).reason, Reason::kBadSignature);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, INT64_MAX), nullptr)).reason, Reason::kUnsigned);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, INT64_MAX), &stranger_)).reason,
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), nullptr)).reason, Reason::kUnsigned);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, INT64_MAX), &stranger_)).reason,
             Reason::kBadSignature);
   EXPECT_EQ(consider(wire(kSetpoint, order, &operator_)).kind, Verdict::Kind::kOrder);
 }
@@ -147,16 +147,16 @@ TEST_F(SignedAdmission, SequencesOfOneKeySayNothingAboutAnotherKeys) {
 }
 
 TEST_F(SignedAdmission, ARoleThatIsNotEnoughUsesUpNothing) {
-  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v2>(1, 100), &operator_)).reason,
+  EXPECT_EQ(consider(wire(kTable, filled<gain_table_v1>(1, 100), &operator_)).reason,
             Reason::kRoleNotAllowed);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).kind, Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) {
-  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v2>(1, 1000), &operator_);
+  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v1>(1, 1000), &operator_);
   ASSERT_EQ(consider(recorded).kind, Verdict::Kind::kOrder);
   for (std::int64_t sender = 2; sender < 1000; ++sender)
-    ASSERT_NE(consider(wire(kSetpoint, filled<setpoint_v2>(sender, 1000 + sender), &operator_)).reason,
+    ASSERT_NE(consider(wire(kSetpoint, filled<setpoint_v1>(sender, 1000 + sender), &operator_)).reason,
               Reason::kOldSequence);
   EXPECT_EQ(consider(recorded).reason, Reason::kOldSequence);
   admission_.advance(1126, 9);
@@ -164,16 +164,16 @@ TEST_F(SignedAdmission, ReplaysStayRefusedAfterAThousandOtherSendersAndForEver) 
 }
 
 TEST_F(SignedAdmission, ARepetitionOfTheLastOrderIsOneHoweverOldItIsAndObeyedOnce) {
-  const WireMessage last = wire(kSetpoint, filled<setpoint_v2>(1, 1000), &operator_);
+  const WireMessage last = wire(kSetpoint, filled<setpoint_v1>(1, 1000), &operator_);
   ASSERT_EQ(consider(last).kind, Verdict::Kind::kOrder);
   for (std::int64_t cycle = 0; cycle <= 5000; cycle += 5) admission_.advance(cycle, 10'000 + cycle);
   EXPECT_EQ(consider(last).kind, Verdict::Kind::kRepeat);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1001), &operator_)).reason, Reason::kTooOld);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 1000), &operator_)).reason, Reason::kTooOld);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1001), &operator_)).reason, Reason::kTooOld);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(2, 1000), &operator_)).reason, Reason::kTooOld);
 }
 
 TEST_F(SignedAdmission, NothingThatWasSentBeforeAFaultIsObeyedAfterIt) {
-  const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
+  const WireMessage move = wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_);
   const std::int64_t stops = admission_.stop_count(0);
   admission_.fault(0, 0);
   EXPECT_EQ(consider(move).reason, Reason::kTooOld);
@@ -182,8 +182,8 @@ TEST_F(SignedAdmission, NothingThatWasSentBeforeAFaultIsObeyedAfterIt) {
 
 TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless) {
   // Somebody on the path lets the second move pass first, then delivers the one that came before it.
-  const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
-  ASSERT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 101), &operator_)).kind, Verdict::Kind::kOrder);
+  const WireMessage move = wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_);
+  ASSERT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 101), &operator_)).kind, Verdict::Kind::kOrder);
   const Verdict late = consider(move);
   EXPECT_EQ(late.reason, Reason::kOldSequence);
   EXPECT_EQ(late.requester.last_sequence, 101);
@@ -192,7 +192,7 @@ TEST_F(SignedAdmission, AnOrderThatIsOvertakenByALaterOneOfTheSameKeyIsWorthless
 // An order and a stop that overtakes it, in a burst or because somebody keeps the order back: by anybody, with a key or without.
 TEST_F(SignedAdmission, NothingThatWasSentBeforeAStopIsObeyedAfterIt) {
   for (const Action stop : {Action::kDisable, Action::kHold}) {
-    const WireMessage move = wire(kSetpoint, filled<setpoint_v2>(1, 100), &operator_);
+    const WireMessage move = wire(kSetpoint, filled<setpoint_v1>(1, 100), &operator_);
     const WireMessage enable = wire(kCommand, command(Action::kEnable, 1, 101), &operator_);
     ASSERT_EQ(consider(wire(kCommand, command(stop, 2, 1), nullptr)).kind, Verdict::Kind::kOrder);
     EXPECT_EQ(consider(move).reason, Reason::kSuperseded);
@@ -202,8 +202,8 @@ TEST_F(SignedAdmission, NothingThatWasSentBeforeAStopIsObeyedAfterIt) {
 
 TEST_F(SignedAdmission, WhoStoppedTheJointHimselfMayGiveAnewWhatHeOrderedAfterThat) {
   ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 1, 100), &operator_)).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 101), &operator_)).reason, Reason::kTooOld);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 99), &operator_)).reason, Reason::kSuperseded)
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 101), &operator_)).reason, Reason::kTooOld);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 99), &operator_)).reason, Reason::kSuperseded)
       << "ordered before he stopped it, in another window";
 }
 
@@ -213,14 +213,14 @@ TEST_F(SignedAdmission, AStopWithTheSameSenderButAnotherKeyOrNoneIsSomebodyElses
   for (const SecretKey* key : keys) {
     ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 1, ++sequence_), key)).kind,
               Verdict::Kind::kOrder);
-    EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, ++sequence_), &operator_)).reason,
+    EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, ++sequence_), &operator_)).reason,
               Reason::kSuperseded);
   }
 }
 
 TEST_F(SignedAdmission, AStopOfOneJointLeavesTheOthersTheirOrders) {
   ASSERT_EQ(consider(wire(kCommand, command(Action::kHold, 2, 1), nullptr)).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire("SW.wrist.SETPOINT", filled<setpoint_v2>(1, 100), &operator_)).kind,
+  EXPECT_EQ(consider(wire("SW.wrist.SETPOINT", filled<setpoint_v1>(1, 100), &operator_)).kind,
             Verdict::Kind::kOrder);
 }
 
@@ -241,29 +241,29 @@ TEST_F(SignedAdmission, KnowsWhoStopsWhenASignatureProvesItAndStopsForTheOthersA
 }
 
 TEST_F(SignedAdmission, LetsOnlyAnEngineerTakeAJointOver) {
-  admission_.settle(consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_)).requester, true,
+  admission_.settle(consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_)).requester, true,
                     now_ns_);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 1), &engineer_)).reason, Reason::kNotOwner);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(2, 1), &engineer_)).reason, Reason::kNotOwner);
   EXPECT_EQ(consider(wire(kCommand, command(Action::kTakeOver, 1, 2), &operator_)).reason,
             Reason::kRoleNotAllowed);
   const Verdict taken = consider(wire(kCommand, command(Action::kTakeOver, 2, 3), &engineer_));
   ASSERT_EQ(taken.kind, Verdict::Kind::kOrder);
   admission_.take_over(taken.requester, now_ns_);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(2, 4), &engineer_)).kind, Verdict::Kind::kOrder);
-  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v2>(1, 5), &operator_)).reason, Reason::kNotOwner);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(2, 4), &engineer_)).kind, Verdict::Kind::kOrder);
+  EXPECT_EQ(consider(wire(kSetpoint, filled<setpoint_v1>(1, 5), &operator_)).reason, Reason::kNotOwner);
 }
 
 TEST_F(SignedAdmission, ChecksASignatureThatIsThereEvenWhereNoneIsNeeded) {
   Admission open("SW", kSession, {{"elbow", {}, -1.0, 1.0, 34.0}}, {{}, true});
   open.advance(0, kChallenge);
-  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), nullptr), 0).kind,
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), nullptr), 0).kind,
             Verdict::Kind::kOrder);
-  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v2>(1, 2), &stranger_), 0).reason,
+  EXPECT_EQ(open.consider(wire(kSetpoint, filled<setpoint_v1>(1, 2), &stranger_), 0).reason,
             Reason::kBadSignature);
 }
 
 TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
-  WireMessage forged = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
+  WireMessage forged = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
   forged.bytes[forged.size - 1] ^= 1;
   constexpr int kForgeries = 20'000;
   constexpr double kSeconds = 2.0;
@@ -275,15 +275,15 @@ TEST_F(SignedAdmission, SpendsABoundedNumberOfVerificationsOnForgeries) {
   EXPECT_LE(verified, kAverage + Admission::kWastedVerificationsAtOnce);
   EXPECT_EQ(rejects(Reason::kBadSignature) + rejects(Reason::kBusy), kForgeries);
   // A millisecond later the owner of the key is heard again, and a stop was at all times.
-  EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_), 2'001'000'000).kind,
+  EXPECT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_), 2'001'000'000).kind,
             Verdict::Kind::kOrder);
 }
 
 TEST_F(SignedAdmission, CountsReplaysAgainstTheSameBoundButNotGoodOrders) {
-  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v2>(1, 1), &operator_);
+  const WireMessage recorded = wire(kSetpoint, filled<setpoint_v1>(1, 1), &operator_);
   constexpr int kOrders = 1000;
   for (int i = 1; i <= kOrders; ++i)
-    ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v2>(1, i), &operator_), 0).kind,
+    ASSERT_EQ(admission_.consider(wire(kSetpoint, filled<setpoint_v1>(1, i), &operator_), 0).kind,
               Verdict::Kind::kOrder);
   for (int i = 0; i < kOrders; ++i) admission_.consider(recorded, 0);
   // Half of what there is and a little more, the rest being for others.

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <strainwave/command_v1.hpp>
-#include <strainwave/setpoint_v2.hpp>
+#include <strainwave/setpoint_v1.hpp>
 #include <utility>
 
 #include "lcmtypes/wire.h"
@@ -35,8 +35,8 @@ class AdmissionTest : public ::testing::Test {
     joint.torque_limit_Nm = kTorqueLimit_Nm;
     return joint;
   }
-  setpoint_v2 setpoint(double position_rad) {
-    setpoint_v2 message{};
+  setpoint_v1 setpoint(double position_rad) {
+    setpoint_v1 message{};
     message.session_id = kSession;
     message.challenge = kChallenge;
     message.sender_id = 1;
@@ -70,7 +70,7 @@ TEST_F(AdmissionTest, PassesASoundSetpointToItsJoint) {
 }
 
 TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
-  setpoint_v2 message = setpoint(0.5);
+  setpoint_v1 message = setpoint(0.5);
   message.speed_limit_rad_s = 6.0;
   const Verdict passed = consider(wire("SW.elbow.SETPOINT", message));
   ASSERT_EQ(passed.kind, Verdict::Kind::kOrder);
@@ -92,7 +92,7 @@ TEST_F(AdmissionTest, PassesASpeedLimitWithinTheJointsOwnAndRefusesOthers) {
 }
 
 TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefusesOthers) {
-  setpoint_v2 sample = setpoint(0.5);
+  setpoint_v1 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 0.1;
   sample.utime = 1;
@@ -103,7 +103,7 @@ TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefuse
   EXPECT_EQ(passed.order.torque_Nm, -kTorqueLimit_Nm);
   EXPECT_EQ(passed.order.load_inertia_kgm2, 10.0 * kInertia_kgm2);
   const auto refused = [&](double torque_Nm, double inertia_kgm2, bool streamed) {
-    setpoint_v2 message = streamed ? sample : setpoint(0.5);
+    setpoint_v1 message = streamed ? sample : setpoint(0.5);
     message.sequence = ++sequence_;
     message.torque_Nm = torque_Nm;
     message.load_inertia_kgm2 = inertia_kgm2;
@@ -121,14 +121,14 @@ TEST_F(AdmissionTest, PassesWhatAStreamTellsOfItsLoadWithinTheJointsOwnAndRefuse
 
 // What is printed of a bound was less than it in its last digits, or as much as what it refused.
 TEST_F(AdmissionTest, TakesTheBoundThatItNamesAndPrintsWhatItRefusesApartFromIt) {
-  setpoint_v2 sample = setpoint(0.5);
+  setpoint_v1 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 0.1;
   sample.utime = 1;
   sample.load_inertia_kgm2 = 0.89;  // 10 x 0.089 is less, in its last bit
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", sample)).kind, Verdict::Kind::kOrder);
   const auto refusal = [&](double position_rad, double speed_limit_rad_s, double load_kgm2) {
-    setpoint_v2 message = setpoint(position_rad);
+    setpoint_v1 message = setpoint(position_rad);
     message.speed_limit_rad_s = speed_limit_rad_s;
     if (load_kgm2 > 0.0) message.stream_id = 7, message.valid_for_s = 0.1, message.utime = 1;
     message.load_inertia_kgm2 = load_kgm2;
@@ -179,7 +179,7 @@ TEST_F(AdmissionTest, DiscardsOtherPrefixesUnknownJointsAndKinds) {
 }
 
 TEST_F(AdmissionTest, RefusesAnotherSession) {
-  setpoint_v2 message = setpoint(0.5);
+  setpoint_v1 message = setpoint(0.5);
   message.session_id = kSession + 1;
   const Verdict verdict = consider(wire("SW.elbow.SETPOINT", message));
   EXPECT_EQ(verdict.reason, Reason::kWrongSession);
@@ -189,8 +189,8 @@ TEST_F(AdmissionTest, RefusesAnotherSession) {
 }
 
 TEST_F(AdmissionTest, RepeatsAResentOrderAndRefusesAnOlderOne) {
-  const setpoint_v2 first = setpoint(0.1);
-  const setpoint_v2 second = setpoint(0.2);
+  const setpoint_v1 first = setpoint(0.1);
+  const setpoint_v1 second = setpoint(0.2);
   consider(wire("SW.elbow.SETPOINT", first));
   consider(wire("SW.elbow.SETPOINT", second));
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", second)).kind, Verdict::Kind::kRepeat);
@@ -230,7 +230,7 @@ TEST_F(AdmissionTest, RefusesAnOrderThatWasKeptBackForLongerThanItLives) {
 
 TEST_F(AdmissionTest, SaysOfWhichCycleAnOrdersChallengeIsForWhomAFaultMayComeBefore) {
   admission_.advance(500, kChallenge + 1);
-  setpoint_v2 move = setpoint(0.5);
+  setpoint_v1 move = setpoint(0.5);
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", move)).order.challenge_cycle, 0);
   move = setpoint(0.5);
   move.challenge = kChallenge + 1;
@@ -247,7 +247,7 @@ TEST_F(AdmissionTest, SaysInWhichCycleAnOrderExpiresThatMustYetWaitForItsLoop) {
 TEST_F(AdmissionTest, LetsAnotherHoldAndStopAJointThatSomebodyHasButNotMoveIt) {
   const Verdict move = consider(wire("SW.elbow.SETPOINT", setpoint(0.5)));
   admission_.settle(move.requester, true, 0);
-  setpoint_v2 others = setpoint(0.1);
+  setpoint_v1 others = setpoint(0.1);
   others.sender_id = 2;
   const Verdict refused = consider(wire("SW.elbow.SETPOINT", others));
   EXPECT_EQ(refused.reason, Reason::kNotOwner);
@@ -282,27 +282,27 @@ TEST_F(AdmissionTest, ReleasesWithoutTheLoopAndTakesOverWithTheEndOfAStream) {
 }
 
 TEST_F(AdmissionTest, SaysOfASamplesNumbersWhatIsAllowed) {
-  setpoint_v2 sample = setpoint(0.5);
+  setpoint_v1 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 0.1;
-  const auto text_with = [&](auto setpoint_v2::*field, auto value) {
-    setpoint_v2 wrong = sample;
+  const auto text_with = [&](auto setpoint_v1::*field, auto value) {
+    setpoint_v1 wrong = sample;
     wrong.sequence = ++sample.sequence;
     wrong.*field = value;
     return consider(wire("SW.elbow.SETPOINT", wrong)).text;
   };
-  EXPECT_EQ(text_with(&setpoint_v2::velocity_rad_s, 1e300),
+  EXPECT_EQ(text_with(&setpoint_v1::velocity_rad_s, 1e300),
             "velocity_rad_s = 1e+300: from -1000 to 1000 is allowed");
-  EXPECT_EQ(text_with(&setpoint_v2::acceleration_rad_s2, -2e6),
+  EXPECT_EQ(text_with(&setpoint_v1::acceleration_rad_s2, -2e6),
             "acceleration_rad_s2 = -2e+06: from -1e+06 to 1e+06 is allowed");
-  EXPECT_EQ(text_with(&setpoint_v2::derivatives, 3),
+  EXPECT_EQ(text_with(&setpoint_v1::derivatives, 3),
             "derivatives = 3: 0, 1 (velocity) or 2 (acceleration, too) is allowed");
-  EXPECT_EQ(text_with(&setpoint_v2::at_cycle, -1),
+  EXPECT_EQ(text_with(&setpoint_v1::at_cycle, -1),
             "at_cycle = -1: a cycle to come, or 0 for none, is allowed");
 }
 
 TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
-  setpoint_v2 message = setpoint(0.5);
+  setpoint_v1 message = setpoint(0.5);
   message.valid_for_s = 0.1;
   EXPECT_EQ(consider(wire("SW.elbow.SETPOINT", message)).reason, Reason::kOutOfRange);
   message = setpoint(0.5);
@@ -321,7 +321,7 @@ TEST_F(AdmissionTest, WantsAStreamToHaveANumberAndAMoveToHaveNone) {
 
 TEST_F(AdmissionTest, WantsASampleToSayWhenItIsFor) {
   const auto judged = [&](std::int64_t utime, std::int64_t at_cycle) {
-    setpoint_v2 sample = setpoint(0.5);
+    setpoint_v1 sample = setpoint(0.5);
     sample.stream_id = 7;
     sample.valid_for_s = 0.1;
     sample.utime = utime;
@@ -346,7 +346,7 @@ TEST_F(AdmissionTest, WantsASampleToSayWhenItIsFor) {
 }
 
 TEST_F(AdmissionTest, WantsAStreamToSaySomethingEveryTenSecondsAtLeast) {
-  setpoint_v2 sample = setpoint(0.5);
+  setpoint_v1 sample = setpoint(0.5);
   sample.stream_id = 7;
   sample.valid_for_s = 10.0;
   sample.utime = 1;

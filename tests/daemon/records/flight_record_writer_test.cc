@@ -107,7 +107,7 @@ TEST_F(FlightRecordWriterTest, WritesTheDocumentedFormat) {
   EXPECT_TRUE(name.ends_with("-c51-f13.flight.csv")) << name;
   const auto lines = lines_of(files().front());
   ASSERT_GT(lines.size(), 12U);
-  EXPECT_EQ(lines[0], "# strainwave-flight-record 2");
+  EXPECT_EQ(lines[0], "# strainwave-flight-record 1");
   EXPECT_EQ(lines[1], "# joint: elbow");
   EXPECT_EQ(lines[2], "# joint_model: rhs17-6006");
   EXPECT_EQ(lines[3], "# session_id: 4711");
