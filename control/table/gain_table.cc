@@ -1,12 +1,11 @@
-// Above 300 lines: the structural check of every field of a table, which is one list.
 #include "control/table/gain_table.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 #include <type_traits>
 
 #include "control/joint/gear_catalogue.h"
+#include "control/table/table_inspector.h"
 
 namespace strainwave {
 
@@ -39,47 +38,7 @@ constexpr double kMinTemperature_C = -273.15;
 constexpr double kMaxTemperature_C = 1000.0;
 constexpr double kIdentityTolerance = 1e-9;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.10g", value);
-  return text.data();
-}
-
-// Collects the first defect only: every check after it is skipped.
-class Inspector {
- public:
-  /// low <= value <= high, not NaN.
-  void in_range(const std::string& key, double value, double low, double high) {
-    if (found_ || (value >= low && value <= high)) return;
-    found_ = key + " = " + number(value) + ": must be from " + number(low) + " to " + number(high);
-  }
-  /// 0 < value <= high.
-  void positive(const std::string& key, double value, double high) {
-    if (found_ || (value > 0.0 && value <= high)) return;
-    found_ = key + " = " + number(value) + ": must be above 0 and at most " + number(high);
-  }
-  void require(bool condition, const std::string& message) {
-    if (!found_ && !condition) found_ = message;
-  }
-  /// Printable ASCII, terminated, zeros after it: the bytes are compared and printed as they are.
-  template <std::size_t N>
-  void text(const std::string& key, const FixedString<N>& value, bool may_be_empty) {
-    if (found_) return;
-    const std::string_view view = value.view();
-    bool good = view.size() < N && (may_be_empty || !view.empty());
-    for (const char c : view) good = good && c >= ' ' && c <= '~';
-    for (std::size_t i = view.size(); i < N; ++i) good = good && value.bytes[i] == '\0';
-    require(good, key + ": must be " + (may_be_empty ? "0" : "1") + " to " + std::to_string(N - 1) +
-                      " printable ASCII characters, zero padded");
-  }
-  bool ok() const { return !found_; }
-  std::optional<std::string> defect() const { return found_; }
-
- private:
-  std::optional<std::string> found_;
-};
-
-void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
+void inspect_plant(TableInspector& inspector, const PlantIdentity& plant) {
   inspector.text("plant.joint_model", plant.joint_model, false);
   inspector.positive("plant.inertia_kgm2", plant.inertia_kgm2, kMaxInertia_kgm2);
   inspector.positive("plant.gear_ratio", plant.gear_ratio, kMaxGearRatio);
@@ -90,16 +49,16 @@ void inspect_plant(Inspector& inspector, const PlantIdentity& plant) {
   const std::string said = "plant.gear = " + std::string(plant.gear.view());
   inspector.require(gear != nullptr, said + ": must be empty or one of " + gear_names());
   inspector.require(gear == nullptr || is_same_number(plant.gear_ratio, gear->ratio),
-                    said + ": must be a gear of plant.gear_ratio = " + number(plant.gear_ratio));
+                    said + ": must be a gear of plant.gear_ratio = " + table_number(plant.gear_ratio));
 }
 
-void inspect_range(Inspector& inspector, const std::string& key, const BoxRange& range, double least,
+void inspect_range(TableInspector& inspector, const std::string& key, const BoxRange& range, double least,
                    double most) {
   inspector.in_range(key + "[0]", range.from, least, most);
   inspector.in_range(key + "[1]", range.to, range.from, most);
 }
 
-void inspect_cell(Inspector& inspector, const CertifiedBox& box, const BoxCell& cell,
+void inspect_cell(TableInspector& inspector, const CertifiedBox& box, const BoxCell& cell,
                   const std::string& key) {
   inspector.in_range(key + "delay_periods", cell.delay_periods, box.least_delay, box.most_delay);
   inspect_range(inspector, key + "stiffness_Nm_rad", cell.stiffness_Nm_rad, kMinBoxValue,
@@ -118,7 +77,7 @@ bool is_zero(const BoxRange& range) {
   return range.from == 0.0 && range.to == 0.0;
 }
 
-void inspect_cells(Inspector& inspector, const CertifiedBox& box) {
+void inspect_cells(TableInspector& inspector, const CertifiedBox& box) {
   for (std::size_t i = 0; inspector.ok() && i < box.cells.size(); ++i) {
     const BoxCell& cell = box.cells[i];
     const std::string key = "box.cells[" + std::to_string(i) + "].";
@@ -132,7 +91,7 @@ void inspect_cells(Inspector& inspector, const CertifiedBox& box) {
   }
 }
 
-void inspect_box(Inspector& inspector, const GainTable& table) {
+void inspect_box(TableInspector& inspector, const GainTable& table) {
   const CertifiedBox& box = table.box;
   const auto side = static_cast<std::int32_t>(box.encoder_side);
   inspector.require(side == 0 || side == 1,
@@ -160,21 +119,23 @@ void inspect_box(Inspector& inspector, const GainTable& table) {
 }
 
 // Friction is fed forward beside the certified feedback: it must be friction, and less than the motor can give.
-void inspect_rule_friction(Inspector& inspector, const FrictionParameters& friction, double torque_limit_Nm,
-                           const std::string& key) {
+void inspect_rule_friction(TableInspector& inspector, const FrictionParameters& friction,
+                           double torque_limit_Nm, const std::string& key) {
   const double most_Nm = kMaxStaticShare * torque_limit_Nm;
   inspector.require(friction.static_Nm >= 0.0 && friction.static_Nm <= most_Nm,
-                    key + "static_Nm = " + number(friction.static_Nm) + ": must be from 0 to " +
-                        number(most_Nm) + ", half of torque_limit_Nm, or friction takes more than it leaves");
+                    key + "static_Nm = " + table_number(friction.static_Nm) + ": must be from 0 to " +
+                        table_number(most_Nm) +
+                        ", half of torque_limit_Nm, or friction takes more than it leaves");
   inspector.in_range(key + "coulomb_Nm", friction.coulomb_Nm, 0.0, friction.static_Nm);
   inspector.require(friction.static_Nm <= kMaxStaticRatio * friction.coulomb_Nm,
-                    key + "static_Nm = " + number(friction.static_Nm) + ": must be at most " +
-                        number(kMaxStaticRatio) + " times coulomb_Nm = " + number(friction.coulomb_Nm) +
+                    key + "static_Nm = " + table_number(friction.static_Nm) + ": must be at most " +
+                        table_number(kMaxStaticRatio) +
+                        " times coulomb_Nm = " + table_number(friction.coulomb_Nm) +
                         ", or the push that breaks the joint away throws it");
   inspector.in_range(key + "viscous_Nms_rad", friction.viscous_Nms_rad, 0.0, kMaxViscous_Nms_rad);
 }
 
-void inspect_velocity_memberships(Inspector& inspector, const VelocityMemberships& velocity) {
+void inspect_velocity_memberships(TableInspector& inspector, const VelocityMemberships& velocity) {
   const std::string key = "friction.velocity.";
   inspector.in_range(key + "zero_center_rad_s", velocity.zero_center_rad_s, 0.0, kMaxVelocity_rad_s);
   inspector.in_range(key + "zero_width_rad_s", velocity.zero_width_rad_s, kMinVelocityWidth_rad_s,
@@ -184,7 +145,7 @@ void inspect_velocity_memberships(Inspector& inspector, const VelocityMembership
                      kMaxVelocity_rad_s);
 }
 
-void inspect_friction(Inspector& inspector, const FuzzyFriction& friction, double torque_limit_Nm) {
+void inspect_friction(TableInspector& inspector, const FuzzyFriction& friction, double torque_limit_Nm) {
   inspector.in_range("friction.rule_count", friction.rule_count, 1, kMaxTemperatureRules);
   inspector.in_range("friction.temperature_min_C", friction.temperature_min_C, kMinTemperature_C,
                      kMaxTemperature_C);
@@ -200,11 +161,11 @@ void inspect_friction(Inspector& inspector, const FuzzyFriction& friction, doubl
     inspector.in_range(key + "width_C", rule.width_C, 1e-3, 1e4);
     inspect_rule_friction(inspector, rule.friction, torque_limit_Nm, key);
     const bool ascending = i == 0 || friction.rules[static_cast<std::size_t>(i - 1)].center_C < rule.center_C;
-    inspector.require(ascending, key + "center_C = " + number(rule.center_C) + ": centres must ascend");
+    inspector.require(ascending, key + "center_C = " + table_number(rule.center_C) + ": centres must ascend");
   }
 }
 
-void inspect_rule(Inspector& inspector, const FeedbackGains& gains, int rule, const std::string& key) {
+void inspect_rule(TableInspector& inspector, const FeedbackGains& gains, int rule, const std::string& key) {
   const GainRow F = gains.gain(rule);
   const StateMatrix P = gains.lyapunov(rule);
   const auto name = [&](const char* matrix, Eigen::Index row) {
@@ -218,13 +179,13 @@ void inspect_rule(Inspector& inspector, const FeedbackGains& gains, int rule, co
       std::string entry = name("P", a);
       entry += "[" + std::to_string(b) + "]";
       inspector.in_range(entry, P(a, b), -kMaxLyapunov, kMaxLyapunov);
-      inspector.require(P(a, b) == P(b, a), entry + " = " + number(P(a, b)) + ": P must be symmetric");
+      inspector.require(P(a, b) == P(b, a), entry + " = " + table_number(P(a, b)) + ": P must be symmetric");
       inspector.require(!unused || P(a, b) == 0.0, entry + ": must be 0 without an integrator");
     }
   }
 }
 
-void inspect_gains(Inspector& inspector, const FeedbackGains& gains, int plant_rules,
+void inspect_gains(TableInspector& inspector, const FeedbackGains& gains, int plant_rules,
                    const std::string& key) {
   inspector.require(gains.has_integrator == 0 || gains.has_integrator == 1,
                     key + ".has_integrator: must be 0 or 1");
@@ -255,7 +216,7 @@ void inspect_gains(Inspector& inspector, const FeedbackGains& gains, int plant_r
 }  // namespace
 
 std::optional<std::string> find_defect(const GainTable& table) {
-  Inspector inspector;
+  TableInspector inspector;
   inspector.require(table.format == kGainTableFormat, "format = " + std::to_string(table.format) +
                                                           ": this program reads format " +
                                                           std::to_string(kGainTableFormat));
@@ -289,7 +250,7 @@ std::optional<std::string> find_identity_mismatch(const GainTable& table, const 
                                                   InertiaCheck inertia) {
   const PlantIdentity& plant = table.plant;
   const auto differs = [](const std::string& key, double value, double wanted) {
-    return "plant." + key + " = " + number(value) + ": this joint has " + number(wanted);
+    return "plant." + key + " = " + table_number(value) + ": this joint has " + table_number(wanted);
   };
   if (!(plant.joint_model == expected.joint_model)) {
     return "plant.joint_model = " + std::string(plant.joint_model.view()) + ": this joint is a " +
