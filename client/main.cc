@@ -3,8 +3,8 @@
 
 #include <iostream>
 
-#include "client/link/interrupt.h"
 #include "client/options/command_line.h"
+#include "client/protocol/interrupt.h"
 
 int main(int argc, char** argv) {
   strainwave::catch_interrupts();

@@ -121,7 +121,7 @@ TEST(Layering, FollowsTheArrows) {
   EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/table/gain_table.h\""));
   EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
-  EXPECT_TRUE(allowed("client/link/client.h", "#include \"lcmtypes/channels.h\""));
+  EXPECT_TRUE(allowed("client/protocol/client.h", "#include \"lcmtypes/channels.h\""));
   EXPECT_TRUE(allowed("client/commands/can_commands.cc", "#include \"drivers/can/can_scan.h\""));
   EXPECT_TRUE(allowed("tests/design/lmi_test.cc", "#include \"design/lmi.h\""));
   EXPECT_TRUE(allowed("bench/loop.cc", "#include \"daemon/realtime/joint_loop.h\""));
@@ -130,15 +130,15 @@ TEST(Layering, FollowsTheArrows) {
 TEST(Layering, RefusesEveryArrowThatIsNotThere) {
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"design/lmi.h\""));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"sim/joint/joint_plant.h\""));
-  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/link/client.h\""));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/protocol/client.h\""));
   EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"design/lmi.h\""));
   EXPECT_FALSE(allowed("sim/joint/joint_plant.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config/config.h\""));
-  EXPECT_FALSE(allowed("client/link/client.cc", "#include \"daemon/config/config.h\""));
-  EXPECT_FALSE(allowed("client/link/client.cc", "#include \"sim/joint/joint_plant.h\""));
-  EXPECT_FALSE(allowed("client/link/client.cc", "#include \"drivers/can/can_bus.h\""));
+  EXPECT_FALSE(allowed("client/protocol/client.cc", "#include \"daemon/config/config.h\""));
+  EXPECT_FALSE(allowed("client/protocol/client.cc", "#include \"sim/joint/joint_plant.h\""));
+  EXPECT_FALSE(allowed("client/protocol/client.cc", "#include \"drivers/can/can_bus.h\""));
   EXPECT_FALSE(allowed("design/lmi.cc", "#include \"sim/joint/joint_plant.h\""));
 }
 

@@ -4,7 +4,7 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/sibling_program.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/link/client.h"
-#include "client/link/joint_path.h"
-#include "client/link/motion.h"
+#include "client/protocol/client.h"
+#include "client/protocol/joint_path.h"
+#include "client/protocol/motion.h"
 #include "client/text/output.h"
 #include "client/watch/watch_screen.h"
 #include "drivers/injected_fault.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "client/link/orders.h"
+#include "client/protocol/orders.h"
 
 namespace strainwave {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "client/link/client.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 

@@ -9,7 +9,7 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "client/commands/commands.h"
-#include "client/link/output_file.h"
+#include "client/protocol/output_file.h"
 #include "client/text/mcap_flight.h"
 #include "client/text/mcap_log.h"
 #include "client/text/message_csv.h"

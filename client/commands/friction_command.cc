@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/link/orders.h"
-#include "client/link/plain_zero.h"
+#include "client/protocol/orders.h"
+#include "client/protocol/plain_zero.h"
 #include "client/text/text.h"
 
 namespace strainwave {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
-#include "client/link/interrupt.h"
-#include "client/link/orders.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/interrupt.h"
+#include "client/protocol/orders.h"
 
 namespace strainwave {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "client/link/client.h"
-#include "client/link/orders.h"
+#include "client/protocol/client.h"
+#include "client/protocol/orders.h"
 
 namespace strainwave {
 

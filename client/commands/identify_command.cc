@@ -7,10 +7,10 @@
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
 #include "client/commands/identify_plan.h"
-#include "client/link/client_error.h"
-#include "client/link/event_log_writer.h"
-#include "client/link/orders.h"
-#include "client/link/published_limits.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/event_log_writer.h"
+#include "client/protocol/orders.h"
+#include "client/protocol/published_limits.h"
 #include "client/text/text.h"
 
 namespace strainwave {

@@ -10,8 +10,8 @@
 
 #include "base/nearest_word.h"
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
-#include "client/link/orders.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/orders.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "client/commands/commands.h"
-#include "client/link/key_file.h"
+#include "client/protocol/key_file.h"
 
 namespace strainwave {
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
-#include "client/link/motion.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/motion.h"
 #include "client/text/text.h"
 
 namespace strainwave {

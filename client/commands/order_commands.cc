@@ -3,7 +3,7 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
-#include "client/link/orders.h"
+#include "client/protocol/orders.h"
 #include "client/text/text.h"
 
 namespace strainwave {

@@ -6,8 +6,8 @@
 #include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
-#include "client/link/client_error.h"
-#include "client/link/orders.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/orders.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/wire.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/gnuplot.h"
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 #include "client/text/flight_record.h"
 
 namespace strainwave {

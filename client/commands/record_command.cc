@@ -5,8 +5,8 @@
 
 #include "base/printable.h"
 #include "client/commands/commands.h"
-#include "client/link/event_log_writer.h"
-#include "client/link/output_file.h"
+#include "client/protocol/event_log_writer.h"
+#include "client/protocol/output_file.h"
 #include "client/text/mcap_log.h"
 
 namespace strainwave {

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "base/unique_fd.h"
-#include "client/link/client.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 

@@ -1,8 +1,8 @@
 // disable, hold: stops.
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
-#include "client/link/client_error.h"
-#include "client/link/orders.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/orders.h"
 
 namespace strainwave {
 

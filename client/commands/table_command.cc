@@ -4,7 +4,7 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
-#include "client/link/orders.h"
+#include "client/protocol/orders.h"
 #include "control/table/gain_table_json.h"
 #include "lcmtypes/gain_table_message.h"
 

@@ -6,8 +6,8 @@
 
 #include "base/printable.h"
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
-#include "client/link/latest_messages.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/latest_messages.h"
 
 namespace strainwave {
 

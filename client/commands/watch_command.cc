@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 #include "client/text/state_json.h"
 #include "client/text/text.h"
 #include "client/watch/watch_screen.h"

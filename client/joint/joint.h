@@ -18,8 +18,8 @@
 
 #include "client/joint/state.h"
 #include "client/joint/stream.h"
-#include "client/link/client_error.h"
-#include "client/link/move_order.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/move_order.h"
 
 namespace strainwave {
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "base/input_error.h"
-#include "client/link/key_file.h"
+#include "client/protocol/key_file.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"

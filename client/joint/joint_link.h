@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "client/joint/joint.h"
-#include "client/link/client.h"
-#include "client/link/connection.h"
-#include "client/link/cycle_clock.h"
-#include "client/link/published_limits.h"
+#include "client/protocol/client.h"
+#include "client/protocol/connection.h"
+#include "client/protocol/cycle_clock.h"
+#include "client/protocol/published_limits.h"
 
 namespace strainwave {
 

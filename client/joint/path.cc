@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "client/joint/joint_link.h"
-#include "client/link/joint_path.h"
-#include "client/link/motion.h"
-#include "client/link/orders.h"
+#include "client/protocol/joint_path.h"
+#include "client/protocol/motion.h"
+#include "client/protocol/orders.h"
 
 namespace strainwave {
 

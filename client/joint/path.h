@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "client/joint/joint.h"
-#include "client/link/joint_knot.h"
-#include "client/link/move_order.h"
+#include "client/protocol/joint_knot.h"
+#include "client/protocol/move_order.h"
 
 namespace strainwave {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "client/joint/joint_link.h"
-#include "client/link/motion.h"
-#include "client/link/orders.h"
+#include "client/protocol/motion.h"
+#include "client/protocol/orders.h"
 #include "lcmtypes/stream_validity.h"
 
 namespace strainwave {

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 

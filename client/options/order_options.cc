@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "client/link/client_error.h"
 #include "client/options/command_options.h"
+#include "client/protocol/client_error.h"
 #include "client/text/text.h"
 
 namespace strainwave {

@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "base/printable.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 

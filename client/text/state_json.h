@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/link/client.h"
+#include "client/protocol/client.h"
 
 namespace strainwave {
 

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "client/link/client_error.h"
-#include "client/link/plain_zero.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/plain_zero.h"
 #include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/state_fields.h"
 #include "lcmtypes/vocabulary.h"

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "client/link/client.h"
-#include "client/link/state_view.h"
+#include "client/protocol/client.h"
+#include "client/protocol/state_view.h"
 
 namespace strainwave {
 

@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "client/link/state_view.h"
+#include "client/protocol/state_view.h"
 
 namespace strainwave {
 

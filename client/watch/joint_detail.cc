@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "client/link/orders.h"
-#include "client/link/plain_zero.h"
+#include "client/protocol/orders.h"
+#include "client/protocol/plain_zero.h"
 #include "client/text/text.h"
 #include "client/watch/plot.h"
 #include "lcmtypes/vocabulary.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/link/orders.h"
+#include "client/protocol/orders.h"
 #include "client/text/text.h"
 #include "client/watch/joint_detail.h"
 #include "client/watch/plot.h"

@@ -7,8 +7,8 @@
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "client/link/client.h"
-#include "client/link/orders.h"
+#include "client/protocol/client.h"
+#include "client/protocol/orders.h"
 #include "lcmtypes/channels.h"
 
 namespace strainwave {

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "client/link/clock.h"
-#include "client/link/connection.h"
-#include "client/link/pending_order.h"
-#include "client/link/sender.h"
-#include "client/link/state_view.h"
+#include "client/protocol/clock.h"
+#include "client/protocol/connection.h"
+#include "client/protocol/pending_order.h"
+#include "client/protocol/sender.h"
+#include "client/protocol/state_view.h"
 
 namespace strainwave {
 

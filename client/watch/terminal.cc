@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 

@@ -8,7 +8,7 @@
 
 #include "base/printable.h"
 #include "base/saturated_sum.h"
-#include "client/link/orders.h"
+#include "client/protocol/orders.h"
 #include "client/text/text.h"
 #include "client/watch/help.h"
 #include "client/watch/joint_detail.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "client/link/state_view.h"
+#include "client/protocol/state_view.h"
 #include "client/watch/history.h"
 #include "client/watch/screen.h"
 

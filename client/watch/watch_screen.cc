@@ -4,8 +4,8 @@
 #include <array>
 
 #include "base/input_error.h"
-#include "client/link/client_error.h"
-#include "client/link/latest_messages.h"
+#include "client/protocol/client_error.h"
+#include "client/protocol/latest_messages.h"
 #include "client/watch/order_desk.h"
 #include "client/watch/terminal.h"
 #include "client/watch/view.h"

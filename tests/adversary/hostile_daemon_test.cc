@@ -25,7 +25,7 @@
 #include <thread>
 
 #include "client/joint/joint.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/daemon_fixture.h"
 

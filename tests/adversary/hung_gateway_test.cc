@@ -5,8 +5,8 @@
 #include <string>
 #include <thread>
 
-#include "client/link/client.h"
-#include "client/link/orders.h"
+#include "client/protocol/client.h"
+#include "client/protocol/orders.h"
 #include "tests/support/daemon_fixture.h"
 
 namespace strainwave::testing {

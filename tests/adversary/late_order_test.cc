@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/link/orders.h"
+#include "client/protocol/orders.h"
 #include "drivers/injected_fault.h"
 #include "lcmtypes/key_text.h"
 #include "tests/adversary/relay.h"

@@ -7,8 +7,8 @@
 #include <strainwave/command_v1.hpp>
 #include <string>
 
-#include "client/link/client.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client.h"
+#include "client/protocol/client_error.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/private_network.h"
 

@@ -20,7 +20,7 @@ struct Library {
 const std::vector<Library> kLibraries{
     {"sdpa", {"design/"}},
     {"Clp_", {"sim/studies/linear_program.cc"}},
-    {"lcm/", {"daemon/gateway/", "client/link/", "tests/"}},
+    {"lcm/", {"daemon/gateway/", "client/protocol/", "tests/"}},
     {"strainwave/", {"lcmtypes/", "design/", "daemon/", "client/", "telemetry/", "tests/"}},
     {"boost/", {"telemetry/server/"}},
     {"toml++/", {"base/toml_section.cc"}},

@@ -1,5 +1,5 @@
 """A conversation with one joint of a daemon: hears its state, sends an order, repeats it until it is acknowledged.
-Source: client/link/client.h, pending_order.h; docs/commands.md.
+Source: client/protocol/client.h, pending_order.h; docs/commands.md.
 """
 import collections
 

@@ -1,4 +1,4 @@
-"""The secret key on disk, and signatures: Ed25519 of libsodium, as the daemon has it. Source: client/link/key_file.cc,
+"""The secret key on disk, and signatures: Ed25519 of libsodium, as the daemon has it. Source: client/protocol/key_file.cc,
 lcmtypes/key_text.cc, lcmtypes/signing.h.
 """
 import base64

@@ -1,4 +1,4 @@
-"""Who sends: the one place that fills in identity, session, sequence and signature of an order. Source: client/link/sender.h."""
+"""Who sends: the one place that fills in identity, session, sequence and signature of an order. Source: client/protocol/sender.h."""
 import os
 import socket
 import threading

@@ -1,5 +1,7 @@
 #include "sim/studies/peers/lqg.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>

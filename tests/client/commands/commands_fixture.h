@@ -7,8 +7,8 @@
 #include <string>
 
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
-#include "tests/client/link/fake_daemon.h"
+#include "client/protocol/client_error.h"
+#include "tests/client/protocol/fake_daemon.h"
 
 namespace strainwave::testing {
 

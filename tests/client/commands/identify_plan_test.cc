@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 namespace {

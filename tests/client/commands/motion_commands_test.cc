@@ -4,8 +4,8 @@
 #include <cmath>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "client/link/joint_path.h"
-#include "client/link/motion.h"
+#include "client/protocol/joint_path.h"
+#include "client/protocol/motion.h"
 #include "tests/client/commands/commands_fixture.h"
 
 namespace strainwave {

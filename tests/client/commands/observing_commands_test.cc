@@ -6,7 +6,7 @@
 #include <map>
 #include <strainwave/timing_v1.hpp>
 
-#include "client/link/output_file.h"
+#include "client/protocol/output_file.h"
 #include "lcmtypes/event_log.h"
 #include "tests/client/commands/commands_fixture.h"
 #include "tests/support/temporary_folder.h"

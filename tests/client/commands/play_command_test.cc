@@ -5,7 +5,7 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
-#include "client/link/key_file.h"
+#include "client/protocol/key_file.h"
 #include "tests/client/commands/commands_fixture.h"
 #include "tests/support/event_log_file.h"
 #include "tests/support/temporary_folder.h"

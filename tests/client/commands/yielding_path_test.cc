@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "client/link/joint_path.h"
+#include "client/protocol/joint_path.h"
 #include "tests/client/commands/commands_fixture.h"
 
 namespace strainwave {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <thread>
 
-#include "tests/client/link/running_daemon.h"
+#include "tests/client/protocol/running_daemon.h"
 
 namespace strainwave {
 namespace {

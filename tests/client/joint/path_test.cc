@@ -8,7 +8,7 @@
 #include <strainwave/path_v1.hpp>
 
 #include "lcmtypes/wire.h"
-#include "tests/client/link/running_daemon.h"
+#include "tests/client/protocol/running_daemon.h"
 
 namespace strainwave {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "client/joint/joint.h"
 #include "lcmtypes/wire.h"
-#include "tests/client/link/running_daemon.h"
+#include "tests/client/protocol/running_daemon.h"
 
 namespace strainwave::testing {
 

@@ -16,7 +16,7 @@
 #include <strainwave/timing_v1.hpp>
 #include <string>
 
-#include "client/link/sender.h"
+#include "client/protocol/sender.h"
 #include "lcmtypes/oscillation_evidence.h"
 #include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/signing.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 
 namespace strainwave {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/input_error.h"
 #include "client/commands/commands.h"
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "client/link/client_error.h"
+#include "client/protocol/client_error.h"
 #include "lcmtypes/vocabulary.h"
 
 namespace strainwave {

@@ -6,8 +6,8 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
-#include "client/link/key_file.h"
-#include "tests/client/link/fake_daemon.h"
+#include "client/protocol/key_file.h"
+#include "tests/client/protocol/fake_daemon.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

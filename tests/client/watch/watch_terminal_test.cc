@@ -13,8 +13,8 @@
 #include <strainwave/state_v1.hpp>
 #include <thread>
 
-#include "client/link/clock.h"
-#include "client/link/connection.h"
+#include "client/protocol/clock.h"
+#include "client/protocol/connection.h"
 #include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/fragment_attack.h"

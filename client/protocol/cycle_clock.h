@@ -1,0 +1,46 @@
+// Which cycle the daemon is in, from the states that came: the one that travelled least long tells most. Not real-time.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+
+#include "client/protocol/clock.h"
+
+namespace strainwave {
+
+class CycleClock {
+ public:
+  static constexpr std::size_t kStates = 64;
+
+  /// Forgets all: the daemon was restarted.
+  void restart() noexcept { heard_.clear(); }
+
+  /// A state of `cycle` came at `received`.
+  void take(std::int64_t cycle, Instant received) {
+    if (heard_.size() == kStates) heard_.pop_front();
+    heard_.push_back({cycle, received});
+  }
+
+  bool empty() const noexcept { return heard_.empty(); }
+
+  /// The cycle at `time`, as a real number; at least one state must have come.
+  ///   c(t) = max over the latest states of cycle_i + (t - received_i) / period_s
+  double cycle_at(Instant time, double period_s) const noexcept {
+    double latest = -std::numeric_limits<double>::infinity();
+    for (const Heard& state : heard_)
+      latest = std::max(latest,
+                        static_cast<double>(state.cycle) + seconds_between(state.received, time) / period_s);
+    return latest;
+  }
+
+ private:
+  struct Heard {
+    std::int64_t cycle;
+    Instant received;
+  };
+  std::deque<Heard> heard_;
+};
+
+}  // namespace strainwave

@@ -1,0 +1,50 @@
+// Files that commands write. Not real-time.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/unique_fd.h"
+#include "client/protocol/client_error.h"
+
+namespace strainwave {
+
+/// Whether the name ends so, in letters of either size: `extension` in small ones, with its dot.
+inline bool is_named(const std::filesystem::path& file, std::string_view extension) {
+  const std::string end = file.extension().string();
+  return std::equal(end.begin(), end.end(), extension.begin(), extension.end(), [](char a, char b) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(a))) == b;
+  });
+}
+
+/// Throws ClientError (usage) when `file` exists and `overwrite` is false.
+inline void refuse_to_replace(const std::filesystem::path& file, bool overwrite) {
+  if (!overwrite && std::filesystem::exists(file))
+    throw ClientError(ExitStatus::kUsage, file.string() + " exists: choose another name, or say --overwrite");
+}
+
+/// Opens `file`, which is made if it is not there, for one writer: no other process can claim it while the descriptor is open. Throws
+/// ClientError (usage) as above, when it is a folder, when it cannot be written, and when another process writes it now; then it is
+/// unchanged.
+UniqueFd claim_output(const std::filesystem::path& file, bool overwrite);
+
+/// Throws ClientError (usage) when a file that is to be no MCAP file is named like one, and when one that is to be it has another format's
+/// name.
+inline void refuse_name_of_mcap(const std::filesystem::path& file, bool mcap) {
+  if (!mcap && is_named(file, ".mcap"))
+    throw ClientError(ExitStatus::kUsage,
+                      file.string() + " would be no MCAP file: say --mcap, or choose another name");
+  if (mcap && (is_named(file, ".lcm") || is_named(file, ".csv")))
+    throw ClientError(ExitStatus::kUsage,
+                      file.string() + " would be an MCAP file: leave --mcap out, or choose another name");
+}
+
+/// That `file` could not be created or opened for writing.
+inline ClientError not_writable(const std::filesystem::path& file) {
+  return {ExitStatus::kUsage, file.string() + " cannot be written: does its folder exist, is it yours?"};
+}
+
+}  // namespace strainwave
