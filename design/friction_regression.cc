@@ -17,8 +17,6 @@ namespace {
 
 // Columns have been scaled to length 1: beyond this condition a parameter is not determined by the speeds.
 constexpr double kWorstCondition = 1e4;
-// Standard deviation of the logarithm of a joint's Stribeck velocity: lubricant and wear change it by about a fifth.
-constexpr double kStribeckDeviation = 0.2;
 // Below the resolution of any torque: (1e-9 N.m)^2.
 constexpr double kLeastVariance_N2m2 = 1e-18;
 
@@ -75,23 +73,10 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
     return {covariance * (weighted.transpose() * F), covariance};
   };
   const Eigen::Vector3d plain = solve(Eigen::MatrixXd::Identity(n, n)).first;
-  Eigen::VectorXd by_stribeck(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    by_stribeck(i) =
-        plain(0) * X(i, 0) * shape.exponent *
-        std::pow(points[static_cast<std::size_t>(i)].speed_rad_s / shape.velocity_rad_s, shape.exponent);
-  const Eigen::VectorXd residuals = F - X * plain;
   result.points = static_cast<int>(n);
-  result.residual_squares = residuals.squaredNorm();
+  result.residual_squares = (F - X * plain).squaredNorm();
   result.degrees_of_freedom = static_cast<int>(n) - 3;
-  // What another Stribeck velocity explains of the residuals is no noise.
-  const Eigen::VectorXd beside_X =
-      by_stribeck - X * (X.transpose() * X).ldlt().solve(X.transpose() * by_stribeck);
-  const double explained = beside_X.squaredNorm() > kLeastVariance_N2m2
-                               ? std::pow(beside_X.dot(residuals), 2) / beside_X.squaredNorm()
-                               : 0.0;
-  const double noise_squared =
-      (result.residual_squares - explained) / std::max(1, result.degrees_of_freedom - 1);
+  const double noise_squared = result.residual_squares / result.degrees_of_freedom;
   Eigen::VectorXd variance(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double torque_Nm = torque_uncertainty * F(i);
@@ -102,8 +87,7 @@ FrictionRegression regress_friction(const std::vector<SteadyPoint>& points, cons
   const double least = std::max(kLeastVariance_N2m2, variance.minCoeff());
   Eigen::MatrixXd errors = variance.cwiseMax(least).asDiagonal();
   const Eigen::VectorXd common_Nm = torque_uncertainty * (X * plain);
-  errors += common_Nm * common_Nm.transpose() +
-            kStribeckDeviation * kStribeckDeviation * by_stribeck * by_stribeck.transpose();
+  errors += common_Nm * common_Nm.transpose();
   const auto weighed = solve(errors);
   const Eigen::Vector3d& parameters = weighed.first;
   const Eigen::Matrix3d& covariance = weighed.second;

@@ -3,12 +3,12 @@
 //
 //   F(w) = (Fs - Fc) s(w) + Fc + Fv w,   s(w) = exp(-(w/ws)^delta) known:   linear in (Fs - Fc, Fc, Fv)
 //   least squares; noise^2 = residuals' squares / (n - 3)
-//   S = diag(noise^2 + (torque_uncertainty F_i)^2 + ripple_i^2) + torque_uncertainty^2 F F' + 0.2^2 d d',   d = dF / d ln ws
+//   S = diag(noise^2 + (torque_uncertainty F_i)^2 + ripple_i^2) + torque_uncertainty^2 F F'
 //   generalised least squares; covariance (X'S^-1 X)^-1; interval by Student's t with n - 3
 //
 // The residuals alone do not say how far static friction is known: often a single slow point determines it, which the
-// fit then meets exactly. What that point may be off by stands in S. So do two errors that all points share: a torque constant
-// that is off, and a joint with another Stribeck velocity than the catalogue's.
+// fit then meets exactly. What that point may be off by stands in S, and so does a torque constant that is off for all points. The Stribeck
+// velocity is taken as known: a joint with another one has static friction outside of its interval.
 #pragma once
 
 #include <Eigen/Core>

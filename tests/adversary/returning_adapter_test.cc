@@ -86,7 +86,7 @@ TEST_F(ReturningAdapter, IsJoinedAnewByTheDaemonAndByWhoeverListens) {
 
 TEST_F(ReturningAdapter, IsWaitedForAtStart) {
   DaemonProcess daemon(folder_, configuration());
-  ASSERT_TRUE(daemon.wait_for_log("waiting for it", std::chrono::seconds(20))) << daemon.log();
+  ASSERT_TRUE(daemon.wait_for_log("waiting for LCM on", std::chrono::seconds(20))) << daemon.log();
   EXPECT_EQ(daemon.wait_for_end(std::chrono::seconds(6)), -1) << daemon.log();
   ASSERT_TRUE(make_adapter());
   ASSERT_TRUE(daemon.wait_for_log("ready after", std::chrono::seconds(20))) << daemon.log();
@@ -98,7 +98,7 @@ TEST_F(ReturningAdapter, IsWaitedForAtStart) {
 
 TEST_F(ReturningAdapter, IsNotWaitedForByADaemonThatIsToEnd) {
   DaemonProcess daemon(folder_, configuration());
-  ASSERT_TRUE(daemon.wait_for_log("waiting for it", std::chrono::seconds(20))) << daemon.log();
+  ASSERT_TRUE(daemon.wait_for_log("waiting for LCM on", std::chrono::seconds(20))) << daemon.log();
   daemon.signal(SIGTERM);
   EXPECT_EQ(daemon.wait_for_end(std::chrono::seconds(10)), 0) << daemon.log();
 }

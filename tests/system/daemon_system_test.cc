@@ -171,7 +171,7 @@ TEST_F(DaemonSystem, ASecondDaemonOnTheSamePrefixIsRefusedWithAdvice) {
 TEST_F(DaemonSystem, WithoutAMulticastRouteItWaitsForOneAndSaysWhatToDo) {
   if (!enter_private_network(false)) GTEST_SKIP() << "no network namespace allowed here";
   DaemonProcess daemon(folder_, configuration());
-  ASSERT_TRUE(daemon.wait_for_log("waiting for it", seconds(20))) << daemon.log();
+  ASSERT_TRUE(daemon.wait_for_log("waiting for LCM on", seconds(20))) << daemon.log();
   EXPECT_NE(daemon.log().find("ip route add 239.255.76.67/32"), std::string::npos) << daemon.log();
 }
 

@@ -107,7 +107,7 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kOutOfRange, Mode::kHolding, 2.5, 1.0}),
                   {"at_cycle", "2.5 s", "at most 1 s"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding, 86400123.0, 86400124.0}),
-                  {"at_cycle = 86400123", "it is cycle 86400124", "from 86400125"});
+                  {"at_cycle = 86400123", "this is cycle 86400124", "from 86400125"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kStreamEnded, Mode::kTracking, 13.1042, 12.0}),
                   {"the joint is tracking and yielded to a load of 13.1 N.m (joint.limits.load_Nm allows 12)",
                    "which ended this stream", "begin a new one once it holds"});
