@@ -166,7 +166,7 @@ TEST(StateNotes, NameFaultLimitsSilenceAndASecondDaemon) {
   view.state.rule_count = 0;
   view.two_daemons = true;
   const std::string notes = state_notes(view, 2.5);
-  for (const char* part : {"fault 14: following error", "torque limited", "temperature-free gains", "too old",
+  for (const char* part : {"fault 14: following error", "torque limited", "fallback gains in use", "too old",
                            "no message for 2.5 s", "two daemons", "no table"}) {
     EXPECT_NE(notes.find(part), std::string::npos) << part << " in " << notes;
   }

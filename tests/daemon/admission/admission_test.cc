@@ -222,7 +222,7 @@ TEST_F(AdmissionTest, RefusesAnOrderThatWasKeptBackForLongerThanItLives) {
   for (const WireMessage& kept : {move, enable}) {
     const Verdict verdict = consider(kept);
     EXPECT_EQ(verdict.reason, Reason::kTooOld);
-    EXPECT_NE(verdict.text.find("kept back"), std::string::npos) << verdict.text;
+    EXPECT_NE(verdict.text.find("delayed on its way"), std::string::npos) << verdict.text;
     EXPECT_FALSE(verdict.requester.authentic) << "its answer is not worth remembering";
   }
   EXPECT_EQ(admission_.ownership().owner_id(0, 1), 0);
