@@ -85,12 +85,14 @@ FuzzyFit fit_ordered_memberships(const FitProblem& problem, int rules, const Mem
                                  double max_C, std::uint64_t seed) {
   Search search{problem, rules, {min_C, max_C}};
   const auto n = static_cast<unsigned>(rules);
+  const std::size_t unknowns = std::size_t{2} * n;
+  const std::size_t inequalities = std::size_t{2} * (n - 1);
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(nlopt_create(NLOPT_LD_SLSQP, 2 * n),
                                                                          &nlopt_destroy);
-  std::vector<double> lower(2 * n, box.center_min_C), upper(2 * n, box.center_max_C);
+  std::vector<double> lower(unknowns, box.center_min_C), upper(unknowns, box.center_max_C);
   std::fill(lower.begin() + rules, lower.end(), std::log(box.width_min_C));
   std::fill(upper.begin() + rules, upper.end(), std::log(box.width_max_C));
-  const std::vector<double> tolerance(2 * (n - 1), kOrderTolerance);
+  const std::vector<double> tolerance(inequalities, kOrderTolerance);
   nlopt_set_lower_bounds(optimiser.get(), lower.data());
   nlopt_set_upper_bounds(optimiser.get(), upper.data());
   nlopt_set_min_objective(optimiser.get(), cost, &search);
