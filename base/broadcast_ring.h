@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A ring that one thread writes and any process may read through shared memory. The writer never waits and never looks
 // at a reader: a reader that falls behind loses records and knows how many. Real-time safe for the writer.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strict reader of the project's CSV files: comment lines begin with '#', then one header line, then rows of as many fields.
 // Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Durations as the loop counts time: whole nanoseconds. Real-time safe.
 #pragma once
 

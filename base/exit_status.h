@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How every program of ours ends. The numbers are part of their interface (--help lists them); scripts rely on them.
 #pragma once
 

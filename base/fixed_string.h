@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text in a plain struct: at most N-1 bytes, zero padded, so that the struct can be copied as bytes.
 // Real-time safe.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The one place that runs gnuplot. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The one exception for bad input at start-up or offline: configuration, tables, catalogues. Never in the loop.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The newest of the values that one thread makes now and then, for another that must not wait: a real-time loop and the ordinary
 // thread that it interrupts. What is in between is lost. put() and take() are real-time safe.
 //

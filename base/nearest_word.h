@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The allowed word that a user most likely meant, and the unit. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Independent jobs on all cores. Each job has its own index, so results do not depend on the number of
 // threads. Offline.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text and numbers made fit for a terminal or a log. Not real-time.
 #pragma once
 

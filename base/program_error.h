@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why a program ends that can do nothing about it, and with which status.
 #pragma once
 

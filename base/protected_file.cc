@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/protected_file.h"
 
 #include <unistd.h>

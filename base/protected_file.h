@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who can change a file that decides what a machine does. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sums of counts from elsewhere, such as messages: they stay at the largest or smallest number instead of wrapping round. Real-time safe.
 #pragma once
 

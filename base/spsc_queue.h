@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A bounded queue between one writing and one reading thread. Wait-free on both sides, real-time safe: a full queue
 // refuses, it never blocks.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strict reading of JSON, shared by the files of this project. Not real-time. Every complaint is an
 // InputError that names the file or message, the key and what is allowed; repeated, unknown and missing keys are errors.
 #pragma once

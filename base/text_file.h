@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole files, read at once and replaced at once, and the folders that they are written to. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How often something may happen: `per_second` on the average, `burst` at once.
 //
 //   left(t) = min(burst, left(t0) + (t - t0) per_second)        begins full; each that is taken takes 1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How deep a TOML text nests, before anything that recurses sees it: toml++ bounds the values in each other, but makes a table for
 // every dot of a key, and destroys tables by recursion. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strict reading of one TOML table: every key is asked for by name, with its allowed range, and a key that
 // was not read is an error. The only door to toml++. Not real-time.
 #pragma once

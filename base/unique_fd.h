@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file descriptor that closes itself. Not real-time: closing may block.
 #pragma once
 

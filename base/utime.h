@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The wall clock as messages carry it: microseconds since the epoch, for records only. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bench/controller: what the control law of one joint costs beside the exponentials that it cannot avoid.
 // The law: six rules (five over temperature, one for zero velocity), integrator, friction compensation, over
 // a joint that follows a sine. Its exponentials: the five memberships over temperature when the temperature

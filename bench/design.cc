@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long the four controllers take, designed and certified. Prints a table.
 #include <chrono>
 #include <cstdio>

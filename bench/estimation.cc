@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // EPGS against NLopt's global optimisers on the costs of the friction fits: how often each reaches the target
 // within the same processor time on one core, and how soon. Prints a table.
 //

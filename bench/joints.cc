@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What several joints cost in one loop: cycles of 8, 16, 32 and 64 simulated joints, all moving, in
 // alternating slices, so that the machine's moods hit all alike. Prints the cost per joint and cycle, its
 // ratio to that of 8 joints, and the share of one processor that a loop of the configured period would take.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What decoding one edge of an encoder costs, without the kernel's part: a bound on the rate that the
 // fallback could ever reach.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How fast the simulated joint is: sub-steps of its physics and whole periods of the plant. Read `items_per_second`.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bench/steps: what JointController::step() costs, in each of the ways in which the daemon runs it: on moves, a stream and at rest, with a
 // new temperature every period. A run of the closed loop is recorded once and replayed: the same readings and orders make the same steps,
 // without the simulated joint between them. Prints processor time of the mean step of one joint and of 64 in turn, of the slowest step of

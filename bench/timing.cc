@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bench/timing: wake-up latency of our loop beside cyclictest's, in alternating slices on the same machine.
 //   timing [SLICES] [SECONDS_PER_SLICE] [JOINTS]
 // Both sides' latencies go through the same histogram, so that the ratio compares like with like. Needs the

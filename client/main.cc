@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwavectl: the operator's program.
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Every library comes from Debian 12; scripts/deps installs what is missing.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What goes where on a machine, by package (install component). Programs find what belongs to them from where they are
 # themselves: nothing points back into the source or build tree.
 set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # How every target of ours is made: includes from the root, warnings on our code only (errors in the presets).
 add_library(strainwave_flags INTERFACE)
 target_include_directories(strainwave_flags INTERFACE "${PROJECT_SOURCE_DIR}")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A number with a bound on its error: running error analysis for proofs in floating point. Real-time safe.
 //
 // |value - exact| <= error always holds; "exact" is the same formula in real numbers. Each operation adds its own largest rounding

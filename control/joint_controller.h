@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Everything that one joint needs each period, in one object that the daemon and the simulator both run.
 // Real-time safe, load() included: nothing allocates, throws, locks or reads a clock. Only the constructor is not: it solves for a
 // regulator (control/joint/link_model.h). Joint side, SI.

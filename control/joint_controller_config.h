@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What JointController (control/joint_controller.h) knows of its joint. Plain data. Joint side, SI.
 #pragma once
 

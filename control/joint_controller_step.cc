@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The steps of JointController's period, in their order.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What one joint is to do: trajectory of the link, plan of the motor, and the small motions of the last counts. The torque that the plan needs
 // is here, what the feedback adds is control/joint_controller.h's. Real-time safe but for the constructor. Joint side, SI.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/law_in_use.h"
 
 #include <algorithm>

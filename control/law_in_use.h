@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A table's law as it is in use: scheduled gains while the temperature is known, temperature-free ones otherwise. Real-time safe. Joint side, SI.
 //
 //   change of gains   bumpless transfer: the integral is chosen so that the next torque is what the gains before it would have given

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parts of the controller that a study can switch off, one at a time, to show what each is worth (`strainwave-sim ablation`).
 // The daemon runs all of them.
 #pragma once

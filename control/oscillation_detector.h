@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Detects an oscillation by the torque: reversals of the feedback that no plan orders. Real-time safe.
 //
 //   reversal     feedback beyond +limit after one beyond -limit, or the other way round, while the plan's torque kept its sign

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The last counts: a motor that sticks beside its place makes a small planned motion from where it stands, a few times at most. Such a
 // motion shows little but friction: where one falls short, the next feeds forward more of it, where one goes too far, less. What
 // these do not bring is the integral's. Real-time safe. Encoder's side, rad at the joint.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scheduled state feedback with integrator, friction compensation, saturation and anti-windup: the control
 // law of one joint. Real-time safe: nothing here allocates or throws.
 //

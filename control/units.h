@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Conversions between the catalogue's units and ours. Real-time safe.
 //
 // Inside the project every quantity is SI and on the joint (output, low-speed) side of the gear. The

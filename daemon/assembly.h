@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Makes what a configuration names: buses, drives with their joints' settings, and what admission must know of
 // a joint. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/drive_check.h"
 
 #include "base/input_error.h"

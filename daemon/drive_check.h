@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The drives of a configuration, before the loop: whose they are, and whether start-up would accept them. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The signals that end the daemon in order, and the end of a child. Not real-time.
 #pragma once
 

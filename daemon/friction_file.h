@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The file in which a joint's learned friction outlives the daemon: JSON, strict, bound to the joint's name and its table's friction
 // rules. Pure: text in, values out. Not real-time.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/friction_keeper.h"
 
 #include <signal.h>

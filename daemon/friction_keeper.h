@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keeps what joints learn of their friction in files, over restarts of the daemon, and logs where it differs from a table. The supervisor's;
 // files are written in a thread of their own, because a slow disk must not keep a stop waiting. Not real-time.
 #pragma once

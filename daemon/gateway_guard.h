@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keeps a gateway running: starts it and waits for it, restarts it when it has ended, and ends it when it hangs. The log says what
 // it drops. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/initial_table.h"
 
 #include "base/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gain table that a joint starts with: read from its file and judged as one that is loaded over LCM. The start and
 // `strainwaved --check` both call this. Not real-time.
 #pragma once

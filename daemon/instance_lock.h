@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One daemon per prefix, and one per drive, in a network namespace: a locked file in a directory that only we can write. The
 // kernel frees the lock, however the process ends. Not real-time.
 #pragma once

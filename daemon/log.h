@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Logging of the core's supervisor and the start-up: spdlog to stderr, which under systemd is the journal. Never from the
 // real-time thread, and never waiting for a reader. Control characters in a line become question marks.
 #pragma once

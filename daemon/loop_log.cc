@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/loop_log.h"
 
 #include <spdlog/spdlog.h>

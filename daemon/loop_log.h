@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the real-time loop tells of, as a line in the log. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwaved: the real-time control daemon. `strainwaved --config FILE`; see docs/configuration.md.
 #include <signal.h>
 

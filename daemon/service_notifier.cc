@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/service_notifier.h"
 
 #include <systemd/sd-daemon.h>

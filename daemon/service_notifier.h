@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The messages to the service manager (systemd): ready once the loop meets its timing, alive while the loop goes
 // round, the modes of the joints as a line of status. Without a service manager nothing is sent. Not
 // real-time. Source: sd_notify(3).

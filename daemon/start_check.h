@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `strainwaved --check`: whether the daemon would start on this machine with a configuration. Loads and certifies all that the
 // start would, and says what it leaves to others. Touches no drive, takes no lock, changes nothing. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The core's ordinary thread: everything around the loop that may block, allocate or log. It starts the gateway, admits its messages,
 // passes orders to the joints and answers them. It also publishes slow messages, logs, reports to systemd, and ends the daemon in order.
 // Not real-time.

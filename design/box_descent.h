@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Local descent in the unit box: one damped Newton step at a time (Levenberg-Marquardt). The curvature is the
 // cost's own where it knows one (Gauss-Newton), otherwise it is learned from the gradients met on the way
 // (damped BFGS). Offline. Source: Nocedal and Wright, "Numerical Optimization", sections 10.3, 16.7 and 18.3.

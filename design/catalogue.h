@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From the manufacturer's catalogue to friction parameters per temperature. Offline. Motor side, catalogue
 // units (N.cm, RPM), because the costs of the fits are stated in them. Source: Zhao (2006), section 2.3,
 // Tables 1 and 2.

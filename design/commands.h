@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The subcommands of strainwave-design. Each adds itself to the program and leaves in `chosen` what is to be done when it is
 // given; that throws InputError. Offline.
 #pragma once

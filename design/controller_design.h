@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From friction rules and a joint to certified gains. Offline.
 // Controllers, Zhao (2006) chapter 5: C1 (error, velocity; one gain), C2 (scheduled), C3 (with integrator;
 // one gain), C4 (with integrator, scheduled).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/controller_lmi.h"
 
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The LMIs of the scheduled controllers, for plants of any size given as matrices. Offline.
 // Source: Zhao (2006), (5-6)..(5-12), (5-46), Theorems 2 and 3, (5-72)..(5-77).
 //

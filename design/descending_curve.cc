@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/descending_curve.h"
 
 #include <Eigen/Cholesky>

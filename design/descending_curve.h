@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fuzzy friction whose curve over temperature never rises, not only its rules: normalised memberships of different widths
 // lead back to a colder rule when the one between has ended. Offline.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // EPGS, evolutionary parallel gradient search: the minimum of a cost with a gradient over a box. Offline.
 // Source: Zhao (2006), section 4.1.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Estimation of friction over temperature by EPGS: the nonlinear parameters are searched, the linear ones
 // follow (variable projection, linear_fit.h). Offline. Source: Zhao (2006), chapter 4.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/euler_plant.h"
 
 namespace strainwave {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint sampled by forward Euler, as in Zhao (2006), to reproduce that paper. No machine moves like
 // this between samples; control/table/ts_plant.h has what the loop does. Offline.
 #pragma once

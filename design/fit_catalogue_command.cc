@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/fit_catalogue_command.h"
 
 #include <algorithm>

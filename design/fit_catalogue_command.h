@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `strainwave-design fit CATALOGUE`: friction over temperature from the manufacturer's catalogue, with what is doubtful
 // of it said. Offline.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Checks of a catalogue before its fit: temperatures that spoil it, and friction that grows with temperature. Offline.
 #pragma once
 

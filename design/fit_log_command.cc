@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/fit_log_command.h"
 
 #include <algorithm>

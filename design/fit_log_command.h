@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-design fit --log: friction measured on a joint, merged with the catalogue's. Offline.
 #pragma once
 

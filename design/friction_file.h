@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The result of a friction fit as a file: what `fit` writes and `gains` reads. Joint side, SI. Offline.
 #pragma once
 

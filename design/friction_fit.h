@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Friction over temperature fitted to catalogue points: the exponential law and the fuzzy rules. Motor side,
 // catalogue units. Offline. Source: Zhao (2006), (2-7)..(2-9), (3-5)..(3-8), (4-5), section 4.3.2.
 #pragma once

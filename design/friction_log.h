@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The motion of one joint from an LCM event log, as strainwavectl identify records it. Offline.
 #pragma once
 

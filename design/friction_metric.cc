@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/friction_metric.h"
 
 namespace strainwave {

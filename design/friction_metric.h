@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a fit of friction parameters minimises: 1/2 sum over temperatures of d' M d, d = the errors of
 // (static, Coulomb, viscous) friction at the motor side in N.cm, N.cm, N.cm/RPM. Offline.
 #pragma once

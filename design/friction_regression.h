@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Static, Coulomb and viscous friction at one temperature from the torques at several speeds, with confidence
 // intervals. Joint side, SI. Offline.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is measured on one joint, merged with what the catalogue says of all of its kind: Bayesian least
 // squares on the parameters of the fuzzy rules. Joint side, SI. Offline.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/identification_record.h"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the friction of a file came from when it was measured on a joint: part of the friction file. Joint
 // side. Offline.
 #pragma once

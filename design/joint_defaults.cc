@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/joint_defaults.h"
 
 #include "base/input_error.h"

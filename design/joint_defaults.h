@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Defaults of gains and verify for a joint whose actuator is in the catalogue (control/joint/joint_catalogue.h). Offline.
 #pragma once
 

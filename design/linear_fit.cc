@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/linear_fit.h"
 
 namespace strainwave {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The linear half of a friction fit: parameters that are combinations Phi C of known functions of
 // temperature. Variable projection: the nonlinear half is fitted over the cost that remains here. Offline.
 // Source: Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973); Kaufman, BIT 15 (1975) for the curvature.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Linear matrix inequalities written as in the paper: matrices that depend affinely on unknowns, and a list
 // of those that must be positive semidefinite. Offline. Dense; meant for a few hundred unknowns and blocks of
 // about ten rows.

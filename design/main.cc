@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-design: fit friction, design gains, verify and describe tables. Runs anywhere; nothing of it
 // runs on the robot.
 #include <CLI/CLI.hpp>

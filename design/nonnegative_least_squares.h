@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // minimise 1/2 x'Hx - g'x subject to x >= 0, H symmetric positive definite: the normal equations of a
 // non-negative least-squares problem. Offline; no allocation. Source: Bro and de Jong, "A fast
 // non-negativity-constrained least squares algorithm", J. Chemometrics 11 (1997), after Lawson and Hanson.

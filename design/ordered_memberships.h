@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Memberships of temperature under which falling rules make a falling curve: a better start than memberships that are free. Offline.
 //
 //   mu_i = exp(-((T - c_i)/s_i)^2),   r_i(T) = (T - c_i)/s_i^2

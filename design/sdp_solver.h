@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Solves an LmiProblem with SDPA. Offline.
 //
 // SDPA prints, and calls exit() where it cannot go on. It therefore runs in a child process with one thread

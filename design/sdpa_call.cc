@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/sdpa_call.h"
 
 #pragma GCC diagnostic push

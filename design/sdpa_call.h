@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The call into SDPA itself, in the child process of sdp_solver.cc: may print, exit or crash. Only
 // sdpa_call.cc sees SDPA's headers.
 #pragma once

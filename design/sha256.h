@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // SHA-256 of a text, in hex: the fingerprint of the data behind a result. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gains for a joint whose gear is a spring: the most aggressive of a family that are certified on the whole box. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The box of joints with a spring that verify and gains are given on the command line. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Finds what control/table/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints with a spring. Offline.
 //
 // P is the least in trace of   P - H' P H / r^2 >= W,   every corner and every gain,   W diagonal,

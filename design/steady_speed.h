@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Friction from motion at steady speeds: the torque that is applied while neither the inertia nor a transient
 // takes part of it. Joint side, SI. Offline.
 //

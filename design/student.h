@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Student's t distribution. Offline.
 #pragma once
 

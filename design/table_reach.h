@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the loop of a certified table does with a torque that it does not know, and from where it returns when its torque is limited.
 // Calculated in floating point at the corners of every cell; the certificate itself is box_certificate.h. Offline. Joint side, SI.
 //

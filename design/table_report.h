@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gain tables for people: the margins of the certificate, and a description. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seam between the loop and a drive. Everything behind it (CAN, GPIO, the simulated plant) looks the same: once a
 // period the loop reads, computes, writes. All quantities at the joint side, SI.
 //

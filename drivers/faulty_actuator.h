@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive with faults on order: holds another Actuator and falsifies what passes through. Meant for the
 // simulated drive; real drives are never wrapped. read(), write(), stop(), clear_fault() and inject() are
 // real-time safe, except that the overrun and the slow read burn time, which is their purpose; the

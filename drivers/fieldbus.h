@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seam for what joints share: a bus to several drives. The loop begins the bus's cycle before any joint
 // reads and ends it after every joint wrote, so that a bus is emptied once for all and ends its period by one SYNC.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faults that can be injected into a simulated drive, to see what the loop makes of them. Plain data,
 // real-time safe. Numbers are fixed: inject_v1.kind carries them. docs/faults.md has the reaction to each.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The simulated joint behind the seam: a drive with an enable delay, an encoder and a slow temperature sensor
 // around sim/joint/joint_plant.h. The joint's time is the argument of read(): the time between two
 // reads passes for the joint under the last torque, however long the loop was stalled. Nothing here reads a clock, so the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The effects of the simulated joint, from the daemon's configuration. Not real-time.
 #pragma once
 

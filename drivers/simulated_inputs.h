@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Switches and index pulse of the simulated joint, by where it stands. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A temperature that Linux shows as a file: hwmon and IIO attributes, thermal zones, 1-wire sensors. Such a
 // read may take long (a 1-wire conversion about 750 ms), so a thread of normal priority reads now and then,
 // and the loop takes the newest value without waiting. Only newest() is real-time safe, for one thread.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A temperature and when it was: the two travel together from the sensor to the schedule. Plain data, real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive whose temperature is measured beside it: holds another Actuator and replaces the drive's temperature by that of a
 // file. All but the constructor is real-time safe.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How fast a move is that names no speed. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Channel names: <prefix>.<joint>.<KIND>, and <prefix>.TIMING for the daemon as a whole. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is known of one joint in one cycle: every field that state message and flight record share, with its name and unit, once. Both,
 // and all that prints or draws them, visit this list. Real-time safe if the visitor is.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LCM's event log (lcm-logger, strainwavectl record), read event by event. The file is untrusted: liblcm's
 // own reader ends the program on a wrong length, this one passes over what is damaged and counts it. Not
 // real-time; needs no LCM library.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages of another version: LCM begins each with its type's fingerprint, which changes with any field. Not real-time.
 #pragma once
 

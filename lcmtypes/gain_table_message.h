@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gain table to and from its message. The conversion copies and nothing else: whether the result is sound is
 // find_defect()'s and certify()'s question. Not real-time.
 #pragma once

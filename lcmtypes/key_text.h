@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keys as text: one line each, "ed25519 <base64> <role> <comment>" for a public key (the lines of
 // authorized_keys) and "ed25519-secret <base64> <role> <comment>" for a secret one. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every field of the messages for people, by its name and in the message's order. CSV and JSON are made from this one list. key_id and
 // signature are left out: they say nothing to a reader. A test compares the lists with lcmtypes/*.lcm. Not real-time.
 #pragma once

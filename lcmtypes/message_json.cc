@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lcmtypes/message_json.h"
 
 #include <fmt/format.h>

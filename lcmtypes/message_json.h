@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages as JSON objects under their fields' own names, and the JSON schemas of these: what MCAP files and live viewers carry.
 // Not real-time.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which type travels on channels of which kind: the one list that recorders and viewers go by. Gain tables are left out, for they are
 // not displayed. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where LCM's datagrams go, and whether one that this PC sends comes back to it. LCM needs that, and its own test of it
 // takes ten seconds and says little. The check uses the group of the LCM URL and a port of its own, so that it disturbs no other program,
 // and reads nothing that comes. Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lcmtypes/oscillation_evidence.h"
 
 #include <fmt/format.h>

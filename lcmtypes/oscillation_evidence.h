@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a joint was seen to do before fault 26, as state_v1.drive_error tells it, and what it points to. Making the number is real-time safe,
 // its text is not.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lcmtypes/reading_doubt.h"
 
 #include <fmt/format.h>

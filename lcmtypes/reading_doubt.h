@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why a position reading cannot be true, as state_v1.drive_error tells it with fault 5: the cause in the highest byte of 32 bits, below it
 // how far, in microradians. Numbers are never given another meaning; docs/faults.md explains each. Making the number is real-time safe,
 // its text is not.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Signatures of orders (Ed25519, libsodium). Signed are the channel's name, a zero byte, and every encoded
 // byte before key_id: an order for one joint is none for another, and nothing of it can be changed. The key_id
 // and the signature are the last 72 bytes of every order (setpoint_v1, path_v1, command_v1, gain_table_v1, inject_v1). Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every field of a state message under its own name. A test compares it with lcmtypes/state_v1.lcm. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long a stream's setpoint may stand for one that does not come. Not real-time.
 #pragma once
 

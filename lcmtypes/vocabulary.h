@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The numbers that travel in messages and what they mean: modes, faults, notices, reasons, actions. A number, once
 // published, is never given another meaning. Texts are for people; programs compare numbers. Real-time safe: the texts
 // are constants. docs/faults.md and docs/messages.md explain each.

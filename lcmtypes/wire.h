@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bytes on the wire to and from a generated message, exact sizes only. Every type has fixed-size fields, so a message of
 // another length is malformed by definition. Not real-time. No LCM library is needed, only its header.
 #pragma once

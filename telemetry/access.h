@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who may see telemetry: where the server listens, and what a request must show. Not real-time.
 // Without a token it listens on loopback alone, and answers nothing to web pages that the operator's browser happens to visit. A page's
 // origin must be a viewer's, and the requested host name this machine's, as a page could give its own name our address.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Metrics of daemons, as a table, and the histograms of their loops.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A page of metrics in Prometheus' text format 0.0.4: families one after the other, each with its samples together. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was heard of every daemon and joint, for their metrics: the latest messages, and what happened since the last minute. Bytes from the
 // network are hostile: the number of names is bounded and shared by those who are heard, and who falls silent is forgotten. Not real-time.
 //

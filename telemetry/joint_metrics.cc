@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Metrics of joints, as a table.
 #include <fmt/format.h>
 

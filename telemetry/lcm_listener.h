@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LCM's network, heard and never spoken to: whole messages of every channel, by our own receiver (transport/). Not real-time.
 #pragma once
 

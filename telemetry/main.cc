@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-telemetry: live plots and metrics of what is said on LCM. See `strainwave-telemetry --help`.
 #include <CLI/CLI.hpp>
 #include <chrono>

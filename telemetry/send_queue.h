@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What waits to be sent to one viewer, but for news of topics (topic_news.h). Bounded in bytes: data of a viewer that is too slow are
 // dropped, the oldest first, and counted. What a viewer is answered goes first and is never dropped: one that asks and lets too much of
 // that pile up is given up. Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was largest, and what was the mean, over the last minute: a scrape every so often must not miss what happened between. Time is an
 // argument. Not real-time.
 #pragma once

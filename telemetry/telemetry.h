@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From what is heard on LCM to viewers and metrics: the program without its command line. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The news of topics that one viewer has not received yet. Bounded by the number of topics, however slowly the viewer reads and however
 // often names come and go: a topic that came and went meanwhile is left out. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The channels that are heard as topics of viewers: a number, a name, a schema. Bounded: a source that makes up names loses only its own
 // (transport/fair_places.h), and topics are not made faster than viewers can receive them. Not real-time.
 #pragma once

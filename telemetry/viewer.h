@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One viewer's side of the Foxglove WebSocket protocol, without sockets: what the server says first, what a viewer may ask, and which
 // topics it wants. Everything that comes from a viewer is hostile. Not real-time.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page that is served at /: its files from the installation's folder, read once at the start, and the words for faults and notices.
 // Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The arrows between the folders hold: see the table in docs/architecture.md, which is read here.
 #include <gtest/gtest.h>
 #include <unistd.h>

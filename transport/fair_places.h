@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places for a bounded number of names from the network. Each name belongs to the address it was first heard from. When all places are
 // taken, the address with the most names loses the one that has been silent the longest. First whole hosts are compared, then the ports of
 // that host. So a sender that makes up names loses only its own, and one with a port of its own stays. Not real-time.

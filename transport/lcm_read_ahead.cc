@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "transport/lcm_read_ahead.h"
 
 #include <poll.h>

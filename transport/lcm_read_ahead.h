@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Empties LCM's socket in a thread of its own into bounded memory: what comes while its owner is busy, or does not get a processor, is
 // lost only when that is full. One other thread takes from it. The system's own queue before a socket is much smaller by default:
 // 208 KB on Debian, 26 ms of 64 joints. Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole messages from LCM's datagrams. All memory is taken when it is made: a fixed number of slots, each with room for the
 // largest message, so that no number on the wire decides about memory. Needs no clock.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The socket that LCM's datagrams come in on. It hears one group on one interface: the one that the route to the group
 // names, which is also the one that LCM sends on. Datagrams to this machine's own address never reach it, and what is longer than
 // any message of ours the kernel drops before it takes room in the socket's queue. Memory is taken when it is made. When the adapter

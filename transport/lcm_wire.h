@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One datagram of LCM's wire format over UDP multicast, read without trust. Allocates nothing and copies nothing: what it
 // returns points into the datagram. All numbers are big-endian.
 //

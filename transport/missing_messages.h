@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How many messages of a sender did not come, by the numbers that LCM gives to what is sent from one source, one after the other. It does not
 // matter where they were lost. Bounded; allocates nothing after its start. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "transport/route_interface.h"
 
 #include <linux/netlink.h>

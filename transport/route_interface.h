@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which interface the system's routes lead a group's datagrams to. It changes when an adapter is taken away and comes back, also under
 // the same name and address, and when a route moves. Not real-time.
 #pragma once

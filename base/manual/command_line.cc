@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/manual/command_line.h"
 
 #include <CLI/CLI.hpp>

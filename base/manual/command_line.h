@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the command lines of all programs have in common: version, manual, exit statuses, and the words of their errors.
 // Not real-time.
 #pragma once

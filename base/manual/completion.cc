@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Completion in bash and zsh: commands, options, and values where they are known.
 #include <CLI/CLI.hpp>
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Man pages and shell completion of a program, from the command line that it defines and what it says of itself: one source, so that
 // they cannot drift. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What of a command line its users see. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // can-scan: who is on a CAN bus, without a running daemon.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // gpio-check and can-check: what the daemon itself says of the lines and drives of a configuration, which it need not run for.
 #include <nlohmann/json.hpp>
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What strainwavectl can do, one function per command. Each returns when it is done and throws ClientError
 // (or InputError for a file's content) when it is not. None knows the command line. Not real-time.
 #pragma once

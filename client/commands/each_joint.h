@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One order to several joints: each outcome is reported, and a failure of one does not stop the others. Not real-time.
 #pragma once
 

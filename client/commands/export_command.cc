@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // export: an LCM event log into CSV. Needs neither LCM nor a daemon.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // friction: what a joint has learned of its friction, and orders about it.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Motion that a program orders setpoint by setpoint: whatever ends it before its time ends in a hold. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // identify: steady speeds in both directions, recorded.
 #include <fmt/format.h>
 

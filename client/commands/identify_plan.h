@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which steady speeds an identification runs through, and where. Pure. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // inject: an artificial fault in a simulated drive, to see what the daemon makes of it. The daemon refuses it
 // for any other drive.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // keygen: a new key pair. Needs neither daemon nor LCM.
 #include <fmt/format.h>
 #include <pwd.h>

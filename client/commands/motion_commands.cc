@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // move, home: an order whose motion is waited for.
 #include <fmt/format.h>
 

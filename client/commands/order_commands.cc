@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // enable, clear-fault, take-over, release, revert-table: an order, and what came of it in words.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // path, pause, resume, and move of several joints: motions in which joints leave and arrive together.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // play: the setpoints of a log as new orders.
 #include <fmt/format.h>
 

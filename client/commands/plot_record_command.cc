@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // plot-record: a flight record as a picture, by gnuplot. Needs neither daemon nor LCM.
 #include <fmt/format.h>
 

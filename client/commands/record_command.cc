@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // record: every message of a prefix to an LCM event log or an MCAP file.
 #include <fmt/format.h>
 

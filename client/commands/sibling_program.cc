@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "client/commands/sibling_program.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs a program of ours that is installed beside this one. Not real-time.
 #pragma once
 

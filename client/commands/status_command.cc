@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // status: what every joint does now.
 #include "client/commands/commands.h"
 #include "client/text/state_json.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // disable, hold: stops.
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // load-table: a gain table from its file to the daemon. The file is checked here for its form; whether the
 // table suits the joint and is certified for it, the daemon decides.
 #include <fmt/format.h>

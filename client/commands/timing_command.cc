@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // timing: the daemon's own account of its loop.
 #include <fmt/format.h>
 

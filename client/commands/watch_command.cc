@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // watch: joints over time, as a full screen or as lines.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint of a Strainwave daemon, for users' programs. Orders are signed, acknowledged and repeated; there are streams of setpoints, and
 // states with names and units. docs/client.md has programs of ten lines. Not real-time: every call may wait, at most `timeout_s` for one
 // answer.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What Joint and its Streams share: one connection, the joint's messages on it, and a thread that receives them. The thread works while the
 // program does something else, so that no message waits in the system's queue. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A path: a motion of one or several joints of a daemon that is checked before it begins. docs/streams.md, "Paths". Not real-time.
 //
 //     strainwave::Path path({{elbow, {{0, 0, 0}, {0.5, 0.2, 0.6}, {1, 0.4, 0}}}, {wrist, {{0, 0, 0}, {1, -0.2, 0}}}});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the daemon publishes of a joint, with numbers by name. The fields are those of docs/messages.md, joint side, SI. Not real-time.
 #pragma once
 

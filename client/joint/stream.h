@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A stream of setpoints: where a joint shall be at which time. docs/streams.md. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The command line of strainwavectl: options and commands to calls of commands.h, errors to exit statuses.
 // Not real-time.
 #pragma once

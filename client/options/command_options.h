@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The commands of strainwavectl as options of CLI11, one function per family, and what they share. Each adds
 // its commands to the command line; a command that was chosen leaves in the Invocation what is to be done.
 // Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of the commands that look at hardware, without a daemon.
 #include <CLI/CLI.hpp>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // identify.
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // keygen.
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // record, export, play, plot-record.
 #include <CLI/CLI.hpp>
 #include <memory>

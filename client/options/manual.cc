@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What strainwavectl's man page and completion say beyond its command line.
 #include "client/options/command_options.h"
 #include "drivers/injected_fault.h"

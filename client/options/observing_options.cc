@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // status, timing, watch.
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // enable, disable, move, path, pause, resume, hold, clear-fault, take-over, release, home, load-table, revert-table, friction, inject.
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A conversation with one daemon: learn its session from the state it publishes, send an order, repeat it
 // until it is acknowledged. Everything waits on one thread and ends in time. Not real-time.
 #pragma once

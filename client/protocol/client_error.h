@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What can go wrong between a program and a joint: one type for each thing that a program may want to do about it. Not real-time.
 #pragma once
 

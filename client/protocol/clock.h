@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The client's monotonic clock. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The client's way to LCM's network: subscriptions, publishing, waiting. Knows bytes and channels, not messages. What comes in is
 // read by our own receiver (transport/): a crafted datagram ends any program that receives with LCM's library, which only
 // sends here. One thread, and with read_ahead() one that reads

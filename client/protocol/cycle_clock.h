@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which cycle the daemon is in, from the states that came: the one that travelled least long tells most. Not real-time.
 #pragma once
 

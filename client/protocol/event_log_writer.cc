@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "client/protocol/event_log_writer.h"
 
 #include <fmt/format.h>

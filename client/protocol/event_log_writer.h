@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is heard on LCM, into an event log as lcm-logger writes it (liblcm's own writer). Not real-time.
 #pragma once
 

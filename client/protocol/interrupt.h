@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A flag for Ctrl-C, SIGTERM and the SIGHUP of a lost terminal. With it a wait ends in order: files are closed, and the user is informed.
 // Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A knot of a path: where a joint is at a time, and how fast. Not real-time.
 #pragma once
 

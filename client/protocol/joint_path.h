@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths (docs/streams.md, "Paths"): motions of one or several joints of a daemon that are checked before they begin, and leave, pause and
 // arrive together. Throw ClientError: Refused, NoAnswer, InvalidInput. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The operator's secret key on disk: a file of mode 0600 with one line. Not real-time.
 #pragma once
 

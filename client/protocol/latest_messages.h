@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The latest message of one kind from every joint (or daemon) that is heard, under any prefix. Bytes from the network are
 // hostile: messages of another size or type, and other channels, are ignored. A sender that makes up names loses only its own
 // (transport/fair_places.h). Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Motions that are waited for: to a position, to the home position, to a stop. Throw ClientError: Refused, NoAnswer, Faulted,
 // Yielded, NotDone.
 // Not real-time.

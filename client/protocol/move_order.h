@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A move, and how it ended. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders to one joint: one message each, its answer, and where there is one the mode that follows. Throw ClientError: Refused,
 // NoAnswer, Faulted, NotDone. Not real-time.
 #pragma once

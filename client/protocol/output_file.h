@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files that commands write. Not real-time.
 #pragma once
 

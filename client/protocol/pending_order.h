@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An order on its way: transmitted, and repeated until it is answered, for LCM may lose messages. The daemon answers a
 // repetition as it answered the first. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Of a negative zero a plain one: what a person reads or another program compares. Any other number, and no number, stays.
 #pragma once
 

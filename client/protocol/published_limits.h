@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The limits that daemons publish of their joints, for who has to know them before he orders. Not real-time.
 #pragma once
 

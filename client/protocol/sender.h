@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Seals messages to the daemon: the one place that fills in who sends, for which session, in which order, and
 // the signature. Not real-time.
 #pragma once

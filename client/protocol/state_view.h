@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The latest state of every joint that is heard, under any prefix. Not real-time.
 #pragma once
 

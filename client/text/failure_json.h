@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why a command ended, as one JSON object for scripts, with the numbers by name. Not real-time.
 //
 //   error        refused, faulted, yielded, not done, wrong input, no answer, interrupted

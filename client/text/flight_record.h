@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A flight record as docs/flight-recorder.md describes it: what its head says, and gnuplot's instructions to
 // draw it. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A flight record (docs/flight-recorder.md) as an MCAP file: one topic, a JSON message for each cycle. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was heard on LCM as an MCAP file: each channel of ours a topic, each message JSON. Orders' signatures and gain tables are left
 // out. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An MCAP file, which Foxglove, PlotJuggler and the mcap readers of many languages open. Not real-time.
 //
 // Messages are gathered into chunks, each compressed by itself (zstd) and written whole. So a file whose writer

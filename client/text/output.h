@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a command writes what it found or did: a sentence for people, or with --json one object for scripts. Errors travel as
 // exceptions. Not real-time.
 #pragma once

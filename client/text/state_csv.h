@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recorded states as CSV: the message's fields under their own names (an array as name_0, name_1, ...), of the weights only
 // those that some state uses, and behind mode and fault their words. Numbers read back to the same bits. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // States as JSON for scripts: fields under their own names, codes also in words. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text in and out: positions as people type them, states as lines for a terminal. No network, no clock. Not real-time.
 #pragma once
 

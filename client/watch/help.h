@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of watch and what it shows, in words. Not real-time.
 #pragma once
 

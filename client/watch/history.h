@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What watch has seen of a joint over time. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lower part of the watch screen: everything about the selected joint, and its last minutes. Pure. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders from the watch screen, to joints of any daemon: sent, repeated and answered while the screen goes
 // on. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What each style looks like. One palette that is read on light and on dark terminals: what stands on the terminal's own
 // background has a middle tone, what must be seen brings its background with it. Not real-time.
 #pragma once

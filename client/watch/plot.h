@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Values over time in characters. Pure. Not real-time.
 #pragma once
 

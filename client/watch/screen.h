@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A screen of characters, without a terminal: what the view is drawn on, and what a test looks at. Not real-time.
 #pragma once
 

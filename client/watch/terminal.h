@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The terminal, by ncurses: the only file that knows it. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What watch shows, and how: a pure function from what is known to a screen. No terminal, no network, no
 // clock. Not real-time.
 #pragma once

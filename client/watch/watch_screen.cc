@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "client/watch/watch_screen.h"
 
 #include <algorithm>

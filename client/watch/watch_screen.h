@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The full-screen watch: listens, draws, obeys keys. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Friction of a strain-wave joint: the Stribeck curve at one temperature and the exponential law over
 // temperature. Joint side, SI. Real-time safe. Source: Zhao (2006), (2-1)..(2-4) and (2-7)..(2-9).
 #pragma once

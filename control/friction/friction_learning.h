@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The table's friction, corrected by what the feedback had to add while the joint moved. Real-time safe. Joint side, SI.
 //
 //   friction   F(w, T) = sum_i w_i(T) (1 + s_i) F_i(w)          F_i: the Stribeck curve of temperature rule i

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cascaded Takagi-Sugeno friction model that the controller carries. Joint side, SI. Real-time safe.
 //
 // Layer 1 (temperature, may run slowly): Gaussian memberships mu_i(T) = exp(-((T - center_i)/width_i)^2)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fuzzy friction model as a JSON object, as it stands in gain tables and friction files. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the control law has learned of a joint's friction and load while it moved. Plain data. Real-time safe. Joint side, SI.
 //
 //   friction of temperature rule i    F_i' = (1 + s_i) F_i           F_i: the table's

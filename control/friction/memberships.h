@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The memberships of both layers, prepared for the loop: what depends neither on temperature nor on velocity
 // is computed when the table is loaded. Real-time safe. Source: Zhao (2006), (3-1)..(3-8).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // On which side of the gear's spring a joint's position is measured. On a rigid joint both are the same. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gears of data/gears.csv by name. The table is compiled in, so that the daemon needs no file for it. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What gravity does to a link: m g l sin(link position - zero), pulling back towards the zero. Joint side, SI. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Estimates the inertia of motor and link together, payload included, from torque and change of velocity. Real-time safe. Joint side, SI.
 //
 //   J (w(t) - w(t - T)) = I(t) - I(t - T) - k (R(t) - R(t - T)) - c T

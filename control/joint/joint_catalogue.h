@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joints whose friction the catalogue knows, by the name of their model or their gear's, and whether a table declares more than they
 // have. The catalogue's files are compiled in, so that the daemon needs none. Not real-time. Source: data/friction_parameters.csv, Zhao
 // (2006), Table 2; data/rhs17_datasheet.csv, his Appendix A.

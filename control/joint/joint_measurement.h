@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the controller reads each period, and what it makes of it: where the joint is, beside its plan, and how fast. Real-time safe. Joint
 // side, SI; the side of the gear is the encoder's.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint's inertia and friction at the present temperature. Real-time safe. Source: Zhao (2006), (2-1)..(2-4).
 //
 //   F(w) = Fc + Fv w + (Fs - Fc) exp(-(w/ws)^2)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/joint/link_model.h"
 
 #include <Eigen/Dense>

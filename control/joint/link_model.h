@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Motor and link with the gear's spring between them, as configured, and the regulator that brings both to the plan. Friction is not
 // part of the model; it is compensated separately. Real-time safe but for regulate(). Joint side, SI.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the velocity of a link behind the gear's spring is taken from its encoder, and why. Real-time safe.
 //
 //   velocity+ = velocity + share (two readings' difference / h - velocity)         share = h / kLinkVelocity_s

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a trajectory keeps to. Joint side, SI.
 #pragma once
 

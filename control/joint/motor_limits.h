@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What motor, supply and friction leave for motion. Joint side, SI. Real-time safe. Source: data/rhs17_datasheet.csv.
 #pragma once
 

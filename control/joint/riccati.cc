@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/joint/riccati.h"
 
 #include <Eigen/LU>

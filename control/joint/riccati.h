@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The discrete algebraic Riccati equation of one linear plant: the optimal cost without limits. Not real-time.
 // Source: Chu, Fan, Lin and Wang, "Structure-preserving algorithms for periodic discrete-time algebraic Riccati
 // equations", Int. J. Control 77 (2004): doubling.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gear as a spring: stiffness in three steps over the transmitted torque, odd in the angle, without loss. Joint side, SI.
 // Real-time safe. Source: data/gears.csv (the catalogue's K1 up to T1, K2 up to T2, K3 beyond).
 #pragma once

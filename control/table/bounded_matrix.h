@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Matrices with a bound on the error of every entry: what bounded.h does for numbers, in whole products. No heap; real-time safe.
 //
 // For C = A B with k terms per entry, in any order of summation,

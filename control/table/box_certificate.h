@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The certificate of a table that carries a box of joints with a spring. The receiver proves it anew without a solver: every gain rule,
 // every blend of them and the fallback are stable on every joint of the box, and the cells cover the box.
 // Not real-time. Source: spring_certificate.h, of each cell.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The certificate of a gain table. The receiver proves in milliseconds, without a solver, that the gains stabilise the sampled and held
 // joint for any time-varying weights, right or wrong. Not real-time.
 //

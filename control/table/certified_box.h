@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a gain table says of the joints that its gains are stable on, with all that the proof needs: the box, cut into cells by stiffness
 // and link inertia, each with a Lyapunov matrix. Plain structs that can be copied as bytes; real-time safe to read. What is proved of
 // them: box_certificate.h.

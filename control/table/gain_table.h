@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gain table: everything that the loop needs to control one kind of joint, and what proves it. A plain
 // struct that can be copied as bytes. Real-time safe to read. Source: Zhao (2006), chapter 5; see docs/theory.md.
 //

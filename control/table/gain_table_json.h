@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gain table as JSON: one key per field, named as in gain_table.h; matrices as arrays of rows. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which of a table's gains a joint is controlled by. Real-time safe.
 #pragma once
 

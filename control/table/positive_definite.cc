@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/positive_definite.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A positive-definiteness test that is a proof: when it says yes, every symmetric matrix within the stated
 // entrywise error of the argument is positive definite, rounding included. Real-time safe.
 //

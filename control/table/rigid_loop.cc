@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/rigid_loop.h"
 
 #include <cassert>

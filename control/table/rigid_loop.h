@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The loop that the daemon closes around a rigid joint, with the delay that the certificate of its gains (certificate.h) leaves out. No proof: an
 // eigenvalue above 1 says that gains which are certified without delay make a limit cycle with it. Not real-time. Joint side, SI.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The certificate of gains on a joint with a gear that is a spring. From gains and a matrix P the receiver proves, without a solver, that
 // the sampled and held loop of spring_plant.h is stable everywhere in a box of joints. Not real-time.
 //

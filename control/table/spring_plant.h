@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint whose gear is a spring, sampled and held, and the loop that the daemon closes around it: what certificate is asked of a
 // table for such a joint. Not real-time. Joint side, SI.
 //

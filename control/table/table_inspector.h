@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Checks of the fields of a gain table, with words for the first defect. Not real-time.
 #pragma once
 

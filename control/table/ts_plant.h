@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint as a Takagi-Sugeno plant, sampled: what the gains are designed for and certified against.
 // J dw/dt = Tm - friction, d(theta)/dt = w; friction feed-forward removes the static and Coulomb parts, so
 // that each rule is linear with its own viscous coefficient. Source: Zhao (2006), (2-10), (3-9)..(3-35).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The path of one joint: knots with time, position and velocity, and the cubics of Hermite between them. Evaluated in constant time while
 // time goes on, and checked as a whole before anything moves. Joint side, SI. at() is real-time safe; a path is a plain struct that can be
 // copied as bytes. Source: the cubic that has two positions and two velocities, and the extremes of polynomials.

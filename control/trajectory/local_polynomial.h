@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The polynomial about a point that fits its neighbours best (Savitzky and Golay 1964, on unequal times); its value there is kept:
 //
 //   q(t) = value + c1 t + c2 t^2 + .. c5 t^5,   sum over the neighbours of (q(ti) - qi)^2 least

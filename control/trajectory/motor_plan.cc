@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/trajectory/motor_plan.h"
 
 #include <algorithm>

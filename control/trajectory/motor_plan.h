@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the motor must do so that the link arrives and nothing swings: turns a planned motion, accelerations in steps, into one of the link,
 // and that into position and torque of the motor. Real-time safe, step() included; the constructor is not: it solves
 // for a regulator. Joint side, SI.

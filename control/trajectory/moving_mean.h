@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mean of a motion over the last periods: a box that smooths it and takes its own width longer. Real-time safe.
 // Source: Singer and Seering (1990), shaping by convolution.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/trajectory/path_clock.h"
 
 #include <algorithm>

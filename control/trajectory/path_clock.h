@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The time along a path: it runs with the clock, or slower while the path is paused, resumed or ended, so that the joints stay on the
 // path. Real-time safe; time is counted in seconds of the path.
 //

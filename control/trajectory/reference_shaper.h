@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reference shaping: turns targets, which may change at any moment, into a reference that the joint can
 // follow. Real-time safe: allocates nothing, throws nothing, one square root per sample.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The instant at which a message was sent, on our clock: from the sender's clock, which runs at about our rate, and the shortest recent
 // transport delay. Delayed and lost messages change nothing. Real-time safe.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A stream of setpoints as a motion: where the joint is to be in each period. Samples wait, sorted by the instant that they are for, and are
 // played out. Real-time safe; time is counted in periods. Joint side, SI.
 //

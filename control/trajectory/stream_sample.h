@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What goes into StreamBuffer and what comes out of it. Real-time safe. Joint side, SI.
 #pragma once
 

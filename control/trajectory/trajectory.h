@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the joint is ordered to do, as one reference: a move to a target, a path, a stream, or coming to rest. Each replaces the other in
 // mid-motion without a jump of position or velocity. Real-time safe; time is counted in periods. Joint side, SI.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every message from outside passes here before the loop may hear of it: exact size, channel, session, challenge,
 // signature and role, sequence, owner, finite, range, table certificate. Pure: bytes in, verdict out; no threads,
 // sockets or clocks. Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of admission.h that judges what each kind of message says, once its envelope has passed.
 #include <algorithm>
 #include <cmath>

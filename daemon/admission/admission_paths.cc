@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of admission.h that judges paths: each joint's as a whole, before any of it reaches the loop.
 #include <algorithm>
 #include <sstream>

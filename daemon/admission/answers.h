@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages that the core sends by itself: acknowledgements, temperature, limits, timing. Made here in wire form,
 // published by the gateway. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who may give orders: the public keys of [security] authorized_keys with their roles. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an order must quote to be obeyed: a random number from the daemon's state that is not older than an order may become. It
 // cannot be known before it is published. So an order that an attacker delays is soon worthless, whatever clocks and states are forged.
 // A stop or a fault of a joint ends all that were drawn until then for that joint: an order that was sent before a stop is not obeyed after

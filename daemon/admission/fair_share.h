@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bounds how often something may happen on the average, with a reserve for bursts, and shares it among the sources that ask. A source
 // that took more lately must leave more for the others: one that floods is refused, and a new one is not. The last of the reserve is kept
 // for proven sources, and the part before it for the addresses of proven sources. Bounded memory. Time is an argument. Not for the loop.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who has a joint. The first whose order is accepted has it until he is silent for the time of a lease, gives it up, or an
 // engineer takes it over. An order on its way to the loop reserves a free joint, so that of two at once one is refused. Time is
 // an argument. Not real-time.

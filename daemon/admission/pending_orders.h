@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders that were admitted, until they are answered. It hands them to the joints' loops, stores tables where the loop does not look,
 // waits for the replies, and names the clients to answer. Not real-time.
 #pragma once

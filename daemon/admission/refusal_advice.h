@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The text of a refusal by the loop: the mode of the joint, the number that was not allowed, and what to do. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The last sequence of each key for each joint, of the time in which an order may still be obeyed: what stops repetitions and
 // orders that overtake. An order that is older than its lifetime is refused for its challenge, so nothing needs to be remembered
 // longer. Bounded. Not real-time.

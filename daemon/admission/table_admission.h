@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a gain table may control a joint: its structure, its identity, its limits, its certificate. Pure; not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Proves tables' boxes in a thread of its own: a proof may take seconds, in which the supervisor goes on obeying stops. One table at
 // a time. Not real-time.
 #pragma once

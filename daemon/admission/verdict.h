@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What admission answers: the two ways to say no, and the message's bytes. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The configuration file of strainwaved: TOML, read once at start, strict. A value that exists is valid. Not real-time.
 // docs/configuration.md lists every key.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/config_can.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // [[can_bus]] and [joint.can] of the configuration: drives on CAN buses. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a configuration may say and yet rarely means: degrees where radians are asked for, a supervision that is switched off. It is
 // not refused, since some joint may want it; the daemon says so at its start, and strainwaved --check. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // On which side of the gear's spring a drive's encoder sits. A rigid joint has no sides. Not real-time.
 #pragma once
 

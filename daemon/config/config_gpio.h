@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of [joint.gpio]: a bare motor behind amplifier, encoder and digital lines. Not real-time.
 // docs/gpio.md explains them.
 #pragma once

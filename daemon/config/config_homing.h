@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // [joint.homing] of the configuration, see docs/configuration.md. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One [[joint]] of the configuration. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // joint.limits.load_Nm and load_notice_Nm: from what load on the joint yields, and from what on there is notice. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // joint.model and what belongs to it: "flexible", motor and link with the gear's spring between them, or "rigid", one inertia. And the
 // link's weight, which stands in [joint.control]. Not real-time.
 #pragma once

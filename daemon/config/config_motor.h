@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of [joint.can.motor] and [joint.gpio.motor] that all drives share: what motor and supply leave for torque at speed.
 // Not real-time.
 #pragma once

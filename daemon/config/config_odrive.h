@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of [joint.can] with protocol = "odrive". Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of [joint.simulated]: the simulated joint behind the drivers' seam. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // [joint.thermometer] of the configuration: a temperature sensor that Linux shows as a file. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers of a drive and its motor that contradict each other, each by itself allowed: the configuration warns with the value that is
 // likely meant. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Takes from the gateway everything it does not need, in two steps: who it is, before it opens anything; and what it may ask of
 // the system, when all is open and bound and before it reads the first datagram. What remains is to receive and send on
 // the sockets it has. Both steps throw std::system_error when the system refuses: better no gateway than an

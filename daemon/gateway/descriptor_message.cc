@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/descriptor_message.h"
 
 #include <poll.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Descriptors from one process to another, over a local stream socket. Not real-time.
 #pragma once
 

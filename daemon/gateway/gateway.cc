@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/gateway.h"
 
 #include <poll.h>

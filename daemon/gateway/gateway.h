@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gateway: the only process of the daemon with a network socket. It passes raw bytes from LCM's network to the core and publishes what
 // the core wrote. It decides nothing and knows no secret, so an attacker gains little by it. What comes in is
 // read by our own receiver: LCM's library only sends. Stops go first, and sources take turns. Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gateway as the core sees it: a process that may die at any time and is started again, more slowly while it
 // keeps dying, but always within a second: stops come through it. Either a child of the core's, or, through a socket of
 // the service manager's, a service with a user of its own (daemon/gateway/gateway_activation.h). A connection between the

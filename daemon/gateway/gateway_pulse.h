@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether the gateway hangs, from the count of its turns. Pure: time is an argument. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // As which user the gateway runs when root starts the daemon. Not real-time.
 #pragma once
 

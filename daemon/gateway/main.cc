@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-gateway: started by strainwaved, or for it by the service manager; never by hand.
 #include <poll.h>
 #include <signal.h>

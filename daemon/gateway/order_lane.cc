@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/order_lane.h"
 
 #include <strainwave/command_v1.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which way a message takes to the core, by its channel and, for a stop, its content. Allocates nothing. Nothing is believed
 // here: a message on the wrong lane is refused by the core as on the right one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/order_queue.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What waits for the core, at most so many messages, of memory that is taken when the queue is made. Sources take turns: one that
 // sends a thousand messages delays another by one of them, and when the queue is full it loses its own newest.
 #pragma once

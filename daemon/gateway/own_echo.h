@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether what the gateway publishes comes back to it. A network that does not bring it brings no order either: the adapter or the route
 // that it joined the group on has gone. Pure: time is an argument. Not real-time.
 #pragma once

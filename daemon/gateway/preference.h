@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What takes stops goes before other programs of ordinary priority: the gateway, and the thread of the core that judges what comes. Else
 // a stop waits behind all who compute. The loop, of real-time priority, goes before both whatever they do. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether this build carries a sanitizer, whose runtime needs what a confined process may not do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/service_watchdog.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tells a service manager that the gateway goes round: it ends one that hangs, which the core, another user, may not. Nothing
 // without one. Made before the filter of system calls is loaded; what it does afterwards is sending. Not real-time.
 #pragma once

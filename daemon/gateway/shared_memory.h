@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the core and the gateway share, and who may write it.
 //
 // Two anonymous memory files: `outbound`, written by the core and mapped read-only by the gateway (the kernel enforces

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The clock of the gateway's process, which shares no code with the loop's. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the gateway wakes the core. A pipe, because its two ends are separate open files: whatever the gateway does to its own
 // end, reading the other one never waits. (An eventfd is one file for both: who clears its O_NONBLOCK stops its reader.)
 // Not real-time.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When a period happens. Plain data, real-time safe.
 #pragma once
 

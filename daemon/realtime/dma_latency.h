@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keeps the processors out of deep sleep states while it lives: their wake-up would add to every period. Not real-time.
 #pragma once
 

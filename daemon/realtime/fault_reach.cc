@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/fault_reach.h"
 
 #include "lcmtypes/reading_doubt.h"

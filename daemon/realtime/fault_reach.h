@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a joint's fault says of the joints that are on a path with it, or in its group: whether they may come to rest along their path. Stop first is
 // the rule: along the path only where the fault is of the joint's own parts, and nothing has run into anything. docs/faults.md says why, fault by
 // fault. Real-time safe.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The last seconds of one joint at full rate, in memory that is there from the start. The real-time thread
 // writes, plain copies, and stops writing shortly after a fault; another thread then reads it and
 // hands the memory back. write() is real-time safe.

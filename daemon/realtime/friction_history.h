@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When and at what temperature a joint learned its friction, and when that is worth a notice. Real-time safe.
 #pragma once
 

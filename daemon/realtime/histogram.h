@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A histogram of durations with the buckets of lcmtypes/timing_buckets.h, written by one thread and read by others. Real-time safe.
 #pragma once
 

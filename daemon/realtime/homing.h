@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Homing: finds the place of known position, at a low speed, within a travel and a time. A state
 // machine that is given measurements and says where to go; it moves nothing itself. Real-time safe; time is
 // an argument.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The drive of one joint as the loop sees it: what it reads, judged, and what it is ordered. Real-time safe; time is an argument.
 // Positions are the drive's.
 #pragma once

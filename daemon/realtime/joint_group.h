@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints that stop together. Real-time safe but for the constructor.
 //
 //   a joint faults, on_fault = "group"  -> the others of its group fault in the same cycle (kGroup), and their drives are stopped

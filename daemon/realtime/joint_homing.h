@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Homing of a joint in the loop, around daemon/realtime/homing.h. Real-time safe.
 #pragma once
 

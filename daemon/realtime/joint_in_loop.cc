@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/joint_in_loop.h"
 
 #include <algorithm>

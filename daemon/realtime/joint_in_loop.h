@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One joint in the loop: its parts, and its changes of mode, which touch them all. The loop (daemon/realtime/joint_loop.h) has them act in
 // their order; the functions of joint_orders.h, joint_homing.h, joint_path.h and joint_supervision.h act on them by subject. Real-time safe.
 // Positions are the drive's; `zero` stands at the border.

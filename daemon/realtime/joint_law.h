@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The control law of one joint in the loop, with what it needs around it: the table in use, the schedule of its temperature, what was
 // learned, the load that held the joint, the inertia that its motions show. Real-time safe but for the constructor. Positions are the drive's.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One joint in the loop: the steps of its period, in their order. step() is real-time safe. The parts that act are in
 // daemon/realtime/joint_in_loop.h, the mathematics in control/joint_controller.h.
 #pragma once

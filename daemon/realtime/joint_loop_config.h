@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The settings of one joint in the loop (daemon/realtime/joint_loop.h). Plain data.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint's mode, how long it has lasted, and the fault that is latched in it: daemon/realtime/mode_machine.h with a memory.
 // Real-time safe; time is an argument.
 #pragma once

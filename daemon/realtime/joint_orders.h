@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a joint makes of an order. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint's part of a path, as daemon/realtime/path_follower.h leads it. Real-time safe.
 #pragma once
 

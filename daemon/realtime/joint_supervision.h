@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the loop makes of a joint's motion each period: limits that it is at, and faults. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the drive's counts mean: the offset that homing finds. Controller and homing count positions as the drive does; what
 // comes from outside and goes there is moved by this. So a joint that becomes homed does not jump, and nothing in the control
 // law begins anew. Real-time safe.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From what load on a joint yields, and from what on there is notice. Real-time safe. Joint side, N.m.
 #pragma once
 

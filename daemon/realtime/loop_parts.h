@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parts of the loop: its settings, the buses, and for each joint a drive with its settings. daemon/assembly.h makes them from the
 // configuration. Not real-time.
 #pragma once

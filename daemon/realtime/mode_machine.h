@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The modes of a joint and what leads from one to another: a pure function with its table in one place. Real-time safe.
 //
 //   Off -> Starting -> (Releasing ->) Holding <-> Tracking -> Stopping -> Off, Holding <-> Homing, and Faulted from anywhere.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether the joint does what it was ordered to. Supervises against the reference that the orders alone make, which no new plan
 // of a joint that fell behind touches. Real-time safe; time is an argument.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/ordered_target.h"
 
 #include "base/durations.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the last accepted setpoint leads, and how long it is valid. A move has no end. A stream is begun by a setpoint that says
 // so; each of its setpoints is valid for a while, and it ends when none follows, or by anything that ends motion. What comes of a
 // stream that is not under way is refused, however late it comes. Real-time safe; time is an argument.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What crosses between the supervisor's thread and the real-time thread. Plain data. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How much of its periods a loop may miss. A few are noise of the machine; many in a row, a long stall, or many in a second, and
 // the loop no longer controls. Real-time safe.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock
 // (control/trajectory/path_clock.h): they leave, pause, go on and arrive in the same cycle, and are on the path in between.
 // A joint may follow its plan later than another, by its delay, its jerk limit or its spring. The slowest gets the clock's own time, each other

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Hands a path from the supervisor's thread to a joint's loop: two slots. The loop uses one at most while the supervisor fills the
 // other. The loop's side is real-time safe.
 #pragma once

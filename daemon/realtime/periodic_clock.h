@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The period: absolute sleeps on CLOCK_MONOTONIC. The only place of the real-time thread that reads a clock. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a position reading can be true: two tests that need no more than mechanics. Real-time safe.
 //
 // Jump: between two readings the joint cannot have moved faster than twice its overspeed limit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the joint goes on with when a drive has spoken: a position that is fresh and can be true, or, for a few periods, where the
 // joint must be by now. Real-time safe; time is an argument.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The loop: one real-time thread that runs every joint once a period.
 //
 // Constructing and starting it is not real-time; run() between its first and last line is: no allocation, lock, log,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What Linux must grant before a loop can be real-time. Not real-time itself: called before the first period.
 #pragma once
 

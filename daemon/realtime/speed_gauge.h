@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The speed of a joint that is not under control: a difference over a time in which a count of the encoder weighs little. Real-time safe;
 // time is an argument.
 //

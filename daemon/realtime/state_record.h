@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The published record of one joint's cycle, by pure functions. Real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether the temperature signal can be believed, and which value the schedule uses. Real-time safe; time is an argument.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When the gains follow the temperature: at a slower period of its own, joints in turn, so that no cycle pays for all of them.
 // Real-time safe.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The file of a flight record: a few lines about it, then one CSV row per cycle. The format is fixed by
 // kFlightRecordFormat (lcmtypes/cycle_fields.h); docs/flight-recorder.md explains every line and column. Not real-time.
 #pragma once

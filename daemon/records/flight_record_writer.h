@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes flight records to files: from a thread of its own, so that a slow, full or absent disk delays
 // nothing else. Bounded in number, size and rate; oldest records make room. Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/can/bus_load.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How full a CAN bus gets: frames with the most stuff bits that they can need, times their rate. Pure
 // functions. Source: ISO 11898-1; K. Tindell et al., "Calculating controller area network message response
 // times" (1995), as corrected by R. Davis et al. (2007), equation 1.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One CAN bus with its drives behind the seam fieldbus.h. It starts them, and then, each period:
 //
 //   begin_cycle: take what has arrived, give it to the nodes     (joints read, compute, write)

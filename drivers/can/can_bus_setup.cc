@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of can_bus.h that runs outside the loop.
 #include <algorithm>
 #include <chrono>

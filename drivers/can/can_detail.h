@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why a CAN driver reports a fault, as ActuatorReading::drive_error: a number of ours in the highest byte
 // and, below it, what goes with it. Numbers are fixed; docs/can.md lists them. Real-time safe but for the text.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive on a CAN bus by its configuration, of whatever protocol, and the bus of several. Not real-time.
 #pragma once
 

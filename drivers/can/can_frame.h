@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A classic CAN frame with an 11-bit identifier. Plain data, real-time safe. Source: ISO 11898-1.
 #pragma once
 

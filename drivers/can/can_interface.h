@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the kernel says of a CAN interface before it is used: whether it is up, its bit rate, its queue. Not
 // real-time. Source: netdevice(7), linux/can/netlink.h.
 #pragma once

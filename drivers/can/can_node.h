@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One drive on a CAN bus, of whatever protocol: what the bus calls besides the four functions of Actuator.
 // See can_bus.h for the order of calls.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the CAN drivers need of a bus: to send, to take what has arrived, and, before the loop runs, to wait.
 // CanSocket is the real one; tests script another in virtual time. send() and receive() are real-time safe;
 // wait() and now_ns() are for start-up and background threads only.

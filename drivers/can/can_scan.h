@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who is on a CAN bus: every CANopen node that answers, what it is, which modes it has, and where it may show
 // a temperature. Reads only, by SDO; orders nothing. Blocking; not real-time.
 #pragma once

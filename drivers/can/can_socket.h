@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A raw SocketCAN socket behind CanPort: non-blocking, exact filters set before it hears anything, error
 // frames, the kernel's count of lost frames, software timestamps. send() and receive() are real-time safe and
 // make one system call each; the constructor is not. Source: Linux Documentation/networking/can.rst.

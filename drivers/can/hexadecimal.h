@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers as CANopen's documents write them: 6041h. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When, by the loop's time, the kernel saw a frame: from the echoes of a frame that we send in every period. Real-time safe.
 //
 //   offset = kernel's time of the echo - loop's time of the cycle that sent it, smoothed

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every kind of drive on a CAN bus is watched for alike, and the latch of its faults. Real-time safe.
 //
 // A trouble is either there as long as its cause lasts, in use or not (`link_trouble`), or it concerns only a drive that is in

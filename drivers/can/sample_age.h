@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How old a position is that a drive samples with each SYNC and sends later: from the time stamps that the kernel gives SYNC
 // and TPDO. Real-time safe.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far the set-up of a drive is, between the background thread, which does it, and the loop, which asks for it and uses
 // the drive only when it is done. What set-up writes may be read by the loop once ready(), and by no other thread meanwhile.
 // Real-time safe.

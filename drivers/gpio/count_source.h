@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a joint's position comes from, in counts. read() and clear_fault() are real-time safe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Position from a counter in hardware: a Count of the kernel's Counter subsystem (sysfs, kept open), such as a
 // quadrature decoder of the SoC. Real-time safe as far as SysfsFile: read(). The constructor configures the counter.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Digital inputs that must be steady for a while before they are believed, by role. The same for every kernel and library:
 // the levels are read every period anyway. Pure, real-time safe; time is an argument.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The order of amplifier and brake: a state machine from what is wanted to what the outputs
 // are. Pure, real-time safe; time is an argument.
 //

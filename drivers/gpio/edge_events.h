@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges of GPIO lines of one chip, in their order and with proof that none is missing. It uses the kernel's
 // GPIO uAPI v2 directly (linux/gpio.h). The API v1, the only one of libgpiod 1.6, has one queue of 16 events per line, no order
 // between lines, and silent losses. read() and levels() are one system call each, never block

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A bare DC motor behind the interface Actuator: amplifier or H-bridge by PWM and digital lines, encoder by a hardware
 // counter or, slowly, by edges, temperature by a file. The calls read(), write(), stop() and clear_fault() are real-time
 // safe on this side. Each makes a few system calls: one per group of lines, one for the PWM, one for the counter. None of

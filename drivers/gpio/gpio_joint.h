@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One joint's GPIO hardware by configuration: makes the drive, and tells of its lines without touching them.
 // Not real-time.
 #pragma once

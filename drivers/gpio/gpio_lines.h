@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The digital lines of a joint by what they are for, wherever they are wired. Names are looked up once, and lines
 // of one chip with the same settings are requested together. Real-time safe are read() and write() alone.
 //

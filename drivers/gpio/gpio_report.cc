@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // report_lines() of gpio_joint.h: what gpio-check shows.
 #include <filesystem>
 #include <iomanip>

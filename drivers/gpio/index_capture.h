@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the encoder's index pulse was: its edges come with the time of the interrupt, and between two
 // position samples the joint is taken to move evenly. Real-time safe.
 #pragma once

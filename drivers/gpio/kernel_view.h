@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Levels of lines that a process holds, as the kernel's own list shows them (debugfs, for root only); others
 // cannot request them. Not real-time. Source: gpiolib_dbg_show() of the kernel; its format is not promised, so what
 // does not look as expected is nothing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lines of one GPIO chip, requested together with the same settings. It hides libgpiod, which has two incompatible
 // APIs: line_request_v1.cc is for 1.6 (Debian 12), line_request_v2.cc for 2.x (Debian 13). The build chooses one by
 // pkg-config. Real-time safe are read() and write() alone, with one system call each.

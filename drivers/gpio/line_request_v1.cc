@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // libgpiod 1.6.
 #include <gpiod.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // libgpiod 2.x.
 #include <gpiod.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/gpio/pwm_channel.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One channel of a PWM chip (sysfs). One system call into the kernel's PWM driver is
 // set_duty(): it may take a lock there, and allocates nothing. The constructor exports and configures the channel and may wait.
 // Source: the kernel's Documentation/driver-api/pwm.rst, ABI/testing/sysfs-class-pwm.

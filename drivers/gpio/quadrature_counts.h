@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fallback without a counter in hardware: edges of the encoder's lines are counted by a thread of its
 // own. Slow joints only: docs/gpio.md says how slow. read() and clear_fault() are real-time safe; the
 // constructor starts the thread.

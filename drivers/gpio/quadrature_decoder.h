@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Counts of an incremental encoder from the edges of its two lines, four per line pair. Pure, real-time safe.
 //
 // A leads B in the direction of rising counts:

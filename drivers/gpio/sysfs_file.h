@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One attribute file of sysfs that is kept open: a number is read or written in one system call, without
 // allocation. On this side read() and write() are real-time safe; the kernel's driver may take locks.
 #pragma once

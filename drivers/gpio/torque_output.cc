@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/gpio/torque_output.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a torque to a duty: how much of it the amplifier can give, and what is to be put out for it. Pure,
 // real-time safe. Joint side. Source of the motor's line: control/joint/motor_limits.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-sim: the closed loop without real time. See `strainwave-sim --help`.
 #include <CLI/CLI.hpp>
 #include <system_error>

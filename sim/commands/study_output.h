@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a study ends: its summary on the screen, and a folder with a CSV of everything, the figure, and one page.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a command to its effect: a delay in fractions of a period, with jitter. Real-time safe. Time is counted in periods.
 #pragma once
 

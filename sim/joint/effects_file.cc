@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/joint/effects_file.h"
 
 #include <algorithm>

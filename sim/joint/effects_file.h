@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The effects of a joint as tables of a TOML file: the same keys in a plant file and under [joint.simulated]. Offline.
 //
 //   gear = "csf-17-50"     names the spring and the ratio; see data/gears.csv

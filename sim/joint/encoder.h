@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The encoder: the position in whole counts. Real-time safe. Source: data/rhs17_datasheet.csv (1600 lines on
 // the motor, four counts each, ratio 50: 320000 counts per joint revolution, 19.6 urad).
 #pragma once

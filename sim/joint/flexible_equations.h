@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The equations of sim/joint/flexible_physics.h, which alone includes this: torques and derivatives of one state under one constant
 // input. Real-time safe. Source: docs/flexible-joint.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint as motor and link with the gear's spring between them, and every effect of sim/joint/joint_effects.h. Joint side, SI.
 // Real-time safe: advance() allocates nothing and throws nothing. Source: docs/flexible-joint.md.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What makes a strain-wave joint more than one rigid inertia, one small type per effect; each is off as it stands here. Joint side,
 // SI, plain data. Sources: data/gears.csv, docs/flexible-joint.md.
 #pragma once

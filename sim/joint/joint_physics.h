@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint as a mechanical system: one inertia, friction with true stiction, a motor with limits. This is
 // the plant of every closed-loop test and it is not the controller's model: friction is the Stribeck curve
 // itself. Joint side, SI. Real-time safe: advance() allocates nothing and throws nothing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/joint/joint_plant.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One joint as a controller meets it: physics, motor, encoder, heat and the delay of the computer, a period
 // at a time. Real-time safe except for the constructor.
 #pragma once

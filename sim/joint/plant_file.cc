@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/joint/plant_file.h"
 
 #include "base/input_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The plant as a TOML file: what differs from one of the built-in joints. Offline.
 //
 //   base = "flexible"     ideal, limited, realistic or flexible: where everything not given comes from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint of the catalogue: RHS-17-6006 actuator, ratio 50, harmonic grease SK-2. Joint side, SI.
 // Source: Zhao (2006), Table 3 (with Fs1 = 6.6525: the printed 8.2525 does not give the printed cost;
 // docs/theory.md), Stribeck velocity 20 RPM of the motor, and data/rhs17_datasheet.csv.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Root of a rising function by the Illinois variant of false position: a bracket that always holds the root,
 // and superlinear convergence. Offline.
 #pragma once

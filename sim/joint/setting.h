@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The settings of the reference joint: how much of a real joint's trouble it has. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ambient temperature over time: a TimeProfile in degC that stays above absolute zero. at() is real-time
 // safe; the factories are not and throw InputError.
 #pragma once

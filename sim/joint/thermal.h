@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Heat: losses warm the joint above its surroundings, and the temperature sensor lags behind. One thermal
 // mass, one first-order sensor, each advanced exactly over a period. Real-time safe. Source:
 // data/rhs17_datasheet.csv (thermal resistance 1.2 degC/W, time constant 16 min).

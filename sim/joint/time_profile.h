@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A quantity over time: constant, steps, a ramp, sine, or a recorded CSV. What setpoints, loads and temperatures are
 // made of. at() is real-time safe; everything else is not.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What each part of the controller is worth: every study with that part switched off (control/mechanism.h). A part that changes no figure by
 // 5 % is not in the product. Offline; uses all cores; the result does not depend on how many.
 #pragma once

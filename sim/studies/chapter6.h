@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Chapter 6 of Zhao (2006), whole: every contender in every scenario, range and setting, and the physical
 // limit of each. Offline; uses all cores; the result does not depend on how many.
 #pragma once

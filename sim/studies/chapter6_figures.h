@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The counterparts of the figures 4-6, 8-12 and 15-20 of Zhao (2006). Offline.
 #pragma once
 

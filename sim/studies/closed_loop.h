@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The closed loop without real time: a controller against the plant over a reference and a temperature
 // profile, and the paper's performance indices. Offline. Source: Zhao (2006), chapter 6; docs/theory.md, "Scenarios".
 //

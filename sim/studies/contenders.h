@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who takes part in a comparison: the PID of Zhao (2006), the plain table controllers C1..C4, and C4 as the daemon
 // runs it. Offline.
 #pragma once

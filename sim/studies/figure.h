@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Figures, described as data and drawn by gnuplot as SVG. Offline.
 #pragma once
 

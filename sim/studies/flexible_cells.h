@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joints with a spring that controllers are tried on: a grid of links, stiffness, damping, temperatures and steps, each further
 // effect alone and all together, and joints drawn at random. Offline. Source: docs/flexible-joint.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the study of the flexible joint shows, in figures. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What controllers do on joints with a spring (sim/studies/flexible_cells.h). Every cell is judged at the link and at the motor against
 // the limit of sim/studies/link_limit.h. Offline; uses all cores; the result does not depend on how many.
 #pragma once

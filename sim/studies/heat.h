@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a wrong temperature costs: a joint works for minutes, its losses warm it, and the controller knows
 // the temperature exactly, late, biased, only that of the surroundings, or not at all. Offline.
 #pragma once

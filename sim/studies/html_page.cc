@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/html_page.h"
 
 #include "base/text_file.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A study as one HTML file that needs nothing else: tables, figures (inline SVG), what each shows. Offline.
 #pragma once
 

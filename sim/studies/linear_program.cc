@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/linear_program.h"
 
 #include <Clp_C_Interface.h>

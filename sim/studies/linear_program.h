@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Linear programmes, by CLP. The one place of the simulator that knows the solver. Offline.
 //   minimise c'x   subject to   row_min <= A x <= row_max,   x_min <= x <= x_max
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/link_limit.h"
 
 #include <Eigen/Dense>

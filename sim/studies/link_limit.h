@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The physical limit of a flexible joint: the torque that brings the link to its setpoint with the least sum |e / r|, found by a
 // linear programme over the torque of every period. Offline.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/loop_controllers.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The controllers of chapter 6 as the closed loop runs them: a gain table's controller and the PID of Zhao (2006).
 // torque_Nm() is real-time safe.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The controllers of the study of temperature (sim/studies/temperature_study.h): each follows a path that was planned beforehand, as a
 // program's stream or as a drive's profile. torque_Nm() is real-time safe.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tables 8 to 11 of Zhao (2006) beside ours. Offline.
 #pragma once
 

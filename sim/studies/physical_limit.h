@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The physical limit of a run, whatever its joint: of a rigid one the time-optimal motion (sim/studies/time_optimal.h), of one with a
 // spring the best motion of its link (sim/studies/link_limit.h). What the limit cannot take is refused, never left out. Offline.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a wrong model costs: the same controllers on joints drawn at random around the one they were designed
 // for. On a flexible joint the link's inertia varies, and the link is judged. Offline. Every draw depends only on the seed and its number, so a single one can be repeated.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scenarios of Zhao (2006), chapter 6, with what it leaves open fixed (docs/theory.md): which
 // setpoints, which temperature, for how long, on which plant. Offline.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A motion that a program plans beforehand: from knot to knot by quintics without acceleration at the knots. Offline; at() is
 // real-time safe. Joint side, SI. Source: Flash and Hogan (1985), the polynomial of least jerk.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What many results are summed up by. Not real-time.
 #pragma once
 

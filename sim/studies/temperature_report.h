@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the study of temperature shows: in tables and figures. Offline.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What it is worth to know the temperature: ways to compensate friction, each on the joint with a spring. The joint is cold or warm, moves
 // or tracks slowly, its sensor is right or wrong, at the first move and at the hundredth. Every way follows the same path; what counts is
 // the link's distance from it. Offline; uses all cores; the result does not depend on how many. Source: docs/why-temperature.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A table of text that can be written as Markdown, CSV or HTML. Offline.
 #pragma once
 

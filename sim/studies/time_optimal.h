@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The physical limit: the fastest motion that the joint's physics allow, with friction known and no
 // controller. Offline.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a wrong spring, load, friction or delay in its model costs the daemon's controller: the same joint twice, once with the right
 // model. Offline; uses all cores; the result does not depend on how many. Source: docs/flexible-joint.md.
 #pragma once

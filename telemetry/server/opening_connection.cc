@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "telemetry/server/opening_connection.h"
 
 #include <chrono>

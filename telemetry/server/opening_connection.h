@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A connection from its beginning to its one request: the page of metrics, a refusal, or a viewer, which goes on as ViewerConnection.
 // Not real-time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The server that viewers and Prometheus connect to: HTTP, and on the same port the Foxglove WebSocket protocol. One thread, which also
 // hears LCM. Not real-time.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What all connections of the server share. Not real-time.
 #pragma once
 

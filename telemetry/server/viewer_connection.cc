@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "telemetry/server/viewer_connection.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The connection of one viewer: the Foxglove WebSocket protocol (telemetry/viewer.h) on a socket. Not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A viewer of strainwave-telemetry: the Foxglove WebSocket protocol, of which it needs four messages. Connects again when the server is gone.
 
 const RETRY_MS = 1000;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The last minutes of one joint: columns of numbers in rings. They grow to their capacity and are then reused, so that invented joints cost little.
 
 // Plotted fields of state_v1, and what is derived from them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page: joints of all daemons live, or of a recording, as a table and as plots of the chosen one.
 import {Connection, jointOf} from './connection.js';
 import {History, valuesOf} from './history.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plots of one joint over time, drawn by uPlot, with one cursor.
 import uPlot from './uPlot.esm.js';
 

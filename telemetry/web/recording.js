@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recordings as histories by joint: CSV of `strainwavectl export` and of flight records, and MCAP of `strainwavectl export --mcap`.
 import {jointOf} from './connection.js';
 import {decompress} from './fzstd.mjs';

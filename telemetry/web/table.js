@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The table of joints. Every text goes in as text: names come from the network.
 
 // Without the sign of a rounded zero.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint that cannot move, and whoever goes on ordering it to: it must not push for ever. Virtual time.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint that carries a load of 15 N.m behind a brake: real loop, controller and GPIO driver, against a plant of this file's
 // own. Enabling must not let it fall, nothing may move it while the brake is on its way, and a fault must not hold it open.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The flooder: ten thousand crafted datagrams a second, among them the fragments that crash LCM's library. Every stop is
 // obeyed and acknowledged, and the gateway lives. Where time is virtual, within 50 ms each.
 #include <signal.h>

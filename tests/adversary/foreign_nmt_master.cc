@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Somebody else on the bus orders our drive out of its network state while it has torque: one frame, 000#8003, after which it
 // takes no process data and keeps what it was last ordered. What counts is the torque of the drive, not what we say of it.
 #include <gtest/gtest.h>

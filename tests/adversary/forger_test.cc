@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Somebody without a key who sends orders as fast as he can.
 #include <signal.h>
 #include <sys/wait.h>

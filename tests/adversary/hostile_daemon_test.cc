@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A daemon that says anything: states, limits, timing and answers of the right length whose numbers are NaN, infinite, huge, negative or
 // unknown and whose text has control characters, and others of a wrong length. Our programs and libraries end with an error of theirs or
 // go on; none crashes, hangs or writes what a terminal would obey.

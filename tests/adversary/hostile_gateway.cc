@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A gateway that was taken over: started by the core in place of the real one, it goes through the real one's confinement
 // and then makes the attempt that $STRAINWAVE_ATTEMPT names. It tells what came of it through its shared memory: turns = 1
 // before the attempt, 2 when it succeeded; a refused attempt ends with status 3. With $STRAINWAVE_UNCONFINED it leaves the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a gateway that was taken over can do to the core, as the same user and behind the real filter: nothing of what it tries.
 // The core is this process, with the core's own code for memory, wake and child.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A gateway that hangs while a joint moves: what was sent to it is lost, and the daemon replaces it. Our programs repeat a stop for longer
 // than that takes.
 #include <csignal>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders of our own programs that come to the daemon late: kept back on their way, or by a program that stood still. Meanwhile somebody
 // else stops the joint, and it stays as he left it.
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Somebody on the path between client and daemon: passes on what he likes, keeps back what he likes, and delivers it later.
 #include "tests/adversary/relay.h"
 #include "tests/adversary/signed_daemon.h"

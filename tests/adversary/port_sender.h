@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sends datagrams to the tests' LCM group from a port of its own: to the gateway, a source of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Somebody on the path between client and daemon: two LCM networks on two ports, and the only way between them.
 #pragma once
 

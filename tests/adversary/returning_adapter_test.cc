@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A network adapter that goes and comes back under its name and address, as one on USB does, and one that is not there at start: with the
 // real daemon and our own programs, in a network of the test's own.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Somebody with a key of his own who orders a joint that another one has: over LCM, with the real daemon.
 #include "tests/adversary/signed_daemon.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A daemon that obeys signed orders only, and what signs them.
 #pragma once
 

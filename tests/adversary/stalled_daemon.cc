@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running daemon, stopped from outside in motion, and told to end by whatever can be sent to a process.
 #include <signal.h>
 

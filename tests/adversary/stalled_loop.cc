@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A loop that is not always there: periods left out, stalls, and a joint that goes on under the last
 // torque meanwhile. Virtual time.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A stranger on the network: no key, no library of ours or LCM's, but everything that is published is known to him, and what
 // others send may reach him and nobody else. The worst of what one has tried, against the running daemon. The host's time judges
 // nothing: only what is obeyed, and after what.

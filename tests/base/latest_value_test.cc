@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What crosses from an ordinary thread to the loop: also run under the thread sanitizer.
 #include "base/latest_value.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/saturated_sum.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/strict_json.h"
 
 #include <gtest/gtest.h>

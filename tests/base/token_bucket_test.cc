@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/token_bucket.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/unique_fd.h"
 
 #include <fcntl.h>

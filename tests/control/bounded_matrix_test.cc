@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/bounded_matrix.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The daemon's controller on the simulated joint, whose friction law is not the controller's own, a period at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scales of the temperature rules, learned from the feedback's torque.
 #include "control/friction/friction_learning.h"
 

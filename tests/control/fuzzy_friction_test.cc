@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/friction/fuzzy_friction.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/joint/gear_catalogue.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Above 300 lines: what is asked of one controller on one simulated joint, which they share.
 // The controller of a flexible joint, on the simulated joint, whose friction and spring are not its own model's.
 #include <gtest/gtest.h>

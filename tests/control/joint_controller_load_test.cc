@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a stream tells of its load: what the controller makes of it, on the simulated joint.
 #include <gtest/gtest.h>
 

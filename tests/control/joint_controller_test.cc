@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The controller on the joint that its table is for.
 #include <gtest/gtest.h>
 

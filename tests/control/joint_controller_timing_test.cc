@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The controller when positions are late and periods are left out.
 #include <gtest/gtest.h>
 

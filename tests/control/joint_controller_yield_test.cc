@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A controller that yields, and the load that shows, on the simulated joint.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/joint/joint_model.h"
 
 #include <gtest/gtest.h>

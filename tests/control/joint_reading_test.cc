@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A reading beside its plan.
 #include "control/joint/joint_measurement.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The two masses against what mechanics says of them: momentum, energy, and the swing of a linear spring.
 #include "control/joint/link_model.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The planned torque on a joint written here: two masses, a linear spring, no friction.
 #include "control/trajectory/motor_plan.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reversals of the feedback, counted over the last second.
 #include "control/oscillation_detector.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/trajectory/reference_shaper.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small motions of a joint that rests beside its place.
 #include "control/rest_corrections.h"
 

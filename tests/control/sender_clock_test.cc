@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/trajectory/sender_clock.h"
 
 #include <gtest/gtest.h>

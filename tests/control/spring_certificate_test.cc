@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control/table/spring_certificate.h"
 
 #include <gtest/gtest.h>

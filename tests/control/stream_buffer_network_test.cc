@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A streamed sine at every rate, by cycle and by the time of sending, with and without derivatives, and what networks do to it: where a
 // reference is that follows it, and whether it goes on as it was. No more than two samples in a row are lost of those that come no faster
 // than 50 a second.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The motion that StreamBuffer makes of samples. What networks do to them: stream_buffer_network_test.cc. Above 300 lines: the properties of
 // one class, all on the same sine.
 #include "control/trajectory/stream_buffer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How soon a joint at rest is on a stream that it joins in mid-motion: the followed reference against the shortest time in which its limits
 // let it be where the sine is, as fast as it is.
 #include <gtest/gtest.h>

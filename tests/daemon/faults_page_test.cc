@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // docs/faults.md against how faults stop a path, and the table of injected faults.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Learned friction as a file: what is written is read again, and nothing else.
 #include "daemon/friction_file.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // That learned friction outlives the daemon, and that no file can keep it from starting.
 #include "daemon/friction_keeper.h"
 

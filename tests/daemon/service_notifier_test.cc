@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the service manager hears, from a socket that the test holds in its place.
 #include "daemon/service_notifier.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/box_descent.h"
 
 #include <gtest/gtest.h>

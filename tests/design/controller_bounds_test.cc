@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Theorems 2 and 3: bounds on torque and outputs hold from every vertex of the box of initial states.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Above 300 lines: the commands of one program, as users run them.
 // strainwave-design as its user meets it: exit status, messages, files.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The reference case of docs/theory.md, section 7: the source's joint with the rules of its Table 5.
 #pragma once
 

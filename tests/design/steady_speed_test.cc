@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "design/steady_speed.h"
 
 #include <gtest/gtest.h>

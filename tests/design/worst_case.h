@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The Takagi-Sugeno plant under blended feedback with weights that change at random every sample, mostly
 // between pure rules: what the designs promise to withstand.
 #pragma once

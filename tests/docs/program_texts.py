@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The prose of a program's file: comments of headers and message types, docstrings and literals, each of at least SHORTEST words.
 
 Adjacent literals are one text; what stands between two by + or << is one word, as is a placeholder. Comments of other files are left out."""

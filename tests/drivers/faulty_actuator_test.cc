@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/faulty_actuator.h"
 
 #include <gtest/gtest.h>

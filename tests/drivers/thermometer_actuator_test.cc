@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/thermometer_actuator.h"
 
 #include <gtest/gtest.h>

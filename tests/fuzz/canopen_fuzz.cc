@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Heartbeats, emergencies, error frames and their texts: a decoder takes exactly the standard's sizes and
 // nothing else.
 #include "drivers/can/canopen/canopen.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A CiA 402 drive that was set up in order and then sends anything.
 #include "drivers/can/cia402/cia402_node.h"
 

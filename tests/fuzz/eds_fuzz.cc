@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whatever a data sheet holds, it is read or refused with an InputError, and start-up against it ends.
 #include <string_view>
 

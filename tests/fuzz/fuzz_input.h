@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a fuzzer's bytes mean to the harnesses: numbers and CAN frames, taken from the front. Beyond the end: zeros.
 #pragma once
 

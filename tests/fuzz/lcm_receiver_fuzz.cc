@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whatever datagrams come, from whomever: nothing is delivered that its own sender did not send, byte by byte, and nothing
 // longer than allowed. Datagrams are raw, or fragments whose fields are near to each other, so that they meet.
 #include <array>

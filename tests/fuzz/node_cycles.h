@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs a drive's node through periods that the fuzzer's bytes fill with frames, orders and calls, and checks
 // what must hold whatever the bus carries: finite readings, only its own identifiers, no torque after a fault.
 #pragma once

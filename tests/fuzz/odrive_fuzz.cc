@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ODrive's frames: what a decoder lets through has the right size and finite numbers.
 #include "drivers/can/odrive/odrive.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An ODrive axis that was set up in order and then sends anything.
 #include "drivers/can/odrive/odrive_node.h"
 

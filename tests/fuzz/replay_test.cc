@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs one fuzz harness over its kept corpus: what a fuzzer once found stays found, without a fuzzer.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whatever answers a drive gives, an SDO transfer ends within bounds and only sends well-formed requests.
 #include <vector>
 

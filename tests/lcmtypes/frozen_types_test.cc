@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Message types that are published: a change of a field changes LCM's fingerprint, and needs a new type with the next number.
 #include <gtest/gtest.h>
 

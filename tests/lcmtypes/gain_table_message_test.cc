@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lcmtypes/gain_table_message.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The pages of the messages against the declarations: every field with its type in its order.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "lcmtypes/multicast_check.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A program in C++ that knows Strainwave by its messages alone: reads an encoded state from its standard input.
 #include <iostream>
 #include <iterator>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A program in C that knows Strainwave by its messages alone: writes an encoded setpoint to its standard output.
 #include <stdio.h>
 #include <strainwave/strainwave_setpoint_v1.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import java.awt.Component;
 import java.awt.Container;
 import java.awt.Point;

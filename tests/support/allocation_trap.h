@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Counts what one thread allocates and frees on the heap: proof that real-time code does neither. For tests.
 //
 // Linking this file's target replaces malloc and its relatives in the whole program by ones that count and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The C library's own allocator, by the names under which it can be reached when its public ones are replaced.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint of tests/support/two_mass_joint.h with the numbers of the catalogue.
 #pragma once
 

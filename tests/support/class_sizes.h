@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How many data members and methods the classes of a tree of sources have, by their definitions in the text.
 #pragma once
 

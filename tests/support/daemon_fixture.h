@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The real daemon, started by a test with a configuration of its own in a network of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/eigenvalues.h"
 
 #include <Eigen/Eigenvalues>

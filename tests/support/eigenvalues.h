@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What Eigen's own solvers say of a matrix, for tests that judge ours by them. Compiled once: a solver costs seconds in every file, and
 // again for every type of matrix.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Event logs for tests, written byte by byte: what the writer under test shares no code with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file of authorized keys for an example configuration whose joints are real.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The joint of the demo on a spring, for tests of the loop.
 #pragma once
 

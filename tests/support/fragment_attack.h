@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Somebody on the network who sends the fragments that end whoever receives with LCM's library (lcm_datagrams.h), again and again.
 #pragma once
 

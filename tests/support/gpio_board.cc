@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The other side of a GPIO joint's wires, for tests in the virtual machine: it reads the lines and the PWM
 // that the daemon drives, turns the motor, and moves counter, switches and encoder lines accordingly. It
 // shares no code with drivers/gpio and knows only what a wire would: gpio-sim's sysfs files and plain files

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which folder may include what: the table of docs/architecture.md, and a reader of #include lines that holds the tree against
 // it. Which library may be included where stands in include_rules.cc.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints in virtual time: real JointLoops over simulated drives that may be faulty, a period per step,
 // nothing depends on the host's clock. For tests of the loop and for benchmarks of it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Datagrams of LCM's wire format, written down once more for tests: from LCM 1.3.1's udpm_util.h, not from our parser.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loaded into strainwaved before its own libraries (LD_PRELOAD): counts what the real-time thread must never
 // do, in the running daemon. It knows that thread by its SCHED_FIFO policy. The counts stand in the file that
 // $STRAINWAVE_LOOP_TRAP names, mapped, so that a test reads them while the daemon runs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What loop_trap.cc counts on the real-time thread of a running daemon.
 #pragma once
 

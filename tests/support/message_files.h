@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads the .lcm files as they are written, so that tests can compare code and documents with them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plain datagrams to LCM's group on this machine, from one source.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A UDP port for each process of tests: on another's it would be heard, and hear, when tests run side by side.
 #pragma once
 

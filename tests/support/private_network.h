@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A network of the test's own: loopback with multicast, nothing else. Tests that use LCM then disturb neither each other
 // nor the machine they run on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A table of data/ for a joint of another inertia.
 #pragma once
 

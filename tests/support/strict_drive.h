@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive on a bus that shares no line with control/ and sim/: an inertia that sticks, in explicit steps of 0.2 ms, that samples its
 // position with each SYNC and takes the newest torque with it, in whole steps of its own. What comes between is told: how late a SYNC
 // is, after how many of them a torque acts, how late and how irregularly positions come. Virtual time.

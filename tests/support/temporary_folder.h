@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A folder of the test's own, gone at its end: tests run in parallel and must not share files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A client that speaks to the daemon over LCM as any program would (it shares no code with strainwavectl).
 #pragma once
 

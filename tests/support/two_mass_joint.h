@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint with a spring, written a second time: nothing of control/ or sim/ is in it. Two masses in fine semi-implicit steps, the
 // gear's three slopes, Stribeck friction of the motor that sticks and breaks away or first gives way like a spring, the supply's line, a delay in whole periods, an
 // encoder with counts. What is found on the simulator's joint, whose integrator and events are others, is found here as well or not true.

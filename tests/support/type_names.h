@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The types that a tree of sources defines at namespace level, by their qualified names: two of one name are an error that no
 // compiler reports and that a linker settles by chance.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A CAN bus in virtual time: simulated nodes on one side, the drivers' ports on the other. Nothing depends on
 // the host's clock; a port that waits lets the time pass. It can be unplugged, go down, and keep frames to itself.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A message as the gateway hands it to the core, signed when a key is given.
 #pragma once
 

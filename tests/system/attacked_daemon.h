@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A daemon that tracks a long move while something is done to it, and how that is judged.
 //
 // On a machine that others use it can only be judged against a run without the attack; in the virtual machine

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The first complete path: the real daemon on the simulated plant, over LCM.
 #include <signal.h>
 

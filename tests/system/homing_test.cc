@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Homing of a simulated joint by the real daemon, ordered over LCM.
 #include <cmath>
 #include <optional>

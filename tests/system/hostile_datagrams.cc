@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/system/hostile_datagrams.h"
 
 #include <arpa/inet.h>

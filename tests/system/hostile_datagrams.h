@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Datagrams that nobody should have to survive: what an attacker on this machine can send to LCM's port. Reproducible.
 #pragma once
 

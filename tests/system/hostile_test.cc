@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The daemon under attack: the loop must not notice, whatever becomes of the gateway.
 #include <arpa/inet.h>
 #include <fcntl.h>

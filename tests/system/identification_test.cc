@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Identification on site, from the plan to the better table, in virtual time: the daemon's loop on a
 // simulated joint whose friction is 30 % off the catalogue runs the client's plan, the log is fitted, a table
 // is designed, and the joint tracks with it as well as with a table that was designed for its true friction.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faults injected into the running daemon over LCM, and the flight records that they leave.
 #include <filesystem>
 #include <fstream>

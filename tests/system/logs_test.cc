@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Logs of the running daemon: recorded, exported, played back; and what a plain replay comes to. The client
 // and LCM's own tools are run as programs.
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the loop and its gateway do, read from the daemon's own shared memory, every cycle: LCM is what is attacked.
 #pragma once
 

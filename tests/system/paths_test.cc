@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Six joints of the real daemon on a path, ordered over LCM.
 #include <gtest/gtest.h>
 

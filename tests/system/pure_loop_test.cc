@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The real-time thread of the running daemon, measured while everything happens to it that may: commands,
 // setpoints and streams, table swaps, refused orders, faults and their clearing. For the virtual machine of
 // tests/vm: it needs SCHED_FIFO, and strace.

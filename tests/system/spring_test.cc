@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The running daemon on a simulated joint with a spring, over LCM, every cycle's state. For the virtual machine of tests/vm.
 //
 // What it does there is what `strainwave-sim` finds; and where table or configuration say what the joint is not, the torque stops

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A sine of 0.5 rad and 0.5 Hz streamed to the running daemon over LCM, on a rigid joint and on a link on a spring, with what a network does
 // to it; every cycle's state. For the virtual machine of tests/vm.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who is shown when more names are heard than there is room for.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What no loop says, but somebody on the network may: counts below zero, and counts too large to be summed.
 #include <gtest/gtest.h>
 

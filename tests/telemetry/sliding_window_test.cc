@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "telemetry/sliding_window.h"
 
 #include <gtest/gtest.h>

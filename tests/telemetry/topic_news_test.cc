@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "telemetry/topic_news.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is read ahead of its owner. In a network of its own.
 #include "transport/lcm_read_ahead.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Our receiver with LCM's own library as the sender, and what its socket keeps away. In a network of its own.
 #include "transport/lcm_socket.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who is heard from a wire: two networks with a cable between them. Each test leaves for networks of its own.
 #include <gtest/gtest.h>
 #include <poll.h>

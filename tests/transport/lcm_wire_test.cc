@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "transport/lcm_wire.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "transport/missing_messages.h"
 
 #include <gtest/gtest.h>

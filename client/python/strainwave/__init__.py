@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Strainwave's joints from Python: orders that are signed, acknowledged and repeated, streams of setpoints, states with names.
 
     joint = Joint("elbow", key="~/.strainwave-key")       # and enable(), move(0.5), hold(), disable(), home(), state, limits, states()

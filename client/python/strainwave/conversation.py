@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A conversation with one joint of a daemon: hears its state, sends an order, repeats it until it is acknowledged.
 Source: client/protocol/client.h, pending_order.h; docs/commands.md.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What can go wrong, as exceptions. Each says what was given, what is allowed or what the daemon answered, and what to do."""
 import reprlib
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A joint of a Strainwave daemon."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The secret key on disk, and signatures: Ed25519 of libsodium, as the daemon has it. Source: client/protocol/key_file.cc,
 lcmtypes/key_text.cc, lcmtypes/signing.h.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """LCM's wire format over UDP multicast, read without trust. All numbers are big-endian.
 
   short:    u32 0x4c433032 "LC02", u32 sequence, channel, 0, the message

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Messages and their bytes, exact sizes only: a message of one type always has the same length (docs/messages.md)."""
 import functools
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Waiting for a motion's end. Source: client/commands/motion_commands.cc, of which this is the same in Python."""
 import dataclasses
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The LCM network: a socket that hears the group, one that sends, and a thread that hands messages to the listeners.
 
 The thread ends with the program. Handlers run in it, one message at a time, while `changed` is held; waiting is done with wait_until().

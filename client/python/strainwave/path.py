@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A path: a motion of one or several joints of a daemon that is checked before it begins. docs/streams.md, "Paths"."""
 import math
 from collections.abc import Iterable, Mapping, Sized

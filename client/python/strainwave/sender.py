@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Who sends: the one place that fills in identity, session, sequence and signature of an order. Source: client/protocol/sender.h."""
 import os
 import socket

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A stream of setpoints: where the joint shall be at which time. docs/streams.md."""
 import math
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CANopen's frames besides SDO and PDO: identifiers, network management, SYNC, heartbeat, emergency. Pure
 // functions with the standard's numbers, real-time safe. Source: CiA 301 v4.2.0, sections 7.2.6 to 7.2.8
 // and 7.3.

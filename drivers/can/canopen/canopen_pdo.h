@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Process data objects: the settings by which a drive sends and takes what we want, and the fields of a
 // frame. Pure functions; reading and writing fields is real-time safe. Source: CiA 301 v4.2.0, sections 7.2.2
 // and 7.5.2.35 to 38.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One SDO transfer as a state machine without I/O: what to send, what the answer means. Expedited and
 // segmented, both ways. Real-time safe but for the value's vector; used at start-up and by background threads
 // only. Source: CiA 301 v4.2.0, section 7.2.4.3.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive's electronic data sheet (EDS), or the device configuration file (DCF) made from one: which entries its object dictionary
 // has, of what type, who may write and map them, and what they hold. Vendors' files differ from the standard in many ways. What
 // cannot be read is noted with the entry, for the reader of that entry to judge. Not real-time. Source: CiA 306-1.

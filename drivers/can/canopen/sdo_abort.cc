@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The abort codes of CiA 301 v4.2.0, table 22.
 #include <array>
 

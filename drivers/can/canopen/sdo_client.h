@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Blocking SDO and network management with one node: for start-up, background threads and tools, never for
 // the loop. Source: CiA 301 v4.2.0, sections 7.2.4 and 7.3.2.
 #pragma once

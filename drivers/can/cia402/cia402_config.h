@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the configuration says of a CiA 402 drive, and what its set-up finds. Plain data.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a drive says of itself: device type, identity, modes, name. Reads only, by SDO; not real-time. Source:
 // CiA 301, objects 1000h, 1008h, 1018h; CiA 402-2, object 6502h.
 #pragma once

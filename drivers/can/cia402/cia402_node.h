@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One CiA 402 drive in the loop: its frames in, its state, its torque out, and every way in which it can
 // fail. The constructor takes a checked configuration; set_up() and serve() block and run outside the loop;
 // everything from begin_cycle() on is real-time safe.

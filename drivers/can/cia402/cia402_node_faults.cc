@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of cia402_node.h that says what is a fault, and what the drive can do for us now.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of cia402_node.h that runs outside the loop.
 #include "drivers/can/cia402/cia402_node.h"
 

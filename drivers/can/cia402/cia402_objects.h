@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The objects of the drive profile (CiA 402-2) that more than one file reads, writes or maps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bringing a CiA 402 drive to where the loop can use it: identify, check, configure, read back, start; it
 // stays disabled. Objects that the profile leaves to the vendor are used where they are. Blocking; not real-time. docs/can.md shows the sequence frame by frame. Source: CiA 301 and
 // CiA 402-2.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The power state machine of a drive as a table: what a statusword says, and which controlword leads on. Pure
 // functions, real-time safe. Source: CiA 402-2 (IEC 61800-7-201), tables 27 to 30.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/can/cia402/cia402_units.h"
 
 #include <algorithm>

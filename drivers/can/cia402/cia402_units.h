@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive's units and ours: counts to joint angle, per mille of rated torque to joint torque. Conversions are
 // real-time safe; building them is not. Source: CiA 402-2, objects 6064h, 606Ch, 6071h, 6075h, 6076h.
 #pragma once

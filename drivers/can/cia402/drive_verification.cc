@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of cia402_setup.h that watches a drive which has been set up: whether it answers our SYNC, and how soon.
 #include <algorithm>
 #include <array>

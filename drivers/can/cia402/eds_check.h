@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a drive could be started, from its electronic data sheet alone: start-up itself is run against a drive that has what
 // the data sheet has and refuses what it refuses, in virtual time. So nothing that start-up reads, writes or maps is listed a
 // second time here. Not real-time.

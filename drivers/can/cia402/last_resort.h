@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Takes the torque from a drive that process data no longer reaches: it was taken out of its network state, or its positions
 // stay away, and what it was last ordered may act on. Real-time safe; time is an argument.
 //

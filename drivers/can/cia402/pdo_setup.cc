@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of a CiA 402 drive's set-up that is about process data: the PDOs that are used, their deadline, and the others off.
 #include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/cia402/setup_steps.h"

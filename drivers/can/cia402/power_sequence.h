@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drive's power state over time: leads it towards a goal, gives every step a time, resets a fault by a
 // rising edge. Real-time safe; time is an argument. Source: CiA 402-2, section 6.
 #pragma once

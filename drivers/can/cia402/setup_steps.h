@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the steps of a CiA 402 drive's set-up share. Blocking; not real-time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of a CiA 402 drive's set-up that is about torque: its unit, its limits, what would change it on its way.
 #include "drivers/can/cia402/setup_steps.h"
 #include "drivers/can/hexadecimal.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Touch probe 1 of a CiA 402 drive: the drive latches where the encoder's index, or a probe's input, rises. Each arming latches one
 // pulse, so that a pulse at the very place of the last one counts as well. Real-time safe. Source: CiA 402-2, 60B8h to 60BAh.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ODrive's CANSimple protocol as of firmware 0.6: identifiers, frames, error bits. Pure functions, real-time
 // safe but for the texts. Decoders take untrusted frames: exact sizes, finite numbers. Source: ODrive
 // documentation, "CAN Protocol" and "ODrive.Axis.Error", firmware 0.6.10. Firmware 0.5 gives some of these

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the configuration says of an ODrive axis, and its units. Plain data; the conversions are real-time safe.
 #pragma once
 

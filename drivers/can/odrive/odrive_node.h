@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One ODrive axis in the loop, by CANSimple: its frames in, its state, its torque out, and every way in which
 // it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in cia402_node.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bringing an ODrive axis to where the loop can use it: version, watchdog, rates of its messages; it stays
 // idle. Blocking; not real-time. Source: ODrive documentation, "CAN Protocol", firmware 0.6.10.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cascade of a servo drive: a proportional position loop around a proportional-integral velocity loop, with or without velocity and
 // acceleration fed forward, with or without a notch in its torque. Real-time safe. Sources: the symmetrical optimum
 // (sim/studies/peers/servo_peer.h), whose integral time is twice the reciprocal of its crossover; position loop at a quarter of the

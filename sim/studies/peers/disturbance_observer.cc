@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/peers/disturbance_observer.h"
 
 #include <algorithm>

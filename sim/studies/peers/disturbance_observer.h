@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A disturbance observer on top of a proportional-derivative controller: whatever keeps the joint from moving as its nominal inertia
 // would, friction included, is estimated and added. Real-time safe. Source: Ohnishi, Shibata and Murakami (1996), "Motion control for
 // advanced mechatronics"; gains by sim/studies/peers/servo_peer.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Linear quadratic Gaussian control of both masses from the motor's encoder: a Kalman filter of the joint with its spring, to which
 // friction and load are a torque at the motor, and the optimal regulator of the filter's estimate. Real-time safe: step().
 // Sources: Anderson and Moore, "Optimal Control: Linear Quadratic Methods" (1990), chapters 7 and 8; weights as Bryson and Ho (1975) set

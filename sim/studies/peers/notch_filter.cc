@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/peers/notch_filter.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The notch of a servo drive's torque: a band around one frequency is taken away, whole in its middle, all else passes. Real-time safe.
 // Sources: Siemens, SINAMICS S120 function manual "Drive functions" (current setpoint filter, band-stop with infinite notch depth:
 // numerator damping 0, denominator damping bandwidth / 2 f); HIWIN E1 user manual 10.6.3 (bandwidth f / Q). Bilinear with the frequency

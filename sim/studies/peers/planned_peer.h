@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One of the peers on setpoints: a drive plans its motion there itself. The plan is a trapezoid of velocity, smoothed by a mean over one
 // period of the resonance, which then does not swing (Singer and Seering 1990). Real-time safe: torque_Nm(). Joint side, SI.
 //

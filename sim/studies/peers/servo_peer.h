@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a user could take in the place of Strainwave: a controller of the motor's position that knows the joint's inertia, its
 // resonance and the loop's delay, and no friction. Each gets the same encoder, delay and torque limit. step() is real-time safe.
 // Joint side, SI.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How every program ends: with the numbers of one table, which its help and docs/troubleshooting.md have.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Man pages and completions as the programs print them.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

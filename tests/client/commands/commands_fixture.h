@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A client with a daemon of the test's own on the other side of LCM's memory queue, and what a command printed or threw.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Motions that are waited for.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What only looks: status, watch, record, timing.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders, their answers, and what is printed of them.
 #include <gtest/gtest.h>
 

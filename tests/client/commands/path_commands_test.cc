@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths from a file, and moves of several joints.
 #include <gtest/gtest.h>
 

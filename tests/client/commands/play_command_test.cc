@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Setpoints of a log that are sent again.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What who waits for several joints is told when one of them yields to a load.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a stream ends: by its close, by an exception, by what became of the joint or of its daemon.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint of the library and the daemon of three lines that hears its streams.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a stream sends, and what it refuses to send.
 #include "client/joint/stream.h"
 

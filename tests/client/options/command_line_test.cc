@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "client/options/command_line.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the client writes into event logs, and what it makes of them.
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>

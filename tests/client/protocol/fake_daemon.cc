@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/client/protocol/fake_daemon.h"
 
 #include <algorithm>

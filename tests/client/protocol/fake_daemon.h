@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A daemon of three lines for the client's tests: it hears orders on the channels of one joint, drops,
 // answers or refuses them as the test says, and publishes the states that the test lists. Works on any LCM
 // network; on memq:// it shares the client's connection.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The client over a real LCM network: a daemon in a thread of its own, the command line as a user types it.
 #include <gtest/gtest.h>
 #include <sched.h>

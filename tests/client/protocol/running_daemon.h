@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The daemon of three lines in a thread of its own, on a real LCM network.
 #pragma once
 

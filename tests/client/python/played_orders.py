@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A network that a test plays, and a test of the orders that a joint sends on it; each kind of order has a test file of its own."""
 import collections
 import threading

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the C++ side says, for the tests of the Python package: bytes of every message type, a signature, an identity. One line each:
 // a name, a space, and hex digits or a number.
 #include <cstdint>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Messages against the bytes of C++, signatures against libsodium's use there, and the words of numbers."""
 import os
 import pathlib

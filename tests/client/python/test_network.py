@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Over real multicast: what anybody may send to the group, a daemon that wants signatures, and which group is meant. In scripts/private-network."""
 import os
 import pathlib

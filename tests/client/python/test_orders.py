@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Orders over a network that the test plays: what is sent, how often, and what becomes of the answers."""
 import base64
 import pathlib

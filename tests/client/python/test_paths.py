@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Paths over a network that the test plays."""
 import math
 import threading

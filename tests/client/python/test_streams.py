@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Streams over a network that the test plays: which cycles samples are for, what is late, and how a stream ends."""
 import math
 import threading

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """LCM's datagrams, read without trust."""
 import random
 import struct

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes an LCM event log with COUNT states of a joint at 200 Hz, and some of each other kind of message.
 //
 //   mcap_sample LOG COUNT

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "client/text/state_csv.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A screen as a picture (SVG), in the colours that a light or a dark terminal shows it in.
 #pragma once
 

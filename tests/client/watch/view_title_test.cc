@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The first line of watch: an alarm, if there is one, and as much else as fits.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What watch looks like: screens of a robot at work, in the sizes and on the terminals that people have, as text and as pictures
 // (build/PRESET/watch_pictures), to be looked at, and what a look must find on every one of them.
 #include <gtest/gtest.h>

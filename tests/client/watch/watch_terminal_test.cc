@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // watch on a real (pseudo) terminal, as its user starts it: it takes the whole screen, follows its size, and
 // gives the terminal back.
 #include <fcntl.h>

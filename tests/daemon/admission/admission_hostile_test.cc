@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // 10^5 orders that must not be obeyed, mixed with good ones: none accepted, each counted under its cause.
 #include <gtest/gtest.h>
 

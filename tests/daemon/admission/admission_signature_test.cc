@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Above 300 lines: what is asked of one signed admission, with the keys and messages that all of it shares.
 // Who may order what, and what somebody without a key can do to those who have one.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What passes and what does not, by kind of order. Above 300 lines: orders of one joint on one wire, whose helpers its tests share.
 #include "daemon/admission/admission.h"
 

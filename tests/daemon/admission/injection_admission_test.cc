@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Injected faults pass admission like every other order, and only simulated drives take them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths at the door: what is refused before anything of it reaches the loop.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders on their way through the loop, without its thread: what it takes and what it replies is the test's.
 #include "daemon/admission/pending_orders.h"
 

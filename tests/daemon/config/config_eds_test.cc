@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The shipped examples against what their vendors' drives have: start-up itself is run against the data sheets.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What tests of the configuration share: a text becomes a file in a folder of the test's own, and is read as the daemon reads it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // joint.model: what a flexible and a rigid joint are made of, and what is refused of each.
 #include "tests/daemon/config/config_file_test.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <numbers>
 
 #include "daemon/config/config.h"

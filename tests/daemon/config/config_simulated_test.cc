@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a simulated joint with a spring may be, and what its controller may be told of it.
 #include "tests/daemon/config/config_file_test.h"
 

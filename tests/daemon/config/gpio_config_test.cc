@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // [joint.gpio], [joint.homing] and [joint.thermometer]: the example is sound, and what cannot be is refused
 // by name.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of groups, the flight recorder, injected faults and the temperature's period.
 #include <stdlib.h>
 #include <unistd.h>

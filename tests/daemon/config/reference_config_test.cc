@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // config/reference.toml names every key that the configuration code asks for, and nothing else.
 #include <gtest/gtest.h>
 

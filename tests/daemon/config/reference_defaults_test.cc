@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // config/reference.toml shows the defaults: without the keys that are not required, the daemon reads the same configuration.
 #include <cmath>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Wrong inputs, as people type them, to every program: each is answered with the status for a wrong input, in one line that
 // names the place, the key, the value and what is allowed. Above 300 lines: tables; a new way to go wrong is a new row.
 #include <gtest/gtest.h>

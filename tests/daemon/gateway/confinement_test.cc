@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a gateway that was taken over can still do. Each case is a process of its own that confines itself.
 #include "daemon/gateway/confinement.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The gateway's restarts, with programs that end at once or never.
 #include "daemon/gateway/gateway_process.h"
 

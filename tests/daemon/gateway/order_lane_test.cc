@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/order_lane.h"
 
 #include <gtest/gtest.h>

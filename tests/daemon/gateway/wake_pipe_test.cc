@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/gateway/wake_pipe.h"
 
 #include <fcntl.h>

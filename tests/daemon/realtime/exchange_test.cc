@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What crosses threads, under contention: order kept, losses counted, nothing torn.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Homing as a state machine, on a joint that goes exactly where it is told: no control law, no friction.
 #include "daemon/realtime/homing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every fault that can be injected and the reaction that docs/faults.md promises: the table that the tests of
 // the loop walk. The page is compared with it, so the promise and the test are one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several joints in one loop: what one joint's fault means for the others. Virtual time.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The real-time path allocates and frees nothing, whatever happens: commands, tables, faults, records.
 // Virtual time.
 #include <gtest/gtest.h>

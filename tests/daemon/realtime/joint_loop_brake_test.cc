@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint whose brake holds a load: taken over under torque, without a fall. Virtual time.
 #include <gtest/gtest.h>
 

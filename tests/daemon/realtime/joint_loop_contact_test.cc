@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint that runs into a wall, rigid and with a link on a spring: how hard it pushes, how soon it yields, and that it stays away.
 #include <gtest/gtest.h>
 

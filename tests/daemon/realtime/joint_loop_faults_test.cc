@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The loop against every fault that can be injected: each ends in its documented reaction within its
 // documented number of cycles, and nothing moves again by itself. Virtual time.
 #include <gtest/gtest.h>

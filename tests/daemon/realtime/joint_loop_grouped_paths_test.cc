@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints on a path of which one faults, yields or is stopped: how the others stop, and how the state tells it. Virtual time.
 #include <gtest/gtest.h>
 

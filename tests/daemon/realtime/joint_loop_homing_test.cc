@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Homing and limit switches of a whole joint: control law, friction, encoder and all.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a joint's motions show of its inertia, in the daemon's loop: that it is published, and told where it is not as table and
 // configuration say.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Streams that no joint of these limits can follow, through the whole loop on the simulated joint: they are followed as closely as the limits
 // allow, and a notice says so. No fault, no limit passed, no torque that swings by itself, and rest once they are over. Virtual time.
 #include <gtest/gtest.h>

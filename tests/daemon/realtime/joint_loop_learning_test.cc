@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a joint has learned of its friction: shown in its state, with a notice where it is far from the table, and obedient to orders.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What ends a motion: the drive's faults and the joint's limits.
 #include <gtest/gtest.h>
 

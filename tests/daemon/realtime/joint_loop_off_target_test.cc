@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint that holds elsewhere than it was sent, in the daemon's loop: what keeps it there, and that it is said. The joint is not
 // declared rigid and told of no spring, so that nothing but the law's feedback brings it back.
 #include <gtest/gtest.h>

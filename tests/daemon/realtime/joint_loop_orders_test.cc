@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the loop makes of orders: streams that end, commands before their time, tables, restarts. Virtual time.
 #include <gtest/gtest.h>
 

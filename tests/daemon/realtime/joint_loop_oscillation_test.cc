@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints that are not what the configuration says, and oscillate: fault 26 comes soon, and says what was seen. Virtual time.
 #include <gtest/gtest.h>
 

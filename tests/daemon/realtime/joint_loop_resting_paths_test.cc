@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths that rest for some milliseconds, as where one turns at a knot. Virtual time.
 #include <gtest/gtest.h>
 

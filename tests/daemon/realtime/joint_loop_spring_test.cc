@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The daemon's loop over the simulated drive on a joint with a spring, beside the study of such joints: what the study says of the
 // default controller is what the daemon does.
 #include <gtest/gtest.h>

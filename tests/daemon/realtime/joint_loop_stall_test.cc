@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After a gap of more than kMaxElapsedPeriods in which the loop did not run a joint goes on from where it is.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Streams that are to stand, or end somewhere, as senders make them: places read from an encoder that flickers, and a new stream with
 // every sample. A joint that stands needs no torque but its load's. Virtual time.
 #include <gtest/gtest.h>

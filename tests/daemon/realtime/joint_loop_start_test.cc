@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a motion may begin with: a joint at rest, not too hot, and orders that are numbers.
 #include <gtest/gtest.h>
 

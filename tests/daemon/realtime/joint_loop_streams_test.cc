@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A sine of 0.5 rad and 0.5 Hz streamed to the whole loop on the simulated joint, at every rate and with what a network does to it: what
 // torque it makes, and where the joint is. Virtual time. Above 300 lines: the same ride judges all that can happen to a stream.
 #include <gtest/gtest.h>

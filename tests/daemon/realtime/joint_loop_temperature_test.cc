@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loss and return of the temperature signal while the joint is controlled. Virtual time.
 #include <gtest/gtest.h>
 

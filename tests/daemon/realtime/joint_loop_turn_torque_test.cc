@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The torque of a streamed sine, period by period, against what the sine itself asks of the simulated joint: its exact inverse dynamics, with
 // the true friction, which changes its sign within the period in which the motor turns round. Virtual time.
 #include <gtest/gtest.h>

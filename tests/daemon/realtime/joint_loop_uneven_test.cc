@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A rigid joint that is what table and configuration say, on a drive that shares no line with ours (tests/support/strict_drive.h): its
 // SYNCs are not even, its torques and positions late, some of the positions lost. That is no reason to fall back to the plain law, and
 // the joint arrives all the same. Virtual time.

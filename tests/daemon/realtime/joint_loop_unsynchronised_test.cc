@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint whose drive sends its position by its own clock, once a period, as drives without SYNC do: where in the loop's
 // period it falls nobody chooses, and now and then the loop finds none, then two. Virtual time.
 #include <gtest/gtest.h>

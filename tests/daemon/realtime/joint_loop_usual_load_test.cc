@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The load limit that a joint has which is given none: what pushes a joint that holds passes it before it takes all of the torque, and what
 // a sound joint shows of itself does not. Virtual time.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // That a joint has yielded to a load is told until it is moved anew, and why, to whoever asks.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/joint_mode.h"
 
 #include <gtest/gtest.h>

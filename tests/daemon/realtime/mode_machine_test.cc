@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/mode_machine.h"
 
 #include <gtest/gtest.h>

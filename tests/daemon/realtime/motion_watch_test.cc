@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/motion_watch.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints of different kinds on one path: they follow their plans later by their own delays, jerk limits and springs, and go together all the same.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints on paths, in virtual time: real joint loops over simulated drives. Above 300 lines: whatever can happen to a path has its test.
 #include "daemon/realtime/path_follower.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/path_slots.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The clock against itself: what it promises whatever the host does. No duration is asserted.
 #include "daemon/realtime/periodic_clock.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A drawn path on simulated joints: in by the daemon's own door as messages, through their loops, and what was seen of it. Virtual time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/daemon/realtime/random_paths.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths as one chooses them on a robot, drawn at random, and where they are by the basis of Hermite: nothing of this is the daemon's own.
 // Joint side, SI.
 #pragma once

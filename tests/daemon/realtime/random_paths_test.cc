@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths drawn at random on one, two and six joints, cold and warm, with friction that is and is not what the table says, some paused on the
 // way: what must hold of all of them, and how far the joints are from them. Virtual time.
 #include <gtest/gtest.h>

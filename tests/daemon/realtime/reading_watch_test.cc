@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/reading_watch.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The loop's thread on real time: what it does in which order, what it publishes, and how it ends. What is asserted does not depend
 // on when the host lets it run.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/realtime_setup.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint's loop on a drive that says whatever the test wants: limits and faults that no simulated drive shows by itself.
 // Virtual time.
 #pragma once

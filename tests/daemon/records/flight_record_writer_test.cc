@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/records/flight_record_writer.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Our heartbeat while the background thread waits for a drive: it goes on when the bus is closed, and never covers a loop that hangs.
 #include <gtest/gtest.h>
 

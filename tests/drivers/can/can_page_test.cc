@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // docs/can.md against the code: every detail of a fault with its number and name.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What can be said of the socket without a kernel that has CAN; the rest is tested in the virtual machine.
 #include "drivers/can/can_socket.h"
 

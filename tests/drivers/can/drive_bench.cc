@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/drivers/can/drive_bench.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints with CiA 402 drives on a bus in virtual time: the real bus and node of drivers/can, the independent
 // simulated drives of tests/support/can_nodes, a period per step.
 #pragma once

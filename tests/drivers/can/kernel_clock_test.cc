@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/can/kernel_clock.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The handshake between the background thread and the loop.
 #include "drivers/can/set_up_state.h"
 

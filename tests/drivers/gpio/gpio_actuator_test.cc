@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The whole driver in virtual time: real PWM and counter code on plain files, lines and encoder by stand-ins.
 #include "drivers/gpio/gpio_actuator.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // PWM and counter on plain files in the place of sysfs.
 #include <gtest/gtest.h>
 #include <sys/inotify.h>

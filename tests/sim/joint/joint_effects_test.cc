@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/joint/joint_effects.h"
 
 #include <gtest/gtest.h>

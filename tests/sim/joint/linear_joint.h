@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint with a linear spring, and how it is moved: what tests of the flexible joint share.
 #pragma once
 

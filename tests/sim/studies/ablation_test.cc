@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // That a part of the controller which is switched off is missing: the table of `strainwave-sim ablation` compares nothing with itself.
 #include "sim/studies/ablation.h"
 

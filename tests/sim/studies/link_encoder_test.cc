@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The controller on the reading of an encoder behind the gear's spring, with the table that is certified for it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The controllers of the flexible study on the joint of tests/support/two_mass_joint.h, which shares nothing with the simulator: the study's
 // figures are of the joint, not of how it is integrated.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Chapter 6, robustness and heat with the project's own tables: properties that hold whatever the gains are.
 #include <gtest/gtest.h>
 

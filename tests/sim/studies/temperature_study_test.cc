@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/temperature_study.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sim/studies/time_optimal.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Joints that are configured wrongly, of the whole grid and of a thousand joints drawn at random.
 #include "sim/studies/wrongly_told.h"
 

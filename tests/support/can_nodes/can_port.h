@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A raw CAN socket for the simulated nodes' programs: non-blocking, with a controller's acceptance filters. An interface that
 // is down loses frames, as a cable does, and carries them again when it is up.
 #pragma once

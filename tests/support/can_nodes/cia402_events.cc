@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of cia402_node.h that tells: emergencies, and the record of what happened.
 #include <cmath>
 

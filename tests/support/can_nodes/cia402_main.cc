@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-can-sim INTERFACE: a simulated CiA 402 servo drive with a joint behind it, on a CAN interface. The tests in the virtual
 // machine drive it, and it is shipped, so that users rehearse a joint's configuration without a drive.
 #include <CLI/CLI.hpp>

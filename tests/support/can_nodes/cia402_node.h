@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A simulated CANopen servo drive: network management, SYNC, heartbeats, EMCY, SDO and PDO around
 // servo_drive.h. It is written from the standards alone and shares nothing with drivers/, so the two can
 // contradict each other. Time is an argument and frames go to a NodeOutput: no sockets, no clocks. It

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A CAN frame as the simulated nodes see it. Classic CAN, 11-bit identifiers. No sockets: can_port.h translates.
 #pragma once
 

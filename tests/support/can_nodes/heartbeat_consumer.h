@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Watches the heartbeats that 1016h tells a node to watch. A node is watched from its first heartbeat on; a
 // lost one is told once, until it is heard again. Source: CiA 301 (4.2.0), 7.5.2.19.
 #pragma once

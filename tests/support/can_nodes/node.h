@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a simulated node is to the program that runs it, and to the tests: frames and time in, frames and a
 // record out.
 #pragma once

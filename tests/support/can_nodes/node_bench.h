@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A simulated node on a bus of its own, in virtual time: what it sends and records is kept, and time passes
 // event by event, as the node's program lets it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/can_nodes/node_program.h"
 
 #include <fcntl.h>

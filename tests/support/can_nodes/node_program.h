@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the programs of the simulated nodes share: a node on a CAN interface, commands from standard input and
 // from a Unix datagram socket, and a record on standard output, one line per event:
 //   <microseconds of CLOCK_REALTIME, as utime in the messages> <event>

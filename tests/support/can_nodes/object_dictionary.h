@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The object dictionary of a simulated CANopen node: typed objects with access rights and ranges, and the
 // abort codes that a refused access has. Source: CiA 301 (4.2.0), 7.4 and table 22.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a simulated ODrive can be told to do wrong, one line each; numbers in C's notation (0x.. is hexadecimal):
 //
 //   cut | reconnect               the cable: no frame in or out; the drive lives on

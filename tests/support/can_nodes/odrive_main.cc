@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // odrive-node INTERFACE --node-id N ...: a simulated ODrive axis with a joint behind it, on a CAN interface.
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of odrive_node.h that says what its messages hold.
 #include <algorithm>
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A simulated ODrive axis that speaks CANSimple as firmware 0.6 does, with a joint behind it. Like
 // cia402_node.h it shares nothing with drivers/, knows no sockets and no clock, and misbehaves on request.
 // Source: ODrive's documentation, "CAN Protocol" and the reference of ODrive.Axis.Error, firmware 0.6.

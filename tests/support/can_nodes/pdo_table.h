@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The PDOs of a simulated CANopen node: four each way, configured through the object dictionary by the rules
 // of the standard (disable, count 0, map, count, enable; anything else is refused). Source: CiA 301 (4.2.0),
 // 7.2.2 and 7.5.2.35 to 7.5.2.38.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The finite state automaton of a simulated servo drive: what a controlword does in which state, and how the
 // statusword shows the state. Source: CiA 402-2 (IEC 61800-7-201), tables of transitions, of command coding
 // and of state coding.

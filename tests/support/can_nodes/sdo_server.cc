@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/can_nodes/sdo_server.h"
 
 #include <algorithm>

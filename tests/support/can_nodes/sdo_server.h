@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The SDO server of a simulated CANopen node: expedited and segmented transfers. Block transfers are refused,
 // as CiA 301 allows. Source: CiA 301 (4.2.0), 7.2.4.3.
 #pragma once

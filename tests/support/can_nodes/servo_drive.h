@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A simulated servo drive of the profile CiA 402 around the project's joint plant: power states, torque modes
 // (CST and TQ), reactions to faults and to a lost connection, drive units. It knows the object dictionary but
 // no network. Each step() is one control period of the drive. Source: CiA 402-2 (IEC 61800-7-201).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of servo_drive.h that is its object dictionary: what there is, and what it shows.
 #include <algorithm>
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text for the nodes' records and from their commands.
 #pragma once
 

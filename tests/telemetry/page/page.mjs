@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Before the page of strainwave-telemetry, in Chromium: numbers, plots, a fault, recordings, hostile names, keys, small screens, accessibility.
 // Talks to its parent: prints a line of JSON for each answer, and reads one word a line.
 //

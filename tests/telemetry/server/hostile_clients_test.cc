@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whoever connects to strainwave-telemetry may be hostile or merely slow: it stays up, small, and there for the others.
 #include <gtest/gtest.h>
 

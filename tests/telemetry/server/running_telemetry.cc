@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/telemetry/server/running_telemetry.h"
 
 #include <arpa/inet.h>

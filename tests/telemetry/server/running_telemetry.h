@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // strainwave-telemetry as a child process, and somebody who connects to it byte by byte.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What strainwave-telemetry shows of what is said on LCM.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The real strainwaved and strainwavectl with simulated drives on a vcan bus, for the tests of this folder. Everything runs in
 the guest's virtual time, so instants may be asserted; utime is microseconds of CLOCK_REALTIME, in messages and records alike.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One joint: start-up, staircase, shut-down; what goes over the bus at start-up is the golden file's."""
 import difflib
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Joints that move on and on without a missed frame: one alone, three on one bus of 1 Mbit/s."""
 import time
 import unittest

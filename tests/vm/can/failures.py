@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Everything that can go wrong with a drive and its bus, provoked: what the daemon does, what the drive does, and when. The way
 back is always the same: an operator clears the fault, and enables."""
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A joint whose encoder forgets its position, homed on the bus by the encoder's index: the drive latches it with touch probe 1. And
 what becomes of a search whose index never comes, and of the position when the drive restarts."""
 import math

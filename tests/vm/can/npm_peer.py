@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Our CANopen client against a node made of packages written by others (npm: canopen, socketcan): can-scan reads it, start-up
 configures its PDOs, it is enabled over them, tells of an emergency, restarts, and answers late and wrongly."""
 import pathlib

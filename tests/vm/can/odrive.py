@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A joint with an ODrive: start-up, motion, and what can go wrong with it; with SIGKILL its watchdog is all that is left."""
 import time
 import unittest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A bench with a drive that shares no line with our own (strict_node.py)."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A CiA 402 servo drive that shares no line with ours: a CANopen node from the standards' text (CiA 301, CiA 402-2), stricter than most.
 PDO parameters may change only while the PDO is not valid, and mappings only while their count is 0. Behind it turns one inertia with
 friction, which takes a new torque with each SYNC and waits for nobody.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Our driver against a drive that shares no line with our own (strict_node.py): a foreign one, one that answers slowly and one of two with
 one id stay untouched, one that boots slowly is waited for."""
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How exactly a joint swings whose drive shares no line with our own (strict_node.py): on time, and with positions or torques late."""
 import pathlib
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a joint over CAN reaches: as much as the simulated driver with the same delay."""
 import time
 import unittest

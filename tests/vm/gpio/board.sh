@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # For the scripts of this folder: a board of simulated lines and files, and what they check it with. Sourced.
 set -euo pipefail
 chmod +x ./* 2>/dev/null || true

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # One joint from the first check of its wiring to its end, with the motor turning behind simulated lines and files.
 . ./board.sh
 make_lines

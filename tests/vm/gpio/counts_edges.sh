@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The fallback without a counter: no lost count in 60 s at the default cap nor in 4 s at the highest that may be configured, a
 # fault above. $1, $2: these caps in edges a second.
 . ./board.sh

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # A contact that bounces, with and without debounce_s: the amplifier's fault input, since a fault that was believed once is latched.
 . ./board.sh
 make_lines

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A PWM chip's folder of sysfs that refuses what Linux 6.1 refuses, for machines whose kernel has no PWM: a file system over
 /dev/fuse in plain Python.
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What the wires do when the daemon is killed in the middle of a motion, and why the pulls of docs/gpio.md must exist.
 . ./board.sh
 make_lines

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Counts edges of the lines quadrature_a and quadrature_b of the chip "joint-board" with the driver's own
 // thread, as the daemon would, until standard input ends; then prints the count and the fault's number.
 //

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The daemon starts its PWM on a chip whose kernel refuses what Linux 6.1 refuses: fresh after the start of the machine, and as
 # somebody left it.
 . ./board.sh

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The guest has what the tests build on: a real-time kernel, virtual time, vcan, gpio-sim, systemd, LCM's multicast route.
 set -euo pipefail
 failed=0

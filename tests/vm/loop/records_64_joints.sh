@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # records_64_joints.sh SECONDS: what `strainwavectl record` gets of 64 joints at 200 Hz, in virtual time: every state of every cycle, and
 # the loop leaves out none. On a real machine bench/recording says the same of that machine.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # What the pages tell the operator of a machine with packages, command by command, as the pages have it. The machine
 # knows nothing of Strainwave before.
 . ./service.sh

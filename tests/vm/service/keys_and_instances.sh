@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Keys that root alone may read reach the daemon as a credential; a second daemon beside the first; removal stops both.
 . ./service.sh
 install_package

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # A machine that starts again while its joint was held: the service is back by itself, the joint is not. Run after each start.
 . ./service.sh
 

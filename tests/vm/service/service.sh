@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What the tests of the installed service share; sourced by them.
 set -euo pipefail
 

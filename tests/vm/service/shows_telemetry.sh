@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # strainwave-telemetry as a service: what it shows, what it may, who may look, and that the daemon does not mind.
 # The files are the page's own example (docs/telemetry.md).
 . ./service.sh

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # The installed service under systemd: what runs as whom, and what is left after its processes were killed or stopped.
 . ./service.sh
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Two actuator PCs, each a network namespace of its own with a daemon, on one LCM network (ttl=1) through a veth cable. One
 # client lists and watches both and gives signed orders across; loss, delay, duplication and reordering do no harm; a joint
 # whose client is cut off holds by itself. docs/several-machines.md shows the same commands.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <strainwave/joint.h>
 
 extern "C" double plugin_move(const char* name, double position_rad);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Counts the states of a long MCAP recording with the reader of the format's inventors, chunk by chunk; prints one line of JSON:
 // how many joints and states, how many cycles are missing between the first and the last state of each joint, how often a joint's states
 // came out of order, and the daemon's own counts from its first to its last TIMING.

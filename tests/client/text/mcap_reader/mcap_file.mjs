@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An MCAP file as the reader of the format's inventors wants it.
 import { open } from 'node:fs/promises';
 import { McapIndexedReader } from '@mcap/core';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads an MCAP file with the reader of the format's inventors and prints what it found as one line of JSON.
 //
 //   node read.mjs FILE [--stream]     --stream: from the beginning, as far as whole chunks go (a file that was cut off)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every way in which the bus can fail: the reaction, its time, and the way back. docs/can.md lists them.
 #include "tests/drivers/can/cia402/cia402_failure.h"
 

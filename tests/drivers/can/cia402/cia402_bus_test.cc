@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cycle of a bus with drives that work.
 #include <gtest/gtest.h>
 

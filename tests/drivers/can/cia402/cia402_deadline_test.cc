@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What stops a drive when its master is gone: the deadline of its RPDO beside the supervision of our heartbeat; and which PDOs it is
 // left with.
 #include <gtest/gtest.h>

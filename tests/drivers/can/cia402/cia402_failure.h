@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What tests of failures share: a joint that moves under torque on a bus in virtual time.
 #pragma once
 

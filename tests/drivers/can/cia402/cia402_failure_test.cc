@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every way in which a drive can fail: the reaction, its time, and the way back. docs/can.md lists them.
 #include <limits>
 

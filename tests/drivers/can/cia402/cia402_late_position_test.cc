@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Positions that come later than their SYNC says: measured, reckoned with, and from a bound on a fault.
 #include "tests/drivers/can/cia402/cia402_failure.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Drives that lack what others have, or have it for good: taken where nothing is lost, with a line that says what is.
 #include <gtest/gtest.h>
 

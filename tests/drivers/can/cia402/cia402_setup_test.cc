@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What start-up does to a drive, what it insists on, and how it says what is wrong.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Drives that take their time to start and to answer, and what is read from them beside the loop.
 #include <gtest/gtest.h>
 

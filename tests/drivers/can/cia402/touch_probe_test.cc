@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A joint that is homed by its encoder's index: touch probe 1 of the drive, alone and on the bus.
 #include "drivers/can/cia402/touch_probe.h"
 

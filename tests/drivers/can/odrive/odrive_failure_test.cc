@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every way in which an ODrive can fail: the reaction and the way back.
 #include <limits>
 

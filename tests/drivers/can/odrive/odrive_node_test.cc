@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the ODrive driver finds at the start, and what it orders.
 #include "tests/drivers/can/odrive/odrive_driver.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A CANopen node made of packages written by others (npm: canopen, socketcan): their SDO server, PDO, NMT, heartbeat and
 // EMCY, against which our client proves itself. Ours is only what makes a servo drive of it: the objects of CiA 402, and the
 // statusword that answers the controlword. There is no joint behind it: its position stays where it is.
