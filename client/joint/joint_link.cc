@@ -109,7 +109,7 @@ const limits_v1& JointLink::limits() {
 
 void JointLink::on_state(const ReceivedMessage& message) {
   const auto state = decode_exactly<state_v1>(message.bytes);
-  if (!state) return;
+  if (!state || !is_believable(*state)) return;
   if (state->session_id != session_id_) {
     clock_.restart();
     session_id_ = state->session_id;

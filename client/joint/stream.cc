@@ -102,8 +102,8 @@ void Stream::end() noexcept {
 
 bool Stream::put(double t_s, double position_rad, std::optional<double> velocity_rad_s,
                  std::optional<double> acceleration_rad_s2, const CarriedLoad& load) {
-  checked_number(link_->name(), "t_s", t_s, "a finite time in s, above the last one",
-                 !last_t_s_ || t_s > *last_t_s_);
+  checked_number(link_->name(), "t_s", t_s, "a time from -1e12 to 1e12 s, above the last one",
+                 std::abs(t_s) <= kFarthestTime_s && (!last_t_s_ || t_s > *last_t_s_));
   const auto held = link_->lock();
   // Not begun anew by the next sample: somebody may have ended it for a reason.
   if (over_) throw NotDone(fmt::format("{}: {}", link_->name(), kAnotherOne));

@@ -37,6 +37,19 @@ inline constexpr std::string_view kKindOf<limits_v1> = channel_kind::kLimits;
 template <>
 inline constexpr std::string_view kKindOf<timing_v1> = channel_kind::kTiming;
 
+/// Whether a daemon may have sent it. With the time of a sample, such a cycle yet fits into a message.
+template <typename Message>
+bool is_believable(const Message&) noexcept {
+  return true;
+}
+inline bool is_believable(const state_v1& state) noexcept {
+  constexpr std::int64_t kLargestCycle = std::int64_t{1} << 62;
+  return state.cycle >= 0 && state.cycle <= kLargestCycle;
+}
+inline bool is_believable(const limits_v1& limits) noexcept {
+  return limits.period_s >= 1e-6 && limits.period_s <= 1.0;  // wider than those of any daemon
+}
+
 template <typename Type>
 struct Latest {
   using Message = Type;
@@ -92,6 +105,7 @@ class LatestMessages {
         others_.insert(parts->prefix);
       return;
     }
+    if (!is_believable(*message)) return;
     const Name name(parts->prefix, parts->joint);
     if (!kept_.contains(name))
       if (const auto lost = places_.take(name, from, seconds_between({}, now()))) views_.erase(*lost);
