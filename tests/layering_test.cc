@@ -21,6 +21,21 @@ const IncludeRules& rules() {
   return kRules;
 }
 
+constexpr std::string_view kLicenceMark = "SPDX-License-Identifier: ";
+
+/// Sources whose first line does not name their licence.
+std::vector<std::string> find_without_licence(const std::filesystem::path& root) {
+  std::vector<std::string> found;
+  for (const std::filesystem::path& path : sources_under(root)) {
+    std::ifstream file(path);
+    std::string first;
+    std::getline(file, first);
+    if (first != "// " + std::string(kLicenceMark) + "BSD-3-Clause")
+      found.push_back(path.lexically_relative(root).string());
+  }
+  return found;
+}
+
 /// Sources above 300 lines that do not say why in their first lines.
 std::vector<std::string> find_long_files(const std::filesystem::path& root) {
   constexpr int kLines = 300;
@@ -30,8 +45,11 @@ std::vector<std::string> find_long_files(const std::filesystem::path& root) {
     std::ifstream file(path);
     int lines = 0;
     bool explained = false;
-    for (std::string line; std::getline(file, line); ++lines)
+    for (std::string line; std::getline(file, line);) {
+      if (line.find(kLicenceMark) != std::string::npos) continue;
+      ++lines;
       explained = explained || (lines < kFirst && line.find("bove 300 lines") != std::string::npos);
+    }
     if (lines > kLines && !explained)
       found.push_back(path.lexically_relative(root).string() + " has " + std::to_string(lines) + " lines");
   }
@@ -62,6 +80,11 @@ TEST(Layering, HasOneTypeForAQualifiedName) {
   std::ostringstream list;
   for (const std::string& defect : defects) list << defect << '\n';
   EXPECT_TRUE(defects.empty()) << list.str();
+}
+
+TEST(Layering, NamesTheLicenceInTheFirstLineOfEverySource) {
+  EXPECT_EQ(find_without_licence(STRAINWAVE_SOURCE_DIR), std::vector<std::string>{})
+      << "begin the file with // " << kLicenceMark << "BSD-3-Clause";
 }
 
 TEST(Layering, KeepsFilesShortOrSaysWhyNot) {
