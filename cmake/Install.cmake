@@ -49,7 +49,7 @@ function(strainwave_install_manual component)
 endfunction()
 strainwave_install_manual(daemon strainwaved.8 strainwavectl.1 strainwave-telemetry.8)
 
-install(DIRECTORY "${CMAKE_BINARY_DIR}/share/strainwave/web" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
+install(DIRECTORY "${STRAINWAVE_WEB}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
 
 # Package strainwave-design: what needs no robot.
 install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)

@@ -11,8 +11,10 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 namespace strainwave {
@@ -20,6 +22,7 @@ namespace strainwave {
 namespace {
 
 constexpr std::string_view kScheme = "udpm://";
+constexpr std::chrono::milliseconds kLookAgain{200};
 constexpr int kEcho_ms = 500;  // a datagram within one PC takes well under a millisecond
 
 class Socket {
@@ -161,6 +164,16 @@ std::optional<std::string> find_multicast_problem(std::string_view lcm_url) {
          "  ip link set lo up multicast on\n"
          "  ip route add " +
          address->group + "/32 dev lo src 127.0.0.1";
+}
+
+bool wait_for_multicast(std::string_view lcm_url, const std::function<void(const std::string&)>& explain,
+                        const std::function<bool()>& go_on) {
+  for (bool said = false; const auto problem = find_multicast_problem(lcm_url); said = true) {
+    if (!said) explain(*problem);
+    if (!go_on()) return false;
+    std::this_thread::sleep_for(kLookAgain);
+  }
+  return true;
 }
 
 }  // namespace strainwave

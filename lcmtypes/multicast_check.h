@@ -4,6 +4,7 @@
 // and reads nothing that comes. Not real-time.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,5 +28,10 @@ std::optional<std::string> find_udpm_defect(std::string_view lcm_url);
 
 /// What is wrong and what to do about it, or nothing when multicast works or the URL is not of the kind udpm.
 std::optional<std::string> find_multicast_problem(std::string_view lcm_url);
+
+/// Returns once multicast works; says to `explain` once what is missing, and asks `go_on` five times a second. False: that said no. `lcm_url`
+/// must have passed find_udpm_defect().
+bool wait_for_multicast(std::string_view lcm_url, const std::function<void(const std::string&)>& explain,
+                        const std::function<bool()>& go_on);
 
 }  // namespace strainwave

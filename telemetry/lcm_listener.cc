@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "telemetry/lcm_listener.h"
 
-#include <stdexcept>
 #include <system_error>
 
 #include "lcmtypes/multicast_check.h"
@@ -13,15 +12,11 @@ namespace {
 
 constexpr int kBatchesAtOnce = 8;
 
-MulticastAddress checked(const std::string& lcm_url) {
-  if (const auto problem = find_multicast_problem(lcm_url)) throw std::runtime_error(*problem);
-  return *parse_udpm_url(lcm_url);
-}
-
 }  // namespace
 
 LcmListener::LcmListener(const std::string& lcm_url)
-    : socket_(checked(lcm_url), largest_datagram(kLargestMessageBytes)), reassembly_(kLargestMessageBytes) {}
+    : socket_(*parse_udpm_url(lcm_url), largest_datagram(kLargestMessageBytes)),
+      reassembly_(kLargestMessageBytes) {}
 
 void LcmListener::receive(const Take& take) {
   const auto take_datagram = [&](const LcmSource& from, std::span<const std::uint8_t> datagram) {

@@ -18,7 +18,7 @@ class LcmListener {
   using Take = std::function<void(const LcmSource& from, std::string_view channel,
                                   std::span<const std::uint8_t> bytes)>;
 
-  /// Joins the network of `lcm_url`. Throws InputError for a URL that is none, std::runtime_error when the network is not there.
+  /// Joins the network of `lcm_url`, which must have passed find_udpm_defect(). Throws std::system_error when the system refuses.
   explicit LcmListener(const std::string& lcm_url);
 
   /// Becomes readable when there is something to receive.

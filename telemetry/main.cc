@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // strainwave-telemetry: live plots and metrics of what is said on LCM. See `strainwave-telemetry --help`.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iostream>
-#include <thread>
 
 #include "base/input_error.h"
 #include "base/manual/command_line.h"
@@ -37,15 +35,6 @@ void define(CLI::App& program, Options& options) {
       ->type_name("URL");
 }
 
-/// Returns once datagrams come back from the network, as the daemon does; says once what is missing.
-void wait_for_network(const std::string& lcm_url) {
-  constexpr std::chrono::milliseconds kLookEvery{200};
-  for (bool said = false; const auto problem = strainwave::find_multicast_problem(lcm_url); said = true) {
-    if (!said) std::cerr << "strainwave-telemetry: waiting for LCM: " << *problem << std::endl;
-    std::this_thread::sleep_for(kLookEvery);
-  }
-}
-
 strainwave::ExitStatus serve(const Options& options) {
   using namespace strainwave;
   const ListenAddress address = parse_listen_address(options.listen);
@@ -54,7 +43,12 @@ strainwave::ExitStatus serve(const Options& options) {
     throw InputError("--listen: " + address.host +
                      " is open to other machines: give --token-file FILE, or listen on 127.0.0.1");
   if (const auto defect = find_udpm_defect(options.lcm_url)) throw InputError("--lcm-url: " + *defect);
-  wait_for_network(options.lcm_url);
+  wait_for_multicast(
+      options.lcm_url,
+      [](const std::string& problem) {
+        std::cerr << "strainwave-telemetry: waiting for LCM: " << problem << std::endl;
+      },
+      [] { return true; });
   Telemetry telemetry(options.lcm_url, address, std::move(rules));
   const std::string host =
       address.host.find(':') == std::string::npos ? address.host : "[" + address.host + "]";

@@ -27,7 +27,7 @@ bool SendQueue::push_control(std::string text) {
   return control_bytes_ <= kMaxControlBytes;
 }
 
-void SendQueue::push_data(const MessageHead& head, std::shared_ptr<const std::string> body) {
+void SendQueue::push_data(const MessageHead& head, SharedText body) {
   data_.push_back({head, std::move(body)});
   data_bytes_ += bytes_of(data_.back());
   while (data_bytes_ > kMaxDataBytes) {

@@ -10,13 +10,14 @@
 #include <optional>
 #include <string>
 
+#include "telemetry/shared_text.h"
 #include "telemetry/viewer.h"
 
 namespace strainwave {
 
 struct OutgoingFrame {
-  std::optional<MessageHead> head;          ///< of data, sent as binary; none: text
-  std::shared_ptr<const std::string> body;  ///< shared by all viewers
+  std::optional<MessageHead> head;  ///< of data, sent as binary; none: text
+  SharedText body;                  ///< shared by all viewers
 };
 
 class SendQueue {
@@ -26,7 +27,7 @@ class SendQueue {
 
   /// False: too much is waiting, end the connection.
   bool push_control(std::string text);
-  void push_data(const MessageHead& head, std::shared_ptr<const std::string> body);
+  void push_data(const MessageHead& head, SharedText body);
   /// Takes out what is to be sent next, if anything.
   std::optional<OutgoingFrame> pop();
 

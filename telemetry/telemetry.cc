@@ -2,7 +2,6 @@
 #include "telemetry/telemetry.h"
 
 #include <chrono>
-#include <memory>
 
 #include "base/utime.h"
 #include "lcmtypes/message_json.h"
@@ -48,9 +47,9 @@ const Topic* Telemetry::topic_of(const std::string& channel, const LcmSource& fr
   return topic;
 }
 
-TelemetryServer::Page Telemetry::metrics() {
+SharedText Telemetry::metrics() {
   if (!page_ || now_s() - page_made_s_ > kPageIsNew_s) {
-    page_ = std::make_shared<const std::string>(expose());
+    page_ = shared_text(expose());
     page_made_s_ = now_s();
   }
   return page_;

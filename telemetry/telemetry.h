@@ -28,7 +28,7 @@ class Telemetry {
   /// Null: too many new ones came at once.
   template <typename Message>
   const Topic* topic_of(const std::string& channel, const LcmSource& from);
-  TelemetryServer::Page metrics();
+  SharedText metrics();
   std::string expose();
   double now_s() const;
 
@@ -37,7 +37,7 @@ class Telemetry {
   Fleet fleet_;
   std::uint64_t heard_ = 0;
   std::uint64_t not_ours_ = 0;
-  TelemetryServer::Page page_;  ///< the latest page of metrics
+  SharedText page_;  ///< the latest page of metrics
   double page_made_s_ = 0.0;
   TelemetryServer server_;
 };

@@ -18,9 +18,8 @@ namespace {
 
 // Speed of the motor above which the Stribeck part has gone (data/README.md).
 constexpr double kStribeckMotor_rpm = 20.0;
-// Of the catalogue's. With twice a joint's own friction the law neither chatters nor goes on reversing, with three times it may fall back
-// (tests/daemon/realtime/joint_loop_friction_test.cc); what is identified on joints with a third more than the catalogue's, in rules
-// that blend otherwise over speed than friction does, comes to 1.7 times.
+// Of the catalogue's. What is identified on joints with a third more friction than the catalogue's, in rules that blend otherwise over
+// speed than friction does, comes to 1.7 times.
 constexpr double kMostDeclaredFriction = 2.0;
 // Where it is looked at: thousandths of the table's range of temperature besides the rules' centres, and from a tenth of the Stribeck
 // velocity to more than the joint's highest speed (8.4 rad/s).

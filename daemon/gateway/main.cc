@@ -24,7 +24,6 @@ namespace {
 
 // How long to wait for orders before looking for states to publish: half a period of the fastest usual state rate.
 constexpr int kTurn_ms = 2;
-constexpr std::chrono::milliseconds kLookForNetwork{200};
 
 /// The core lives, and wants this gateway.
 bool core_is_there() {
@@ -32,22 +31,23 @@ bool core_is_there() {
   return ::poll(&core, 1, 0) == 0;
 }
 
-/// Waits until the network is there, and says once what is missing. False: the core has gone.
+/// False: the core has gone.
 bool wait_for_network(const strainwave::OutboundMemory& outbound, strainwave::InboundMemory& inbound,
                       strainwave::ServiceWatchdog& watchdog) {
   const std::string url(outbound.lcm_url.view());
-  for (bool said = false; const auto problem = strainwave::find_multicast_problem(url); said = true) {
-    if (!said)
-      std::fprintf(
-          stderr,
-          "strainwave-gateway: waiting for LCM on '%s'; no client reaches the daemon until then: %s\n",
-          url.c_str(), problem->c_str());
-    if (!core_is_there()) return false;
-    std::this_thread::sleep_for(kLookForNetwork);
-    watchdog.alive(strainwave::steady_now_ns());
-    inbound.turns.fetch_add(1, std::memory_order_relaxed);
-  }
-  return true;
+  return strainwave::wait_for_multicast(
+      url,
+      [&](const std::string& problem) {
+        std::fprintf(
+            stderr,
+            "strainwave-gateway: waiting for LCM on '%s'; no client reaches the daemon until then: %s\n",
+            url.c_str(), problem.c_str());
+      },
+      [&] {
+        watchdog.alive(strainwave::steady_now_ns());
+        inbound.turns.fetch_add(1, std::memory_order_relaxed);
+        return core_is_there();
+      });
 }
 
 int run() {

@@ -23,10 +23,6 @@ std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
 }
 
-TelemetryServer::Page page(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
-
 }  // namespace
 
 OpeningConnection::OpeningConnection(boost::asio::ip::tcp::socket&& socket, ServerShared& shared)
@@ -59,7 +55,7 @@ void OpeningConnection::answer(const Request& request) {
   const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
   if (const WebPage::File* file = shared_.page.find(path_of(target));
       file != nullptr && reads && !beast::websocket::is_upgrade(request))
-    return respond(Status::ok, file->type.c_str(), file->bytes);
+    return respond(Status::ok, file->type.c_str(), file->text);
   const RequestFacts facts{target, view(request[http::field::authorization]),
                            view(request[http::field::origin]), view(request[http::field::host])};
   switch (judge(facts, shared_.rules)) {
@@ -90,10 +86,10 @@ void OpeningConnection::become_viewer(const Request& request) {
 
 void OpeningConnection::refuse(Status status, const std::string& why) {
   ++shared_.refused;
-  respond(status, "text/plain; charset=utf-8", page(why + "\n"));
+  respond(status, "text/plain; charset=utf-8", shared_text(why + "\n"));
 }
 
-void OpeningConnection::respond(Status status, const char* type, TelemetryServer::Page body) {
+void OpeningConnection::respond(Status status, const char* type, SharedText body) {
   response_.result(status);
   response_.set(http::field::content_type, type);
   response_.set("Content-Security-Policy", kPagePolicy);

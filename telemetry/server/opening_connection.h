@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A connection from its beginning to its one request: the page of metrics, a refusal, or a viewer, which goes on as ViewerConnection.
+// A connection from its beginning to its one request: a file of the page, the metrics, a refusal, or a viewer, which goes on as ViewerConnection.
 // Not real-time.
 #pragma once
 
@@ -22,13 +22,13 @@ class OpeningConnection : public std::enable_shared_from_this<OpeningConnection>
   void on_request(const boost::beast::error_code& error);
   void answer(const Request& request);
   void become_viewer(const Request& request);
-  void respond(Status status, const char* type, TelemetryServer::Page body);
+  void respond(Status status, const char* type, SharedText body);
   void refuse(Status status, const std::string& why);
 
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
   boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
-  TelemetryServer::Page body_;  ///< that the response shows
+  SharedText body_;  ///< that the response shows
   boost::beast::http::response<boost::beast::http::span_body<const char>> response_;
   ServerShared& shared_;
 };

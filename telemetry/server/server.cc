@@ -24,7 +24,7 @@ constexpr auto kReport_s = std::chrono::seconds(1);
 class TelemetryServer::Network {
  public:
   Network(const ListenAddress& address, AccessRules rules, const Topics& topics,
-          std::function<Page()> metrics)
+          std::function<SharedText()> metrics)
       : acceptor_(context_),
         signals_(context_, SIGINT, SIGTERM),
         report_(context_),
@@ -114,7 +114,7 @@ class TelemetryServer::Network {
 };
 
 TelemetryServer::TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                                 std::function<Page()> metrics)
+                                 std::function<SharedText()> metrics)
     : network_(std::make_unique<Network>(address, std::move(rules), topics, std::move(metrics))) {}
 
 TelemetryServer::~TelemetryServer() = default;
@@ -140,7 +140,7 @@ bool TelemetryServer::is_wanted(std::uint32_t topic) const {
 }
 
 void TelemetryServer::publish(std::uint32_t topic, std::int64_t received_us, std::string json) {
-  const auto body = std::make_shared<const std::string>(std::move(json));
+  const auto body = shared_text(std::move(json));
   for (const auto& viewer : network_->shared().viewers)
     viewer->publish(topic, static_cast<std::uint64_t>(received_us) * 1000U, body);
 }

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "telemetry/access.h"
+#include "telemetry/shared_text.h"
 #include "telemetry/topics.h"
 
 namespace strainwave {
@@ -28,12 +29,9 @@ class TelemetryServer {
   static constexpr std::size_t kMaxOpening = 64;
   static constexpr std::size_t kMaxViewers = 32;
 
-  /// A page that is answered with, shared by all who fetch it at once.
-  using Page = std::shared_ptr<const std::string>;
-
   /// Listens. `metrics` makes the page /metrics. Throws InputError when the address cannot be had. `topics` must outlive it.
   TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                  std::function<Page()> metrics);
+                  std::function<SharedText()> metrics);
   ~TelemetryServer();
   TelemetryServer(const TelemetryServer&) = delete;
   TelemetryServer& operator=(const TelemetryServer&) = delete;

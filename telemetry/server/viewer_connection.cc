@@ -49,8 +49,7 @@ void ViewerConnection::start(const beast::http::request<beast::http::empty_body>
   });
 }
 
-void ViewerConnection::publish(std::uint32_t topic, std::uint64_t received_ns,
-                               const std::shared_ptr<const std::string>& json) {
+void ViewerConnection::publish(std::uint32_t topic, std::uint64_t received_ns, const SharedText& json) {
   const auto subscription = viewer_.subscription(topic);
   if (!subscription) return;
   queue_.push_data(message_head(*subscription, received_ns), json);

@@ -20,8 +20,7 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
              std::string_view subprotocol);
 
   bool wants(std::uint32_t topic) const { return viewer_.subscription(topic).has_value(); }
-  void publish(std::uint32_t topic, std::uint64_t received_ns,
-               const std::shared_ptr<const std::string>& json);
+  void publish(std::uint32_t topic, std::uint64_t received_ns, const SharedText& json);
   void add_topic(std::uint32_t topic);
   void remove_topic(std::uint32_t topic);
   /// Tells the viewer what it has missed since the last call.
