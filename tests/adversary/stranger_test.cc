@@ -237,7 +237,8 @@ TEST_F(StrangerTest, CannotKeepADisableFromBeingObeyedByTenThousandCraftedDatagr
     EXPECT_TRUE(client_->wait_for_mode("elbow", Mode::kOff)) << i;
   }
   EXPECT_EQ(daemon_->gateway_pid(), gateway) << daemon_->log();
-  EXPECT_TRUE(daemon_->wait_for_log("malformed datagrams", std::chrono::seconds(30))) << "the barrage did not come in";
+  EXPECT_TRUE(daemon_->wait_for_log("malformed datagrams", std::chrono::seconds(30)))
+      << "the barrage did not come in";
 }
 
 TEST_F(StrangerTest, UsesUpNobodysSequenceAndLease) {
