@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/input_error.h"
+#include "base/unique_fd.h"
 
 namespace strainwave {
 
@@ -51,18 +52,17 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target)
       : target_(target), name_(target.string() + ".XXXXXX"), descriptor_(::mkstemp(name_.data())) {
-    if (descriptor_ < 0) fail(target_, "cannot create a file beside it", errno);
+    if (!descriptor_) fail(target_, "cannot create a file beside it", errno);
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
     if (!renamed_) ::unlink(name_.c_str());
   }
 
   void write(std::string_view text) {
     while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      const ssize_t written = ::write(descriptor_.get(), text.data(), text.size());
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) fail_to_write(target_, errno);
       text.remove_prefix(static_cast<std::size_t>(written));
@@ -72,7 +72,8 @@ class TemporaryFile {
     // mkstemp makes a private file; a table is for everyone to read, as far as the umask allows.
     const mode_t mask = ::umask(0);
     ::umask(mask);
-    if (::fchmod(descriptor_, 0666 & ~mask) != 0 || ::fsync(descriptor_) != 0) fail_to_write(target_, errno);
+    if (::fchmod(descriptor_.get(), 0666 & ~mask) != 0 || ::fsync(descriptor_.get()) != 0)
+      fail_to_write(target_, errno);
     if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, "cannot replace", errno);
     renamed_ = true;
     sync_folder();
@@ -82,15 +83,13 @@ class TemporaryFile {
   // The rename itself lives in the folder. Some file systems refuse this; the data are safe either way.
   void sync_folder() const {
     const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
-    ::close(descriptor);
+    const UniqueFd descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (descriptor) ::fsync(descriptor.get());
   }
 
   std::filesystem::path target_;
   std::string name_;
-  int descriptor_;
+  UniqueFd descriptor_;
   bool renamed_ = false;
 };
 

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
-#include <utility>
 
 #include "base/input_error.h"
 
@@ -69,24 +68,17 @@ fs::path lock_directory() {
 
 InstanceLock::InstanceLock(const std::string& name, const std::string& remedy) {
   const fs::path path = lock_directory() / file_name(name);
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file_ < 0)
+  file_.reset(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+  if (!file_)
     throw InputError(path.string() + ": the lock cannot be made: " + std::generic_category().message(errno));
   // Root beside the service: the file must be the service's, or its next start could not open it.
   struct stat folder {};
   if (::geteuid() == 0 && ::stat(path.parent_path().c_str(), &folder) == 0)
-    (void)!::fchown(file_, folder.st_uid, folder.st_gid);
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+    (void)!::fchown(file_.get(), folder.st_uid, folder.st_gid);
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
   const int error = errno;
-  ::close(file_);
   if (error == EWOULDBLOCK) throw InputError("another strainwaved already runs with " + name + ": " + remedy);
   throw std::system_error(error, std::generic_category(), "taking the lock " + name);
-}
-
-InstanceLock::InstanceLock(InstanceLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-
-InstanceLock::~InstanceLock() {
-  if (file_ >= 0) ::close(file_);
 }
 
 }  // namespace strainwave

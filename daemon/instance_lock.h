@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 /// Where the locks are: the service manager's runtime directory ($RUNTIME_DIRECTORY), /run/strainwave for root, else
@@ -17,14 +19,9 @@ class InstanceLock {
  public:
   /// Holds `name`. Throws InputError with `remedy` when another process holds it, or when lock_directory() does.
   InstanceLock(const std::string& name, const std::string& remedy);
-  InstanceLock(InstanceLock&& other) noexcept;
-  InstanceLock& operator=(InstanceLock&&) = delete;
-  InstanceLock(const InstanceLock&) = delete;
-  InstanceLock& operator=(const InstanceLock&) = delete;
-  ~InstanceLock();
 
  private:
-  int file_ = -1;
+  UniqueFd file_;
 };
 
 }  // namespace strainwave

@@ -17,6 +17,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "design/sdpa_call.h"
 
 namespace strainwave {
@@ -143,18 +144,16 @@ SdpResult solve_sdp(const LmiProblem& problem, const SdpOptions& options) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     return failure(SdpStatus::kCrashed, std::string("no pipe: ") + std::generic_category().message(errno));
+  const UniqueFd read_end(ends[0]);
+  UniqueFd write_end(ends[1]);
   const pid_t child = ::fork();
-  if (child < 0) {
-    ::close(ends[0]);
-    ::close(ends[1]);
+  if (child < 0)
     return failure(SdpStatus::kCrashed,
                    std::string("no process for the solver: ") + std::generic_category().message(errno));
-  }
-  if (child == 0) run_child(problem, options, ends[1]);
-  ::close(ends[1]);
+  if (child == 0) run_child(problem, options, write_end.get());
+  write_end.reset();
   std::vector<double> answer(sdpa_answer_size(problem));
-  const ReadOutcome outcome = read_answer(ends[0], options.time_limit_s, answer);
-  ::close(ends[0]);
+  const ReadOutcome outcome = read_answer(read_end.get(), options.time_limit_s, answer);
   if (outcome != ReadOutcome::kWhole) ::kill(child, SIGKILL);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

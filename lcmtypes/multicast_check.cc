@@ -5,7 +5,6 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 namespace {
@@ -24,20 +25,6 @@ namespace {
 constexpr std::string_view kScheme = "udpm://";
 constexpr std::chrono::milliseconds kLookAgain{200};
 constexpr int kEcho_ms = 500;  // a datagram within one PC takes well under a millisecond
-
-class Socket {
- public:
-  Socket() : descriptor_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {}
-  ~Socket() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  int get() const noexcept { return descriptor_; }
-
- private:
-  int descriptor_;
-};
 
 sockaddr* as_sockaddr(sockaddr_in& address) {
   return static_cast<sockaddr*>(static_cast<void*>(&address));
@@ -49,9 +36,9 @@ std::string last_error() {
 
 /// Why a datagram to `group` does not come back, or an empty text.
 std::string echo_failure(in_addr group) {
-  const Socket receiver;
-  const Socket sender;
-  if (receiver.get() < 0 || sender.get() < 0) return last_error();
+  const UniqueFd receiver(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const UniqueFd sender(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (!receiver || !sender) return last_error();
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr = group;

@@ -5,7 +5,6 @@
 #include <linux/filter.h>
 #include <linux/if_packet.h>
 #include <net/if.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -37,23 +36,14 @@ LcmSocket::LcmSocket(const MulticastAddress& address, std::size_t largest_datagr
       sources_(kBatch),
       places_(kBatch),
       headers_(kBatch) {
-  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "making a socket");
-  try {
-    join(address, queue_bytes);
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
-  }
+  if (!descriptor_) throw std::system_error(errno, std::generic_category(), "making a socket");
+  join(address, queue_bytes);
   for (std::size_t i = 0; i < kBatch; ++i) {
     places_[i] = {buffers_.data() + i * largest_bytes_, largest_bytes_};
     headers_[i].msg_hdr.msg_name = &sources_[i];
     headers_[i].msg_hdr.msg_iov = &places_[i];
     headers_[i].msg_hdr.msg_iovlen = 1;
   }
-}
-
-LcmSocket::~LcmSocket() {
-  ::close(descriptor_);
 }
 
 void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
@@ -64,11 +54,11 @@ void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
     throw std::system_error(EINVAL, std::generic_category(), "reading the group " + address.group);
   filter(address.ttl == 0);
   // Viewers and clients on this machine listen at the same port.
-  set(descriptor_, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
-  set(descriptor_, IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing this group alone");
+  set(descriptor_.get(), SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
+  set(descriptor_.get(), IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing this group alone");
   enlarge_queue(queue_bytes);
   // To the group, not to any address: the kernel then keeps unicast away.
-  if (::bind(descriptor_, static_cast<sockaddr*>(static_cast<void*>(&group)), sizeof group) != 0)
+  if (::bind(descriptor_.get(), static_cast<sockaddr*>(static_cast<void*>(&group)), sizeof group) != 0)
     throw std::system_error(errno, std::generic_category(), "binding to the group");
   group_ = group.sin_addr;
   interface_ = route_interface(group_);
@@ -78,7 +68,7 @@ void LcmSocket::join(const MulticastAddress& address, int queue_bytes) {
 
 bool LcmSocket::change_membership(int option, int interface) noexcept {
   const ip_mreqn membership{group_, {htonl(INADDR_ANY)}, interface};
-  return ::setsockopt(descriptor_, IPPROTO_IP, option, &membership, sizeof membership) == 0;
+  return ::setsockopt(descriptor_.get(), IPPROTO_IP, option, &membership, sizeof membership) == 0;
 }
 
 // An adapter that comes back under its name and address is another one to the system, and nothing of the group reaches who joined on the
@@ -101,14 +91,14 @@ void LcmSocket::follow_route() {
 
 // Who administers the network may go beyond the system's usual limit.
 void LcmSocket::enlarge_queue(int bytes) {
-  if (::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
-    ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+  if (::setsockopt(descriptor_.get(), SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
+    ::setsockopt(descriptor_.get(), SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
 }
 
 int LcmSocket::queue_bytes() const noexcept {
   int doubled = 0;  // Linux counts what it needs besides
   socklen_t size = sizeof doubled;
-  ::getsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &doubled, &size);
+  ::getsockopt(descriptor_.get(), SOL_SOCKET, SO_RCVBUF, &doubled, &size);
   return doubled / 2;
 }
 
@@ -126,13 +116,13 @@ void LcmSocket::filter(bool this_machine_only) {
                                       BPF_STMT(BPF_RET | BPF_K, UINT32_MAX), BPF_STMT(BPF_RET | BPF_K, 0)}};
   if (!this_machine_only) program[2] = BPF_STMT(BPF_RET | BPF_K, UINT32_MAX);
   const sock_fprog attached{static_cast<unsigned short>(program.size()), program.data()};
-  set(descriptor_, SOL_SOCKET, SO_ATTACH_FILTER, attached, "filtering datagrams");
+  set(descriptor_.get(), SOL_SOCKET, SO_ATTACH_FILTER, attached, "filtering datagrams");
 }
 
 std::size_t LcmSocket::receive(
     const std::function<void(const LcmSource&, std::span<const std::uint8_t>)>& take) {
   for (mmsghdr& header : headers_) header.msg_hdr.msg_namelen = sizeof(sockaddr_in);
-  const int received = ::recvmmsg(descriptor_, headers_.data(), kBatch, MSG_DONTWAIT, nullptr);
+  const int received = ::recvmmsg(descriptor_.get(), headers_.data(), kBatch, MSG_DONTWAIT, nullptr);
   if (received <= 0) return 0;
   const auto count = static_cast<std::size_t>(received);
   for (std::size_t i = 0; i < count; ++i) {

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "lcmtypes/multicast_check.h"
 #include "transport/lcm_reassembly.h"
 
@@ -30,11 +31,8 @@ class LcmSocket {
   /// process administers the network. Throws std::system_error.
   LcmSocket(const MulticastAddress& address, std::size_t largest_datagram_bytes,
             int queue_bytes = kQueueBytes);
-  ~LcmSocket();
-  LcmSocket(const LcmSocket&) = delete;
-  LcmSocket& operator=(const LcmSocket&) = delete;
 
-  int descriptor() const noexcept { return descriptor_; }
+  int descriptor() const noexcept { return descriptor_.get(); }
   /// What the system gave of the queue that was asked for.
   int queue_bytes() const noexcept;
   /// Call it so often at the least, also when nothing comes: looks where the route leads, and follows it.
@@ -50,7 +48,7 @@ class LcmSocket {
   void filter(bool this_machine_only);
   void enlarge_queue(int bytes);
 
-  int descriptor_;
+  UniqueFd descriptor_;
   in_addr group_{};
   int interface_ = 0;  ///< index of the one that it hears the group on; 0: the system did not tell
   std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();

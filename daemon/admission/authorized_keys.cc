@@ -15,6 +15,7 @@
 
 #include "base/input_error.h"
 #include "base/protected_file.h"
+#include "base/unique_fd.h"
 
 namespace strainwave {
 
@@ -29,26 +30,18 @@ constexpr std::size_t kMaxFileBytes = std::size_t{256} * 1024;
 std::string read_protected(const std::filesystem::path& path) {
   require_protected(path, Writers::kNobody);
   struct stat status {};
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) fail(path, "security.authorized_keys cannot be read");
+  const UniqueFd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file || ::fstat(file.get(), &status) != 0) fail(path, "security.authorized_keys cannot be read");
+  if (!S_ISREG(status.st_mode)) throw InputError(path.string() + ": security.authorized_keys is not a file");
+  require_protected(path, status, Writers::kNobody);
   std::string text;
-  try {
-    if (::fstat(descriptor, &status) != 0) fail(path, "security.authorized_keys cannot be read");
-    if (!S_ISREG(status.st_mode))
-      throw InputError(path.string() + ": security.authorized_keys is not a file");
-    require_protected(path, status, Writers::kNobody);
-    std::array<char, 4096> part{};
-    ssize_t size = 0;
-    while ((size = ::read(descriptor, part.data(), part.size())) > 0 && text.size() <= kMaxFileBytes)
-      text.append(part.data(), static_cast<std::size_t>(size));
-    if (size < 0) fail(path, "security.authorized_keys cannot be read");
-    if (text.size() > kMaxFileBytes)
-      throw InputError(path.string() + ": is larger than 256 KiB: no list of keys");
-  } catch (const InputError&) {
-    ::close(descriptor);
-    throw;
-  }
-  ::close(descriptor);
+  std::array<char, 4096> part{};
+  ssize_t size = 0;
+  while ((size = ::read(file.get(), part.data(), part.size())) > 0 && text.size() <= kMaxFileBytes)
+    text.append(part.data(), static_cast<std::size_t>(size));
+  if (size < 0) fail(path, "security.authorized_keys cannot be read");
+  if (text.size() > kMaxFileBytes)
+    throw InputError(path.string() + ": is larger than 256 KiB: no list of keys");
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/unique_fd.h"
 #include "daemon/gateway/descriptor_message.h"
 #include "daemon/gateway/gateway_process.h"
 
@@ -34,9 +35,9 @@ void become_gateway_of_core() {
   // Beyond the places that they will take.
   constexpr int kAway = 64;
   const auto away = [](int descriptor) {
-    const int moved = ::fcntl(descriptor, F_DUPFD, kAway);
+    const UniqueFd here(descriptor);
+    const int moved = ::fcntl(here.get(), F_DUPFD, kAway);
     if (moved < 0) throw std::system_error(errno, std::generic_category(), "taking the core's descriptors");
-    ::close(descriptor);
     return moved;
   };
   const int core = away(kFirstListenFd);

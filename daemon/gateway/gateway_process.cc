@@ -46,27 +46,26 @@ GatewayProcess::GatewayProcess(std::string program, Descriptors descriptors, std
 }
 
 GatewayProcess::~GatewayProcess() {
-  if (program_fd_ >= 0) ::close(program_fd_);
-  disconnect();
+  connection_.reset();
   if (pid_ <= 0) return;
   ::kill(pid_, SIGKILL);
   ::waitpid(pid_, nullptr, 0);
 }
 
 void GatewayProcess::open_program() {
-  if (program_fd_ < 0) program_fd_ = ::open(program_.c_str(), O_PATH | O_CLOEXEC);
+  if (!program_fd_) program_fd_.reset(::open(program_.c_str(), O_PATH | O_CLOEXEC));
 }
 
 void GatewayProcess::start(std::int64_t now_ns) {
   try {
     open_program();
-    if (program_fd_ < 0) fail(errno, "starting " + program_);
+    if (!program_fd_) fail(errno, "starting " + program_);
     if (service_socket_.empty())
       connection_ = spawn();
     else
       connect_service();
   } catch (const std::system_error&) {
-    disconnect();
+    connection_.reset();
     back_off(now_ns);
     throw;
   }
@@ -74,10 +73,12 @@ void GatewayProcess::start(std::int64_t now_ns) {
 }
 
 /// The core's end of the connection.
-int GatewayProcess::spawn() {
+UniqueFd GatewayProcess::spawn() {
   std::array<int, 2> connection{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, connection.data()) != 0)
     fail(errno, "starting " + program_);
+  UniqueFd core_end(connection[0]);
+  const UniqueFd gateway_end(connection[1]);
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&actions);
@@ -85,8 +86,8 @@ int GatewayProcess::spawn() {
   // Two rounds: the fixed numbers may be in use by the very descriptors that are to be moved there.
   constexpr int kAway = 64;
   constexpr int kProgram = kAway + 4;
-  const std::array<int, 5> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake, connection[1],
-                                program_fd_};
+  const std::array<int, 5> from{descriptors_.outbound, descriptors_.inbound, descriptors_.wake,
+                                gateway_end.get(), program_fd_.get()};
   for (int i = 0; i < 5; ++i)
     ::posix_spawn_file_actions_adddup2(&actions, from[static_cast<std::size_t>(i)], kAway + i);
   for (int i = 0; i < 4; ++i) ::posix_spawn_file_actions_adddup2(&actions, kAway + i, kGatewayOutboundFd + i);
@@ -102,13 +103,9 @@ int GatewayProcess::spawn() {
   const int error = ::posix_spawn(&pid, held.c_str(), &actions, &attributes, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
-  ::close(connection[1]);
-  if (error != 0) {
-    ::close(connection[0]);
-    fail(error, "starting " + program_);
-  }
+  if (error != 0) fail(error, "starting " + program_);
   pid_ = pid;
-  return connection[0];
+  return core_end;
 }
 
 void GatewayProcess::connect_service() {
@@ -116,24 +113,19 @@ void GatewayProcess::connect_service() {
   address.sun_family = AF_UNIX;
   if (service_socket_.size() >= sizeof address.sun_path) fail(ENAMETOOLONG, service_socket_);
   std::copy(service_socket_.begin(), service_socket_.end(), &address.sun_path[0]);
-  connection_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (connection_ < 0 ||
-      ::connect(connection_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+  connection_.reset(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!connection_ ||
+      ::connect(connection_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     fail(errno, "starting the gateway by " + service_socket_);
-  send_descriptors(connection_,
-                   {descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_});
-}
-
-void GatewayProcess::disconnect() noexcept {
-  if (connection_ >= 0) ::close(connection_);
-  connection_ = -1;
+  send_descriptors(connection_.get(),
+                   {descriptors_.outbound, descriptors_.inbound, descriptors_.wake, program_fd_.get()});
 }
 
 std::optional<std::string> GatewayProcess::take_end(std::int64_t now_ns) {
   if (!running()) return std::nullopt;
   auto end = pid_ > 0 ? end_of_child() : end_of_service();
   if (!end) return std::nullopt;
-  disconnect();
+  connection_.reset();
   if (now_ns - started_ns_ > kStable_ns) backoff_ns_ = kFirstBackoff_ns;
   back_off(now_ns);
   return end;
@@ -150,7 +142,7 @@ std::optional<std::string> GatewayProcess::end_of_child() {
 
 // What it says is read nowhere: it is another user's.
 std::optional<std::string> GatewayProcess::end_of_service() {
-  pollfd peer{connection_, POLLRDHUP, 0};
+  pollfd peer{connection_.get(), POLLRDHUP, 0};
   if (::poll(&peer, 1, 0) != 1 || (peer.revents & (POLLHUP | POLLERR | POLLRDHUP)) == 0) return std::nullopt;
   return "its service, see journalctl -u 'strainwave-gateway@*'";
 }
@@ -159,7 +151,7 @@ void GatewayProcess::kill() noexcept {
   if (pid_ > 0) ::kill(pid_, SIGKILL);
   // Its own end stays to tell when it has gone.
   else if (running())
-    ::shutdown(connection_, SHUT_WR);
+    ::shutdown(connection_.get(), SHUT_WR);
 }
 
 void GatewayProcess::back_off(std::int64_t now_ns) noexcept {

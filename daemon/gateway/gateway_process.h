@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 /// Descriptors the gateway inherits under these fixed numbers, and its exit statuses.
@@ -47,7 +49,7 @@ class GatewayProcess {
   /// How it ended ("exit status 69", "signal 9"; of a service the service manager's log knows), once, when it has;
   /// start_due() then says when to start it again.
   std::optional<std::string> take_end(std::int64_t now_ns);
-  bool running() const noexcept { return connection_ >= 0; }
+  bool running() const noexcept { return static_cast<bool>(connection_); }
   std::int64_t started_ns() const noexcept { return started_ns_; }
   bool start_due(std::int64_t now_ns) const noexcept { return !running() && now_ns >= not_before_ns_; }
   int last_exit_status() const noexcept { return last_exit_status_; }
@@ -56,18 +58,17 @@ class GatewayProcess {
 
  private:
   void open_program();
-  int spawn();
+  UniqueFd spawn();
   void connect_service();
   std::optional<std::string> end_of_child();
   std::optional<std::string> end_of_service();
-  void disconnect() noexcept;
   void back_off(std::int64_t now_ns) noexcept;
 
   std::string program_;
   std::string service_socket_;
-  int program_fd_ = -1;
+  UniqueFd program_fd_;
   Descriptors descriptors_;
-  int connection_ = -1;
+  UniqueFd connection_;
   pid_t pid_ = -1;  ///< of a child
   int last_exit_status_ = 0;
   std::int64_t started_ns_ = 0;

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
@@ -32,30 +31,26 @@ ServiceWatchdog::ServiceWatchdog() {
     throw std::system_error(EINVAL, std::generic_category(), "NOTIFY_SOCKET");
   std::memcpy(address.sun_path, name.data(), name.size());
   if (name.front() == '@') address.sun_path[0] = '\0';
-  socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  socket_.reset(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
-  if (socket_ < 0 || ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), size) != 0)
+  if (!socket_ || ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), size) != 0)
     throw std::system_error(errno, std::generic_category(), "reaching the service manager");
 }
 
-ServiceWatchdog::~ServiceWatchdog() {
-  if (socket_ >= 0) ::close(socket_);
-}
-
 void ServiceWatchdog::alive(std::int64_t now_ns) noexcept {
-  if (socket_ < 0 || now_ns < due_ns_) return;
+  if (!socket_ || now_ns < due_ns_) return;
   due_ns_ = now_ns + kEvery_ns;
   send("WATCHDOG=1");
 }
 
 void ServiceWatchdog::send(const char* text) noexcept {
-  if (socket_ < 0) return;
+  if (!socket_) return;
   iovec part{const_cast<char*>(text), std::strlen(text)};
   msghdr message{};
   message.msg_iov = &part;
   message.msg_iovlen = 1;
   // The filter knows sendmsg alone. One that is lost is followed by the next.
-  (void)::sendmsg(socket_, &message, MSG_NOSIGNAL);
+  (void)::sendmsg(socket_.get(), &message, MSG_NOSIGNAL);
 }
 
 }  // namespace strainwave

@@ -5,14 +5,13 @@
 
 #include <cstdint>
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 class ServiceWatchdog {
  public:
   ServiceWatchdog();
-  ~ServiceWatchdog();
-  ServiceWatchdog(const ServiceWatchdog&) = delete;
-  ServiceWatchdog& operator=(const ServiceWatchdog&) = delete;
 
   /// The gateway works: what it promises from here on is watched.
   void ready() noexcept { send("READY=1"); }
@@ -22,7 +21,7 @@ class ServiceWatchdog {
  private:
   void send(const char* text) noexcept;
 
-  int socket_ = -1;
+  UniqueFd socket_;
   std::int64_t due_ns_ = 0;
 };
 

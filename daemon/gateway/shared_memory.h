@@ -10,9 +10,11 @@
 #include <atomic>
 #include <cstdint>
 #include <strainwave/state_v1.hpp>
+#include <utility>
 
 #include "base/broadcast_ring.h"
 #include "base/fixed_string.h"
+#include "base/unique_fd.h"
 #include "lcmtypes/wire.h"
 
 namespace strainwave {
@@ -94,7 +96,7 @@ class MemoryFile {
  public:
   /// A new file of `size` bytes, mapped writable; with `seal_writes` no other process can map it writable afterwards.
   static MemoryFile create(const char* name, std::size_t size, bool seal_writes);
-  /// An existing one, mapped read-only or writable. Refuses a file smaller than `size`.
+  /// An existing one, which it takes, mapped read-only or writable. Refuses a file smaller than `size`.
   static MemoryFile open(int descriptor, std::size_t size, bool writable);
 
   MemoryFile(MemoryFile&& other) noexcept;
@@ -104,12 +106,12 @@ class MemoryFile {
   ~MemoryFile();
 
   void* address() const noexcept { return address_; }
-  int descriptor() const noexcept { return descriptor_; }
+  int descriptor() const noexcept { return descriptor_.get(); }
 
  private:
-  MemoryFile(int descriptor, void* address, std::size_t size) noexcept
-      : descriptor_(descriptor), address_(address), size_(size) {}
-  int descriptor_;
+  MemoryFile(UniqueFd descriptor, void* address, std::size_t size) noexcept
+      : descriptor_(std::move(descriptor)), address_(address), size_(size) {}
+  UniqueFd descriptor_;
   void* address_;
   std::size_t size_;
 };

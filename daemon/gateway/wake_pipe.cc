@@ -14,18 +14,13 @@ WakePipe::WakePipe() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0)
     throw std::system_error(errno, std::generic_category(), "making the gateway's wake");
-  core_end_ = ends[0];
-  gateway_end_ = ends[1];
-}
-
-WakePipe::~WakePipe() {
-  ::close(core_end_);
-  ::close(gateway_end_);
+  core_end_.reset(ends[0]);
+  gateway_end_.reset(ends[1]);
 }
 
 void WakePipe::take() noexcept {
   std::array<char, 4096> wakes;
-  if (::read(core_end_, wakes.data(), wakes.size()) <= 0) return;
+  if (::read(core_end_.get(), wakes.data(), wakes.size()) <= 0) return;
 }
 
 }  // namespace strainwave

@@ -4,26 +4,25 @@
 // Not real-time.
 #pragma once
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 class WakePipe {
  public:
   /// Throws std::system_error.
   WakePipe();
-  ~WakePipe();
-  WakePipe(const WakePipe&) = delete;
-  WakePipe& operator=(const WakePipe&) = delete;
 
   /// The core's end, readable while a wake waits.
-  int core_end() const noexcept { return core_end_; }
+  int core_end() const noexcept { return core_end_.get(); }
   /// The end for the gateway to inherit: one byte is one wake.
-  int gateway_end() const noexcept { return gateway_end_; }
+  int gateway_end() const noexcept { return gateway_end_.get(); }
   /// Takes the wakes that wait, in one bounded read, however much is written meanwhile.
   void take() noexcept;
 
  private:
-  int core_end_ = -1;
-  int gateway_end_ = -1;
+  UniqueFd core_end_;
+  UniqueFd gateway_end_;
 };
 
 }  // namespace strainwave

@@ -40,18 +40,17 @@ std::uint64_t flags_of(const LineOptions& line, EdgeKind kind) {
   return flags;
 }
 
-int request(const std::string& chip_path, gpio_v2_line_request& request, const std::string& where) {
-  const int chip = ::open(chip_path.c_str(), O_RDWR | O_CLOEXEC);
-  const int result = chip < 0 ? -1 : ::ioctl(chip, GPIO_V2_GET_LINE_IOCTL, &request);
-  const int error = errno;
-  if (chip >= 0) ::close(chip);
-  if (result < 0)
+UniqueFd request(const std::string& chip_path, gpio_v2_line_request& request, const std::string& where) {
+  const UniqueFd chip(::open(chip_path.c_str(), O_RDWR | O_CLOEXEC));
+  if (!chip || ::ioctl(chip.get(), GPIO_V2_GET_LINE_IOCTL, &request) < 0) {
+    const int error = errno;
     throw InputError(where + ": edges of " + chip_path +
                      " cannot be requested: " + std::generic_category().message(error) +
                      (error == EBUSY ? ": see who holds the lines with strainwavectl gpio-check"
                                      : ": the chip must raise interrupts, and the kernel be 5.10 or newer"));
+  }
   ::fcntl(request.fd, F_SETFL, ::fcntl(request.fd, F_GETFL) | O_NONBLOCK);
-  return request.fd;
+  return UniqueFd(request.fd);
 }
 
 }  // namespace
@@ -85,14 +84,10 @@ EdgeEvents::EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const 
   fd_ = request(chip_path, wanted, where);
 }
 
-EdgeEvents::~EdgeEvents() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 int EdgeEvents::read(std::span<Edge> edges) noexcept {
   std::array<gpio_v2_line_event, kReadAtOnce> events;
   const std::size_t most = std::min(edges.size(), events.size());
-  const ssize_t size = ::read(fd_, events.data(), most * sizeof(gpio_v2_line_event));
+  const ssize_t size = ::read(fd_.get(), events.data(), most * sizeof(gpio_v2_line_event));
   if (size < 0) return errno == EAGAIN || errno == EINTR ? 0 : -1;
   const std::size_t count = static_cast<std::size_t>(size) / sizeof(gpio_v2_line_event);
   for (std::size_t i = 0; i < count; ++i) {
@@ -107,7 +102,7 @@ int EdgeEvents::read(std::span<Edge> edges) noexcept {
 bool EdgeEvents::levels(std::uint32_t& active) noexcept {
   gpio_v2_line_values values{};
   values.mask = (1ULL << offsets_.size()) - 1;
-  if (::ioctl(fd_, GPIO_V2_LINE_GET_VALUES_IOCTL, &values) < 0) return false;
+  if (::ioctl(fd_.get(), GPIO_V2_LINE_GET_VALUES_IOCTL, &values) < 0) return false;
   active = static_cast<std::uint32_t>(values.bits);
   return true;
 }

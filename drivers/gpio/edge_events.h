@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "drivers/gpio/gpio_lines.h"
 
 namespace strainwave {
@@ -34,12 +35,9 @@ class EdgeEvents {
   /// Requests the lines, which must be on one chip with the same settings. Throws InputError.
   EdgeEvents(std::span<const LineOptions> lines, EdgeKind kind, const std::string& consumer,
              const std::string& where);
-  ~EdgeEvents();
-  EdgeEvents(const EdgeEvents&) = delete;
-  EdgeEvents& operator=(const EdgeEvents&) = delete;
 
   /// For poll().
-  int descriptor() const noexcept { return fd_; }
+  int descriptor() const noexcept { return fd_.get(); }
   /// What has come so far, at most `edges.size()` or kReadAtOnce; -1 when the kernel refuses.
   int read(std::span<Edge> edges) noexcept;
   /// Bit i: line i is active now. False when the kernel refuses.
@@ -47,7 +45,7 @@ class EdgeEvents {
 
  private:
   std::vector<std::uint32_t> offsets_;
-  int fd_ = -1;
+  UniqueFd fd_;
 };
 
 }  // namespace strainwave

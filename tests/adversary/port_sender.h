@@ -5,8 +5,8 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
+#include "base/unique_fd.h"
 #include "tests/support/lcm_datagrams.h"
 
 namespace strainwave::testing {
@@ -18,18 +18,15 @@ class PortSender {
     group_.sin_port = htons(7667);
     ::inet_pton(AF_INET, "239.255.76.67", &group_.sin_addr);
   }
-  ~PortSender() { ::close(socket_); }
-  PortSender(const PortSender&) = delete;
-  PortSender& operator=(const PortSender&) = delete;
 
   /// As UDP is: what the system does not take is lost.
   void send(const Bytes& datagram) const {
-    ::sendto(socket_, datagram.data(), datagram.size(), 0,
+    ::sendto(socket_.get(), datagram.data(), datagram.size(), 0,
              static_cast<const sockaddr*>(static_cast<const void*>(&group_)), sizeof group_);
   }
 
  private:
-  int socket_;
+  UniqueFd socket_;
   sockaddr_in group_{};
 };
 

@@ -2,17 +2,13 @@
 // A stranger on the network: no key, no library of ours or LCM's, but everything that is published is known to him, and what
 // others send may reach him and nobody else. The worst of what one has tried, against the running daemon. The host's time judges
 // nothing: only what is obeyed, and after what.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <functional>
 #include <thread>
 
+#include "tests/adversary/port_sender.h"
 #include "tests/adversary/signed_daemon.h"
 #include "tests/support/lcm_datagrams.h"
 
@@ -46,26 +42,13 @@ struct RawCommand {
 /// His socket: datagrams to LCM's group, in his own words.
 class Stranger {
  public:
-  Stranger() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-    group_.sin_family = AF_INET;
-    group_.sin_port = htons(7667);
-    ::inet_pton(AF_INET, "239.255.76.67", &group_.sin_addr);
-  }
-  ~Stranger() { ::close(socket_); }
-  Stranger(const Stranger&) = delete;
-  Stranger& operator=(const Stranger&) = delete;
-
-  void send(const Bytes& datagram) const {
-    ::sendto(socket_, datagram.data(), datagram.size(), 0,
-             static_cast<const sockaddr*>(static_cast<const void*>(&group_)), sizeof group_);
-  }
+  void send(const Bytes& datagram) const { port_.send(datagram); }
   void send(const std::string& channel, const Bytes& message) {
     send(short_datagram(channel, message, ++sequence_));
   }
 
  private:
-  int socket_;
-  sockaddr_in group_{};
+  PortSender port_;
   std::uint32_t sequence_ = 0;
 };
 

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <array>
 #include <string>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -22,31 +22,30 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 class ServiceManager : public ::testing::Test {
  protected:
   void SetUp() override {
-    socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0);
+    socket_.reset(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0));
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     const std::string path = folder_.path() / "notify";
     path.copy(address.sun_path, sizeof address.sun_path - 1);
-    ASSERT_EQ(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ASSERT_EQ(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
     ::setenv("WATCHDOG_USEC", "400000", 1);
     ::unsetenv("WATCHDOG_PID");
   }
   void TearDown() override {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC"}) ::unsetenv(name);
-    ::close(socket_);
   }
   std::vector<std::string> heard() const {
     std::vector<std::string> messages;
     std::array<char, 4096> text{};
-    for (ssize_t size = 0; (size = ::recv(socket_, text.data(), text.size(), 0)) > 0;)
+    for (ssize_t size = 0; (size = ::recv(socket_.get(), text.data(), text.size(), 0)) > 0;)
       messages.emplace_back(text.data(), static_cast<std::size_t>(size));
     return messages;
   }
 
  private:
   TemporaryFolder folder_;
-  int socket_ = -1;
+  UniqueFd socket_;
 };
 
 using Messages = std::vector<std::string>;

@@ -5,7 +5,6 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "lcmtypes/multicast_check.h"
 #include "tests/support/lcm_datagrams.h"
 
@@ -36,7 +36,7 @@ class FragmentAttack {
 
  private:
   void run() {
-    const int sender = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const UniqueFd sender(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     sockaddr_in group{};
     group.sin_family = AF_INET;
     group.sin_port = htons(static_cast<std::uint16_t>(address_.port));
@@ -45,11 +45,10 @@ class FragmentAttack {
     for (; !stop_; ++rounds_) {
       for (const std::string& channel : channels_)
         for (const Bytes& datagram : crashing_fragments(channel, ++sequence))
-          ::sendto(sender, datagram.data(), datagram.size(), 0,
+          ::sendto(sender.get(), datagram.data(), datagram.size(), 0,
                    static_cast<const sockaddr*>(static_cast<const void*>(&group)), sizeof group);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    ::close(sender);
   }
 
   MulticastAddress address_;

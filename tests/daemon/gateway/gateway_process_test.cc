@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "daemon/gateway/descriptor_message.h"
 #include "daemon/gateway/wake_pipe.h"
 #include "tests/support/temporary_folder.h"
@@ -124,18 +125,15 @@ class ServiceSocket {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     path().copy(&address.sun_path[0], sizeof address.sun_path - 1);
-    EXPECT_EQ(::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    EXPECT_EQ(::listen(listener_, 4), 0);
+    EXPECT_EQ(::bind(listener_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::listen(listener_.get(), 4), 0);
   }
-  ~ServiceSocket() { ::close(listener_); }
-  ServiceSocket(const ServiceSocket&) = delete;
-  ServiceSocket& operator=(const ServiceSocket&) = delete;
   std::string path() const { return folder_.path() / "core"; }
-  int accept() const { return ::accept(listener_, nullptr, nullptr); }
+  UniqueFd accept() const { return UniqueFd(::accept(listener_.get(), nullptr, nullptr)); }
 
  private:
   TemporaryFolder folder_;
-  int listener_;
+  UniqueFd listener_;
 };
 
 ino_t file_of(int descriptor) {
@@ -153,8 +151,8 @@ TEST(GatewayProcess, HandsItsDescriptorsAndItsProgramToAServiceOfAnotherUser) {
                          service.path());
   gateway.start(0);
   EXPECT_TRUE(gateway.running());
-  const int connection = service.accept();
-  const auto passed = receive_descriptors(connection);
+  UniqueFd connection = service.accept();
+  const auto passed = receive_descriptors(connection.get());
   EXPECT_EQ(file_of(passed[0]), file_of(first.core_end()));
   EXPECT_EQ(file_of(passed[1]), file_of(second.core_end()));
   EXPECT_EQ(file_of(passed[2]), file_of(third.gateway_end()));
@@ -163,7 +161,7 @@ TEST(GatewayProcess, HandsItsDescriptorsAndItsProgramToAServiceOfAnotherUser) {
   EXPECT_EQ(file_of(passed[3]), program.st_ino);
   for (const int descriptor : passed) ::close(descriptor);
   EXPECT_FALSE(gateway.take_end(0).has_value());
-  ::close(connection);
+  connection.reset();
   EXPECT_TRUE(gateway.take_end(0).has_value()) << "the service has ended";
   EXPECT_FALSE(gateway.running());
   EXPECT_EQ(wait_until_due_ms(gateway, 0), 100);
@@ -174,15 +172,15 @@ TEST(GatewayProcess, TellsAServiceToEndAndSeesWhenItHas) {
   const WakePipe pipe;
   GatewayProcess gateway("/bin/true", {pipe.core_end(), pipe.core_end(), pipe.core_end()}, service.path());
   gateway.start(0);
-  const int connection = service.accept();
-  for (const int descriptor : receive_descriptors(connection)) ::close(descriptor);
-  pollfd core{connection, POLLRDHUP, 0};
+  UniqueFd connection = service.accept();
+  for (const int descriptor : receive_descriptors(connection.get())) ::close(descriptor);
+  pollfd core{connection.get(), POLLRDHUP, 0};
   EXPECT_EQ(::poll(&core, 1, 0), 0);
   gateway.kill();
   EXPECT_EQ(::poll(&core, 1, 0), 1) << "it is asked to";
   EXPECT_FALSE(gateway.take_end(0).has_value()) << "it has not yet, and no other is started beside it";
   EXPECT_FALSE(gateway.start_due(1'000'000'000));
-  ::close(connection);
+  connection.reset();
   EXPECT_TRUE(gateway.take_end(0).has_value());
 }
 

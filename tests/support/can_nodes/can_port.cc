@@ -24,10 +24,10 @@ namespace {
 
 CanPort::CanPort(const std::string& interface, const std::vector<AcceptanceFilter>& filters)
     : descriptor_(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW)) {
-  if (descriptor_ < 0) fail("this kernel gives no CAN socket (is the module can-raw there?)");
+  if (!descriptor_) fail("this kernel gives no CAN socket (is the module can-raw there?)");
   std::vector<can_filter> accepted;
   for (const AcceptanceFilter& filter : filters) accepted.push_back({filter.id, filter.mask | CAN_EFF_FLAG});
-  if (::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, accepted.data(),
+  if (::setsockopt(descriptor_.get(), SOL_CAN_RAW, CAN_RAW_FILTER, accepted.data(),
                    static_cast<socklen_t>(accepted.size() * sizeof(can_filter))) != 0)
     fail("setting CAN filters");
   const unsigned index = ::if_nametoindex(interface.c_str());
@@ -36,21 +36,13 @@ CanPort::CanPort(const std::string& interface, const std::vector<AcceptanceFilte
   address.can_ifindex = static_cast<int>(index);
   // The kernel's interface for socket addresses.
   const auto* generic = std::bit_cast<const sockaddr*>(&address);
-  if (index == 0 || ::bind(descriptor_, generic, sizeof address) != 0) {
-    const int cause = errno;
-    ::close(descriptor_);
-    errno = cause;
+  if (index == 0 || ::bind(descriptor_.get(), generic, sizeof address) != 0)
     fail("CAN interface '" + interface + "'");
-  }
-}
-
-CanPort::~CanPort() {
-  ::close(descriptor_);
 }
 
 std::optional<Frame> CanPort::receive() {
   can_frame raw{};
-  while (::read(descriptor_, &raw, sizeof raw) == static_cast<ssize_t>(sizeof raw)) {
+  while (::read(descriptor_.get(), &raw, sizeof raw) == static_cast<ssize_t>(sizeof raw)) {
     if ((raw.can_id & (CAN_EFF_FLAG | CAN_ERR_FLAG)) != 0) continue;
     Frame frame(raw.can_id & CAN_SFF_MASK, {raw.data, std::min<std::size_t>(raw.len, CAN_MAX_DLEN)});
     frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
@@ -64,7 +56,7 @@ bool CanPort::send(const Frame& frame) {
   raw.can_id = frame.id | (frame.remote ? CAN_RTR_FLAG : 0U);
   raw.len = frame.length;
   std::copy_n(frame.data.begin(), frame.length, raw.data);
-  return ::write(descriptor_, &raw, sizeof raw) == static_cast<ssize_t>(sizeof raw);
+  return ::write(descriptor_.get(), &raw, sizeof raw) == static_cast<ssize_t>(sizeof raw);
 }
 
 }  // namespace strainwave::can_nodes

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/unique_fd.h"
 #include "tests/support/can_nodes/frame.h"
 
 namespace strainwave::can_nodes {
@@ -21,18 +22,15 @@ class CanPort {
  public:
   /// Throws std::system_error when `interface` is not there or the kernel has no CAN.
   CanPort(const std::string& interface, const std::vector<AcceptanceFilter>& filters);
-  ~CanPort();
-  CanPort(const CanPort&) = delete;
-  CanPort& operator=(const CanPort&) = delete;
 
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return descriptor_.get(); }
   /// The next frame with an 11-bit identifier, if one waits.
   std::optional<Frame> receive();
   /// False when the bus did not take it.
   bool send(const Frame& frame);
 
  private:
-  int descriptor_;
+  UniqueFd descriptor_;
 };
 
 }  // namespace strainwave::can_nodes
