@@ -14,6 +14,7 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "control/joint/joint_catalogue.h"
 #include "design/catalogue.h"
 #include "design/descending_curve.h"
 #include "design/estimation.h"

@@ -8,6 +8,7 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "control/joint/joint_catalogue.h"
 #include "design/friction_file.h"
 #include "design/friction_fit.h"
 #include "design/friction_log.h"

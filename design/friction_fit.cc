@@ -183,8 +183,4 @@ VelocityMemberships source_velocity_memberships(double gear_ratio) {
   return {joint(0.0), joint(40.0), joint(40.0), joint(80.0)};
 }
 
-StribeckShape source_stribeck_shape(double gear_ratio) {
-  return {joint_velocity_rad_s_from_motor_rpm(20.0, gear_ratio), 2.0};
-}
-
 }  // namespace strainwave

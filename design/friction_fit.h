@@ -73,7 +73,5 @@ ExponentialTemperatureLaw to_joint_side(const ExponentialFit& fit, double gear_r
 FuzzyFriction to_joint_side(const FuzzyFit& fit, double gear_ratio, double temperature_min_C,
                             double temperature_max_C);
 VelocityMemberships source_velocity_memberships(double gear_ratio);
-/// Stribeck velocity 20 RPM at the motor side, exponent 2.
-StribeckShape source_stribeck_shape(double gear_ratio);
 
 }  // namespace strainwave

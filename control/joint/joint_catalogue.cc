@@ -16,8 +16,6 @@ namespace strainwave {
 
 namespace {
 
-// Speed of the motor above which the Stribeck part has gone (data/README.md).
-constexpr double kStribeckMotor_rpm = 20.0;
 // Of the catalogue's. What is identified on joints with a third more friction than the catalogue's, in rules that blend otherwise over
 // speed than friction does, comes to 1.7 times.
 constexpr double kMostDeclaredFriction = 2.0;
@@ -117,9 +115,13 @@ const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear) {
   return nullptr;
 }
 
+StribeckShape source_stribeck_shape(double gear_ratio) {
+  return {joint_velocity_rad_s_from_motor_rpm(20.0, gear_ratio), 2.0};
+}
+
 std::optional<std::string> find_excess_friction(const FuzzyFriction& friction, const CatalogueJoint& joint,
                                                 double gear_ratio) {
-  const StribeckShape shape{joint_velocity_rad_s_from_motor_rpm(kStribeckMotor_rpm, gear_ratio), 2.0};
+  const StribeckShape shape = source_stribeck_shape(gear_ratio);
   Place worst;
   for (const double temperature_C : temperatures_of(friction)) {
     const FrictionParameters declared = friction.blend(friction.weights(temperature_C));

@@ -38,6 +38,9 @@ const std::vector<CatalogueJoint>& joint_catalogue();
 const CatalogueJoint* find_catalogue_joint(std::string_view model);
 const CatalogueJoint* find_catalogue_joint_with_gear(std::string_view gear);
 
+/// The Stribeck curve of the catalogue's friction, joint side: 20 RPM at the motor, exponent 2 (data/README.md).
+StribeckShape source_stribeck_shape(double gear_ratio);
+
 /// Where between rest and 10 rad/s, at a temperature of its range, `friction` (which must have passed find_defect()) is more than twice
 /// `joint`'s: the worst such place by temperature, velocity, torque and what is allowed, in words; or nothing.
 std::optional<std::string> find_excess_friction(const FuzzyFriction& friction, const CatalogueJoint& joint,

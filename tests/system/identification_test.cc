@@ -11,6 +11,7 @@
 
 #include "base/text_file.h"
 #include "client/commands/identify_plan.h"
+#include "control/joint/joint_catalogue.h"
 #include "design/controller_design.h"
 #include "design/friction_file.h"
 #include "design/friction_fit.h"
