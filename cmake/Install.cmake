@@ -5,35 +5,6 @@ set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc")
 # systemd and udev of Debian 12 look below /lib; with its merged /usr that is /usr/lib.
 set(unit_dir lib/systemd/system)
 
-# Package strainwave: daemon, client, units, example configuration, documentation.
-install(TARGETS strainwaved strainwavectl strainwave-telemetry DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
-install(TARGETS strainwave-gateway DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
-install(PROGRAMS systemd/grant-sysfs DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
-
-# strainwave_unit(NAME CONFIGURATION STATE TITLE COMMENT): one source for the service and its template.
-function(strainwave_unit UNIT_NAME UNIT_CONFIGURATION UNIT_STATE UNIT_TITLE UNIT_COMMENT)
-  configure_file(systemd/strainwaved.service.in "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" @ONLY)
-  install(FILES "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" DESTINATION ${unit_dir} COMPONENT daemon)
-endfunction()
-strainwave_unit(strainwaved strainwaved strainwave "" "The daemon of this machine, with /etc/strainwave/strainwaved.toml.")
-strainwave_unit(strainwaved@ %i strainwave/%i " (%i)"
-  "A further daemon: strainwaved@left uses /etc/strainwave/left.toml, with a daemon.prefix and drives of its own.")
-configure_file(systemd/strainwave-telemetry.service.in "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" DESTINATION ${unit_dir} COMPONENT daemon)
-configure_file("systemd/strainwave-gateway@.service.in" "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" @ONLY)
-install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" systemd/strainwave-gateway.socket
-        systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
-install(FILES systemd/strainwave.sysusers DESTINATION lib/sysusers.d RENAME strainwave.conf COMPONENT daemon)
-install(FILES systemd/strainwave.tmpfiles DESTINATION lib/tmpfiles.d RENAME strainwave.conf COMPONENT daemon)
-install(FILES systemd/60-strainwave.rules DESTINATION lib/udev/rules.d COMPONENT daemon)
-install(DIRECTORY systemd/network DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
-install(FILES packaging/strainwaved.toml packaging/authorized_keys
-        DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/strainwave COMPONENT daemon)
-install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave/tables COMPONENT daemon)
-# The tree's own order, so that links between the pages hold.
-install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
-install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
-
 # strainwave_install_manual(COMPONENT PROGRAM.SECTION...): man pages and completion, which the target "manual" makes.
 function(strainwave_install_manual component)
   set(folder "${CMAKE_BINARY_DIR}/man")
@@ -47,21 +18,58 @@ function(strainwave_install_manual component)
     install(FILES "${folder}/_${program}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/vendor-completions COMPONENT ${component})
   endforeach()
 endfunction()
-strainwave_install_manual(daemon strainwaved.8 strainwavectl.1 strainwave-telemetry.8)
 
-install(DIRECTORY "${STRAINWAVE_WEB}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
+# Package strainwave: daemon, client, units, example configuration, documentation.
+set(packages daemon:strainwave lcmtypes:libstrainwave-lcmtypes-dev client:libstrainwave-client-dev python:python3-strainwave)
+install(TARGETS strainwavectl DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+strainwave_install_manual(daemon strainwavectl.1)
+if(STRAINWAVE_BUILD_DAEMON)
+  install(TARGETS strainwaved strainwave-telemetry DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+  install(TARGETS strainwave-gateway DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
+  install(PROGRAMS systemd/grant-sysfs DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
+
+  # strainwave_unit(NAME CONFIGURATION STATE TITLE COMMENT): one source for the service and its template.
+  function(strainwave_unit UNIT_NAME UNIT_CONFIGURATION UNIT_STATE UNIT_TITLE UNIT_COMMENT)
+    configure_file(systemd/strainwaved.service.in "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" @ONLY)
+    install(FILES "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" DESTINATION ${unit_dir} COMPONENT daemon)
+  endfunction()
+  strainwave_unit(strainwaved strainwaved strainwave "" "The daemon of this machine, with /etc/strainwave/strainwaved.toml.")
+  strainwave_unit(strainwaved@ %i strainwave/%i " (%i)"
+    "A further daemon: strainwaved@left uses /etc/strainwave/left.toml, with a daemon.prefix and drives of its own.")
+  configure_file(systemd/strainwave-telemetry.service.in "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" @ONLY)
+  install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" DESTINATION ${unit_dir} COMPONENT daemon)
+  configure_file("systemd/strainwave-gateway@.service.in" "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" @ONLY)
+  install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" systemd/strainwave-gateway.socket
+          systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
+  install(FILES systemd/strainwave.sysusers DESTINATION lib/sysusers.d RENAME strainwave.conf COMPONENT daemon)
+  install(FILES systemd/strainwave.tmpfiles DESTINATION lib/tmpfiles.d RENAME strainwave.conf COMPONENT daemon)
+  install(FILES systemd/60-strainwave.rules DESTINATION lib/udev/rules.d COMPONENT daemon)
+  install(DIRECTORY systemd/network DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
+  install(FILES packaging/strainwaved.toml packaging/authorized_keys
+          DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/strainwave COMPONENT daemon)
+  install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave/tables COMPONENT daemon)
+  # The tree's own order, so that links between the pages hold.
+  install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
+  install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
+  install(DIRECTORY "${STRAINWAVE_WEB}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
+  strainwave_install_manual(daemon strainwaved.8 strainwave-telemetry.8)
+endif()
 
 # Package strainwave-design: what needs no robot.
-install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
-strainwave_install_manual(design strainwave-sim.1)
+if(TARGET strainwave-sim)
+  list(APPEND packages design:strainwave-design)
+  install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
+  strainwave_install_manual(design strainwave-sim.1)
+  install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT design)
+endif()
 if(STRAINWAVE_BUILD_DESIGN)
   install(TARGETS strainwave-design DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
   strainwave_install_manual(design strainwave-design.1)
 endif()
-install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT design)
 
 # Package strainwave-spy.
 if(STRAINWAVE_BUILD_SPY)
+  list(APPEND packages spy:strainwave-spy)
   install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave-spy COMPONENT spy)
   install(PROGRAMS spy/strainwave-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT spy)
   install(FILES "${CMAKE_BINARY_DIR}/man/strainwave-spy.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT spy)
@@ -106,8 +114,7 @@ strainwave_compressed(CHANGELOG.md changelog.gz)
 strainwave_compressed(packaging/changelog changelog.Debian.gz)
 set(changelogs "${CMAKE_BINARY_DIR}/packaging/changelog.gz" "${CMAKE_BINARY_DIR}/packaging/changelog.Debian.gz")
 add_custom_target(strainwave_changelogs ALL DEPENDS ${changelogs})
-foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmtypes:libstrainwave-lcmtypes-dev
-        client:libstrainwave-client-dev python:python3-strainwave)
+foreach(pair IN LISTS packages)
   string(REPLACE ":" ";" pair "${pair}")
   list(GET pair 0 component)
   list(GET pair 1 package)
@@ -120,11 +127,9 @@ foreach(pair daemon:strainwave design:strainwave-design spy:strainwave-spy lcmty
 endforeach()
 
 # What the packages hold; scripts/package builds it without the tests.
-add_custom_target(products DEPENDS strainwaved strainwave-gateway strainwavectl strainwave-telemetry strainwave-sim strainwave-lcmtypes
-                  strainwave-client strainwave_python manual strainwave_changelogs)
-if(STRAINWAVE_BUILD_DESIGN)
-  add_dependencies(products strainwave-design)
-endif()
-if(STRAINWAVE_BUILD_SPY)
-  add_dependencies(products strainwave_spy)
-endif()
+add_custom_target(products DEPENDS strainwavectl strainwave-lcmtypes strainwave-client strainwave_python manual strainwave_changelogs)
+foreach(product strainwaved strainwave-gateway strainwave-telemetry strainwave-sim strainwave-design strainwave_spy)
+  if(TARGET ${product})
+    add_dependencies(products ${product})
+  endif()
+endforeach()
