@@ -88,11 +88,11 @@ install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" DESTINATION
 
 # Package libstrainwave-client-dev: find_package(strainwave-client), target strainwave::client, or pkg-config.
 install(TARGETS strainwave-client EXPORT strainwave-client DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
-install(EXPORT strainwave-client NAMESPACE strainwave:: FILE strainwave-client-config.cmake
+install(EXPORT strainwave-client NAMESPACE strainwave:: FILE strainwave-client-targets.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file("${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake" COMPATIBILITY SameMinorVersion)
-install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake"
+install(FILES packaging/strainwave-client-config.cmake "${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake"
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
 install(DIRECTORY "${STRAINWAVE_CLIENT_HEADERS}" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT client)
 configure_file(packaging/strainwave-client.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" @ONLY)

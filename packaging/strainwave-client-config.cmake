@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# find_package(strainwave-client): target strainwave::client. What it links is found first, so that CMake names what is missing.
+include(CMakeFindDependencyMacro)
+find_dependency(Threads)
+find_dependency(fmt 9)
+find_dependency(PkgConfig)
+pkg_check_modules(LCM QUIET IMPORTED_TARGET lcm)
+pkg_check_modules(SODIUM QUIET IMPORTED_TARGET libsodium)
+foreach(module LCM SODIUM)
+  if(NOT TARGET PkgConfig::${module})
+    string(TOLOWER "${module}" name)
+    set(strainwave-client_FOUND FALSE)
+    set(strainwave-client_NOT_FOUND_MESSAGE "pkg-config does not find ${name}, which strainwave-client links: install lib${name}-dev.")
+    return()
+  endif()
+endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/strainwave-client-targets.cmake")
