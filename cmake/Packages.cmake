@@ -6,7 +6,6 @@ set(CPACK_PACKAGE_VENDOR "Strainwave developers")
 set(CPACK_PACKAGE_CONTACT "Strainwave developers <strainwave@example.org>")
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_SOURCE_DIR}/build/packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -26,10 +25,10 @@ set(CPACK_COMPONENT_DAEMON_DESCRIPTION "Real-time control of strain-wave joints
  installation.")
 # The libraries that the programs link are found by dpkg-shlibdeps.
 set(CPACK_DEBIAN_DAEMON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DAEMON_DEBUGINFO_PACKAGE ON)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_DEPENDS "systemd (>= 252), udev, iproute2")
 # strainwavectl plot-record draws with it.
-set(CPACK_DEBIAN_DAEMON_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_DAEMON_PACKAGE_SUGGESTS "strainwave-design, strainwave-spy")
+set(CPACK_DEBIAN_DAEMON_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, strainwave-design, strainwave-spy")
 set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/packaging/strainwave/postinst;${PROJECT_SOURCE_DIR}/packaging/strainwave/prerm;${PROJECT_SOURCE_DIR}/packaging/strainwave/postrm;${PROJECT_SOURCE_DIR}/packaging/strainwave/conffiles")
 
@@ -44,9 +43,9 @@ set(CPACK_COMPONENT_DESIGN_DESCRIPTION "Design of gain tables for strain-wave jo
  Needs no robot. The program strainwave-design contains SDPA, which is under
  the GNU General Public License.")
 set(CPACK_DEBIAN_DESIGN_PACKAGE_SHLIBDEPS ON)
-# It draws its figures with gnuplot.
-set(CPACK_DEBIAN_DESIGN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_DESIGN_PACKAGE_SUGGESTS strainwave)
+set(CPACK_DEBIAN_DESIGN_DEBUGINFO_PACKAGE ON)
+# Its figures alone need gnuplot.
+set(CPACK_DEBIAN_DESIGN_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, strainwave")
 
 if(STRAINWAVE_BUILD_SPY)
   list(APPEND CPACK_COMPONENTS_ALL spy)
