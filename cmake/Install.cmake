@@ -94,7 +94,7 @@ include(CMakePackageConfigHelpers)
 write_basic_package_version_file("${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES packaging/strainwave-client-config.cmake "${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake"
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
-install(DIRECTORY "${STRAINWAVE_CLIENT_HEADERS}" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT client)
+install(DIRECTORY strainwave DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT client)
 configure_file(packaging/strainwave-client.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
         COMPONENT client)

@@ -23,7 +23,7 @@
 #include "control/law_in_use.h"
 #include "control/oscillation_detector.h"
 #include "control/table/gain_table.h"
-#include "control/table/gains_in_use.h"
+#include "strainwave/gains_in_use.h"
 
 namespace strainwave {
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "control/scheduled_controller.h"
-#include "control/table/gains_in_use.h"
+#include "strainwave/gains_in_use.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/exit_status.h"
+#include "strainwave/exit_status.h"
 
 namespace strainwave {
 

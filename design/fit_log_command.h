@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/exit_status.h"
 #include "design/friction_update.h"
+#include "strainwave/exit_status.h"
 
 namespace strainwave {
 

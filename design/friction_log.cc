@@ -10,8 +10,8 @@
 #include "base/input_error.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/event_log.h"
-#include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -10,7 +10,7 @@
 
 #include "base/printable.h"
 #include "lcmtypes/cycle_fields.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave::json {
 

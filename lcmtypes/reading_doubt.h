@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

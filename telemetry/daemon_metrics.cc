@@ -9,7 +9,7 @@
 
 #include "base/saturated_sum.h"
 #include "lcmtypes/timing_buckets.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "telemetry/fleet.h"
 
 namespace strainwave {

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "lcmtypes/cycle_fields.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

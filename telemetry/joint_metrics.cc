@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lcmtypes/cycle_fields.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "telemetry/fleet.h"
 
 namespace strainwave {

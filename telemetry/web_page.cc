@@ -8,7 +8,7 @@
 
 #include "base/input_error.h"
 #include "base/text_file.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

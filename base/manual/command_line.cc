@@ -13,7 +13,7 @@
 #include "base/input_error.h"
 #include "base/nearest_word.h"
 #include "base/printable.h"
-#include "base/program_error.h"
+#include "strainwave/program_error.h"
 
 namespace strainwave {
 

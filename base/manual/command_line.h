@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base/exit_status.h"
 #include "base/manual/manual.h"
+#include "strainwave/exit_status.h"
 
 namespace CLI {
 class App;

@@ -5,7 +5,7 @@
 
 #include "client/commands/commands.h"
 #include "client/commands/sibling_program.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

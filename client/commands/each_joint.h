@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "client/protocol/client.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/interrupt.h"
 #include "client/protocol/orders.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -8,11 +8,11 @@
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
 #include "client/commands/identify_plan.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/event_log_writer.h"
 #include "client/protocol/orders.h"
 #include "client/protocol/published_limits.h"
 #include "client/text/text.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "client/protocol/client_error.h"
 #include "client/text/text.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -11,8 +11,8 @@
 
 #include "base/nearest_word.h"
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/orders.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/motion.h"
 #include "client/text/text.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

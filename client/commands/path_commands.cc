@@ -9,12 +9,12 @@
 #include "base/csv.h"
 #include "base/input_error.h"
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/motion.h"
 #include "client/protocol/orders.h"
 #include "client/protocol/published_limits.h"
 #include "control/trajectory/knot_path.h"
 #include "lcmtypes/calm_speed.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

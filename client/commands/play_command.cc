@@ -7,10 +7,10 @@
 #include "base/printable.h"
 #include "client/commands/commands.h"
 #include "client/commands/guarded_motion.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/orders.h"
 #include "lcmtypes/event_log.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

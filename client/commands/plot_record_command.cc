@@ -4,8 +4,8 @@
 
 #include "base/gnuplot.h"
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/text/flight_record.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -13,7 +13,7 @@
 
 #include "base/unique_fd.h"
 #include "client/protocol/client.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -2,8 +2,8 @@
 // disable, hold: stops.
 #include "client/commands/commands.h"
 #include "client/commands/each_joint.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/orders.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

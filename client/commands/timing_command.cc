@@ -7,8 +7,8 @@
 
 #include "base/printable.h"
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/latest_messages.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

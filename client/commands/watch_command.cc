@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
 #include "client/text/state_json.h"
 #include "client/text/text.h"
 #include "client/watch/watch_screen.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

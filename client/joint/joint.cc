@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/joint/joint.h"
+#include "strainwave/joint.h"
 
 #include <utility>
 

@@ -10,11 +10,11 @@
 #include <thread>
 #include <vector>
 
-#include "client/joint/joint.h"
 #include "client/protocol/client.h"
 #include "client/protocol/connection.h"
 #include "client/protocol/cycle_clock.h"
 #include "client/protocol/published_limits.h"
+#include "strainwave/joint.h"
 
 namespace strainwave {
 

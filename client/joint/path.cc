@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/joint/path.h"
+#include "strainwave/path.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/joint/state.h"
+#include "strainwave/state.h"
 
 #include <algorithm>
 #include <iterator>

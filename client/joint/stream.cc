@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "client/joint/stream.h"
+#include "strainwave/stream.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <ostream>
 
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "client/options/command_options.h"
-#include "client/protocol/client_error.h"
 #include "client/text/text.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

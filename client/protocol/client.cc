@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "client/protocol/client_error.h"
 #include "client/protocol/interrupt.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

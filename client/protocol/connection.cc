@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "base/utime.h"
-#include "client/protocol/client_error.h"
 #include "lcmtypes/multicast_check.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

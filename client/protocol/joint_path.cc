@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "base/printable.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/motion.h"
 #include "client/protocol/orders.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "client/protocol/client.h"
-#include "client/protocol/joint_knot.h"
-#include "client/protocol/move_order.h"
+#include "strainwave/joint_knot.h"
+#include "strainwave/move_order.h"
 
 namespace strainwave {
 

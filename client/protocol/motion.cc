@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/protocol/client_error.h"
 #include "client/protocol/orders.h"
 #include "client/protocol/plain_zero.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "client/protocol/client.h"
-#include "client/protocol/move_order.h"
+#include "strainwave/move_order.h"
 
 namespace strainwave {
 

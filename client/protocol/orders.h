@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "client/protocol/client.h"
-#include "client/protocol/client_error.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/client_error.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

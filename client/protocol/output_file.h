@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/unique_fd.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -11,7 +11,7 @@
 #include "client/protocol/clock.h"
 #include "client/protocol/connection.h"
 #include "client/protocol/sender.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

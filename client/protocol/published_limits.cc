@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "client/protocol/client_error.h"
 #include "client/protocol/motion.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "base/printable.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -12,7 +12,7 @@
 #include "base/gnuplot.h"
 #include "base/input_error.h"
 #include "lcmtypes/cycle_fields.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -18,7 +18,7 @@
 #include "lcmtypes/cycle_fields.h"
 #include "lcmtypes/message_json.h"
 #include "lcmtypes/reading_doubt.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

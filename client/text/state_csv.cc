@@ -7,7 +7,7 @@
 #include "base/csv.h"
 #include "client/text/message_csv.h"
 #include "lcmtypes/reading_doubt.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "client/protocol/client_error.h"
 #include "client/protocol/plain_zero.h"
 #include "lcmtypes/reading_doubt.h"
 #include "lcmtypes/state_fields.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/client_error.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

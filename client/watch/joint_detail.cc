@@ -12,7 +12,7 @@
 #include "client/protocol/plain_zero.h"
 #include "client/text/text.h"
 #include "client/watch/plot.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -12,7 +12,7 @@
 #include "client/text/text.h"
 #include "client/watch/joint_detail.h"
 #include "client/watch/plot.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -14,7 +14,7 @@
 #include "client/watch/help.h"
 #include "client/watch/joint_detail.h"
 #include "client/watch/joint_table.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -5,11 +5,11 @@
 #include <array>
 
 #include "base/input_error.h"
-#include "client/protocol/client_error.h"
 #include "client/protocol/latest_messages.h"
 #include "client/watch/order_desk.h"
 #include "client/watch/terminal.h"
 #include "client/watch/view.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 

@@ -25,7 +25,7 @@
 #include "daemon/gateway/shared_memory.h"
 #include "daemon/realtime/orders.h"
 #include "daemon/realtime/path_slots.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

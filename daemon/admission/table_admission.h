@@ -9,7 +9,7 @@
 #include "control/joint/encoder_side.h"
 #include "control/joint/link_model.h"
 #include "control/table/gain_table.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

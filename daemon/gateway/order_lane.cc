@@ -4,8 +4,8 @@
 #include <strainwave/command_v1.hpp>
 
 #include "lcmtypes/channels.h"
-#include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

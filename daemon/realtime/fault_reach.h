@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

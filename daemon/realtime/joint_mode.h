@@ -7,7 +7,7 @@
 
 #include "base/durations.h"
 #include "daemon/realtime/mode_machine.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

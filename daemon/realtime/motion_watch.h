@@ -17,7 +17,7 @@
 #include "base/durations.h"
 #include "control/joint_controller.h"
 #include "daemon/realtime/load_limits.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

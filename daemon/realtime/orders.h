@@ -7,7 +7,7 @@
 
 #include "base/spsc_queue.h"
 #include "drivers/injected_fault.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

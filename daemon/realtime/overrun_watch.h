@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

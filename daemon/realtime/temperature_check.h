@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/vocabulary.h"
 #include "tests/adversary/port_sender.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/lcm_datagrams.h"

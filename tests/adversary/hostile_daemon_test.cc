@@ -25,9 +25,9 @@
 #include <strainwave/timing_v1.hpp>
 #include <thread>
 
-#include "client/joint/joint.h"
-#include "client/protocol/client_error.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/client_error.h"
+#include "strainwave/joint.h"
 #include "tests/support/daemon_fixture.h"
 
 namespace strainwave::testing {

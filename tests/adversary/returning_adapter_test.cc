@@ -9,7 +9,7 @@
 #include <string>
 
 #include "client/protocol/client.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/private_network.h"
 

@@ -10,7 +10,7 @@
 
 #include "daemon/realtime/fault_reach.h"
 #include "lcmtypes/reading_doubt.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "tests/daemon/realtime/injected_fault_table.h"
 #include "tests/support/message_files.h"
 

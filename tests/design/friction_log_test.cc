@@ -9,7 +9,7 @@
 #include <strainwave/state_v1.hpp>
 
 #include "base/input_error.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "tests/support/event_log_file.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the vocabulary says of numbers; tests/docs/vocabulary_test checks its data.
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "control/table/gain_table.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave::testing {
 

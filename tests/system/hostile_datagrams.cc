@@ -13,8 +13,8 @@
 #include <strainwave/setpoint_v1.hpp>
 #include <thread>
 
-#include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/vocabulary.h"
 #include "tests/support/lcm_datagrams.h"
 
 namespace strainwave::testing {

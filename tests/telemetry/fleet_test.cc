@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "lcmtypes/timing_buckets.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 namespace {

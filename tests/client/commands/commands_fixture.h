@@ -8,7 +8,7 @@
 #include <string>
 
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 #include "tests/client/protocol/fake_daemon.h"
 
 namespace strainwave::testing {

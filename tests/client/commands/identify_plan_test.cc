@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libstrainwave-client before a daemon of the test's own, over a real network. What it does with strainwaved, docs/client.md shows.
-#include "client/joint/joint.h"
+#include "strainwave/joint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paths of libstrainwave-client before a daemon of the test's own. What they do with strainwaved, docs/client.md shows.
-#include "client/joint/path.h"
+#include "strainwave/path.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "client/joint/joint.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/joint.h"
 #include "tests/client/protocol/running_daemon.h"
 
 namespace strainwave::testing {

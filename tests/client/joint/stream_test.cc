@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a stream sends, and what it refuses to send.
-#include "client/joint/stream.h"
+#include "strainwave/stream.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <strainwave/path_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 #include "tests/client/protocol/fake_daemon.h"
 
 namespace strainwave {

@@ -15,7 +15,7 @@
 
 #include "client/protocol/connection.h"
 #include "lcmtypes/channels.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 #include "tests/client/protocol/fake_daemon.h"
 
 namespace strainwave {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 
 namespace strainwave {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/input_error.h"
 #include "client/commands/commands.h"
-#include "client/protocol/client_error.h"
+#include "strainwave/client_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {

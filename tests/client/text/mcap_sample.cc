@@ -9,7 +9,7 @@
 #include <strainwave/state_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "tests/support/event_log_file.h"
 
 int main(int argc, char** argv) {

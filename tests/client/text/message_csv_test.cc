@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 namespace {

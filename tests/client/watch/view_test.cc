@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "client/watch/view.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 namespace {

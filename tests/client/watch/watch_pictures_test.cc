@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "client/watch/view.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "tests/client/watch/screen_picture.h"
 
 namespace strainwave {

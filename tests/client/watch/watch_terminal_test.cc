@@ -16,8 +16,8 @@
 
 #include "client/protocol/clock.h"
 #include "client/protocol/connection.h"
-#include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/vocabulary.h"
 #include "tests/support/fragment_attack.h"
 #include "tests/support/own_port.h"
 

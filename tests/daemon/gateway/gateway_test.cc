@@ -11,7 +11,7 @@
 #include <string>
 
 #include "lcmtypes/multicast_check.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 #include "tests/support/own_port.h"
 
 namespace strainwave {

@@ -5,8 +5,8 @@
 
 #include <strainwave/command_v1.hpp>
 
-#include "lcmtypes/vocabulary.h"
 #include "lcmtypes/wire.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 namespace {

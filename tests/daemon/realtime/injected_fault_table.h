@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drivers/injected_fault.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A program of somebody else's: uses every header, links everything, and knows what fails without a daemon. Exit status 0: it did.
-#include <strainwave/joint.h>
+#include <strainwave/path.h>
 #include <iostream>
 
 int main() {

@@ -8,7 +8,7 @@
 #include <strainwave/state_v1.hpp>
 #include <string>
 
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 

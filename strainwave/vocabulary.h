@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "control/table/gains_in_use.h"
+#include "strainwave/gains_in_use.h"
 
 namespace strainwave {
 

@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "client/joint/joint.h"
-#include "client/protocol/joint_knot.h"
-#include "client/protocol/move_order.h"
+#include "strainwave/joint.h"
+#include "strainwave/joint_knot.h"
+#include "strainwave/move_order.h"
 
 namespace strainwave {
 

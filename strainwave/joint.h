@@ -17,10 +17,10 @@
 #include <optional>
 #include <string>
 
-#include "client/joint/state.h"
-#include "client/joint/stream.h"
-#include "client/protocol/client_error.h"
-#include "client/protocol/move_order.h"
+#include "strainwave/client_error.h"
+#include "strainwave/move_order.h"
+#include "strainwave/state.h"
+#include "strainwave/stream.h"
 
 namespace strainwave {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/exit_status.h"
+#include "strainwave/exit_status.h"
 
 namespace strainwave {
 

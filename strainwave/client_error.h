@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/program_error.h"
-#include "lcmtypes/vocabulary.h"
+#include "strainwave/program_error.h"
+#include "strainwave/vocabulary.h"
 
 namespace strainwave {
 
