@@ -2,29 +2,41 @@
 #include "control/joint/gear_catalogue.h"
 
 #include "base/csv.h"
+#include "base/input_error.h"
 #include "control/joint/gears_csv.h"
+#include "control/units.h"
 
 namespace strainwave {
 
 namespace {
 
+// Of "csf-17-50": 17.
+double size_of(const std::string& name, const std::string& place) {
+  const std::vector<std::string_view> parts = split(name, '-');
+  if (parts.size() != 3) throw InputError(place, "gear", name, "must be SERIES-SIZE-RATIO");
+  return parse_number(parts[1], place, "gear");
+}
+
 std::vector<Gear> read_catalogue() {
-  const std::string source = "data/gears.csv";
-  const CsvText table = parse_csv_text(kGearsCsv, source);
-  table.require_columns({"gear", "ratio", "stiffness_1_Nm_rad", "torque_1_Nm", "stiffness_2_Nm_rad",
-                         "torque_2_Nm", "stiffness_3_Nm_rad", "accuracy_rad", "lost_motion_rad",
-                         "ratcheting_torque_Nm"});
+  const CsvText table = parse_csv_text(kGearsCsv, "data/gears.csv");
   std::vector<Gear> gears;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const auto number = [&](std::size_t column) {
-      return parse_number(table.rows[i][column], table.place(i), table.columns[column]);
+    const auto text = [&](const char* column) { return table.rows[i][table.column(column)]; };
+    const auto number = [&](const char* column) {
+      return parse_number(text(column), table.place(i), column);
     };
-    gears.push_back({table.rows[i][0],
-                     number(1),
-                     {number(2), number(3), number(4), number(5), number(6)},
-                     number(7),
-                     number(8),
-                     number(9)});
+    const auto known_Nm = [&](const char* column) {
+      return text(column).empty() ? std::nullopt : std::optional(kNmPerNcm * number(column));
+    };
+    gears.push_back({text("gear"),
+                     size_of(text("gear"), table.place(i)),
+                     number("ratio"),
+                     {number("stiffness_1_Nm_rad"), number("torque_1_Nm"), number("stiffness_2_Nm_rad"),
+                      number("torque_2_Nm"), number("stiffness_3_Nm_rad")},
+                     number("repeated_peak_torque_Nm"),
+                     number("wave_generator_inertia_kgm2"),
+                     known_Nm("running_torque_Ncm"),
+                     known_Nm("starting_torque_Ncm")});
   }
   return gears;
 }

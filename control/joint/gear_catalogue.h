@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gears of data/gears.csv by name. The table is compiled in, so that the daemon needs no file for it. Offline.
+// The gears of data/gears.csv by name, as far as a program uses them. The table is compiled in, so that the daemon needs no file for it.
+// Offline.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,12 +13,15 @@
 namespace strainwave {
 
 struct Gear {
-  std::string name;  ///< "csf-17-50"
+  std::string name;   ///< "csf-17-50"
+  double size = 0.0;  ///< the catalogue's: its pitch diameter in tenths of an inch
   double ratio = 0.0;
-  TorsionSpring spring;
-  double accuracy_rad = 0.0;          ///< largest kinematic error, one way
-  double lost_motion_rad = 0.0;       ///< hysteresis loss
-  double ratcheting_torque_Nm = 0.0;  ///< at which teeth slip
+  TorsionSpring spring;                      ///< at the joint
+  double repeated_peak_torque_Nm = 0.0;      ///< at the joint, for each start and stop
+  double wave_generator_inertia_kgm2 = 0.0;  ///< at the motor
+  std::optional<double>
+      motor_running_torque_Nm;  ///< without load, 2000 RPM of the motor, 20 degC; nothing: not known
+  std::optional<double> motor_starting_torque_Nm;  ///< without load; nothing: not known
 };
 
 /// Every gear, in the file's order.

@@ -4,25 +4,128 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/csv.h"
 
 namespace strainwave {
 namespace {
 
-TEST(GearCatalogue, KnowsEverySizeByNameAndStiffensWithTorqueAndSize) {
-  double last_Nm_rad = 0.0;
-  for (const char* name : {"csf-14-50", "csf-17-50", "csf-20-50", "csf-25-50", "csf-32-50"}) {
-    const Gear* gear = find_gear(name);
-    ASSERT_NE(gear, nullptr) << name;
-    EXPECT_EQ(gear->ratio, 50.0);
-    EXPECT_GT(gear->spring.stiffness_1_Nm_rad, last_Nm_rad);
-    last_Nm_rad = gear->spring.stiffness_1_Nm_rad;
+/// data/gears.csv, cell by cell: by size and ratio, then by column. Empty cells are left out.
+using Cells = std::map<std::string, double>;
+std::map<std::pair<double, double>, Cells> read_file() {
+  const CsvText table = read_csv_text(STRAINWAVE_SOURCE_DIR "/data/gears.csv");
+  std::map<std::pair<double, double>, Cells> file;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    Cells cells;
+    for (std::size_t c = 1; c < table.columns.size(); ++c)
+      if (!table.rows[i][c].empty())
+        cells[table.columns[c]] = parse_number(table.rows[i][c], table.place(i), table.columns[c]);
+    file[{find_gear(table.rows[i][0])->size, cells.at("ratio")}] = cells;
   }
-  for (const Gear& gear : gear_catalogue()) {
-    EXPECT_LT(gear.spring.stiffness_1_Nm_rad, gear.spring.stiffness_2_Nm_rad) << gear.name;
-    EXPECT_LT(gear.spring.stiffness_2_Nm_rad, gear.spring.stiffness_3_Nm_rad) << gear.name;
-    EXPECT_LT(gear.spring.torque_1_Nm, gear.spring.torque_2_Nm) << gear.name;
-  }
+  return file;
+}
+
+const std::vector<const char*> kTorques{"rated_torque_Nm", "average_torque_Nm", "repeated_peak_torque_Nm",
+                                        "momentary_peak_torque_Nm", "ratcheting_torque_Nm"};
+
+TEST(GearCatalogue, HasTheFiveSizesInBothRatiosByName) {
+  ASSERT_EQ(gear_catalogue().size(), 10U);
+  for (const int size : {14, 17, 20, 25, 32})
+    for (const int ratio : {50, 100}) {
+      const std::string name = "csf-" + std::to_string(size) + "-" + std::to_string(ratio);
+      ASSERT_NE(find_gear(name), nullptr) << name;
+      EXPECT_EQ(find_gear(name)->size, size);
+      EXPECT_EQ(find_gear(name)->ratio, ratio) << name;
+    }
   EXPECT_EQ(find_gear("csf-17-49"), nullptr);
+}
+
+TEST(GearCatalogue, GrowsWithSizeInEveryColumnButSpeedAndAccuracy) {
+  const auto file = read_file();
+  for (const double ratio : {50.0, 100.0}) {
+    Cells smaller;
+    for (const auto& [key, cells] : file) {
+      if (key.second != ratio) continue;
+      for (const auto& [column, value] : cells) {
+        if (!smaller.contains(column) || column == "ratio") continue;
+        if (column == "input_speed_limit_rpm") {
+          EXPECT_LT(value, smaller.at(column)) << column << ", size " << key.first;
+        } else if (column == "accuracy_rad" || column == "lost_motion_rad") {
+          EXPECT_LE(value, smaller.at(column)) << column << ", size " << key.first;
+        } else {
+          EXPECT_GT(value, smaller.at(column)) << column << ", size " << key.first;
+        }
+      }
+      for (const auto& [column, value] : cells) smaller[column] = value;
+    }
+  }
+}
+
+TEST(GearCatalogue, OrdersTorquesAndStiffnessWithinAGear) {
+  for (const auto& [key, cells] : read_file()) {
+    SCOPED_TRACE("size " + std::to_string(key.first) + ", ratio " + std::to_string(key.second));
+    for (std::size_t i = 1; i < kTorques.size(); ++i)
+      EXPECT_LT(cells.at(kTorques[i - 1]), cells.at(kTorques[i])) << kTorques[i];
+    EXPECT_LT(cells.at("stiffness_1_Nm_rad"), cells.at("stiffness_2_Nm_rad"));
+    EXPECT_LT(cells.at("stiffness_2_Nm_rad"), cells.at("stiffness_3_Nm_rad"));
+    EXPECT_LT(cells.at("torque_1_Nm"), cells.at("torque_2_Nm"));
+    if (cells.contains("running_torque_Ncm")) {
+      EXPECT_GT(cells.at("running_torque_Ncm"), cells.at("starting_torque_Ncm"))
+          << "viscous friction is above 0";
+    }
+  }
+}
+
+// The higher ratio of a size is the stiffer and the stronger one.
+TEST(GearCatalogue, RelatesTheTwoRatiosOfASize) {
+  const auto file = read_file();
+  for (const double size : {14.0, 17.0, 20.0, 25.0, 32.0}) {
+    SCOPED_TRACE("size " + std::to_string(size));
+    const Cells& fast = file.at({size, 50.0});
+    const Cells& slow = file.at({size, 100.0});
+    for (const char* same : {"torque_1_Nm", "torque_2_Nm", "input_speed_limit_rpm",
+                             "wave_generator_inertia_kgm2", "accuracy_rad"})
+      EXPECT_EQ(fast.at(same), slow.at(same)) << same;
+    for (const char* more :
+         {"stiffness_1_Nm_rad", "stiffness_2_Nm_rad", "stiffness_3_Nm_rad", "rated_torque_Nm",
+          "average_torque_Nm", "repeated_peak_torque_Nm", "momentary_peak_torque_Nm"})
+      EXPECT_GT(slow.at(more), fast.at(more)) << more;
+    EXPECT_LT(slow.at("lost_motion_rad"), fast.at("lost_motion_rad"));
+    if (fast.contains("starting_torque_Ncm")) {
+      EXPECT_GT(fast.at("starting_torque_Ncm"), slow.at("starting_torque_Ncm"));
+    }
+  }
+}
+
+// What grows by a power of size, as geometry has it, shows a wrong unit or digit by a factor.
+TEST(GearCatalogue, HasTheUnitsThatItsColumnsName) {
+  for (const auto& [key, cells] : read_file()) {
+    const auto [size, ratio] = key;
+    SCOPED_TRACE("size " + std::to_string(size) + ", ratio " + std::to_string(ratio));
+    const double volume = std::pow(size / 17.0, 3.0);
+    const auto per_volume = [&](const char* column) { return cells.at(column) / volume; };
+    EXPECT_NEAR(std::log(per_volume("stiffness_1_Nm_rad") / 9000.0), 0.0, std::log(1.5));
+    EXPECT_NEAR(std::log(per_volume("rated_torque_Nm") / 16.0), 0.0, std::log(2.0));
+    EXPECT_NEAR(std::log(cells.at("wave_generator_inertia_kgm2") / 7.9e-6 / std::pow(size / 17.0, 5.0)), 0.0,
+                std::log(1.5));
+    if (cells.contains("running_torque_Ncm")) {
+      EXPECT_NEAR(std::log(per_volume("running_torque_Ncm") / 6.0), 0.0, std::log(1.2));
+    }
+    EXPECT_LT(cells.at("ratcheting_torque_Nm"), 0.03 * cells.at("stiffness_1_Nm_rad"));
+  }
+}
+
+TEST(GearCatalogue, ReadsTheColumnsInTheUnitsOfItsMembers) {
+  const Gear& gear = *find_gear("csf-25-100");
+  const Cells cells = read_file().at({25.0, 100.0});
+  EXPECT_EQ(gear.spring.stiffness_2_Nm_rad, cells.at("stiffness_2_Nm_rad"));
+  EXPECT_EQ(gear.repeated_peak_torque_Nm, cells.at("repeated_peak_torque_Nm"));
+  EXPECT_EQ(gear.wave_generator_inertia_kgm2, cells.at("wave_generator_inertia_kgm2"));
+  EXPECT_DOUBLE_EQ(gear.motor_running_torque_Nm.value(), 0.01 * cells.at("running_torque_Ncm"));
+  EXPECT_DOUBLE_EQ(gear.motor_starting_torque_Nm.value(), 0.01 * cells.at("starting_torque_Ncm"));
+  EXPECT_FALSE(find_gear("csf-32-50")->motor_running_torque_Nm);
 }
 
 }  // namespace
