@@ -282,6 +282,7 @@ GainTable design_table(Controller primary, const TableRequest& request) {
   table.provenance.created_utc = std::string_view(request.created_utc);
   table.provenance.tool = std::string_view("strainwave-design " STRAINWAVE_VERSION);
   table.provenance.friction_sha256 = std::string_view(request.friction_sha256);
+  table.provenance.note = std::string_view(request.note);
   table.provenance.sampling = request.design.sampling;
   table.primary = design_gains(primary, request.design).gains;
   table.fallback = primary == fallback_of(primary) ? table.primary : design_fallback(primary, request.design);

@@ -78,6 +78,7 @@ struct TableRequest {
   double torque_limit_Nm = 0.0;
   EncoderSide encoder_side = EncoderSide::kMotor;
   std::string friction_sha256;
+  std::string note;  ///< of the table's provenance
   std::string created_utc;
 };
 GainTable design_table(Controller primary, const TableRequest& request);

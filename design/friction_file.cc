@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "base/strict_json.h"
 #include "base/text_file.h"
+#include "control/friction/friction_law_json.h"
 #include "control/friction/fuzzy_friction_json.h"
 #include "control/units.h"
 #include "design/friction_fit.h"
@@ -24,21 +25,6 @@ namespace {
 // Temperatures of the source's catalogue, Zhao (2006), Table 1.
 constexpr double kSourceTemperatureMin_C = -10.0;
 constexpr double kSourceTemperatureMax_C = 40.0;
-
-ordered_json parameters_to_json(const FrictionParameters& parameters) {
-  return {{"static_Nm", parameters.static_Nm},
-          {"coulomb_Nm", parameters.coulomb_Nm},
-          {"viscous_Nms_rad", parameters.viscous_Nms_rad}};
-}
-
-FrictionParameters parameters_from_json(StrictObject object) {
-  FrictionParameters parameters;
-  parameters.static_Nm = object.number("static_Nm");
-  parameters.coulomb_Nm = object.number("coulomb_Nm");
-  parameters.viscous_Nms_rad = object.number("viscous_Nms_rad");
-  object.finish();
-  return parameters;
-}
 
 ordered_json record_to_json(const FitRecord& fit) {
   ordered_json residuals = ordered_json::array();
@@ -83,30 +69,15 @@ FitRecord record_from_json(StrictObject object) {
 }
 
 ordered_json exponential_to_json(const ExponentialFriction& exponential) {
-  return {{"asymptote", parameters_to_json(exponential.law.asymptote)},
-          {"amplitude", parameters_to_json(exponential.law.amplitude)},
-          {"reference_C", exponential.law.reference_C},
-          {"decay_C", exponential.law.decay_C},
-          {"stribeck_velocity_rad_s", exponential.stribeck.velocity_rad_s},
-          {"stribeck_exponent", exponential.stribeck.exponent},
-          {"fit", record_to_json(exponential.fit)}};
+  ordered_json object = friction_law_to_json({exponential.law, exponential.stribeck});
+  object["fit"] = record_to_json(exponential.fit);
+  return object;
 }
 
 ExponentialFriction exponential_from_json(StrictObject object) {
-  ExponentialFriction exponential;
-  exponential.law.asymptote = parameters_from_json(object.object("asymptote"));
-  exponential.law.amplitude = parameters_from_json(object.object("amplitude"));
-  exponential.law.reference_C = object.number("reference_C");
-  exponential.law.decay_C = object.number("decay_C");
-  if (!(exponential.law.decay_C > 0.0)) throw InputError(object.where("decay_C") + ": must be above 0");
-  exponential.stribeck.velocity_rad_s = object.number("stribeck_velocity_rad_s");
-  if (!(exponential.stribeck.velocity_rad_s > 0.0)) {
-    throw InputError(object.where("stribeck_velocity_rad_s") + ": must be above 0");
-  }
-  exponential.stribeck.exponent = object.number("stribeck_exponent");
-  if (!(exponential.stribeck.exponent >= 0.5))
-    throw InputError(object.where("stribeck_exponent") + ": must be at least 0.5");
-  exponential.fit = record_from_json(object.object("fit"));
+  const FrictionLaw law = friction_law_from_json(object);
+  const ExponentialFriction exponential{law.over_temperature, law.stribeck,
+                                        record_from_json(object.object("fit"))};
   object.finish();
   return exponential;
 }

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string_view>
-#include <system_error>
 
 #include "base/input_error.h"
 #include "base/printable.h"
@@ -17,6 +14,7 @@
 #include "control/table/rigid_loop.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
+#include "design/creation_time.h"
 #include "design/friction_file.h"
 #include "design/joint_defaults.h"
 #include "design/spring_design.h"
@@ -26,20 +24,21 @@ namespace strainwave {
 
 namespace {
 
-// The reference case: the source's joint, which the catalogue begins with, and its weights.
+// The reference case: the source's joint, which the catalogue begins with, and its weights. What is not given is the gear's.
 struct GainsOptions {
   std::string friction;
   std::string rules_side = "joint";
   std::string out;
   std::string name;
   std::string controller = "C4";
-  std::string joint_model = joint_catalogue().front().model;
+  std::string joint_model;
   std::string gear;
-  double inertia_kgm2 = joint_catalogue().front().motor_inertia_kgm2;
-  double gear_ratio = 50.0;
+  std::optional<double> inertia_kgm2;
+  std::optional<double> rotor_inertia_kgm2;
+  std::optional<double> gear_ratio;
   double period_s = 1e-3;
   std::string sampling = "zoh";
-  double torque_limit_Nm = 34.0;
+  std::optional<double> torque_limit_Nm;
   std::vector<double> weights{0.1, 1.0, 1e-4, 1e-6};
   std::vector<double> x0{0.0, 1.0, 0.0};
   std::vector<double> x0_box;
@@ -53,43 +52,28 @@ struct GainsOptions {
   SpringOptions spring;
 };
 
-// Now, or SOURCE_DATE_EPOCH for reproducible files. Throws InputError.
-std::time_t creation_time() {
-  constexpr const char* kVariable = "SOURCE_DATE_EPOCH";
-  const char* const epoch = std::getenv(kVariable);  // NOLINT(concurrency-mt-unsafe): one thread
-  if (epoch == nullptr) return std::time(nullptr);
-  const std::string_view text(epoch);
-  std::time_t time = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-  if (error != std::errc{} || end != text.data() + text.size())
-    throw InputError("environment", kVariable, epoch, "must be whole seconds since 1970");
-  return time;
-}
-
-// ISO 8601.
-std::string utc_now() {
-  const std::time_t now = creation_time();
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
-}
-
 std::vector<std::string> gear_list() {
   std::vector<std::string> names;
   for (const Gear& gear : gear_catalogue()) names.push_back(gear.name);
   return names;
 }
 
+/// The gear that is asked for, else that of the reference case.
+const Gear& gear_of(const GainsOptions& options) {
+  return *find_gear(options.gear.empty() ? joint_catalogue().front().gear : options.gear);
+}
+
 /// As given, else the gear's. Throws InputError when a gear has another ratio than the one given.
-double ratio_of(const GainsOptions& options, const CLI::App& command) {
-  const Gear* const gear = find_gear(options.gear);
-  if (gear == nullptr) return options.gear_ratio;
-  if (command.count("--gear-ratio") > 0 && options.gear_ratio != gear->ratio)
-    throw InputError("gains", "--gear-ratio", number_text(options.gear_ratio),
-                     "must be that of " + gear->name + ", " + number_text(gear->ratio) + ", or left out");
-  return gear->ratio;
+double ratio_of(const GainsOptions& options) {
+  const Gear& gear = gear_of(options);
+  if (!options.gear.empty() && options.gear_ratio.value_or(gear.ratio) != gear.ratio)
+    throw InputError("gains", "--gear-ratio", number_text(*options.gear_ratio),
+                     "must be that of " + gear.name + ", " + number_text(gear.ratio) + ", or left out");
+  return options.gear_ratio.value_or(gear.ratio);
+}
+
+std::string model_of(const GainsOptions& options) {
+  return options.joint_model.empty() ? usual_model(gear_of(options)) : options.joint_model;
 }
 
 std::vector<StateVector> initial_states(const GainsOptions& options) {
@@ -100,36 +84,51 @@ std::vector<StateVector> initial_states(const GainsOptions& options) {
   return box_vertices(StateVector::Map(options.x0_box.data()));
 }
 
-// Says what is not given and taken from the catalogue. Throws InputError that names the options which are needed.
 struct RequestedJoint {
   FrictionRules rules;
+  std::string note;
   std::optional<SpringRequest> spring;
   double inertia_kgm2 = 0.0;  ///< that the gains are designed for
 };
-RequestedJoint read_joint(const GainsOptions& options, const CLI::App& command) {
-  const double ratio = ratio_of(options, command);
-  std::vector<std::string> missing;
-  if (options.friction.empty()) missing.emplace_back("--friction");
-  if (options.spring.given() && !options.spring.motor_inertia_kgm2)
-    missing.emplace_back("--motor-inertia_kgm2");
-  const CatalogueJoint* known = nullptr;
-  if (!missing.empty()) known = &require_catalogue_joint("gains", options.gear, options.joint_model, missing);
-  RequestedJoint joint;
-  joint.inertia_kgm2 = options.inertia_kgm2;
+
+// As given, else of the catalogue, which it says.
+void take_friction(const GainsOptions& options, RequestedJoint& joint) {
   if (!options.friction.empty()) {
-    joint.rules = read_friction_rules(options.friction, ratio,
+    joint.rules = read_friction_rules(options.friction, ratio_of(options),
                                       options.rules_side == "motor" ? GearSide::kMotor : GearSide::kJoint);
-  } else {
-    joint.rules = catalogue_friction(ratio);
-    std::printf("--friction %s, %s\n", kCatalogueFrictionFile, origin(*known).c_str());
+    return;
   }
-  if (!options.spring.given()) return joint;
-  joint.spring = spring_request(options.spring, "gains", known != nullptr ? known->motor_inertia_kgm2 : 0.0);
-  if (!options.spring.motor_inertia_kgm2)
-    std::printf("--motor-inertia_kgm2 %g, %s\n", joint.spring->motor_inertia_kgm2, origin(*known).c_str());
-  if (command.count("--inertia_kgm2") == 0) {
+  if (options.gear.empty())
+    throw InputError("gains: give --friction, or --gear, whose friction the catalogue has: " + gear_names());
+  const CatalogueFriction friction = catalogue_friction(gear_of(options), model_of(options));
+  joint.rules = friction.rules;
+  joint.note = friction.note;
+  std::printf("--friction %s\n", friction.origin.c_str());
+}
+
+// Says where it is from unless it is given at the joint. Throws InputError that asks for it.
+double motor_inertia_kgm2(const GainsOptions& options) {
+  if (options.spring.motor_inertia_kgm2) return *options.spring.motor_inertia_kgm2;
+  const Gear& gear = gear_of(options);
+  const std::string model = options.gear.empty() ? usual_model(gear) : model_of(options);
+  const MotorInertia inertia = usual_motor_inertia("gains", &gear, model, options.rotor_inertia_kgm2);
+  std::printf("--motor-inertia_kgm2 %g, %s\n", inertia.at_joint_kgm2, inertia.origin.c_str());
+  return inertia.at_joint_kgm2;
+}
+
+// Says what is not given and taken from the catalogue. Throws InputError that names the options which are needed.
+RequestedJoint read_joint(const GainsOptions& options) {
+  RequestedJoint joint;
+  take_friction(options, joint);
+  if (options.spring.given())
+    joint.spring = spring_request(options.spring, "gains", motor_inertia_kgm2(options));
+  if (options.inertia_kgm2) {
+    joint.inertia_kgm2 = *options.inertia_kgm2;
+  } else if (joint.spring) {
     joint.inertia_kgm2 = joint.spring->motor_inertia_kgm2 + joint.spring->link_inertia_kgm2.to;
     std::printf("--inertia_kgm2 %g, motor and heaviest link\n", joint.inertia_kgm2);
+  } else {
+    joint.inertia_kgm2 = motor_inertia_kgm2(options);
   }
   return joint;
 }
@@ -140,10 +139,10 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
   };
   TableRequest request;
   DesignRequest& design = request.design;
-  design.plant.joint_model = std::string_view(options.joint_model);
+  design.plant.joint_model = std::string_view(model_of(options));
   design.plant.gear = std::string_view(options.gear);
   design.plant.inertia_kgm2 = joint.inertia_kgm2;
-  design.plant.gear_ratio = ratio_of(options, command);
+  design.plant.gear_ratio = ratio_of(options);
   design.plant.period_s = options.period_s;
   design.sampling = options.sampling == "zoh" ? Sampling::kZeroOrderHold : Sampling::kForwardEuler;
   design.weights = {options.weights[0], options.weights[1], options.weights[2], options.weights[3]};
@@ -155,17 +154,18 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
   design.max_velocity_rad_s = given("--max-velocity_rad_s", options.max_velocity_rad_s);
   design.max_integral_rad_s = given("--max-integral_rad_s", options.max_integral_rad_s);
   request.encoder_side = encoder_side_from_text(options.encoder_side).value();
-  request.torque_limit_Nm = options.torque_limit_Nm;
+  request.torque_limit_Nm = options.torque_limit_Nm.value_or(gear_of(options).repeated_peak_torque_Nm);
   request.created_utc = utc_now();
   check_request(design);
   design.friction = joint.rules.friction;
   request.friction_sha256 = joint.rules.sha256;
+  request.note = joint.note;
   return request;
 }
 
 // TABLE.json for one controller; DIR/c1.json .. DIR/c4.json for all.
 ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
-  const RequestedJoint joint = read_joint(options, command);
+  const RequestedJoint joint = read_joint(options);
   TableRequest request = make_request(options, command, joint);
   std::vector<Controller> wanted;
   for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
@@ -175,7 +175,7 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
   std::vector<std::pair<std::filesystem::path, GainTable>> tables;
   for (const Controller controller : wanted) {
     const std::string label = name_of(controller);
-    request.name = options.name.empty() ? options.joint_model + " " + label : options.name;
+    request.name = options.name.empty() ? model_of(options) + " " + label : options.name;
     std::filesystem::path path = options.out;
     if (options.controller == "all") path /= "c" + label.substr(1) + ".json";
     if (!joint.spring) {
@@ -202,19 +202,25 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
 }
 
 void add_plant_options(CLI::App& command, GainsOptions& options) {
-  command.add_option("--joint-model", options.joint_model, "identity of the joint; the daemon compares it")
-      ->capture_default_str();
+  command.add_option("--joint-model", options.joint_model,
+                     "identity of the joint; the daemon compares it (default: the gear's name; rhs17-6006 "
+                     "for csf-17-50)");
+  command.add_option("--inertia_kgm2", options.inertia_kgm2,
+                     "inertia at the joint side (default: the motor's, with --load-inertia_kgm2 also the "
+                     "heaviest link's)");
   command
-      .add_option("--inertia_kgm2", options.inertia_kgm2,
-                  "inertia at the joint side (default with --load-inertia_kgm2: motor and heaviest link)")
-      ->capture_default_str();
+      .add_option("--gear", options.gear,
+                  "the gear by its catalogue name (data/gears.csv, default csf-17-50); the daemon compares "
+                  "it where its "
+                  "joint names one")
+      ->check(CLI::IsMember(gear_list()));
   command
       .add_option(
-          "--gear", options.gear,
-          "the gear by its catalogue name (data/gears.csv); the daemon compares it where its joint names one")
-      ->check(CLI::IsMember(gear_list()));
-  command.add_option("--gear-ratio", options.gear_ratio, "reduction ratio (default: the gear's)")
-      ->capture_default_str();
+          "--rotor-inertia_kgm2", options.rotor_inertia_kgm2,
+          "the motor's own inertia at its shaft, from which --motor-inertia_kgm2 follows with the gear's "
+          "wave generator and ratio")
+      ->needs("--gear");
+  command.add_option("--gear-ratio", options.gear_ratio, "reduction ratio (default: the gear's)");
   command.add_option("--period_s", options.period_s, "sample period")->capture_default_str();
   command
       .add_option("--sampling", options.sampling,
@@ -227,8 +233,8 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
                   "where the joint's position is measured; the daemon compares it")
       ->check(CLI::IsMember({to_text(EncoderSide::kMotor), to_text(EncoderSide::kLink)}))
       ->capture_default_str();
-  command.add_option("--torque-limit_Nm", options.torque_limit_Nm, "largest torque at the joint side")
-      ->capture_default_str();
+  command.add_option("--torque-limit_Nm", options.torque_limit_Nm,
+                     "largest torque at the joint side (default: the gear's repeated peak torque)");
 }
 
 void add_design_options(CLI::App& command, GainsOptions& options) {
@@ -271,7 +277,7 @@ void add_gains_command(CLI::App& program, CommandBody& chosen) {
   const auto options = std::make_shared<GainsOptions>();
   command->add_option(
       "--friction", options->friction,
-      "fuzzy rules: JSON from fit, or CSV (default: of the catalogue's actuator with the gear)");
+      "fuzzy rules: JSON from fit, or CSV (default: an estimate from the catalogue of gears)");
   command->add_option("--rules-side", options->rules_side, "side of the gear that a rules CSV is stated at")
       ->check(CLI::IsMember({"joint", "motor"}))
       ->capture_default_str();

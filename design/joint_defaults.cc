@@ -2,49 +2,66 @@
 #include "design/joint_defaults.h"
 
 #include "base/input_error.h"
+#include "base/printable.h"
+#include "control/joint/friction_estimate.h"
+#include "control/joint/joint_catalogue.h"
 #include "design/catalogue_friction_json.h"
 
 namespace strainwave {
 
 namespace {
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " and ") + word;
-  return text;
-}
+constexpr const char* kFrictionFile = "data/tables/rhs17-6006-friction.json";
 
-std::string known_gears() {
-  std::vector<std::string> gears;
-  for (const CatalogueJoint& joint : joint_catalogue()) gears.push_back(joint.gear);
-  return listed(gears);
-}
+// What a table says of such friction.
+constexpr const char* kEstimatedFriction = "friction: estimate from the catalogue";
 
-}  // namespace
-
-const CatalogueJoint& require_catalogue_joint(const std::string& place, const std::string& gear,
-                                              const std::string& joint_model,
-                                              const std::vector<std::string>& missing) {
-  const std::string give = "give " + listed(missing);
-  if (gear.empty())
-    throw InputError(place + ": " + give + ", or --gear " + known_gears() +
-                     ", whose actuator the catalogue knows");
-  const CatalogueJoint* const joint = find_catalogue_joint_with_gear(gear);
-  if (joint == nullptr)
-    throw InputError(place, "--gear", gear,
-                     "the catalogue knows no actuator with it, only with " + known_gears() + ": " + give);
-  if (joint->model != joint_model)
-    throw InputError(place, "joint model", joint_model,
-                     "the catalogue's actuator with " + gear + " is another, " + joint->model + ": " + give);
-  return *joint;
-}
-
-FrictionRules catalogue_friction(double gear_ratio) {
-  return friction_rules_from_json(kCatalogueFrictionJson, kCatalogueFrictionFile, gear_ratio);
+const CatalogueJoint* find_actuator(const Gear& gear, const std::string& joint_model) {
+  const CatalogueJoint* const joint = find_catalogue_joint_with_gear(gear.name);
+  return joint != nullptr && joint->model == joint_model ? joint : nullptr;
 }
 
 std::string origin(const CatalogueJoint& joint) {
   return "of " + joint.model + ", the catalogue's actuator with " + joint.gear;
+}
+
+}  // namespace
+
+std::string usual_model(const Gear& gear) {
+  const CatalogueJoint* const joint = find_catalogue_joint_with_gear(gear.name);
+  return joint != nullptr ? joint->model : gear.name;
+}
+
+CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_model) {
+  const double known_ratio = find_gear(joint_catalogue().front().gear)->ratio;
+  CatalogueFriction friction{friction_rules_from_json(kCatalogueFrictionJson, kFrictionFile, known_ratio), "",
+                             kFrictionFile};
+  if (const CatalogueJoint* const joint = find_actuator(gear, joint_model)) {
+    friction.origin += ", " + origin(*joint);
+    return friction;
+  }
+  friction.rules.friction = estimate_friction(gear, friction.rules.friction);
+  friction.note = kEstimatedFriction;
+  friction.origin =
+      "an estimate from the catalogue of gears, expect half to twice; measure it with strainwavectl identify";
+  return friction;
+}
+
+MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, const std::string& joint_model,
+                                 const std::optional<double>& rotor_kgm2) {
+  if (gear == nullptr)
+    throw InputError(place + ": give --gear, whose spring is before the load: " + gear_names());
+  const std::string wave_generator = "the wave generator's " + number_text(gear->wave_generator_inertia_kgm2);
+  if (rotor_kgm2 && !(*rotor_kgm2 >= 0.0))
+    throw InputError(place, "--rotor-inertia_kgm2", number_text(*rotor_kgm2), "must not be negative");
+  if (rotor_kgm2)
+    return {(*rotor_kgm2 + gear->wave_generator_inertia_kgm2) * gear->ratio * gear->ratio,
+            "of the rotor and " + wave_generator + ", times " + number_text(gear->ratio) + " squared"};
+  if (const CatalogueJoint* const joint = find_actuator(*gear, joint_model))
+    return {joint->motor_inertia_kgm2, origin(*joint)};
+  throw InputError(place + ": which motor drives " + gear->name +
+                   "? Give its rotor's inertia from its data sheet, gains --rotor-inertia_kgm2, to which " +
+                   wave_generator + " is added; or give --motor-inertia_kgm2, of both at the joint");
 }
 
 }  // namespace strainwave

@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Defaults of gains and verify for a joint whose actuator is in the catalogue (control/joint/joint_catalogue.h). Offline.
+// What gains and verify take from the catalogue where it is not given. Offline.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "control/joint/joint_catalogue.h"
+#include "control/joint/gear_catalogue.h"
 #include "design/friction_file.h"
 
 namespace strainwave {
 
-/// The catalogue's joint with `gear`, from which the options that are `missing` are taken. Throws InputError naming `place` and these
-/// options where there is none, or where `joint_model` is another.
-const CatalogueJoint& require_catalogue_joint(const std::string& place, const std::string& gear,
-                                              const std::string& joint_model,
-                                              const std::vector<std::string>& missing);
+/// The model of the catalogue's actuator with `gear`, else the gear's own name.
+std::string usual_model(const Gear& gear);
 
-/// Rules of the fit to its friction, by its file, which is compiled in.
-inline constexpr const char* kCatalogueFrictionFile = "data/tables/rhs17-6006-friction.json";
-FrictionRules catalogue_friction(double gear_ratio);
+/// Friction of a joint with `gear`: what is fitted to the catalogue's actuator where `joint_model` is it, else the estimate of
+/// control/joint/friction_estimate.h, which `note` says.
+struct CatalogueFriction {
+  FrictionRules rules;
+  std::string note;    ///< for the table; empty: no estimate
+  std::string origin;  ///< for the user
+};
+CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_model);
 
-/// "of rhs17-6006, the catalogue's actuator with csf-17-50".
-std::string origin(const CatalogueJoint& joint);
+/// Inertia in kg m^2 on the motor's side of the spring, at the joint, and where it is from.
+struct MotorInertia {
+  double at_joint_kgm2 = 0.0;
+  std::string origin;
+};
+/// Of a motor whose rotor has `rotor_kgm2` at its own shaft: (rotor + wave generator) ratio^2; without one of the catalogue's actuator. Throws
+/// InputError that names `place` and asks for the motor where `gear` is null or `joint_model` is no actuator with it.
+MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, const std::string& joint_model,
+                                 const std::optional<double>& rotor_kgm2);
 
 }  // namespace strainwave

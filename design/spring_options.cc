@@ -23,11 +23,27 @@ BoxRange parse_range(const std::string& place, const std::string& key, const std
   return {from, to};
 }
 
+// "2..3kg@0.4m": masses of a point at this distance from the joint's axis; or inertias.
+BoxRange parse_load(const std::string& place, const std::string& key, const std::string& text) {
+  if (text.find_first_of("kg@") == std::string::npos)
+    return parse_range(place, key, text, kLeastInertia_kgm2);
+  const std::size_t at = text.find("kg@");
+  if (at == std::string::npos || !text.ends_with("m"))
+    throw InputError(place, key, text, "must be MASSkg@RADIUSm, such as 3kg@0.4m");
+  const BoxRange mass_kg = parse_range(place, key, text.substr(0, at), 0.0);
+  const double radius_m = parse_number(text.substr(at + 3, text.size() - at - 4), place, key);
+  const BoxRange load{mass_kg.from * radius_m * radius_m, mass_kg.to * radius_m * radius_m};
+  if (!(load.from >= kLeastInertia_kgm2 && radius_m > 0.0))
+    throw InputError(place, key, text, "must be of a mass and a radius above 0");
+  return load;
+}
+
 }  // namespace
 
 void add_spring_options(CLI::App& command, SpringOptions& options) {
-  CLI::Option* const load = command.add_option("--load-inertia_kgm2", options.load_inertia_kgm2,
-                                               "also for a flexible joint, with a link inertia of FROM..TO");
+  CLI::Option* const load = command.add_option("--load-inertia_kgm2,--load", options.load_inertia_kgm2,
+                                               "also for a flexible joint, with a link inertia of FROM..TO, "
+                                               "or of a mass at a radius, such as 3kg@0.4m");
   command
       .add_option(
           "--motor-inertia_kgm2", options.motor_inertia_kgm2,
@@ -46,14 +62,13 @@ void add_spring_options(CLI::App& command, SpringOptions& options) {
 }
 
 SpringRequest spring_request(const SpringOptions& options, const std::string& place,
-                             double usual_motor_inertia_kgm2) {
+                             double motor_inertia_kgm2) {
   SpringRequest request;
-  request.motor_inertia_kgm2 = options.motor_inertia_kgm2.value_or(usual_motor_inertia_kgm2);
+  request.motor_inertia_kgm2 = motor_inertia_kgm2;
   if (!(request.motor_inertia_kgm2 >= kLeastInertia_kgm2))
     throw InputError(place, "--motor-inertia_kgm2", number_text(request.motor_inertia_kgm2),
                      "must be the inertia on the motor's side of the spring, at the joint");
-  request.link_inertia_kgm2 =
-      parse_range(place, "--load-inertia_kgm2", options.load_inertia_kgm2, kLeastInertia_kgm2);
+  request.link_inertia_kgm2 = parse_load(place, "--load-inertia_kgm2", options.load_inertia_kgm2);
   request.damping_Nms_rad = parse_range(place, "--damping_Nms_rad", options.damping_Nms_rad, 0.0);
   const BoxRange delays = parse_range(place, "--delay", options.delay_periods, 0.0);
   request.least_delay = static_cast<int>(delays.from);

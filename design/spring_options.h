@@ -15,18 +15,18 @@ namespace strainwave {
 
 struct SpringOptions {
   std::optional<double> motor_inertia_kgm2;
-  std::string load_inertia_kgm2;  ///< "FROM..TO" or one number; empty: no spring is meant
+  /// "FROM..TO" or one number, in kg m^2 or "kg@RADIUSm"; empty: no spring is meant
+  std::string load_inertia_kgm2;
   std::string damping_Nms_rad = "0";
   std::string delay_periods = "1";
 
   bool given() const { return !load_inertia_kgm2.empty(); }
 };
 
-/// --motor-inertia_kgm2, --load-inertia_kgm2, --damping_Nms_rad, --delay.
+/// --motor-inertia_kgm2, --load-inertia_kgm2 alias --load, --damping_Nms_rad, --delay.
 void add_spring_options(CLI::App& command, SpringOptions& options);
 
-/// What of a box the options say; stiffness and friction are the gear's and the table's. A motor's inertia that is not given is
-/// `usual_motor_inertia_kgm2`. Throws InputError naming `place`.
+/// What of a box the options say; stiffness and friction are the gear's and the table's. Throws InputError naming `place`.
 struct SpringRequest {
   double motor_inertia_kgm2 = 0.0;
   BoxRange link_inertia_kgm2;
@@ -35,7 +35,7 @@ struct SpringRequest {
   int most_delay = 0;
 };
 SpringRequest spring_request(const SpringOptions& options, const std::string& place,
-                             double usual_motor_inertia_kgm2);
+                             double motor_inertia_kgm2);
 
 /// One line per delay, each of which has its own proof: a joint has one.
 struct SpringVerdict {

@@ -29,18 +29,15 @@ std::string gear_of(const VerifyOptions& options, const GainTable& table) {
   return options.gear.empty() ? std::string(table.plant.gear.view()) : options.gear;
 }
 
-// Where none is given: of the table's box, else of the catalogue's actuator. Says which.
-double usual_motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table) {
+// As given, of the table's box, else of the catalogue's actuator. Says which if it is not given.
+double motor_inertia_kgm2(const VerifyOptions& options, const GainTable& table) {
   if (options.spring.motor_inertia_kgm2) return *options.spring.motor_inertia_kgm2;
-  if (!table.box.rigid()) {
-    std::printf("--motor-inertia_kgm2 %g, of the table's box\n", table.box.motor_inertia_kgm2);
-    return table.box.motor_inertia_kgm2;
-  }
-  const CatalogueJoint& known =
-      require_catalogue_joint("verify", gear_of(options, table), std::string(table.plant.joint_model.view()),
-                              {"--motor-inertia_kgm2"});
-  std::printf("--motor-inertia_kgm2 %g, %s\n", known.motor_inertia_kgm2, origin(known).c_str());
-  return known.motor_inertia_kgm2;
+  const MotorInertia inertia =
+      table.box.rigid() ? usual_motor_inertia("verify", find_gear(gear_of(options, table)),
+                                              std::string(table.plant.joint_model.view()), std::nullopt)
+                        : MotorInertia{table.box.motor_inertia_kgm2, "of the table's box"};
+  std::printf("--motor-inertia_kgm2 %g, %s\n", inertia.at_joint_kgm2, inertia.origin.c_str());
+  return inertia.at_joint_kgm2;
 }
 
 /// The spring that is asked for, if one is. Throws InputError.
@@ -53,7 +50,7 @@ std::optional<SpringRequest> requested_spring(const VerifyOptions& options, cons
           "it out");
     return std::nullopt;
   }
-  SpringRequest request = spring_request(options.spring, "verify", usual_motor_inertia_kgm2(options, table));
+  SpringRequest request = spring_request(options.spring, "verify", motor_inertia_kgm2(options, table));
   (void)spring_box(table.friction, gear_of(options, table), request.motor_inertia_kgm2,
                    request.link_inertia_kgm2);
   return request;

@@ -136,25 +136,50 @@ TEST_F(DesignProgram, TakesWhatIsNotGivenFromTheCataloguesActuatorWithTheGear) {
   EXPECT_NE(output_.find("--motor-inertia_kgm2 0.089, of rhs17-6006"), std::string::npos) << output_;
 }
 
-TEST_F(DesignProgram, NamesTheOptionsThatAreNeededWhereTheCatalogueKnowsNoActuator) {
+TEST_F(DesignProgram, DesignsForAGearByItsNameTheRotorAndTheLoad) {
+  ASSERT_EQ(run("gains --gear csf-25-100 --rotor-inertia_kgm2 3e-5 --load 3kg@0.4m --out " + file("t.json")),
+            0)
+      << output_;
+  EXPECT_NE(output_.find("--friction an estimate from the catalogue of gears"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("--motor-inertia_kgm2 0.713, of the rotor and the wave generator's 4.13e-05"),
+            std::string::npos)
+      << output_;
+  const GainTable made = read_gain_table(file("t.json"));
+  EXPECT_EQ(made.plant.joint_model.view(), "csf-25-100");
+  EXPECT_EQ(made.plant.gear_ratio, 100.0);
+  EXPECT_EQ(made.provenance.note.view(), "friction: estimate from the catalogue");
+  EXPECT_EQ(made.torque_limit_Nm, 157.0) << "the gear's repeated peak torque";
+  EXPECT_NEAR(made.box.motor_inertia_kgm2, 1e4 * (3e-5 + 4.13e-5), 1e-9);
+  EXPECT_NEAR(made.box.link_inertia_kgm2.from, 3.0 * 0.4 * 0.4, 1e-9);
+  EXPECT_EQ(made.box.link_inertia_kgm2.from, made.box.link_inertia_kgm2.to);
+  EXPECT_EQ(run("verify " + file("t.json")), 0) << output_;
+  EXPECT_EQ(run("show " + file("t.json")), 0) << output_;
+  EXPECT_NE(output_.find("note: friction: estimate from the catalogue"), std::string::npos) << output_;
+}
+
+TEST_F(DesignProgram, AsksForTheMotorWhichTheCatalogueOfGearsCannotKnow) {
   const auto refused = [&](const std::string& command, const std::vector<std::string>& mentions) {
     EXPECT_EQ(run(command + " --out " + file("t.json")), 2) << output_;
     for (const std::string& word : mentions)
       EXPECT_NE(output_.find(word), std::string::npos) << word << "\n" << output_;
   };
   const std::string friction = "--friction " + kData + "tables/rhs17-6006-friction.json ";
-  refused("gains", {"give --friction,", "--gear csf-17-50"});
-  refused("gains --gear csf-20-50", {"csf-20-50", "give --friction"});
-  EXPECT_EQ(output_.find("--motor-inertia_kgm2"), std::string::npos) << output_;
-  refused("gains --gear csf-20-50 --load-inertia_kgm2 0.1", {"give --friction and --motor-inertia_kgm2"});
-  refused("gains --gear csf-20-50 --load-inertia_kgm2 0.1 " + friction, {"give --motor-inertia_kgm2"});
-  refused("gains --gear csf-17-50 --joint-model own --load-inertia_kgm2 0.1 " + friction,
-          {"joint model = own", "give --motor-inertia_kgm2"});
+  refused("gains", {"give --friction,", "--gear", "csf-17-50"});
+  refused("gains --gear csf-20-50", {"which motor drives csf-20-50?", "--rotor-inertia_kgm2", "1.93e-05"});
+  refused("gains --gear csf-20-50 --load 1kg@0.3m", {"which motor drives csf-20-50?"});
+  refused("gains --gear csf-17-50 --joint-model own --load 0.1 " + friction,
+          {"which motor drives csf-17-50?"});
+  for (const char* load : {"3kg@0.4", "3kg@0m", "0..3kg@0.4m", "3kg@-0.4m", "3g@0.4m", "3kg"})
+    refused("gains --gear csf-20-50 --rotor-inertia_kgm2 1e-5 --load " + std::string(load),
+            {load, "must be"});
+  refused("gains --gear csf-20-50 --rotor-inertia_kgm2 -1e-5 --load 1kg@0.3m",
+          {"--rotor-inertia_kgm2 = -1e-05", "must not be negative"});
+  refused("gains --rotor-inertia_kgm2 1e-5 " + friction, {"--gear"});
   const std::string rigid = "verify " + kData + "tables/rhs17-6006.json --load-inertia_kgm2 0.1";
   EXPECT_EQ(run(rigid), 2);
-  EXPECT_NE(output_.find("give --motor-inertia_kgm2, or --gear csf-17-50"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("give --gear"), std::string::npos) << output_;
   EXPECT_EQ(run(rigid + " --gear csf-20-50"), 2);
-  EXPECT_NE(output_.find("give --motor-inertia_kgm2"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("which motor drives csf-20-50?"), std::string::npos) << output_;
 }
 
 TEST_F(DesignProgram, GoesFromTheCatalogueToACertifiedTable) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "control/friction/friction_law_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+#include "base/printable.h"
+#include "base/text_file.h"
+
+namespace strainwave {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json parameters_to_json(const FrictionParameters& parameters) {
+  return {{"static_Nm", parameters.static_Nm},
+          {"coulomb_Nm", parameters.coulomb_Nm},
+          {"viscous_Nms_rad", parameters.viscous_Nms_rad}};
+}
+
+FrictionParameters parameters_from_json(StrictObject object) {
+  FrictionParameters parameters;
+  parameters.static_Nm = object.number("static_Nm");
+  parameters.coulomb_Nm = object.number("coulomb_Nm");
+  parameters.viscous_Nms_rad = object.number("viscous_Nms_rad");
+  object.finish();
+  return parameters;
+}
+
+}  // namespace
+
+ordered_json friction_law_to_json(const FrictionLaw& law) {
+  return {{"asymptote", parameters_to_json(law.over_temperature.asymptote)},
+          {"amplitude", parameters_to_json(law.over_temperature.amplitude)},
+          {"reference_C", law.over_temperature.reference_C},
+          {"decay_C", law.over_temperature.decay_C},
+          {"stribeck_velocity_rad_s", law.stribeck.velocity_rad_s},
+          {"stribeck_exponent", law.stribeck.exponent}};
+}
+
+FrictionLaw friction_law_from_json(StrictObject& object) {
+  FrictionLaw law;
+  law.over_temperature.asymptote = parameters_from_json(object.object("asymptote"));
+  law.over_temperature.amplitude = parameters_from_json(object.object("amplitude"));
+  law.over_temperature.reference_C = object.number("reference_C");
+  law.over_temperature.decay_C = object.number("decay_C");
+  if (!(law.over_temperature.decay_C > 0.0)) throw InputError(object.where("decay_C") + ": must be above 0");
+  law.stribeck.velocity_rad_s = object.number("stribeck_velocity_rad_s");
+  if (!(law.stribeck.velocity_rad_s > 0.0))
+    throw InputError(object.where("stribeck_velocity_rad_s") + ": must be above 0");
+  law.stribeck.exponent = object.number("stribeck_exponent");
+  if (!(law.stribeck.exponent >= 0.5))
+    throw InputError(object.where("stribeck_exponent") + ": must be at least 0.5");
+  return law;
+}
+
+FrictionLaw read_friction_law(const std::filesystem::path& path, double gear_ratio) {
+  const std::string source = path.string();
+  const ordered_json document = parse_strict_json(read_text_file(path), source);
+  StrictObject object(document, source);
+  const double ratio = object.number("gear_ratio");
+  if (!(std::abs(ratio - gear_ratio) <= 1e-9 * gear_ratio))
+    throw InputError(source, "gear_ratio", number_text(ratio),
+                     "must be the joint's, " + number_text(gear_ratio) + ": fit with --gear-ratio " +
+                         number_text(gear_ratio));
+  if (!object.has("exponential"))
+    throw InputError(source + ": has no law: fit with strainwave-design fit --model both");
+  StrictObject law = object.object("exponential");
+  return friction_law_from_json(law);
+}
+
+}  // namespace strainwave
