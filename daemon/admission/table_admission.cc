@@ -182,6 +182,8 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   TableVerdict loop = joint.link ? judge_on_spring(table, joint) : judge_rigid(table, joint);
   if (loop.reason != Reason::kAccepted) return loop;
   primary.text += which_torque_limit_holds(table, joint.torque_limit_Nm);
+  // That its friction is an estimate, for one.
+  if (!table.provenance.note.view().empty()) primary.text += "; " + std::string(table.provenance.note.view());
   return primary;
 }
 

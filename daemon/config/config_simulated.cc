@@ -7,6 +7,10 @@
 #include <sstream>
 
 #include "base/input_error.h"
+#include "control/friction/friction_law_json.h"
+#include "control/joint/friction_estimate.h"
+#include "control/joint/gear_catalogue.h"
+#include "control/joint/joint_catalogue.h"
 #include "control/units.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/realtime/periodic_clock.h"
@@ -87,6 +91,23 @@ void begin_with_model(const JointConfig& joint, JointPlantConfig& plant) {
   plant.effects.transmission = transmission;
 }
 
+// Of a gear by its name, or of a file. Where neither is given it is the joint's own gear, else that of the reference joint.
+FrictionLaw read_friction(TomlSection& section, const std::filesystem::path& folder,
+                          const PlantIdentity& plant, const FrictionLaw& reference) {
+  const std::string own =
+      plant.gear.view().empty() ? joint_catalogue().front().gear : std::string(plant.gear.view());
+  const std::string text = section.text_or("friction", own);
+  if (const Gear* const gear = find_gear(text)) return estimate_friction(*gear, reference);
+  if (!text.ends_with(".json"))
+    section.fail("friction", "a gear of the catalogue is allowed, " + gear_names() +
+                                 ", or a file.json of strainwave-design fit");
+  try {
+    return read_friction_law(folder / text, plant.gear_ratio);
+  } catch (const InputError& error) {
+    section.fail("friction", error.what());
+  }
+}
+
 // Switches and index; what the joint has none of stays away.
 HomingInputs read_inputs(TomlSection& section, double gear_ratio, SimulatedInputsConfig& inputs) {
   constexpr Range kPosition{-1e3, 1e3};
@@ -138,6 +159,10 @@ HomingInputs read_simulated_driver(TomlSection& section, double period_s, const 
               : section.number_or("inertia_kgm2", config.plant.joint.inertia_kgm2, {1e-6, 1e4});
   config.plant.initial_position_rad = section.number_or("initial_position_rad", 0.0, {-1e3, 1e3});
   read_simulated_effects(section, joint.plant.gear_ratio, config);
+  const FrictionLaw friction =
+      read_friction(section, folder, joint.plant, {config.plant.joint.friction, config.plant.joint.stribeck});
+  config.plant.joint.friction = friction.over_temperature;
+  config.plant.joint.stribeck = friction.stribeck;
   const double friction_scale = section.number_or("friction_scale", 1.0, {0.0, 10.0});
   for (FrictionParameters* part :
        {&config.plant.joint.friction.asymptote, &config.plant.joint.friction.amplitude}) {

@@ -22,6 +22,15 @@ TEST_F(TableAdmission, AcceptsTheTableForItsOwnJoint) {
   EXPECT_EQ(judge(), Reason::kAccepted);
 }
 
+TEST_F(TableAdmission, SaysTheTablesNoteOnce) {
+  const auto text = [&] { return judge_table(table_, {joint_, torque_limit_Nm_, {}, 1}).text; };
+  EXPECT_EQ(text().find("estimate"), std::string::npos);
+  table_.provenance.note = FixedString<64>("friction: estimate from the catalogue");
+  const std::size_t place = text().find("friction: estimate from the catalogue");
+  ASSERT_NE(place, std::string::npos) << text();
+  EXPECT_EQ(text().find("estimate", place + 20), std::string::npos) << text();
+}
+
 TEST_F(TableAdmission, RefusesOtherPeriodsInertiasRatiosModelsAndGears) {
   joint_.period_s *= 1.001;
   EXPECT_EQ(judge(), Reason::kTablePeriod);

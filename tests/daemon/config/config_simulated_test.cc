@@ -59,6 +59,31 @@ TEST_F(SimulatedConfigTest, IsTheJointsOwnModelWhereNothingElseIsSaid) {
   EXPECT_EQ(flexible.effects.transmission->damping_Nms_rad, 0.8);
 }
 
+TEST_F(SimulatedConfigTest, HasTheFrictionOfItsGearOfAnotherOrOfAFile) {
+  const auto coulomb_Nm = [](const JointPlantConfig& joint) {
+    return joint.joint.friction.at(20.0).coulomb_Nm;
+  };
+  const JointPlantConfig usual = plant(rigid_with(""));
+  EXPECT_EQ(coulomb_Nm(plant(flexible_with(""))), coulomb_Nm(usual)) << "csf-17-50 is the reference joint's";
+  EXPECT_EQ(coulomb_Nm(plant(rigid_with("", "friction = \"csf-17-50\"\n"))), coulomb_Nm(usual));
+  const JointPlantConfig larger = plant(rigid_with("", "friction = \"csf-25-100\"\n"));
+  EXPECT_GT(coulomb_Nm(larger), 2.0 * coulomb_Nm(usual));
+  EXPECT_EQ(larger.joint.stribeck.velocity_rad_s, 0.5 * usual.joint.stribeck.velocity_rad_s);
+  const JointPlantConfig twice = plant(rigid_with("", "friction = \"csf-25-100\"\nfriction_scale = 2\n"));
+  EXPECT_DOUBLE_EQ(coulomb_Nm(twice), 2.0 * coulomb_Nm(larger));
+
+  const std::string fitted = STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006-friction.json";
+  const JointPlantConfig of_file = plant(rigid_with("", "friction = \"" + fitted + "\"\n"));
+  EXPECT_NEAR(coulomb_Nm(of_file), coulomb_Nm(usual), 0.2 * coulomb_Nm(usual)) << "the same joint's";
+  EXPECT_NE(coulomb_Nm(of_file), coulomb_Nm(usual));
+  for (const char* wrong : {"csf-25-101", "none.json"})
+    expect_mentions(error_of(rigid_with("", "friction = \"" + std::string(wrong) + "\"\n")),
+                    {"joint[0].simulated.friction", wrong});
+  expect_mentions(error_of(replaced(rigid_with("", "friction = \"" + fitted + "\"\n"), "gear_ratio = 50",
+                                    "gear_ratio = 100")),
+                  {"joint[0].simulated.friction", "gear_ratio", "must be the joint's, 100"});
+}
+
 TEST_F(SimulatedConfigTest, DiffersFromAFlexibleJointsModelOnlyInWhatIsSaid) {
   const JointPlantConfig other = plant(
       flexible_with("[joint.simulated.link]\ninertia_kgm2 = 0.2\n[joint.simulated.spring]\nscale = 0.5\n"));

@@ -82,6 +82,7 @@ Values loop_values(const JointLoopConfig& loop) {
 Values drive_values(const SimulatedActuatorConfig& drive) {
   return {{"joint.simulated.sensing", drive.plant.encoder.resolution_rad()},
           {"joint.simulated.inertia_kgm2", drive.plant.joint.inertia_kgm2},
+          {"joint.simulated.friction", drive.plant.joint.stribeck.velocity_rad_s},
           {"joint.simulated.friction_scale", drive.plant.joint.friction.asymptote.coulomb_Nm},
           {"joint.simulated.substeps", drive.plant.substeps},
           {"joint.simulated.initial_position_rad", drive.plant.initial_position_rad},
