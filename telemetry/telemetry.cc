@@ -6,6 +6,7 @@
 #include "base/utime.h"
 #include "lcmtypes/message_json.h"
 #include "lcmtypes/message_kinds.h"
+#include "telemetry/compression.h"
 
 namespace strainwave {
 
@@ -17,7 +18,8 @@ constexpr double kPageIsNew_s = 0.1;
 }  // namespace
 
 Telemetry::Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules)
-    : listener_(lcm_url), server_(address, std::move(rules), topics_, [this] { return metrics(); }) {}
+    : listener_(lcm_url),
+      server_(address, std::move(rules), topics_, [this](bool packed) { return metrics(packed); }) {}
 
 void Telemetry::run() {
   server_.run(listener_.descriptor(), [this] {
@@ -47,12 +49,14 @@ const Topic* Telemetry::topic_of(const std::string& channel, const LcmSource& fr
   return topic;
 }
 
-SharedText Telemetry::metrics() {
+SharedText Telemetry::metrics(bool packed) {
   if (!page_ || now_s() - page_made_s_ > kPageIsNew_s) {
     page_ = shared_text(expose());
+    packed_page_.reset();
     page_made_s_ = now_s();
   }
-  return page_;
+  if (packed && !packed_page_) packed_page_ = shared_text(gzip(*page_));
+  return packed ? packed_page_ : page_;
 }
 
 std::string Telemetry::expose() {

@@ -28,7 +28,8 @@ class Telemetry {
   /// Null: too many new ones came at once.
   template <typename Message>
   const Topic* topic_of(const std::string& channel, const LcmSource& from);
-  SharedText metrics();
+  /// The page that all get who ask at once; packed: by gzip.
+  SharedText metrics(bool packed);
   std::string expose();
   double now_s() const;
 
@@ -37,7 +38,8 @@ class Telemetry {
   Fleet fleet_;
   std::uint64_t heard_ = 0;
   std::uint64_t not_ours_ = 0;
-  SharedText page_;  ///< the latest page of metrics
+  SharedText page_;         ///< the latest page of metrics
+  SharedText packed_page_;  ///< the same; null: not asked for yet
   double page_made_s_ = 0.0;
   TelemetryServer server_;
 };

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "telemetry/compression.h"
 #include "telemetry/server/viewer_connection.h"
 
 namespace strainwave {
@@ -70,8 +71,12 @@ void OpeningConnection::answer(const Request& request) {
   }
   if (beast::websocket::is_upgrade(request)) return become_viewer(request);
   if (!reads) return refuse(Status::method_not_allowed, "only GET and HEAD are answered");
-  if (path_of(target) == "/metrics")
-    return respond(Status::ok, "text/plain; version=0.0.4; charset=utf-8", shared_.metrics());
+  if (path_of(target) == "/metrics") {
+    const bool packed = takes_gzip(view(request[http::field::accept_encoding]));
+    if (packed) response_.set(http::field::content_encoding, "gzip");
+    response_.set(http::field::vary, "Accept-Encoding");
+    return respond(Status::ok, "text/plain; version=0.0.4; charset=utf-8", shared_.metrics(packed));
+  }
   refuse(Status::not_found, "there is / (the page), /metrics (Prometheus) and ws:// (Foxglove)");
 }
 

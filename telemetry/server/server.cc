@@ -24,7 +24,7 @@ constexpr auto kReport_s = std::chrono::seconds(1);
 class TelemetryServer::Network {
  public:
   Network(const ListenAddress& address, AccessRules rules, const Topics& topics,
-          std::function<SharedText()> metrics)
+          std::function<SharedText(bool packed)> metrics)
       : acceptor_(context_),
         signals_(context_, SIGINT, SIGTERM),
         report_(context_),
@@ -114,7 +114,7 @@ class TelemetryServer::Network {
 };
 
 TelemetryServer::TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                                 std::function<SharedText()> metrics)
+                                 std::function<SharedText(bool packed)> metrics)
     : network_(std::make_unique<Network>(address, std::move(rules), topics, std::move(metrics))) {}
 
 TelemetryServer::~TelemetryServer() = default;

@@ -29,9 +29,9 @@ class TelemetryServer {
   static constexpr std::size_t kMaxOpening = 64;
   static constexpr std::size_t kMaxViewers = 32;
 
-  /// Listens. `metrics` makes the page /metrics. Throws InputError when the address cannot be had. `topics` must outlive it.
+  /// Listens. `metrics` makes the page /metrics, plain or packed by gzip. Throws InputError when the address cannot be had. `topics` must outlive it.
   TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                  std::function<SharedText()> metrics);
+                  std::function<SharedText(bool packed)> metrics);
   ~TelemetryServer();
   TelemetryServer(const TelemetryServer&) = delete;
   TelemetryServer& operator=(const TelemetryServer&) = delete;

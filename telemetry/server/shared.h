@@ -23,7 +23,7 @@ class ViewerConnection;
 struct ServerShared {
   AccessRules rules;
   const Topics& topics;
-  std::function<SharedText()> metrics;
+  std::function<SharedText(bool packed)> metrics;
   const WebPage page{};
   std::string session;  ///< tells viewers one start of the server from the next
   std::list<std::weak_ptr<OpeningConnection>> opening;  ///< the oldest first

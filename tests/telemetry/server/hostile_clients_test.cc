@@ -81,6 +81,21 @@ TEST(HostileClient, WhoFetchesTheMetricsWithOthersGetsTheSamePage) {
   EXPECT_LT(same, 20) << "never made anew";
 }
 
+TEST(TelemetryServer, PacksTheMetricsForThoseWhoTakeThemPacked) {
+  const RunningTelemetry telemetry;
+  const auto answer = [&](const std::string& fields) {
+    const RawClient client(telemetry.port());
+    client.send("GET /metrics HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n");
+    return client.read_all();
+  };
+  const std::string packed = answer("Accept-Encoding: gzip\r\n");
+  const std::string body = packed.substr(packed.find("\r\n\r\n") + 4);
+  EXPECT_NE(packed.find("Content-Encoding: gzip\r\n"), std::string::npos) << packed;
+  EXPECT_TRUE(body.starts_with("\x1f\x8b")) << "gzip's magic";
+  EXPECT_LT(2 * body.size(), telemetry.metrics().size());
+  EXPECT_EQ(answer("").find("Content-Encoding"), std::string::npos);
+}
+
 TEST(TelemetryStart, WaitsForARouteToTheGroup) {
   if (!enter_private_network()) GTEST_SKIP() << "this system allows no network of a test's own";
   const std::jthread administrator([] {
