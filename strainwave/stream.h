@@ -39,7 +39,7 @@ class Stream {
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
-  /// The joint shall be at `position_rad` at time `t_s` (rising; the first is `ahead_s` from now), with the velocity and
+  /// The joint shall be at `position_rad` at time `t_s` (rising by 0.5 s at most; the first is `ahead_s` from now), with the velocity and
   /// acceleration then if they are known. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
   /// runs at the joint's pace. False: it came after its time and was left out. Throws Refused, Faulted, Yielded, NotDone (also when the
   /// stream is over), NoAnswer, InvalidInput.
@@ -54,8 +54,10 @@ class Stream {
   /// joint did. Throws NotDone before the first put(), which sets the time, and InvalidInput for a `t_s` beyond -1e12 to 1e12.
   std::int64_t cycle_of(double t_s) const;
 
-  /// Samples that came after their time and were left out.
+  /// Samples that came after their time: left out, or refused by the daemon (34).
   long late() const noexcept { return late_; }
+  /// Samples that the daemon refused since they quoted an old state (30): the program takes states too late.
+  long outdated() const noexcept { return outdated_; }
 
  private:
   friend class Joint;
@@ -89,6 +91,7 @@ class Stream {
   std::int64_t session_id_ = 0;             ///< of the daemon that it began with
   bool over_ = false;                       ///< closed, or ended by another order
   long late_ = 0;
+  long outdated_ = 0;
   int exceptions_;  ///< under way when it was made
 };
 

@@ -77,7 +77,7 @@ enum class Notice : std::int32_t {
   kVelocitiesContradict = 1 << 19,
 };
 
-/// ack_v1.reason; also the index into timing_v1.rejects (< 32).
+/// ack_v1.reason; also the index into timing_v1.rejects.
 enum class Reason : std::int32_t {
   kAccepted = 0,
   kMalformed = 1,
@@ -113,8 +113,9 @@ enum class Reason : std::int32_t {
   kNotOwner = 31,
   kFarFromJoint = 32,
   kVelocitiesContradict = 33,
+  kCycleIsOver = 34,
 };
-inline constexpr int kReasonCount = 34;
+inline constexpr int kReasonCount = 35;
 
 /// command_v1.action
 enum class Action : std::int32_t {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -19,10 +18,11 @@ namespace {
 
 constexpr double kFarthestAhead_s = 0.9;  // the daemon takes a second; the way there takes some of it
 constexpr double kFarthestTime_s = 1e12;  // its cycle fits into a message
+constexpr double kLongestStep_s = 0.5;    // without samples a joint comes to rest after 0.2 s
 constexpr auto kAnotherOne = "this stream is over; Joint::stream() makes another one";
-std::string over_after(long late) {
-  return late == 0 ? kAnotherOne
-                   : fmt::format("{} samples of it were late or quoted an old state; {}", late, kAnotherOne);
+std::string over_after(long late, long outdated) {
+  if (late + outdated == 0) return kAnotherOne;
+  return fmt::format("{} of its samples came late, {} quoted an old state; {}", late, outdated, kAnotherOne);
 }
 
 bool tells_less_than_the_state(Reason refusal) {
@@ -34,16 +34,15 @@ bool ends_stream(Reason refusal) {
          refusal == Reason::kWrongSession || refusal == Reason::kVelocitiesContradict;
 }
 
-StreamOptions checked(const std::string& joint, const StreamOptions& options) {
+StreamOptions checked(const std::string& joint, StreamOptions options) {
   checked_number(joint, "ahead_s", options.ahead_s, "above 0 to 0.9",
                  options.ahead_s > 0.0 && options.ahead_s <= kFarthestAhead_s);
   checked_number(joint, "valid_for_s", options.valid_for_s, fmt::format("above 0 to {}", kLongestValidFor_s),
                  options.valid_for_s > 0.0 && options.valid_for_s <= kLongestValidFor_s);
   checked_number(joint, "speed_limit_rad_s", options.speed_limit_rad_s, "0 (none) or above",
                  options.speed_limit_rad_s >= 0.0);
-  StreamOptions kept = options;
-  kept.beside = nullptr;  // it may end before this one
-  return kept;
+  options.beside = nullptr;  // it may end before this one
+  return options;
 }
 
 double period_of(JointLink& link) {
@@ -214,13 +213,12 @@ void Stream::begin(double t_s, setpoint_v1 message) {
     }
     next.at_cycle = base_->cycle_of(t_s, period_s_);
   };
-  Client& client = link_->client();
-  client.forget_sent();
-  const Answer answer = client.request(link_->name(), channel_kind::kSetpoint, message, prepare);
+  link_->client().forget_sent();
+  const Answer answer = link_->client().request(link_->name(), channel_kind::kSetpoint, message, prepare);
   require_accepted(answer, link_->name(),
                    fmt::format("the first setpoint of the stream, {} rad,", message.position_rad));
   last_cycle_ = first_cycle_ = message.at_cycle;
-  session_id_ = client.find(link_->name())->state.session_id;
+  session_id_ = link_->client().find(link_->name())->state.session_id;
 }
 
 void Stream::wait_until_due(std::int64_t cycle) {
@@ -228,23 +226,25 @@ void Stream::wait_until_due(std::int64_t cycle) {
   client.catch_up();
   const double due_s =
       (static_cast<double>(cycle) - link_->cycle_now(period_s_)) * period_s_ - options_.ahead_s;
-  const double longest_s =
-      static_cast<double>(cycle - *last_cycle_) * period_s_ + 1.0;  // cycles may jump back
-  client.wait_until([&] { return client.has_refusals() || restarted(); },
-                    Deadline(std::clamp(due_s, 0.0, longest_s)));
+  if (due_s > kLongestStep_s)
+    throw InvalidInput(fmt::format(
+        "{}: t_s = {}: due in {:.4g} s, at most {} is allowed: t_s counts seconds, not milliseconds",
+        link_->name(), *last_t_s_, due_s, kLongestStep_s));
+  client.wait_until([&] { return client.has_refusals() || restarted(); }, Deadline(due_s));
 }
 
 // What the joint did to end it is told before what became of the samples since.
 void Stream::check_refusals() {
   check_state(first_cycle_);
   while (const auto refusal = link_->client().take_refusal()) {
-    if (refusal->reason != Reason::kTooOld && !refusal->overtaken) {
+    const bool late = refusal->reason == Reason::kCycleIsOver || refusal->overtaken;
+    if (!late && refusal->reason != Reason::kTooOld) {
       if (tells_less_than_the_state(refusal->reason)) check_joint();
       if (ends_stream(refusal->reason)) lose();
       require_accepted(*refusal, link_->name(), "a setpoint of the stream",
-                       ends_stream(refusal->reason) ? over_after(late_) : "");
+                       ends_stream(refusal->reason) ? over_after(late_, outdated_) : "");
     }
-    ++late_;
+    ++(late ? late_ : outdated_);
   }
 }
 

@@ -72,7 +72,7 @@ void StreamBuffer::insert(Knot knot) noexcept {
   if (count_ > 0) {
     interval_ = std::clamp(knot.at - last().at, 1.0, 1.5 * interval_ + 5.0);
     knot.new_place = is_new_place(knot);
-    knot.contradicts = contradicts(last(), knot);
+    knot.contradicts = knot.is_contradicted_by(last(), config_);
     contradictions_ = std::clamp(contradictions_ + (knot.contradicts ? 1 : -1), 0, kContradictions);
     if (contradictions_ == 0 || (knot.contradicts && contradictions_ == 1)) contradicts_from_ = knot.at;
   }
@@ -101,14 +101,23 @@ bool StreamBuffer::is_new_place(const Knot& knot) const noexcept {
          kNewPlace * reach_.acceleration_rad_s2 * 0.5 * (apart_s + before_s);
 }
 
-bool StreamBuffer::contradicts(const Knot& before, const Knot& knot) const noexcept {
-  const double apart_s = seconds(knot.at - before.at);
-  if (knot.derivatives == 0 || before.derivatives == 0 || knot.new_place || apart_s > kLongest_s)
-    return false;
-  const double shown_rad = knot.state.position_rad - before.state.position_rad;
-  const double told_rad = 0.5 * apart_s * (before.state.velocity_rad_s + knot.state.velocity_rad_s);
-  const double missed_rad = std::abs(shown_rad - told_rad) - kContradictsCounts * config_.count_rad;
+StreamBuffer::Way StreamBuffer::Knot::way_since(const Knot& before, double period_s) const noexcept {
+  return {state.position_rad - before.state.position_rad,
+          0.5 * period_s * (at - before.at) * (before.state.velocity_rad_s + state.velocity_rad_s)};
+}
+
+bool StreamBuffer::Knot::is_contradicted_by(const Knot& before, const StreamConfig& config) const noexcept {
+  const bool told = derivatives > 0 && before.derivatives > 0 && !new_place;
+  if (!told || config.period_s * (at - before.at) > kLongest_s) return false;
+  const auto [shown_rad, told_rad] = way_since(before, config.period_s);
+  const double missed_rad = std::abs(shown_rad - told_rad) - kContradictsCounts * config.count_rad;
   return missed_rad > kContradicts * 0.5 * (std::abs(shown_rad) + std::abs(told_rad));
+}
+
+double StreamBuffer::velocity_ratio() const noexcept {
+  const auto [shown_rad, told_rad] =
+      count_ > 1 ? last().way_since(knot(count_ - 2), config_.period_s) : Way{};
+  return std::abs(shown_rad) > kContradictsCounts * config_.count_rad ? told_rad / shown_rad : 0.0;
 }
 
 SampleFate StreamBuffer::take(const StreamSample& sample, const MotionLimits& reach) noexcept {

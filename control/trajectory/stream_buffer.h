@@ -60,6 +60,8 @@ class StreamBuffer {
   MovingTarget step() noexcept;
   /// No sample came while the target moved. Until begin() or resume().
   bool ended() const noexcept { return ended_; }
+  /// Velocity of the last two samples over the rate of their positions: 1 where they agree; 0 where the positions stand.
+  double velocity_ratio() const noexcept;
 
  private:
   static constexpr std::size_t kSamples = 1024;  ///< that may wait: a second of 1 kHz
@@ -72,6 +74,10 @@ class StreamBuffer {
     /// Planned anew again and again the motion would come near a place, but never there.
     bool has_come_to(const State& place) const noexcept;
   };
+  struct Way {
+    double shown_rad = 0.0;  ///< by the positions of two samples
+    double told_rad = 0.0;   ///< by their velocities
+  };
   struct Knot {
     double at = 0.0;  ///< periods
     State state;
@@ -81,6 +87,8 @@ class StreamBuffer {
     bool contradicts = false;  ///< its velocity is not that of the positions
     /// How many of its derivatives are used.
     int believed() const noexcept { return contradicts ? 0 : derivatives; }
+    Way way_since(const Knot& before, double period_s) const noexcept;
+    bool is_contradicted_by(const Knot& before, const StreamConfig& config) const noexcept;
   };
 
   const Knot& knot(std::size_t i) const noexcept { return knots_[(first_ + i) % kSamples]; }
@@ -95,7 +103,6 @@ class StreamBuffer {
   void fit_neighbours(std::size_t i, LocalPolynomial& fit) const noexcept;
   Knot derived(std::size_t i) const noexcept;
   bool is_new_place(const Knot& knot) const noexcept;
-  bool contradicts(const Knot& before, const Knot& knot) const noexcept;
   State carried(double at) const noexcept;
   State between(double at) const noexcept;
   StreamLoad load_at(double at) const noexcept;

@@ -52,6 +52,8 @@ class Trajectory {
   /// The stream is elsewhere: the limits do not let the reference be there, or not yet.
   bool off_stream() const noexcept;
   bool ran_out_of_samples() const noexcept { return stream_.ended(); }
+  /// Of the last two samples, see StreamBuffer.
+  double velocity_ratio() const noexcept { return stream_.velocity_ratio(); }
   /// What the stream says of its load, and what the last one said until take_load().
   const StreamLoad& load() const noexcept { return load_; }
   /// The stream is over: the torque that it had named.

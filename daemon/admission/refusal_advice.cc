@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/admission/refusal_advice.h"
 
+#include <cmath>
 #include <iomanip>
+#include <numbers>
 #include <sstream>
 
 #include "base/printable.h"
@@ -15,6 +17,14 @@ constexpr int kShownDigits = 4;
 
 bool is_of_path(OrderKind kind) {
   return kind == OrderKind::kLoadPath || kind == OrderKind::kPausePath || kind == OrderKind::kResumePath;
+}
+
+// What `ratio` of a velocity to the rate of its positions tells.
+std::string_view unit_of_velocity(double ratio) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  constexpr double kNear = 0.05;  // of samples of a motion that is not even
+  if (std::abs(ratio / kDegrees - 1.0) < kNear) return ", as deg/s would be";
+  return std::abs(ratio + 1.0) < kNear ? ", as with the opposite sign" : "";
 }
 
 // What the loop refused by a number: the number, what is allowed, and where that is set.
@@ -35,9 +45,13 @@ std::string number_refused(const Reply& reply, OrderKind kind) {
   if (reply.reason == Reason::kMoving)
     text << " and moves at " << value << " rad/s: it is enabled at standstill, at most " << limit
          << " rad/s (joint.supervision.standstill_rad_s)";
-  else if (reply.reason == Reason::kTooOld)
+  else if (reply.reason == Reason::kCycleIsOver)
     text << std::fixed << std::setprecision(0) << ": at_cycle = " << reply.value
          << " has passed, this is cycle " << reply.limit << "; from " << reply.limit + 1.0 << " is allowed";
+  else if (reply.reason == Reason::kVelocitiesContradict)
+    text << ": velocity_rad_s is " << std::setprecision(kShownDigits) << reply.value
+         << " times the rate at which position_rad changes" << unit_of_velocity(reply.value)
+         << ", and the stream has ended; send rad/s at the joint, or positions alone (derivatives 0)";
   else if (reply.reason == Reason::kStreamEnded)
     text << " and yielded to a load of " << std::setprecision(kShownDigits) << reply.value
          << " N.m (joint.limits.load_Nm allows " << limit
@@ -124,8 +138,7 @@ std::string refusal_advice(const Reply& reply, OrderKind kind) {
     case Reason::kVelocitiesContradict:
       return mode +
              ": velocity_rad_s is not the rate at which position_rad changes, and the stream has ended; send "
-             "rad/s at "
-             "the joint, with the sign of the motion, or positions alone (derivatives 0)";
+             "rad/s at the joint, or positions alone (derivatives 0)";
     case Reason::kNotHomed:
       return mode + ", and its position is not known: home it first";
     case Reason::kAtLimitSwitch:

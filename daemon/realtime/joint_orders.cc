@@ -108,7 +108,7 @@ Ruling begin_setpoint(JointInLoop& joint, const Order& order, const CycleTime& t
   const std::int64_t in_periods = order.at_cycle == 0 ? 0 : order.at_cycle - time.cycle;
   if (order.at_cycle != 0 && in_periods <= 0) {
     ++joint.stream.late_samples;
-    return {Reason::kTooOld, static_cast<double>(order.at_cycle), static_cast<double>(time.cycle)};
+    return {Reason::kCycleIsOver, static_cast<double>(order.at_cycle), static_cast<double>(time.cycle)};
   }
   const double ahead_s = static_cast<double>(in_periods) * joint.config.controller.period_s;
   if (ahead_s > kFarthestAhead_s) return {Reason::kOutOfRange, ahead_s, kFarthestAhead_s};
@@ -131,9 +131,10 @@ Ruling begin_setpoint(JointInLoop& joint, const Order& order, const CycleTime& t
   joint.ordered.accept({order.position_rad, target_rad, order.stream_id, order.valid_for_s}, time.now_ns);
   if (fate == SampleFate::kLate) ++joint.stream.late_samples;
   if (fate != SampleFate::kVelocitiesContradict) return Reason::kAccepted;
+  const double ratio = joint.law.controller().plan().trajectory().velocity_ratio();
   joint.law.controller().stop();
   joint.ordered.contradict();
-  return Reason::kVelocitiesContradict;
+  return {Reason::kVelocitiesContradict, ratio, ratio != 0.0 ? 1.0 : 0.0};
 }
 
 Reason hold(JointInLoop& joint) noexcept {

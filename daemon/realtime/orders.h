@@ -62,7 +62,8 @@ struct Order {
 ///   kOutOfRange of a path           how far from its setpoint it begins, and how far it may, rad
 ///   kWrongMode of a resume          joints that have their part of the path, and how many there must be
 ///   kStreamEnded of a setpoint      the load that the joint yielded to, which ended its stream, and what load was allowed, N.m
-///   kTooOld of a setpoint           its at_cycle, and the present cycle; 0 and 0 when it waited too long or is from before a fault
+///   kCycleIsOver of a setpoint      its at_cycle, and the present cycle
+///   kVelocitiesContradict           its velocities over the rate of its positions, and 1; 0 and 0 where the positions stand
 struct Ruling {
   Ruling(Reason given) noexcept : reason(given) {}  // implicit: most are a reason alone
   Ruling(Reason given, double refused, double bound) noexcept : reason(given), value(refused), limit(bound) {}

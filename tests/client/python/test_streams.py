@@ -35,7 +35,7 @@ class Streams(PlayedOrders):
         self.elbow._conversation.timeout_s = 0.2
         stream.put(0.05, 0.1)
         with self.assertRaisesRegex(NoAnswer, "elbow: no state for [0-9.]+ s; is strainwaved running"):
-            for k in range(100, 150):
+            for k in range(50, 100):
                 stream.put(0.01 * k, 0.1)
         self.assertLess(len(self.orders()), 5)
 
@@ -141,12 +141,39 @@ class Streams(PlayedOrders):
                 self.assertEqual([order.begins_stream for order in self.orders()], [1, 0])
 
     def test_whose_samples_quoted_old_states_say_so_at_their_end(self):
-        reasons = [Reason.ACCEPTED, Reason.TOO_OLD, Reason.TOO_OLD, Reason.SUPERSEDED]
+        reasons = [Reason.ACCEPTED, Reason.TOO_OLD, Reason.CYCLE_IS_OVER, Reason.TOO_OLD, Reason.SUPERSEDED]
         self.network.daemon = lambda *entry: self.answer(published(*entry), int(reasons[0] == Reason.ACCEPTED), reasons.pop(0))
         stream = self.stream(ahead_s=0.9)
-        with self.assertRaisesRegex(Refused, "; 2 samples of it were late or quoted an old state; this stream is over; Joint.stream"):
-            for k in range(5):
+        with self.assertRaisesRegex(Refused, "; 1 of its samples came late, 2 quoted an old state; this stream is over; Joint.stream"):
+            for k in range(6):
                 stream.put(0.01 * k, 0.1)
+        self.assertEqual((stream.late, stream.outdated), (1, 2))
+
+    def test_in_milliseconds_say_so_and_do_not_wait_for_seconds(self):
+        self.network.daemon = lambda *entry: self.answer(published(*entry))
+        for step in (1.0, 10.0):  # of 1 kHz and of 100 Hz
+            stream = self.stream(ahead_s=0.1)
+            stream.put(0, 0.1)
+            begin = time.monotonic()
+            with self.assertRaisesRegex(InvalidInput, f"^elbow: t = {step}: due in .* s, at most 0.5 is allowed: t counts seconds, not milliseconds"):
+                stream.put(step, 0.1)
+            self.assertLess(time.monotonic() - begin, step)
+
+    def test_whose_velocities_contradict_hand_on_what_the_daemon_says_of_them(self):
+        words = "the joint is tracking: velocity_rad_s is 57.3 times the rate at which position_rad changes, as deg/s would be"
+        def daemon(*entry):
+            order = published(*entry)
+            self.answer(order, order.begins_stream, Reason.ACCEPTED if order.begins_stream else Reason.VELOCITIES_CONTRADICT,
+                        text="" if order.begins_stream else words)
+
+        self.network.daemon = daemon
+        stream = self.stream(ahead_s=0.9)
+        stream.put(0, 0.1, 57.3)
+        stream.put(0.01, 0.11, 57.3)
+        with self.assertRaisesRegex(Refused, words):
+            stream.put(0.02, 0.12, 57.3)
+        with self.assertRaisesRegex(NotDone, "this stream is over"):
+            stream.put(0.03, 0.13)
 
     def stream_ended(self, reason, mode, **fields):
         """A stream whose second sample is refused, and only then come the states that say why."""

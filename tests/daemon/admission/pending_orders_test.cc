@@ -107,8 +107,13 @@ TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAn
                   {"3.6 rad/s", "at most 0.01", "joint.supervision.standstill_rad_s"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kOutOfRange, Mode::kHolding, 2.5, 1.0}),
                   {"at_cycle", "2.5 s", "at most 1 s"});
-  expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kTooOld, Mode::kHolding, 86400123.0, 86400124.0}),
-                  {"at_cycle = 86400123", "this is cycle 86400124", "from 86400125"});
+  expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kCycleIsOver, Mode::kHolding, 8640012, 8640013}),
+                  {"at_cycle = 8640012", "this is cycle 8640013", "from 8640014"});
+  std::string wrong;
+  for (const double ratio : {57.31, -1.0, 50.0})  // degrees, the wrong sign, the motor of a gear
+    wrong += refusal(OrderKind::kSetpoint, {0, Reason::kVelocitiesContradict, Mode::kTracking, ratio, 1.0});
+  expect_mentions(wrong, {"is 57.31 times the rate", "as deg/s would be", "as with the opposite sign",
+                          "50 times the rate at which position_rad changes, and"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kStreamEnded, Mode::kTracking, 13.1042, 12.0}),
                   {"the joint is tracking and yielded to a load of 13.1 N.m (joint.limits.load_Nm allows 12)",
                    "which ended this stream", "begin a new one once it holds"});
