@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <regex>
 #include <set>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "lcmtypes/timing_buckets.h"
 #include "strainwave/vocabulary.h"
 
@@ -169,10 +169,7 @@ TEST(DaemonMetrics, HaveEveryReasonOnce) {
 }
 
 std::set<std::string> names_in(const std::string& file, const std::string& pattern) {
-  std::ifstream stream(std::string(STRAINWAVE_SOURCE_DIR) + "/" + file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  const std::string all = text.str();
+  const std::string all = read_text_file(std::string(STRAINWAVE_SOURCE_DIR) + "/" + file);
   std::set<std::string> names;
   const std::regex name(pattern);
   for (auto it = std::sregex_iterator(all.begin(), all.end(), name); it != std::sregex_iterator(); ++it)
