@@ -50,9 +50,9 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   write_text_file(out / "peers.csv", price_cells(grid, contenders, 0).csv());
   for (const TextTable& table :
        {flexible_summary("The grid", grid, contenders), price_table(grid, contenders, 0)})
-    std::cout << table.markdown() << '\n';
+    std::cout << table.markdown();
   const TextTable lost = lost_cells(grid, contenders, 0);
-  std::cout << (lost.rows.empty() ? contenders.front().name + " loses no cell\n" : lost.markdown()) << '\n';
+  std::cout << (lost.rows.empty() ? contenders.front().name + " loses no cell\n" : lost.markdown());
   std::cout << "written to " << out.string() << "\n";
 }
 
@@ -61,7 +61,7 @@ void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
   const Contender told = daemon_contender(gains);
   for (const auto& cells :
        {wrongly_told_grid(), wrongly_told_joints(options.joints.count, options.joints.seed)})
-    std::cout << wrongly_told_summary(run_wrongly_told(cells, told)).markdown() << '\n';
+    std::cout << wrongly_told_summary(run_wrongly_told(cells, told)).markdown();
 }
 
 void run(const FlexibleOptions& options) {
@@ -75,14 +75,9 @@ void run(const FlexibleOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
 
   const auto grid = run_part("grid", flexible_grid(), contenders);
-  const auto first = run_part("first grid", first_grid(), contenders);
-  std::vector<TextTable> tables = {
-      flexible_summary("The grid", grid, contenders),
-      oscillation_table("The grid: oscillating cells", grid, contenders),
-      price_table(grid, contenders, daemon),
-      oscillation_table("JL/Jm 0.3, 1, 3 at 2 % damping: oscillating cells", first, contenders)};
+  std::vector<TextTable> tables = {flexible_summary("The grid", grid, contenders),
+                                   price_table(grid, contenders, daemon)};
   write_text_file(out / "grid.csv", flexible_cells(grid, contenders).csv());
-  write_text_file(out / "first-grid.csv", flexible_cells(first, contenders).csv());
   write_text_file(out / "price.csv", price_cells(grid, contenders, daemon).csv());
   if (options.full) {
     const auto effects = run_part("effects", effect_grid(), contenders);
@@ -102,7 +97,7 @@ void run(const FlexibleOptions& options) {
                                                    "side 0.089 kg.m2, encoder of 320000 counts on the "
                                                    "motor's side, one period of delay, 34 N.m, 75 V.</p>\n",
                                                    tables, figures, out));
-  for (const TextTable& table : tables) std::cout << table.markdown() << '\n';
+  for (const TextTable& table : tables) std::cout << table.markdown();
   std::cout << "computed in " << number(seconds, 3) << " s; written to " << out.string() << "\n";
 }
 

@@ -45,7 +45,7 @@ void run(const TemperatureOptions& options) {
                 "encoder of 320000 counts on the motor's side, one period of delay. Errors are the "
                 "link's, from the path that all follow.</p>\n",
                 tables, figures, out));
-  for (const TextTable& table : tables) std::cout << table.markdown() << '\n';
+  for (const TextTable& table : tables) std::cout << table.markdown();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::cout << "computed in " << number(seconds, 3) << " s; written to " << out.string() << "\n";
 }

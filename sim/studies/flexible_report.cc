@@ -178,31 +178,6 @@ TextTable flexible_summary(const std::string& title, const std::vector<FlexibleR
   return table;
 }
 
-TextTable oscillation_table(const std::string& title, const std::vector<FlexibleRow>& rows,
-                            const std::vector<Contender>& contenders) {
-  std::set<double> inertias;
-  for (const FlexibleRow& row : rows) inertias.insert(row.cell.link_inertia_kgm2);
-  TextTable table;
-  table.title = title;
-  table.header = {"controller"};
-  for (const double inertia : inertias) table.header.push_back("link " + number(inertia, 3) + " kg.m2");
-  for (std::size_t c = 0; c < contenders.size(); ++c) {
-    std::vector<std::string> fields = {contenders[c].name};
-    for (const double inertia : inertias) {
-      int cells = 0;
-      int oscillating = 0;
-      for (const FlexibleRow& row : rows) {
-        if (row.cell.link_inertia_kgm2 != inertia) continue;
-        ++cells;
-        oscillating += row.results[c].oscillates ? 1 : 0;
-      }
-      fields.push_back(std::to_string(oscillating) + " of " + std::to_string(cells));
-    }
-    table.rows.push_back(fields);
-  }
-  return table;
-}
-
 TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders) {
   struct Cost {
     std::vector<std::vector<double>> ratios;

@@ -28,10 +28,6 @@ TextTable price_cells(const std::vector<FlexibleRow>& rows, const std::vector<Co
 TextTable lost_cells(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders,
                      std::size_t judged);
 
-/// How many cells of each link inertia oscillate or diverge, per contender.
-TextTable oscillation_table(const std::string& title, const std::vector<FlexibleRow>& rows,
-                            const std::vector<Contender>& contenders);
-
 /// Effects by what they cost the contender, most expensive first: geometric mean over the same cells without.
 TextTable effect_ranking(const std::vector<FlexibleRow>& rows, const std::vector<Contender>& contenders);
 

@@ -27,7 +27,7 @@ std::vector<std::string> header(bool relative, bool limited) {
   for (const double start_rad : kRangeStart_rad) {
     const std::string from = "from " + number(start_rad) + " rad";
     fields.push_back(from);
-    fields.push_back("source");
+    fields.push_back("Zhao");
     if (relative && limited) fields.push_back("x limit");
   }
   return fields;

@@ -21,6 +21,13 @@ std::vector<std::string> escaped(std::vector<std::string> fields) {
   return fields;
 }
 
+/// A bar within a field would end its cell.
+std::vector<std::string> of_markdown(std::vector<std::string> fields) {
+  for (std::string& field : fields)
+    for (std::size_t at = 0; (at = field.find('|', at)) != std::string::npos; at += 2) field.insert(at, "\\");
+  return fields;
+}
+
 }  // namespace
 
 std::string number(double value, int digits) {
@@ -47,9 +54,9 @@ std::string html_escaped(const std::string& text) {
 
 std::string TextTable::markdown() const {
   std::string text = title.empty() ? "" : "### " + title + "\n\n";
-  text += joined(header, "| ", " | ", " |\n");
+  text += joined(of_markdown(header), "| ", " | ", " |\n");
   text += joined(std::vector<std::string>(header.size(), "---"), "|", "|", "|\n");
-  for (const auto& row : rows) text += joined(row, "| ", " | ", " |\n");
+  for (const auto& row : rows) text += joined(of_markdown(row), "| ", " | ", " |\n");
   return text + "\n";
 }
 

@@ -221,9 +221,9 @@ TEST(Figure, IsAsLargeAsItsPanelsAndKeepsTinyRanges) {
 }
 
 TEST(TextTable, WritesMarkdownCsvAndHtml) {
-  const TextTable table{"A < B", {"x", "y"}, {{"1", "2"}}};
-  EXPECT_EQ(table.markdown(), "### A < B\n\n| x | y |\n|---|---|\n| 1 | 2 |\n\n");
-  EXPECT_EQ(table.csv(), "x,y\n1,2\n");
+  const TextTable table{"A < B", {"|x|", "y"}, {{"1", "2"}}};
+  EXPECT_EQ(table.markdown(), "### A < B\n\n| \\|x\\| | y |\n|---|---|\n| 1 | 2 |\n\n");
+  EXPECT_EQ(table.csv(), "|x|,y\n1,2\n");
   EXPECT_NE(table.html().find("A &lt; B"), std::string::npos);
 }
 
