@@ -154,7 +154,6 @@ TEST(CommandLine, WithoutADaemonIsNoAnswer) {
                                              {"timing"},
                                              {"watch"},
                                              {"enable", "elbow"},
-                                             {"disable", "elbow"},
                                              {"hold", "elbow"},
                                              {"clear-fault", "elbow"},
                                              {"move", "elbow", "0.1"}}) {
@@ -187,7 +186,6 @@ TEST(CommandLine, AnswersEveryFailureAsOneJsonObjectWithJson) {
                                                        {"timing"},
                                                        {"watch"},
                                                        {"enable", "elbow"},
-                                                       {"disable", "elbow"},
                                                        {"hold", "--all"},
                                                        {"move", "elbow", "0.1"},
                                                        {"move", "elbow", "0.1", "wrist", "nowhere"},

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kSession = 4711;
 constexpr std::int64_t kChallenge = 815;
-constexpr int kHostileOrders = 100'000;
+constexpr int kHostileOrders = 20'000;
 constexpr const char* kSetpoint = "SW.elbow.SETPOINT";
 constexpr const char* kCommand = "SW.elbow.COMMAND";
 
