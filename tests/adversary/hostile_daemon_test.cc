@@ -11,11 +11,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <random>
-#include <sstream>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/limits_v1.hpp>
@@ -25,6 +23,7 @@
 #include <strainwave/timing_v1.hpp>
 #include <thread>
 
+#include "base/text_file.h"
 #include "lcmtypes/wire.h"
 #include "strainwave/client_error.h"
 #include "strainwave/joint.h"
@@ -149,16 +148,11 @@ class Hostile : public DaemonTest {
       if (Clock::now() > end) {
         ::kill(pid, SIGKILL);
         ::waitpid(pid, &status, 0);
-        return {-1, read(output)};
+        return {-1, read_text_file(output)};
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(output)};
-  }
-  static std::string read(const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_text_file(output)};
   }
 
   HostileDaemon daemon_;

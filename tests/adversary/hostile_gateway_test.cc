@@ -65,10 +65,10 @@ std::string name_of(const ::testing::TestParamInfo<const char*>& info) {
   return name;
 }
 
-class CannotAndWouldOtherwise : public HostileGateway {};
+class HostileGatewayAttempt : public HostileGateway {};
 
 // Without the filter each of these succeeds: they are attempts, and it is the filter that ends them.
-TEST_P(CannotAndWouldOtherwise, DoIt) {
+TEST_P(HostileGatewayAttempt, IsEndedByTheFilterAndSucceedsWithoutIt) {
   const Attempted without = attempt(GetParam(), false);
   EXPECT_EQ(without.outcome, Outcome::kSucceeded) << "this is no attempt: " << without.end;
   const Attempted with = attempt(GetParam(), true);
@@ -76,7 +76,7 @@ TEST_P(CannotAndWouldOtherwise, DoIt) {
   EXPECT_EQ(with.end, "signal 31") << "SIGSYS";
 }
 
-INSTANTIATE_TEST_SUITE_P(HostileGateway, CannotAndWouldOtherwise,
+INSTANTIATE_TEST_SUITE_P(Every, HostileGatewayAttempt,
                          ::testing::Values("stop the core by an asynchronous socket",
                                            "kill the core by an asynchronous socket", "signal the core",
                                            "signal the core by its descriptor", "limit the core",
@@ -86,16 +86,16 @@ INSTANTIATE_TEST_SUITE_P(HostileGateway, CannotAndWouldOtherwise,
                                            "open a file", "make memory that runs", "take privileges"),
                          name_of);
 
-class Cannot : public HostileGateway {};
+class HostileGatewayIntrusion : public HostileGateway {};
 
 // Some systems refuse these for other reasons, too: a missing module, or a core with capabilities that the gateway gave up.
-TEST_P(Cannot, DoIt) {
+TEST_P(HostileGatewayIntrusion, IsEndedByTheFilter) {
   const Attempted with = attempt(GetParam(), true);
   EXPECT_EQ(with.outcome, Outcome::kEnded) << with.end;
   EXPECT_EQ(with.end, "signal 31") << "SIGSYS";
 }
 
-INSTANTIATE_TEST_SUITE_P(HostileGateway, Cannot,
+INSTANTIATE_TEST_SUITE_P(Every, HostileGatewayIntrusion,
                          ::testing::Values("open a CAN socket", "schedule the core",
                                            "put the core behind everybody", "go before everybody",
                                            "move the core to another processor", "trace the core",
@@ -103,17 +103,17 @@ INSTANTIATE_TEST_SUITE_P(HostileGateway, Cannot,
                                            "shrink the shared memory", "write the shared file"),
                          name_of);
 
-class IsRefusedByTheSeals : public HostileGateway {};
+class HostileGatewayMapping : public HostileGateway {};
 
 // The calls are allowed; the core's memory is sealed against them whatever the filter says.
-TEST_P(IsRefusedByTheSeals, WithTheFilterAndWithout) {
+TEST_P(HostileGatewayMapping, IsRefusedWithTheFilterAndWithout) {
   for (const bool confined : {true, false}) {
     const Attempted tried = attempt(GetParam(), confined);
     EXPECT_EQ(tried.outcome, Outcome::kRefused) << tried.end;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(HostileGateway, IsRefusedByTheSeals,
+INSTANTIATE_TEST_SUITE_P(Every, HostileGatewayMapping,
                          ::testing::Values("make the core's shared memory writable",
                                            "map the core's shared memory writable"),
                          name_of);

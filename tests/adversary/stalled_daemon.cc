@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::seconds;
 
-class AttackedDaemon : public DaemonTest {
+class StalledDaemon : public DaemonTest {
  protected:
   void move(const std::string& limits) {
     daemon_.reset();
@@ -38,7 +38,7 @@ class AttackedDaemon : public DaemonTest {
   std::optional<TestClient> client_;
 };
 
-TEST_F(AttackedDaemon, FaultsItsJointsWhenItHasBeenStoppedForThreeSeconds) {
+TEST_F(StalledDaemon, FaultsItsJointsWhenItHasBeenStoppedForThreeSeconds) {
   move("stall_limit_s = 1\n");
   daemon_->signal(SIGSTOP);
   std::this_thread::sleep_for(seconds(3));
@@ -48,7 +48,7 @@ TEST_F(AttackedDaemon, FaultsItsJointsWhenItHasBeenStoppedForThreeSeconds) {
   EXPECT_EQ(client_->state("elbow")->torque_commanded_Nm, 0.0);
 }
 
-TEST_F(AttackedDaemon, EndsInOrderByEverySignalThatMayBeSent) {
+TEST_F(StalledDaemon, EndsInOrderByEverySignalThatMayBeSent) {
   std::vector<int> signals{SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGPIPE, SIGRTMIN};
   // Somebody's, not the kernel's.
   if (!kSanitized) signals.insert(signals.end(), {SIGABRT, SIGSYS, SIGSEGV, SIGBUS, SIGFPE, SIGILL});
@@ -65,14 +65,14 @@ TEST_F(AttackedDaemon, EndsInOrderByEverySignalThatMayBeSent) {
   }
 }
 
-TEST_F(AttackedDaemon, DoesNotStandStillForATerminal) {
+TEST_F(StalledDaemon, DoesNotStandStillForATerminal) {
   move("stall_limit_s = 1\n");
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) daemon_->signal(signal);
   ASSERT_TRUE(client_->wait_for_mode("elbow", Mode::kHolding)) << daemon_->log();
   EXPECT_EQ(client_->state("elbow")->fault, 0);
 }
 
-TEST_F(AttackedDaemon, ObeysNoEnableOnceItEnds) {
+TEST_F(StalledDaemon, ObeysNoEnableOnceItEnds) {
   move("stall_limit_s = 100\n");
   daemon_->signal(SIGTERM);
   bool accepted = false;

@@ -117,12 +117,12 @@ void stall_anywhere(const BenchJoint& joint, const OverrunLimits& limits, int pe
   }
 }
 
-TEST(StallThatIsTolerated, MakesNoOtherFaultWithWhatTheDemoTolerates) {
+TEST(ToleratedStall, MakesNoOtherFaultWithWhatTheDemoTolerates) {
   for (const int periods : {1, 5, 9, 10, 19, 49, 50, 80, 300, 1990})
     stall_anywhere(watched_joint({4.0, 30.0, 30.0}, 8.0), {1000, 2.0, 1.0}, periods, 5.0);
 }
 
-TEST(StallThatIsTolerated, MakesNoOtherFaultWithWhatIsToleratedByDefault) {
+TEST(ToleratedStall, MakesNoOtherFaultWithWhatIsToleratedByDefault) {
   for (const int periods : {1, 5, 9, 10, 15, 19})
     stall_anywhere(watched_joint({6.0, 150.0, 150.0}, 7.6), {}, periods, 7.5);
 }

@@ -4,20 +4,17 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "tests/support/refusal.h"
+
 namespace strainwave {
 namespace {
 
 std::string refusal(const std::string& script) {
-  try {
-    run_gnuplot(script);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return testing::refusal_of<std::runtime_error>([&] { run_gnuplot(script); });
 }
 
 TEST(Gnuplot, SaysWhatGnuplotSaid) {
-  EXPECT_EQ(refusal("x = 1\n"), "");
+  EXPECT_EQ(refusal("x = 1\n"), "accepted");
   EXPECT_NE(refusal("plot nonsense(\n").find("nonsense"), std::string::npos);
 }
 

@@ -5,22 +5,19 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/input_error.h"
 #include "base/printable.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
+  return testing::refusal_of([&] {
     const auto document = parse_strict_json(text, "a.json");
     StrictObject object(document, "a.json");
     (void)object.number("torque_Nm");
     object.finish();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  });
 }
 
 TEST(StrictJson, RefusesWhatNestsTooDeepForWhoeverWalksThroughIt) {

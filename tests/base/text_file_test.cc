@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -98,12 +99,8 @@ TEST_F(TextFile, WaitsForNoPipeAndReadsNoDeviceWithoutAnEnd) {
 
 TEST_F(TextFile, MissingFilesAndFoldersAreNamed) {
   for (const auto& path : {folder_ / "none", folder_}) {
-    try {
-      read_text_file(path);
-      FAIL() << path;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
-    }
+    const std::string refused = testing::refusal_of([&] { read_text_file(path); });
+    EXPECT_NE(refused.find(path.string()), std::string::npos);
   }
 }
 

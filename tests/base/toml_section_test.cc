@@ -5,22 +5,19 @@
 
 #include <functional>
 
-#include "base/input_error.h"
 #include "base/printable.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
 namespace {
 
 std::string refusal(const std::string& text, const std::function<void(TomlSection&)>& read) {
-  try {
+  return testing::refusal_of([&] {
     TomlSection section = TomlSection::parse(text, "a.toml");
     read(section);
     section.refuse_unknown_keys();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  });
 }
 
 std::string refused_number(const std::string& text) {
@@ -94,12 +91,8 @@ TEST(TomlSection, OutlivesNothingThatItRefersTo) {
 TEST(TomlSection, SaysWhatIsNoFile) {
   const TemporaryFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "absent.toml"}) {
-    try {
-      (void)TomlSection::read(path);
-      FAIL() << path;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(path.string() + ": "), std::string::npos) << error.what();
-    }
+    const std::string refused = testing::refusal_of([&] { (void)TomlSection::read(path); });
+    EXPECT_NE(refused.find(path.string() + ": "), std::string::npos) << refused;
   }
   EXPECT_EQ(refusal("[joint\n", [](TomlSection&) {}).find("a.toml:1: not valid TOML"), 0U);
 }

@@ -10,34 +10,26 @@
 #include "control/table/gain_table_json.h"
 #include "control/table/ts_plant.h"
 #include "tests/support/eigenvalues.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
 
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-GainTable shipped() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json");
-}
-
-/// For one and two periods of delay, with a lead.
-GainTable of_both_delays() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-delays.json");
-}
-
 LinkModel joint_with(double link_kgm2, double motor_kgm2 = 0.089) {
   return {motor_kgm2, link_kgm2, find_gear("csf-17-50")->spring, 0.0, {}};
 }
 
 TEST(BoxCertificate, ProvesTheShippedTable) {
-  const BoxReport report = certify_box(shipped());
+  const BoxReport report = certify_box(testing::shipped_table("csf-17-50"));
   EXPECT_TRUE(report.certified) << report.text;
   EXPECT_NE(report.text.find("margin"), std::string::npos) << report.text;
   EXPECT_LE(report.inequalities, kMostBoxInequalities);
 }
 
 TEST(BoxCertificate, ProvesLinksOf50To300GramsAtBothDelaysWhateverTheDamping) {
-  const GainTable table = of_both_delays();
+  const GainTable table = testing::shipped_table("csf-17-50-delays");
   EXPECT_EQ(table.box.least_delay, 1);
   EXPECT_EQ(table.box.most_delay, 2);
   EXPECT_LE(table.box.link_inertia_kgm2.from, 0.05);
@@ -51,18 +43,18 @@ TEST(BoxCertificate, ProvesLinksOf50To300GramsAtBothDelaysWhateverTheDamping) {
 // The lead is part of what is proved.
 TEST(BoxCertificate, RefusesATableWithAnotherLead) {
   for (const double lead_periods : {0.5, 1.0, 4.0}) {
-    GainTable table = of_both_delays();
+    GainTable table = testing::shipped_table("csf-17-50-delays");
     table.box.lead_periods = lead_periods;
     EXPECT_EQ(find_defect(table), std::nullopt);
     EXPECT_FALSE(certify_box(table).certified) << lead_periods;
   }
-  GainTable without = of_both_delays();
+  GainTable without = testing::shipped_table("csf-17-50-delays");
   without.box.lead_periods = 0.0;
   EXPECT_NE(find_defect(without).value_or("").find("must be 0 beyond the matrix"), std::string::npos);
-  GainTable more = of_both_delays();
+  GainTable more = testing::shipped_table("csf-17-50-delays");
   more.box.lead_periods = 1.01 * kMaxLeadPeriods;
   EXPECT_NE(find_defect(more).value_or("").find("box.lead_periods"), std::string::npos);
-  GainTable rigid = of_both_delays();
+  GainTable rigid = testing::shipped_table("csf-17-50-delays");
   rigid.box = {};
   rigid.box.lead_periods = 2.0;
   EXPECT_NE(find_defect(rigid).value_or("").find("rigid"), std::string::npos);
@@ -125,14 +117,15 @@ void expect_every_loop_inside_the_unit_circle(const GainTable& table) {
 }
 
 TEST(BoxCertificate, EveryLoopAtRandomPlacesOfTheBoxIsInsideTheUnitCircle) {
-  for (const GainTable& table : {shipped(), of_both_delays()}) {
+  for (const GainTable& table :
+       {testing::shipped_table("csf-17-50"), testing::shipped_table("csf-17-50-delays")}) {
     SCOPED_TRACE(table.box.lead_periods);
     expect_every_loop_inside_the_unit_circle(table);
   }
 }
 
 TEST(BoxCertificate, RefusesATableWithOneMatrixOrOneGainChanged) {
-  const GainTable sound = shipped();
+  const GainTable sound = testing::shipped_table("csf-17-50");
   for (const int i : {0, 1, 3}) {
     GainTable table = sound;
     table.box.cells[static_cast<std::size_t>(i)].P[0] *= -1.0;
@@ -152,7 +145,7 @@ TEST(BoxCertificate, RefusesATableWithOneMatrixOrOneGainChanged) {
 
 TEST(BoxCertificate, RefusesABoxThatIsOnePerCentWiderThanItsCells) {
   const auto text_with = [](const auto& change) {
-    GainTable table = shipped();
+    GainTable table = testing::shipped_table("csf-17-50");
     change(table.box);
     EXPECT_EQ(find_defect(table), std::nullopt);
     const BoxReport report = certify_box(table);
@@ -170,7 +163,7 @@ TEST(BoxCertificate, RefusesABoxThatIsOnePerCentWiderThanItsCells) {
 }
 
 TEST(BoxCertificate, RefusesABoxWithAnyCellLeftOut) {
-  const GainTable sound = shipped();
+  const GainTable sound = testing::shipped_table("csf-17-50");
   for (int i = 0; i < sound.box.cell_count; ++i) {
     GainTable table = sound;
     CertifiedBox& box = table.box;
@@ -181,7 +174,7 @@ TEST(BoxCertificate, RefusesABoxWithAnyCellLeftOut) {
 }
 
 TEST(BoxCertificate, ACellThatIsMadeMuchWiderIsNotProvedByItsMatrix) {
-  GainTable table = shipped();
+  GainTable table = testing::shipped_table("csf-17-50");
   table.box.stiffness_Nm_rad = {1000.0, 60000.0};
   for (int i = 0; i < table.box.cell_count; ++i)
     table.box.cells[static_cast<std::size_t>(i)].stiffness_Nm_rad = {1000.0, 60000.0};
@@ -189,7 +182,7 @@ TEST(BoxCertificate, ACellThatIsMadeMuchWiderIsNotProvedByItsMatrix) {
 }
 
 TEST(BoxCertificate, HoldsJointsUpToItsEdgesAndNamesWhatIsOutside) {
-  const GainTable table = shipped();
+  const GainTable table = testing::shipped_table("csf-17-50");
   const BoxRange& link = table.box.link_inertia_kgm2;
   const int delay = table.box.most_delay;
   EXPECT_EQ(find_outside_box(table, joint_with(link.from), delay), std::nullopt);
@@ -234,13 +227,13 @@ TEST(BoxCertificate, GainsForTheMotorsEncoderAreNotProvedForTheLinksNorTheOtherW
 }
 
 TEST(BoxCertificate, ARigidBoxWithANumberIsADefect) {
-  GainTable table = shipped();
+  GainTable table = testing::shipped_table("csf-17-50");
   table.box.cells[static_cast<std::size_t>(table.box.cell_count)].P[3] = 1.0;
   EXPECT_NE(find_defect(table).value_or("").find("beyond cell_count"), std::string::npos);
-  table = shipped();
+  table = testing::shipped_table("csf-17-50");
   table.box.cell_count = 0;
   EXPECT_NE(find_defect(table).value_or("").find("rigid"), std::string::npos);
-  table = shipped();
+  table = testing::shipped_table("csf-17-50");
   table.box.cells[0].delay_periods = kMaxBoxDelay + 1;
   EXPECT_NE(find_defect(table), std::nullopt);
 }

@@ -5,22 +5,18 @@
 
 #include <random>
 
-#include "control/table/gain_table_json.h"
 #include "control/table/ts_plant.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
-
-GainTable table_of(const std::string& name) {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/" + name + ".json");
-}
 
 CertificateReport certify_primary(const GainTable& table) {
   return certify(table.primary, table.plant, table.friction);
 }
 
 TEST(Certificate, CertifiesTheShippedTableAndItsFallback) {
-  const GainTable table = table_of("rhs17-6006");
+  const GainTable table = testing::shipped_table("rhs17-6006");
   const CertificateReport primary = certify_primary(table);
   EXPECT_TRUE(primary.certified);
   EXPECT_EQ(primary.inequalities, 6 * 6 + 15 * 6 + 30 * 6);  // pairs, crossed, mistaken
@@ -32,7 +28,7 @@ TEST(Certificate, CertifiesTheShippedTableAndItsFallback) {
 // Designed by forward Euler, for the source's chapter 6.
 TEST(Certificate, WhatATableSaysOfItsSamplingChangesNothing) {
   for (const char* const name : {"c1", "c2", "c3", "c4", "rhs17-6006"}) {
-    GainTable table = table_of(name);
+    GainTable table = testing::shipped_table(name);
     table.provenance.sampling = Sampling::kForwardEuler;
     const CertificateReport euler = certify_primary(table);
     table.provenance.sampling = Sampling::kZeroOrderHold;
@@ -42,7 +38,7 @@ TEST(Certificate, WhatATableSaysOfItsSamplingChangesNothing) {
 }
 
 TEST(Certificate, RefusesAnUnstableGain) {
-  GainTable table = table_of("rhs17-6006");
+  GainTable table = testing::shipped_table("rhs17-6006");
   for (double& gain : table.primary.F[3]) gain = -gain;
   const CertificateReport report = certify_primary(table);
   EXPECT_FALSE(report.certified);
@@ -50,7 +46,7 @@ TEST(Certificate, RefusesAnUnstableGain) {
 }
 
 TEST(Certificate, RefusesOneChangedEntryOfPThatBreaksAPair) {
-  GainTable table = table_of("rhs17-6006");
+  GainTable table = testing::shipped_table("rhs17-6006");
   StateMatrix P = table.primary.lyapunov(2);
   P(1, 1) *= 1.2;  // rule 2 is now too expensive to enter
   table.primary.set(2, table.primary.gain(2), P);
@@ -62,7 +58,7 @@ TEST(Certificate, RefusesOneChangedEntryOfPThatBreaksAPair) {
 // Within a range of inertia the same gains are provably good; outside it they are not, and the receiver's own
 // numbers decide.
 TEST(Certificate, RefusesInertiasAndPeriodsThatTheGainsCannotControl) {
-  const GainTable table = table_of("rhs17-6006");
+  const GainTable table = testing::shipped_table("rhs17-6006");
   for (const double factor : {0.01, 1.5, 10.0}) {
     PlantIdentity other = table.plant;
     other.inertia_kgm2 *= factor;
@@ -74,7 +70,7 @@ TEST(Certificate, RefusesInertiasAndPeriodsThatTheGainsCannotControl) {
 }
 
 TEST(Certificate, RefusesAPThatIsNotPositiveEvenIfTheGainsAreStable) {
-  GainTable table = table_of("rhs17-6006");
+  GainTable table = testing::shipped_table("rhs17-6006");
   table.primary.set(0, table.primary.gain(0), -table.primary.lyapunov(0));
   const CertificateReport report = certify_primary(table);
   EXPECT_FALSE(report.certified);
@@ -82,7 +78,7 @@ TEST(Certificate, RefusesAPThatIsNotPositiveEvenIfTheGainsAreStable) {
 }
 
 TEST(Certificate, RefusesGainsForAnotherNumberOfRules) {
-  GainTable table = table_of("rhs17-6006");
+  GainTable table = testing::shipped_table("rhs17-6006");
   --table.friction.rule_count;
   const CertificateReport report = certify_primary(table);
   EXPECT_FALSE(report.certified);
@@ -90,25 +86,25 @@ TEST(Certificate, RefusesGainsForAnotherNumberOfRules) {
 }
 
 TEST(Certificate, RefusesAnIntegralGainWithoutIntegrator) {
-  GainTable table = table_of("c2");
+  GainTable table = testing::shipped_table("c2");
   table.primary.F[1][0] = -1.0;
   EXPECT_EQ(certify_primary(table).plant_rules, 0);
 }
 
 TEST(Certificate, RefusesADecayFasterThanTheGainsGive) {
-  GainTable table = table_of("rhs17-6006");
+  GainTable table = testing::shipped_table("rhs17-6006");
   table.primary.decay_rate = 0.9;
   EXPECT_FALSE(certify_primary(table).certified);
 }
 
 TEST(Certificate, NotANumberAnywhereIsRefused) {
-  GainTable table = table_of("rhs17-6006");
+  GainTable table = testing::shipped_table("rhs17-6006");
   table.primary.F[0][0] = std::nan("");
   EXPECT_FALSE(certify_primary(table).certified);
-  table = table_of("rhs17-6006");
+  table = testing::shipped_table("rhs17-6006");
   table.plant.inertia_kgm2 = std::nan("");
   EXPECT_FALSE(certify_primary(table).certified);
-  table = table_of("rhs17-6006");
+  table = testing::shipped_table("rhs17-6006");
   table.friction.rules[4].friction.viscous_Nms_rad = std::nan("");
   EXPECT_FALSE(certify_primary(table).certified);
 }
@@ -123,7 +119,7 @@ TEST(Certificate, WhatItCertifiesHoldsForRandomBlends) {
     Eigen::VectorXd alpha = Eigen::VectorXd::NullaryExpr(count, [&] { return exponential(random); });
     return Eigen::VectorXd(alpha / alpha.sum());
   };
-  const GainTable table = table_of("rhs17-6006");
+  const GainTable table = testing::shipped_table("rhs17-6006");
   const FeedbackGains& gains = table.primary;
   const StateMatrix W =
       StateVector(gains.weights.integral, gains.weights.position, gains.weights.velocity).asDiagonal();
@@ -151,7 +147,7 @@ TEST(Certificate, WhatItCertifiesHoldsForRandomBlends) {
 TEST(Certificate, AMistakenTemperatureKeepsTheLoopStable) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  const GainTable table = table_of("rhs17-6006");
+  const GainTable table = testing::shipped_table("rhs17-6006");
   const FeedbackGains& gains = table.primary;
   std::uniform_int_distribution<int> pick(0, gains.rule_count - 1);
   for (int trial = 0; trial < 5000; ++trial) {

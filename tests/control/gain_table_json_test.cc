@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "base/input_error.h"
 #include "base/text_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -17,12 +17,7 @@ namespace {
 const std::filesystem::path kTables = STRAINWAVE_SOURCE_DIR "/data/tables";
 
 std::string message_of(const std::string& text) {
-  try {
-    gain_table_from_json(text, "table.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::refusal_of([&] { gain_table_from_json(text, "table.json"); });
 }
 
 std::string reference_text() {
@@ -95,8 +90,9 @@ TEST(GainTableJson, RefusesWrongSizesTypesAndNumbersThatAreNone) {
   document["primary"]["rules"][1]["P"][2].erase(0);
   EXPECT_NE(message_of(document.dump()).find("primary.rules[1].P"), std::string::npos);
   const std::string text = reference_text();
-  EXPECT_NE(message_of(replaced(text, "\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": NaN")), "");
-  EXPECT_NE(message_of(replaced(text, "\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": 1e999")), "");
+  EXPECT_NE(message_of(replaced(text, "\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": NaN")), "accepted");
+  EXPECT_NE(message_of(replaced(text, "\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": 1e999")),
+            "accepted");
   EXPECT_NE(message_of(replaced(text, "\"torque_limit_Nm\": 34.0", "\"torque_limit_Nm\": null"))
                 .find("must be a number"),
             std::string::npos);
@@ -111,7 +107,7 @@ TEST(GainTableJson, RefusesWrongSizesTypesAndNumbersThatAreNone) {
 TEST(GainTableJson, RefusesEveryTruncationWithoutCrashing) {
   const std::string text = reference_text();
   for (std::size_t size = 0; size + 2 < text.size(); size += 37)
-    EXPECT_NE(message_of(text.substr(0, size)), "") << size;
+    EXPECT_NE(message_of(text.substr(0, size)), "accepted") << size;
 }
 
 TEST(GainTableJson, MessagesNameTheFile) {

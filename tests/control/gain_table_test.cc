@@ -9,16 +9,13 @@
 #include <vector>
 
 #include "control/table/gain_table_json.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
 
-GainTable reference_table() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json");
-}
-
 TEST(GainTable, TheReferenceTableHasNoDefect) {
-  EXPECT_EQ(find_defect(reference_table()), std::nullopt);
+  EXPECT_EQ(find_defect(testing::shipped_table("c4")), std::nullopt);
 }
 
 TEST(GainTable, EveryNumberThatIsNotFiniteIsADefect) {
@@ -51,7 +48,7 @@ TEST(GainTable, EveryNumberThatIsNotFiniteIsADefect) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (const double bad :
          {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
-      GainTable table = reference_table();
+      GainTable table = testing::shipped_table("c4");
       numbers[i](table) = bad;
       EXPECT_NE(find_defect(table), std::nullopt) << "number " << i << " = " << bad;
     }
@@ -60,50 +57,50 @@ TEST(GainTable, EveryNumberThatIsNotFiniteIsADefect) {
 
 TEST(GainTable, CountsOutsideTheirRangeAreDefectsAndNotReadAsIndices) {
   for (const std::int32_t bad : {-1, 0, kMaxTemperatureRules + 1, 2000000000}) {
-    GainTable table = reference_table();
+    GainTable table = testing::shipped_table("c4");
     table.friction.rule_count = bad;
     EXPECT_NE(find_defect(table), std::nullopt);
   }
   for (const std::int32_t bad : {-1, 0, 2, 5, 7, kMaxRules + 1, 2000000000}) {
-    GainTable table = reference_table();
+    GainTable table = testing::shipped_table("c4");
     table.primary.rule_count = bad;
     EXPECT_NE(find_defect(table), std::nullopt);
   }
 }
 
 TEST(GainTable, AnAsymmetricLyapunovMatrixIsADefectAndItsNameSaysWhere) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("c4");
   table.primary.P[2][1] += 1e-9;
   ASSERT_NE(find_defect(table), std::nullopt);
   EXPECT_NE(find_defect(table)->find("primary.rules[2].P[0][1]"), std::string::npos) << *find_defect(table);
 }
 
 TEST(GainTable, HiddenContentBeyondTheCountsIsADefect) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("c4");
   table.fallback.F[1][0] = 1.0;
   EXPECT_NE(find_defect(table), std::nullopt);
-  table = reference_table();
+  table = testing::shipped_table("c4");
   table.name.bytes[40] = 'x';
   EXPECT_NE(find_defect(table), std::nullopt);
 }
 
 TEST(GainTable, AFallbackNeedsTheStatesOfThePrimaryAndNoTemperature) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("c4");
   table.fallback = table.primary;
   EXPECT_NE(find_defect(table), std::nullopt);
-  table = reference_table();
+  table = testing::shipped_table("c4");
   table.fallback = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c1.json").fallback;
   EXPECT_NE(find_defect(table), std::nullopt);
 }
 
 TEST(GainTable, AControllerNameThatContradictsItsGainsIsADefect) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("c4");
   table.primary.controller = FixedString<8>("C3");
   EXPECT_NE(find_defect(table), std::nullopt);
 }
 
 TEST(GainTable, IdentityComparesModelInertiaRatioAndPeriod) {
-  const GainTable table = reference_table();
+  const GainTable table = testing::shipped_table("c4");
   EXPECT_EQ(find_identity_mismatch(table, table.plant), std::nullopt);
   PlantIdentity other = table.plant;
   other.inertia_kgm2 *= 1.0 + 1e-8;
@@ -119,12 +116,13 @@ TEST(GainTable, IdentityComparesModelInertiaRatioAndPeriod) {
 }
 
 TEST(GainTable, IdentityComparesGearsWhereTableAndJointNameOne) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("c4");
   PlantIdentity joint = table.plant;
   joint.gear = FixedString<32>("csf-17-50");
   EXPECT_EQ(find_identity_mismatch(table, joint), std::nullopt) << "the table names none";
   table.plant.gear = FixedString<32>("csf-20-50");
-  EXPECT_EQ(find_identity_mismatch(table, reference_table().plant), std::nullopt) << "the joint names none";
+  EXPECT_EQ(find_identity_mismatch(table, testing::shipped_table("c4").plant), std::nullopt)
+      << "the joint names none";
   const std::string mismatch = find_identity_mismatch(table, joint).value_or("");
   for (const char* part : {"plant.gear", "csf-20-50", "csf-17-50"})
     EXPECT_NE(mismatch.find(part), std::string::npos) << mismatch;
@@ -133,7 +131,7 @@ TEST(GainTable, IdentityComparesGearsWhereTableAndJointNameOne) {
 }
 
 std::string defect_of(const std::function<void(GainTable&)>& change) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("c4");
   change(table);
   return find_defect(table).value_or("");
 }

@@ -5,15 +5,13 @@
 
 #include <cmath>
 
+#include "tests/support/reference_joint.h"
+
 namespace strainwave {
 namespace {
 
-JointModel model() {
-  return {0.089, {4.4, 3.6, 2.3}, {0.042, 2.0}};
-}
-
 TEST(JointModel, FrictionAlongAMotionOpposesEitherWayForAsLongAsItLasts) {
-  const JointModel joint = model();
+  const JointModel joint = testing::reference_model();
   EXPECT_EQ(joint.friction_along_Nm(0.0, 0.0), 0.0);
   EXPECT_EQ(joint.friction_along_Nm(0.3, 0.5), joint.friction_Nm(0.4));
   EXPECT_EQ(joint.friction_along_Nm(-0.3, -0.5), -joint.friction_Nm(0.4));

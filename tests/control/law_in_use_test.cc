@@ -5,17 +5,13 @@
 
 #include <cmath>
 
-#include "control/table/gain_table_json.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
 
 constexpr double kPeriod_s = 1e-3;
 constexpr double kCount_rad = 2e-5;
-
-GainTable table(const char* name) {
-  return read_gain_table(std::string(STRAINWAVE_SOURCE_DIR "/data/tables/") + name);
-}
 
 ControllerInput input_at(double error_rad, double velocity_rad_s) {
   ControllerInput input;
@@ -29,7 +25,7 @@ ControllerInput input_at(double error_rad, double velocity_rad_s) {
 /// Its integral holds something.
 LawInUse running(double temperature_C = 20.0) {
   LawInUse law(kPeriod_s, kCount_rad);
-  law.load(table("c4.json"));
+  law.load(testing::shipped_table("c4"));
   law.choose_gains(temperature_C);
   for (int k = 0; k < 200; ++k) law.step(input_at(1e-3, 0.0));
   return law;
@@ -48,7 +44,7 @@ TEST(LawInUse, GoesOnFromTheTorqueOfTheGainsBeforeAChange) {
   EXPECT_EQ(without_temperature.gains_in_use(), GainsInUse::kFallback);
   EXPECT_NEAR(next_torque_Nm(without_temperature), expected_Nm, 1e-9);
   LawInUse other_table = before;
-  other_table.load(table("c3.json"));
+  other_table.load(testing::shipped_table("c3"));
   EXPECT_NEAR(next_torque_Nm(other_table), expected_Nm, 1e-9);
   // Two changes before a torque: still the torque of the first.
   other_table.choose_gains({});
@@ -73,12 +69,12 @@ TEST(LawInUse, BeginsAnewWithNothingButItsTable) {
 TEST(LawInUse, ACountMakesNothingWherePositionsAreExact) {
   EXPECT_GT(running().count_torque_Nm(), 0.0);
   LawInUse exact(kPeriod_s, 0.0);
-  exact.load(table("c4.json"));
+  exact.load(testing::shipped_table("c4"));
   EXPECT_EQ(exact.count_torque_Nm(), 0.0);
 }
 
 GainTable with_lead(double lead_periods) {
-  GainTable led = table("c4.json");
+  GainTable led = testing::shipped_table("c4");
   led.box.lead_periods = lead_periods;
   return led;
 }
@@ -134,7 +130,7 @@ TEST(LawInUse, ACountMakesMoreWithALead) {
 TEST(LawInUse, SaysWhetherItHasATable) {
   LawInUse law(kPeriod_s, kCount_rad);
   EXPECT_FALSE(law.loaded());
-  law.load(table("c4.json"));
+  law.load(testing::shipped_table("c4"));
   law.begin_anew();
   EXPECT_TRUE(law.loaded());
 }

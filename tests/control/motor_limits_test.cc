@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/units.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
@@ -51,20 +52,16 @@ TEST(MotorLimits, NeverChangeATorquesSignNorItsSymmetry) {
   }
 }
 
-JointModel model() {
-  return {0.089, {4.4, 3.6, 2.3}, {0.042, 2.0}};
-}
-
 MotionLimits limits(double load_Nm, double speed_rad_s) {
-  return reachable_limits({10.0, 1e6, 1e6}, MotorLimits::from_motor(kMotor), model(), load_Nm, 34.0, 0.02,
-                          speed_rad_s, 0.001);
+  return reachable_limits({10.0, 1e6, 1e6}, MotorLimits::from_motor(kMotor), testing::reference_model(),
+                          load_Nm, 34.0, 0.02, speed_rad_s, 0.001);
 }
 
 TEST(ReachableLimits, TheirAccelerationIsOneThatTheMotorHasAgainstFriction) {
   for (const double speed_rad_s : {0.0, 1.0, 3.0, 6.0}) {
     const double acceleration_rad_s2 = limits(0.0, speed_rad_s).acceleration_rad_s2;
-    const double needed_Nm =
-        model().inertia_kgm2 * acceleration_rad_s2 + 3.6 + 2.3 * (speed_rad_s + 0.001 * acceleration_rad_s2);
+    const double needed_Nm = testing::reference_model().inertia_kgm2 * acceleration_rad_s2 + 3.6 +
+                             2.3 * (speed_rad_s + 0.001 * acceleration_rad_s2);
     EXPECT_LE(needed_Nm,
               MotorLimits::from_motor(kMotor).available_Nm(speed_rad_s + 0.001 * acceleration_rad_s2) + 1e-9)
         << speed_rad_s;
@@ -82,7 +79,8 @@ TEST(ReachableLimits, ALoadCountsAgainstAccelerationAndDeceleration) {
 TEST(ReachableLimits, EndAtASpeedThatTheMotorHoldsAgainstFrictionAndTheirAccelerationWithIt) {
   const MotorLimits motor = MotorLimits::from_motor(kMotor);
   const auto at = [&](double load_Nm, double speed_rad_s) {
-    return reachable_limits({1e3, 1e6, 1e6}, motor, model(), load_Nm, 34.0, 0.02, speed_rad_s, 0.001);
+    return reachable_limits({1e3, 1e6, 1e6}, motor, testing::reference_model(), load_Nm, 34.0, 0.02,
+                            speed_rad_s, 0.001);
   };
   for (const double load_Nm : {0.0, 8.0}) {
     const double top_rad_s = at(load_Nm, 0.0).velocity_rad_s;

@@ -6,15 +6,11 @@
 #include <cmath>
 #include <vector>
 
-#include "control/table/gain_table_json.h"
 #include "control/table/ts_plant.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
-
-GainTable shipped_table() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
-}
 
 /// Runs the loop as the daemon does: how much larger the error is after so many periods.
 double growth(const GainTable& table, const GainRow& gain, int delay_periods, int periods) {
@@ -31,7 +27,7 @@ double growth(const GainTable& table, const GainRow& gain, int delay_periods, in
 }
 
 TEST(RigidLoop, HasTheRadiusWithWhichTheLoopGrows) {
-  const GainTable table = shipped_table();
+  const GainTable table = testing::shipped_table("rhs17-6006");
   const GainRow stiff = 5.0 * table.primary.gain(0);
   for (const int delay : {1, 2, 3}) {
     const double radius = rigid_loop_radius(table.plant, 0.0, stiff, true, delay);
@@ -42,11 +38,11 @@ TEST(RigidLoop, HasTheRadiusWithWhichTheLoopGrows) {
 }
 
 TEST(RigidLoop, IsStableWithTheShippedTableAtEveryDelayThatItIsFor) {
-  EXPECT_EQ(find_swing(shipped_table(), 0, 3), std::nullopt);
+  EXPECT_EQ(find_swing(testing::shipped_table("rhs17-6006"), 0, 3), std::nullopt);
 }
 
 TEST(RigidLoop, FindsGainsThatAreStableWithoutDelayAlone) {
-  GainTable table = shipped_table();
+  GainTable table = testing::shipped_table("rhs17-6006");
   for (auto& row : table.primary.F)
     for (double& gain : row) gain *= 5.0;
   EXPECT_EQ(find_swing(table, 0, 0), std::nullopt);

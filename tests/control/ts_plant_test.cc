@@ -5,16 +5,10 @@
 
 #include <cmath>
 
+#include "tests/support/reference_joint.h"
+
 namespace strainwave {
 namespace {
-
-PlantIdentity joint() {
-  PlantIdentity plant;
-  plant.inertia_kgm2 = 0.089;
-  plant.gear_ratio = 50.0;
-  plant.period_s = 1e-3;
-  return plant;
-}
 
 // The continuous joint under constant torque, in many small exact-enough steps (RK4).
 StateVector integrate(StateVector state, double torque_Nm, const PlantIdentity& plant, double viscous) {
@@ -34,7 +28,7 @@ StateVector integrate(StateVector state, double torque_Nm, const PlantIdentity& 
 }
 
 TEST(TsPlant, ZeroOrderHoldIsTheSolutionOfTheDifferentialEquation) {
-  const PlantIdentity plant = joint();
+  const PlantIdentity plant = testing::reference_identity();
   for (const double viscous : {0.0, 1e-9, 0.27, 2.33, 80.0, 500.0}) {
     const SampledDynamics dynamics = sampled_dynamics(plant, viscous, false);
     const StateVector start(0.0, 0.2, 3.0);
@@ -46,12 +40,12 @@ TEST(TsPlant, ZeroOrderHoldIsTheSolutionOfTheDifferentialEquation) {
 }
 
 TEST(TsPlant, WithoutAnIntegratorItsRowAndColumnAreZero) {
-  const SampledDynamics dynamics = sampled_dynamics(joint(), 1.0, false);
+  const SampledDynamics dynamics = sampled_dynamics(testing::reference_identity(), 1.0, false);
   EXPECT_TRUE(dynamics.A.row(0).isZero(0.0) && dynamics.A.col(0).isZero(0.0) && dynamics.B(0) == 0.0);
 }
 
 TEST(TsPlant, SeriesAndClosedFormMeetWhereTheyChange) {
-  const PlantIdentity plant = joint();
+  const PlantIdentity plant = testing::reference_identity();
   const double border = plant.inertia_kgm2 / plant.period_s;  // ts Fv / J = 1
   const double below = sampled_dynamics(plant, border * (1.0 - 1e-12), false).B(1);
   const double above = sampled_dynamics(plant, border * (1.0 + 1e-12), false).B(1);
@@ -59,7 +53,7 @@ TEST(TsPlant, SeriesAndClosedFormMeetWhereTheyChange) {
 }
 
 TEST(TsPlant, ErrorBoundsCoverLongDouble) {
-  const PlantIdentity plant = joint();
+  const PlantIdentity plant = testing::reference_identity();
   for (const double viscous : {0.1, 2.3, 50.0, 89.0, 120.0, 400.0}) {
     const BoundedDynamics dynamics = bounded_dynamics(plant, viscous, true);
     const long double ts = plant.period_s, J = plant.inertia_kgm2, a = viscous / J;

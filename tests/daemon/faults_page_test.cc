@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "daemon/realtime/fault_reach.h"
 #include "lcmtypes/reading_doubt.h"
 #include "strainwave/vocabulary.h"
@@ -27,7 +28,7 @@ std::string trimmed(const std::string& cell) {
 
 /// Rows of all tables under "## title", their two header lines left out.
 std::vector<Row> rows_under(const std::string& title) {
-  std::istringstream page(read_text(kSource / "docs" / "faults.md"));
+  std::istringstream page(read_text_file(kSource / "docs" / "faults.md"));
   std::vector<Row> rows;
   bool inside = false;
   bool previous_was_row = false;
@@ -48,7 +49,7 @@ std::vector<Row> rows_under(const std::string& title) {
 
 /// Enumerators of an enum class in vocabulary.h, as they are written there.
 std::map<int, std::string> declared(const std::string& name) {
-  const std::string text = read_text(kSource / "lcmtypes" / "vocabulary.h");
+  const std::string text = read_text_file(kSource / "lcmtypes" / "vocabulary.h");
   const std::size_t begin = text.find("enum class " + name + " ");
   const std::string body = text.substr(begin, text.find("};", begin) - begin);
   std::map<int, std::string> enumerators;
@@ -110,7 +111,7 @@ std::string expected_row(const InjectedFaultCase& entry) {
 }
 
 TEST(FaultsPage, PromisesOfInjectedFaultsWhatTheLoopIsTestedFor) {
-  const std::string page = read_text(kSource / "docs" / "faults.md");
+  const std::string page = read_text_file(kSource / "docs" / "faults.md");
   std::size_t promises = 0;
   for (const InjectedFaultCase& entry : injected_fault_table()) {
     EXPECT_NE(page.find("\n" + expected_row(entry) + "\n"), std::string::npos) << "missing:\n"

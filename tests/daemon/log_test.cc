@@ -9,9 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
+#include "base/text_file.h"
 #include "daemon/loop_log.h"
 #include "tests/support/temporary_folder.h"
 
@@ -35,9 +34,7 @@ std::string logged(const Write& write) {
   start_logging();
   ::close(before);
   ::close(file);
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
+  return read_text_file(path);
 }
 
 TEST(Log, TakesOneLineFromWhateverSomebodySends) {

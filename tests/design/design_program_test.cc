@@ -38,8 +38,8 @@ class DesignProgram : public ::testing::Test {
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string("design_program_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("design_program_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
   std::string output_;
 };
 

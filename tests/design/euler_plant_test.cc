@@ -5,20 +5,13 @@
 
 #include "control/table/certificate.h"
 #include "tests/support/eigenvalues.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
 
-PlantIdentity joint() {
-  PlantIdentity plant;
-  plant.inertia_kgm2 = 0.089;
-  plant.gear_ratio = 50.0;
-  plant.period_s = 1e-3;
-  return plant;
-}
-
 TEST(EulerPlant, IsOneStepOfTheSlope) {
-  const SampledDynamics dynamics = euler_dynamics(joint(), 2.0, true).values();
+  const SampledDynamics dynamics = euler_dynamics(testing::reference_identity(), 2.0, true).values();
   StateMatrix A;
   A << 1.0, 1e-3, 0.0, 0.0, 1.0, 1e-3, 0.0, 0.0, 1.0 - 1e-3 * 2.0 / 0.089;
   EXPECT_TRUE(dynamics.A.isApprox(A, 1e-15));
@@ -26,7 +19,7 @@ TEST(EulerPlant, IsOneStepOfTheSlope) {
 }
 
 TEST(EulerPlant, AgreesWithTheHoldToFirstOrderInThePeriod) {
-  PlantIdentity plant = joint();
+  PlantIdentity plant = testing::reference_identity();
   plant.period_s = 1e-6;
   const SampledDynamics a = euler_dynamics(plant, 2.0, true).values();
   const SampledDynamics b = sampled_dynamics(plant, 2.0, true);
@@ -37,7 +30,7 @@ TEST(EulerPlant, AgreesWithTheHoldToFirstOrderInThePeriod) {
 // Gains whose loop has both eigenvalues at -0.15 by forward Euler, with the P that proves it. Sampled and held
 // the same gains have one at -1.41.
 TEST(EulerPlant, ItsCertificateSaysNothingOfAJointThatIsHeld) {
-  const PlantIdentity plant = joint();
+  const PlantIdentity plant = testing::reference_identity();
   FuzzyFriction friction;
   friction.rule_count = 1;
   const double pole = -0.15;

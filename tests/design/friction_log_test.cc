@@ -8,9 +8,9 @@
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/state_v1.hpp>
 
-#include "base/input_error.h"
 #include "strainwave/vocabulary.h"
 #include "tests/support/event_log_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -37,12 +37,7 @@ class FrictionLogTest : public ::testing::Test {
     return message;
   }
   std::string refusal(const std::string& joint = "") const {
-    try {
-      read_friction_log(path_, joint);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::refusal_of([&] { read_friction_log(path_, joint); });
   }
 
   TemporaryFolder folder_;
@@ -84,7 +79,7 @@ TEST_F(FrictionLogTest, RefusesALogWithoutLimitsOrAcrossARestart) {
   log_.add(1, "SW.elbow.STATE", state(5));
   EXPECT_NE(refusal().find("LIMITS"), std::string::npos) << refusal();
   log_.add(2, "SW.elbow.LIMITS", limits());
-  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(refusal(), "accepted");
   state_v1 later = state(1);
   later.session_id = 8;
   log_.add(3, "SW.elbow.STATE", later);

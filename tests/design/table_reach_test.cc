@@ -16,7 +16,7 @@ namespace {
 constexpr double kLimit_Nm = 34.0;
 
 // One joint under one gain, simulated: the torque acts one period late and is limited.
-class TableReachTest : public testing::Test {
+class TableReachTest : public ::testing::Test {
  protected:
   TableReachTest()
       : table_(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50.json")),

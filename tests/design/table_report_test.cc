@@ -3,17 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "control/table/gain_table_json.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
 
-GainTable reference_table() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/rhs17-6006.json");
-}
-
 TEST(TableReport, MarksThePairThatFails) {
-  GainTable table = reference_table();
+  GainTable table = testing::shipped_table("rhs17-6006");
   const CertificateReport good = certify(table.primary, table.plant, table.friction);
   const std::string text = margins_text(table.primary, good);
   EXPECT_NE(text.find("C4: certified"), std::string::npos);
@@ -25,7 +21,7 @@ TEST(TableReport, MarksThePairThatFails) {
 }
 
 TEST(TableReport, DescribesEveryRuleWithUnits) {
-  const std::string text = description(reference_table());
+  const std::string text = description(testing::shipped_table("rhs17-6006"));
   for (const char* const part :
        {"rhs17-6006", "0.089 kg m^2", "zero velocity", "high velocity, T5", "fallback: C3", "[Nm/rad]"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;

@@ -12,6 +12,7 @@
 
 #include "base/input_error.h"
 #include "tests/support/allocation_trap.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -138,12 +139,8 @@ TEST_F(TemperatureFileTest, TakesThePowerOnValueOfAOneWireSensorForATemperatureO
 }
 
 TEST_F(TemperatureFileTest, RefusesAFileThatIsNotThereAndSaysWhich) {
-  try {
-    const TemperatureFile file(config_);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(config_.file.string()), std::string::npos) << error.what();
-  }
+  const std::string refused = testing::refusal_of([&] { const TemperatureFile file(config_); });
+  EXPECT_NE(refused.find(config_.file.string()), std::string::npos) << refused;
 }
 
 TEST_F(TemperatureFileTest, RefusesImpossibleNumbers) {

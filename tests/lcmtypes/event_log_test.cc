@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "base/text_file.h"
 #include "tests/support/event_log_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -17,15 +18,12 @@ namespace {
 class EventLogTest : public ::testing::Test {
  protected:
   std::string refusal() const {
-    try {
+    return testing::refusal_of([&] {
       EventLogReader reader(path_);
       LogEvent event;
       while (reader.next(event)) {
       }
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   }
   struct Read {
     int events = 0;

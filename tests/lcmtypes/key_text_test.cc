@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/input_error.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -13,12 +14,7 @@ SecretKeyText some_key() {
 }
 
 std::string error_of(const std::string& line) {
-  try {
-    parse_public_line(line);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::refusal_of([&] { parse_public_line(line); });
 }
 
 TEST(KeyText, ReadsWhatItWrites) {

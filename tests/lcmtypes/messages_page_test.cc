@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "tests/support/message_files.h"
 
 namespace strainwave {
@@ -24,8 +25,9 @@ std::string trimmed(const std::string& cell) {
 
 /// Rows of the table under "## title" of any of the pages, without its two header lines; cells without blanks and back-quotes.
 std::vector<Row> table_under(const std::string& title) {
-  std::istringstream page(read_text(kSource / "docs/messages.md") + read_text(kSource / "docs/commands.md") +
-                          read_text(kSource / "docs/gain-table.md"));
+  std::istringstream page(read_text_file(kSource / "docs/messages.md") +
+                          read_text_file(kSource / "docs/commands.md") +
+                          read_text_file(kSource / "docs/gain-table.md"));
   std::vector<Row> rows;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {
@@ -46,7 +48,7 @@ std::map<std::string, std::filesystem::path> declared_messages() {
   std::map<std::string, std::filesystem::path> messages;
   for (const auto& entry : std::filesystem::directory_iterator(kSource / "lcmtypes")) {
     if (entry.path().extension() != ".lcm") continue;
-    const std::string text = read_text(entry.path());
+    const std::string text = read_text_file(entry.path());
     const std::regex declaration(R"(struct (\w+))");
     for (std::sregex_iterator it(text.begin(), text.end(), declaration); it != std::sregex_iterator(); ++it) {
       messages[(*it)[1]] = entry.path();

@@ -14,7 +14,7 @@ namespace strainwave {
 
 namespace {
 
-class AllocationTrapTest : public testing::Test {
+class AllocationTrapTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/support/message_files.h"
+#include "base/text_file.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <regex>
 #include <sstream>
 
 namespace strainwave {
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  EXPECT_TRUE(stream) << "cannot read " << file;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::vector<MessageField> read_message_fields(const std::filesystem::path& file, const std::string& name) {
   std::vector<MessageField> fields;
-  std::istringstream text(read_text(file));
+  std::istringstream text(read_text_file(file));
   bool inside = false;
   const std::regex declaration(R"(^\s*(\w+)\s+(\w+)((?:\[\d+\])*)\s*;.*$)");
   const std::regex size(R"(\[(\d+)\])");

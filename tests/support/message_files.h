@@ -20,7 +20,4 @@ struct MessageField {
 /// Fields of struct `name` in the file, in order. Empty when there is none.
 std::vector<MessageField> read_message_fields(const std::filesystem::path& file, const std::string& name);
 
-/// The whole file. Fails the running test when it cannot be read.
-std::string read_text(const std::filesystem::path& file);
-
 }  // namespace strainwave

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
+#include "base/text_file.h"
 #include "lcmtypes/event_log.h"
 #include "tests/support/daemon_fixture.h"
 #include "tests/support/event_log_file.h"
@@ -47,9 +47,7 @@ class Logs : public DaemonTest {
     const std::string log = path("output");
     const int status =
         std::system((command + " > '" + log + "' 2>&1").c_str());  // NOLINT(concurrency-mt-unsafe)
-    std::ostringstream text;
-    text << std::ifstream(log).rdbuf();
-    output_ = text.str();
+    output_ = read_text_file(log);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   int ctl(const std::string& arguments) {
@@ -93,9 +91,7 @@ TEST_F(Logs, ARecorderThatLosesItsTerminalFinishesItsFile) {
             0)
       << output_;
   EXPECT_NE(output_.find("SW.elbow.STATE: "), std::string::npos) << output_;
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  EXPECT_TRUE(bytes.str().ends_with("\x89MCAP0\r\n")) << "the end of a whole file";
+  EXPECT_TRUE(read_text_file(file).ends_with("\x89MCAP0\r\n")) << "the end of a whole file";
 }
 
 TEST_F(Logs, ALogOfLcmLoggerIsReadAsWell) {

@@ -93,7 +93,7 @@ class DaemonOnASpring : public DaemonTest {
   std::optional<TestClient> client_;
 };
 
-class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
+class DaemonOnASpringBesideTheStudy : public DaemonOnASpring {
  protected:
   void expect_the_same() {
     const GainTable table = read_gain_table(programs_folder() / "csf-17-50.json");
@@ -137,7 +137,7 @@ class DaemonOnASpringAsTheStudy : public DaemonOnASpring {
   }
 };
 
-TEST_F(DaemonOnASpringAsTheStudy, MovesTheLinkWithinOnePerCent) {
+TEST_F(DaemonOnASpringBesideTheStudy, MovesTheLinkWithinOnePerCent) {
   expect_the_same();
 }
 
@@ -149,7 +149,7 @@ struct Mistake {
   std::string drive;  ///< keys of [joint.simulated] and its tables
 };
 
-class DaemonInTheWrong : public DaemonOnASpring {
+class DaemonWithAWrongModel : public DaemonOnASpring {
  protected:
   /// From the first motion in `states` on, the torque reverses for at most two seconds: the detector counts over one, and a loop that is
   /// late on a busy machine counts fewer. A motion that is longer reverses it twice: where it begins to brake, and where it stops.
@@ -207,17 +207,17 @@ class DaemonInTheWrong : public DaemonOnASpring {
   }
 };
 
-TEST_F(DaemonInTheWrong, EndsReversalsSoonWhenTheTableIsForTenTimesTheInertia) {
+TEST_F(DaemonWithAWrongModel, EndsReversalsSoonWhenTheTableIsForTenTimesTheInertia) {
   expect_quiet_soon(
       {"inertia x 10", "c4.json", "model = \"rigid\"\ninertia_kgm2 = 1.089\n", "inertia_kgm2 = 0.1089\n"});
 }
 
-TEST_F(DaemonInTheWrong, EndsReversalsSoonWhenTheDelayIsTwoAndItIsToldOne) {
+TEST_F(DaemonWithAWrongModel, EndsReversalsSoonWhenTheDelayIsTwoAndItIsToldOne) {
   expect_quiet_soon({"delay 2 for 1", "rhs17-6006.json", "model = \"rigid\"\ninertia_kgm2 = 0.089\n",
                      "delay_periods = 1\n[joint.simulated.drive]\ndelay_periods = 2\n"});
 }
 
-TEST_F(DaemonInTheWrong, EndsReversalsSoonWhenTheEncoderIsTheLinksAndItIsToldTheMotors) {
+TEST_F(DaemonWithAWrongModel, EndsReversalsSoonWhenTheEncoderIsTheLinksAndItIsToldTheMotors) {
   expect_quiet_soon(
       {"encoder on the link", "c4.json",
        "model = \"flexible\"\ngear = \"csf-17-50\"\nmotor_inertia_kgm2 = 0.089\nload_inertia_kgm2 = 0.089\n",

@@ -9,9 +9,9 @@
 #include <strainwave/path_v1.hpp>
 #include <thread>
 
-#include "base/input_error.h"
 #include "lcmtypes/wire.h"
 #include "tests/client/commands/commands_fixture.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -23,13 +23,8 @@ class PathCommandsTest : public testing::CommandsTest {
     std::ofstream(folder.path() / "path.csv") << text;
     return folder.path() / "path.csv";
   }
-  std::string refusal_of(const std::string& text) {
-    try {
-      (void)read_path(file_of(text));
-      return "was not refused";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+  std::string refusal(const std::string& text) {
+    return testing::refusal_of([&] { (void)read_path(file_of(text)); });
   }
   /// Both joints hold and are heard with their limits as soon as the client listens.
   void let_two_joints_hold() {
@@ -84,12 +79,12 @@ TEST_F(PathCommandsTest, WhatIsWrongInAFileIsNamedWithItsPlace) {
       {header + "elbow,0,0\n", "path.csv:2"},
       {"joint,time,position,velocity\nelbow,0,0,0\n", "time_s"}};
   for (const auto& [text, words] : cases) {
-    const std::string refusal = refusal_of(text);
-    EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
+    const std::string refused = refusal(text);
+    EXPECT_NE(refused.find(words), std::string::npos) << refused;
   }
   std::string many = header;
   for (int i = 0; i < 321; ++i) many += "elbow," + std::to_string(i) + ",0,0\n";
-  EXPECT_NE(refusal_of(many).find("elbow: 321 knots: 2 to 320"), std::string::npos);
+  EXPECT_NE(refusal(many).find("elbow: 321 knots: 2 to 320"), std::string::npos);
 }
 
 TEST_F(PathCommandsTest, EveryJointGetsItsPartOfOnePathBeforeItStarts) {

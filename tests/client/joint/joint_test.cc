@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tests/client/protocol/running_daemon.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -17,16 +18,6 @@ class JointTest : public ::testing::Test {
  protected:
   Joint elbow(double timeout_s = 20.0) {
     return Joint("elbow", {.key = "", .lcm_url = own_url(), .timeout_s = timeout_s});
-  }
-  /// Message of the `Error` that `call` throws.
-  template <typename Error, typename Call>
-  std::string error_of(const Call& call) {
-    try {
-      call();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
   }
   static bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
@@ -86,7 +77,7 @@ TEST_F(JointTest, SaysThatAStopWasSentWhenNothingAnswers) {
   Joint joint = elbow(1.0);
   EXPECT_EQ(joint.state().mode, Mode::kHolding);
   daemon.stop();
-  const std::string words = error_of<NoAnswer>([&] { joint.disable(); });
+  const std::string words = testing::refusal_of<NoAnswer>([&] { joint.disable(); });
   EXPECT_TRUE(has(words, "the stop was sent 8 times, and nothing answered")) << words;
   EXPECT_TRUE(has(words, ": no state for 4.")) << words;
   EXPECT_FALSE(has(words, "publishes its state")) << words;
@@ -94,16 +85,18 @@ TEST_F(JointTest, SaysThatAStopWasSentWhenNothingAnswers) {
 
 TEST_F(JointTest, WhatIsWrongIsRefusedBeforeAnythingIsSent) {
   Joint joint = elbow();
-  EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("el bow"); }), "name = 'el bow': 1 to 24 "));
-  EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("a", {.prefix = ""}); }), "prefix = ''"));
+  EXPECT_TRUE(has(testing::refusal_of<InvalidInput>([] { Joint("el bow"); }), "name = 'el bow': 1 to 24 "));
+  EXPECT_TRUE(has(testing::refusal_of<InvalidInput>([] { Joint("a", {.prefix = ""}); }), "prefix = ''"));
+  EXPECT_TRUE(has(testing::refusal_of<InvalidInput>([] { Joint("a", {.timeout_s = 0.0}); }),
+                  "a: timeout_s = 0: 0.1 to "));
   EXPECT_TRUE(
-      has(error_of<InvalidInput>([] { Joint("a", {.timeout_s = 0.0}); }), "a: timeout_s = 0: 0.1 to "));
-  EXPECT_TRUE(has(error_of<InvalidInput>([] { Joint("a", {.key = "/nowhere/key"}); }), "/nowhere/key"));
-  EXPECT_TRUE(has(error_of<InvalidInput>([&] { joint.move(std::nan("")); }), "elbow: position_rad = nan"));
+      has(testing::refusal_of<InvalidInput>([] { Joint("a", {.key = "/nowhere/key"}); }), "/nowhere/key"));
   EXPECT_TRUE(
-      has(error_of<InvalidInput>([&] { joint.move({.position_rad = 0.1, .speed_limit_rad_s = -1.0}); }),
-          "speed_limit_rad_s = -1"));
-  EXPECT_TRUE(has(error_of<InvalidInput>([&] { joint.stream({.ahead_s = 2.0}); }), "ahead_s = 2"));
+      has(testing::refusal_of<InvalidInput>([&] { joint.move(std::nan("")); }), "elbow: position_rad = nan"));
+  EXPECT_TRUE(has(testing::refusal_of<InvalidInput>(
+                      [&] { joint.move({.position_rad = 0.1, .speed_limit_rad_s = -1.0}); }),
+                  "speed_limit_rad_s = -1"));
+  EXPECT_TRUE(has(testing::refusal_of<InvalidInput>([&] { joint.stream({.ahead_s = 2.0}); }), "ahead_s = 2"));
   daemon.stop();
   EXPECT_TRUE(daemon.daemon().heard().empty());
 }
@@ -136,7 +129,7 @@ TEST_F(JointTest, OfTheSameNameIsAnsweredWhileAnotherWaits) {
   std::atomic<bool> ended{false};
   std::string words;
   std::thread waiting([&] {
-    words = error_of<NoAnswer>([&] { moving.move(0.0); });
+    words = testing::refusal_of<NoAnswer>([&] { moving.move(0.0); });
     ended = true;
   });
   while (answers == 0 && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));

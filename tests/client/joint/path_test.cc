@@ -10,6 +10,7 @@
 
 #include "lcmtypes/wire.h"
 #include "tests/client/protocol/running_daemon.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -18,14 +19,6 @@ class PathTest : public ::testing::Test {
  protected:
   static Joint joint(const std::string& name, const std::string& prefix = "SW") {
     return Joint(name, {.key = "", .prefix = prefix, .lcm_url = own_url(), .timeout_s = 20.0});
-  }
-  static std::string refusal_of(const std::vector<PathPart>& parts) {
-    try {
-      const Path path(parts);
-      return "was not refused";
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
   }
 
   RunningDaemon daemon{own_url()};
@@ -68,25 +61,16 @@ TEST_F(PathTest, AWaitThatHasALimitEndsInWhereThePathIsAndThatItIsPaused) {
     daemon.daemon().state.notices = static_cast<std::int32_t>(Notice::kPathPaused);
   };
   path.start();
-  try {
-    path.wait(1e-3, 0.5);
-    ADD_FAILURE() << "it arrived";
-  } catch (const NotDone& error) {
-    EXPECT_STREQ(error.what(), "elbow: the path did not arrive in 0.5 s: it is paused at 0.250 s of 1.000 s");
-  }
+  const std::string refused = testing::refusal_of<NotDone>([&] { path.wait(1e-3, 0.5); });
+  EXPECT_EQ(refused, "elbow: the path did not arrive in 0.5 s: it is paused at 0.250 s of 1.000 s");
   EXPECT_THROW(path.wait(1e-3, 0.0), InvalidInput);
 }
 
 TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSo) {
   Joint elbow = joint("elbow");
   Path path({{elbow, {{0, 0, 0}, {1, 0.4, 0}}}});
-  try {
-    path.wait();
-    ADD_FAILURE() << "it arrived";
-  } catch (const NotDone& error) {
-    EXPECT_STREQ(error.what(),
-                 "elbow: is not on its way to 0.4 rad: this path was not started: start() does that");
-  }
+  const std::string refused = testing::refusal_of<NotDone>([&] { path.wait(); });
+  EXPECT_EQ(refused, "elbow: is not on its way to 0.4 rad: this path was not started: start() does that");
 }
 
 TEST_F(PathTest, AWaitForWhatNobodyStartedSaysSoWhereTheJointStandsAtItsEnd) {
@@ -119,7 +103,7 @@ TEST_F(PathTest, WhatIsNoPathIsRefusedBeforeAnythingIsSent) {
       {{{elbow, std::vector<JointKnot>(321)}}, "elbow: 321 knots: 2 to 320"},
       {{{elbow, {{0, 0, 0}, {1, std::nan(""), 0}}}}, "elbow: knot 1: position_rad = nan: a finite"}};
   for (const auto& [parts, words] : cases) {
-    const std::string refusal = refusal_of(parts);
+    const std::string refusal = testing::refusal_of<InvalidInput>([&] { const Path path(parts); });
     EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
   }
   daemon.stop();

@@ -8,6 +8,7 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "tests/client/joint/stream_fixture.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -34,15 +35,9 @@ TEST_F(StreamTest, OfAJointThatHasFallenSilentIsClosedByAHoldThatIsSentOnce) {
     auto stream = impatient.stream();
     stream.put(0.0, 0.1);
     daemon.fall_silent();
-    try {
-      stream.close();
-      ADD_FAILURE() << "something answered";
-    } catch (const NoAnswer& error) {
-      EXPECT_TRUE(
-          std::string(error.what()).starts_with("elbow: the stop was sent 8 times, and nothing answered: "))
-          << error.what();
-      EXPECT_NE(std::string(error.what()).find("no state for"), std::string::npos) << error.what();
-    }
+    const std::string refused = testing::refusal_of<NoAnswer>([&] { stream.close(); });
+    EXPECT_TRUE(refused.starts_with("elbow: the stop was sent 8 times, and nothing answered: ")) << refused;
+    EXPECT_NE(refused.find("no state for"), std::string::npos) << refused;
     EXPECT_NO_THROW(stream.close()) << "it is";
   }
   const auto commands = heard<command_v1>();

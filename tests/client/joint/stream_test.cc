@@ -9,6 +9,7 @@
 #include <strainwave/setpoint_v1.hpp>
 
 #include "tests/client/joint/stream_fixture.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -73,13 +74,9 @@ TEST_F(StreamTest, BesideAnotherHasTheSameCycleForTheSameTime) {
 TEST_F(StreamTest, IsBesideNoneOfAnotherDaemonWhichCountsItsOwnCycles) {
   Joint others{"wrist", {.key = "", .prefix = "B", .lcm_url = own_url()}};
   auto first = joint.stream();
-  try {
-    auto second = others.stream({.beside = &first});
-    FAIL() << "was not refused";
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "wrist has prefix B, elbow has SW: streams beside each other are of one daemon");
-  }
+  const std::string refused =
+      testing::refusal_of<InvalidInput>([&] { auto second = others.stream({.beside = &first}); });
+  EXPECT_EQ(refused, "wrist has prefix B, elbow has SW: streams beside each other are of one daemon");
   const auto moved = std::move(first);
   EXPECT_THROW((void)joint.stream({.beside = &first}),
                InvalidInput);  // NOLINT(bugprone-use-after-move): that is tried
@@ -112,33 +109,21 @@ TEST_F(StreamTest, InMillisecondsIsRefusedBeforeItWaitsForSeconds) {
 
 TEST_F(StreamTest, RefusesWhatIsNoSampleAndSendsNothing) {
   auto stream = joint.stream();
-  try {
-    stream.put(0.0, 3.5);
-    ADD_FAILURE() << "a position beyond the range was sent";
-  } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(),
-                 "elbow: position_rad = 3.5: from -3 to 3 is allowed (joint.limits.position_min_rad and "
-                 "position_max_rad of elbow)");
-  }
-  try {
-    stream.put(0.0, 90.0, 0.0, {}, {.torque_Nm = -30.5});
-    ADD_FAILURE() << "degrees were sent";
-  } catch (const InvalidInput& error) {
-    EXPECT_TRUE(std::string(error.what()).ends_with("; positions are in rad: 90 degrees would be 1.5708"))
-        << error.what();
-  }
+  const std::string refused = testing::refusal_of<InvalidInput>([&] { stream.put(0.0, 3.5); });
+  EXPECT_EQ(refused,
+            "elbow: position_rad = 3.5: from -3 to 3 is allowed (joint.limits.position_min_rad and "
+            "position_max_rad of elbow)");
+  const std::string degrees =
+      testing::refusal_of<InvalidInput>([&] { stream.put(0.0, 90.0, 0.0, {}, {.torque_Nm = -30.5}); });
+  EXPECT_TRUE(degrees.ends_with("; positions are in rad: 90 degrees would be 1.5708")) << degrees;
   EXPECT_THROW(stream.put(0.0, 0.1, std::nan("")), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, {}, 1.0), InvalidInput);
   EXPECT_THROW(stream.put(std::nan(""), 0.1), InvalidInput);
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = std::nan("")}), InvalidInput);
-  try {
-    stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = -30.5});
-    ADD_FAILURE() << "a torque beyond the limit was sent";
-  } catch (const InvalidInput& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "elbow: torque_Nm = -30.5: from -30 to 30 is allowed (joint.limits.torque_limit_Nm of elbow)");
-  }
+  const std::string torque =
+      testing::refusal_of<InvalidInput>([&] { stream.put(0.0, 0.1, 0.0, {}, {.torque_Nm = -30.5}); });
+  EXPECT_EQ(torque,
+            "elbow: torque_Nm = -30.5: from -30 to 30 is allowed (joint.limits.torque_limit_Nm of elbow)");
   EXPECT_THROW(stream.put(0.0, 0.1, 0.0, {}, {.load_inertia_kgm2 = -0.1}), InvalidInput);
   stream.close();
   EXPECT_TRUE(heard<setpoint_v1>().empty());

@@ -9,13 +9,14 @@
 
 #include "strainwave/client_error.h"
 #include "tests/client/protocol/fake_daemon.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
 
 constexpr double kShort_s = 0.2;
 
-class ClientTest : public testing::Test {
+class ClientTest : public ::testing::Test {
  protected:
   Answer order(const std::string& joint) {
     return client.request(joint, channel_kind::kSetpoint, setpoint_v1{});
@@ -51,12 +52,9 @@ TEST_F(ClientTest, RepeatsWhatANetworkCutsIntoPacketsOftenerAndSaysHowOften) {
   EXPECT_TRUE(client.request("elbow", channel_kind::kPath, path_v1{}).accepted);
   EXPECT_EQ(daemon.heard().size(), 9U);
   daemon.drop = 100;
-  try {
-    (void)client.request("elbow", channel_kind::kPath, path_v1{});
-    ADD_FAILURE() << "nothing answered";
-  } catch (const NoAnswer& error) {
-    EXPECT_NE(std::string(error.what()).find("after 9 transmissions"), std::string::npos) << error.what();
-  }
+  const std::string refused =
+      testing::refusal_of<NoAnswer>([&] { (void)client.request("elbow", channel_kind::kPath, path_v1{}); });
+  EXPECT_NE(refused.find("after 9 transmissions"), std::string::npos) << refused;
   EXPECT_EQ(daemon.heard().size(), 18U);
 }
 
@@ -66,13 +64,9 @@ TEST_F(ClientTest, SaysWhereToLookWhenNothingAnswersInTheWordsOfItsUser) {
   EXPECT_TRUE(failure("elbow").ends_with("is not known: see Joint::state()")) << failure("elbow");
   Client command_line{connection, {.prefix = "SW", .timeout_s = kShort_s, .names_commands = true}};
   daemon.publish_state();
-  try {
-    (void)command_line.request("elbow", channel_kind::kSetpoint, setpoint_v1{});
-    ADD_FAILURE() << "nothing answered";
-  } catch (const NoAnswer& error) {
-    EXPECT_TRUE(std::string(error.what()).ends_with("is not known: see strainwavectl status elbow"))
-        << error.what();
-  }
+  const std::string refused = testing::refusal_of<NoAnswer>(
+      [&] { (void)command_line.request("elbow", channel_kind::kSetpoint, setpoint_v1{}); });
+  EXPECT_TRUE(refused.ends_with("is not known: see strainwavectl status elbow")) << refused;
 }
 
 TEST_F(ClientTest, SaysThatTheDaemonSpeaksAnotherVersion) {

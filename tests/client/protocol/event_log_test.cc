@@ -15,6 +15,7 @@
 #include "strainwave/client_error.h"
 #include "tests/client/protocol/fake_daemon.h"
 #include "tests/support/event_log_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -36,12 +37,8 @@ class EventLogs : public ::testing::Test {
 };
 
 TEST_F(EventLogs, AreNoFolders) {
-  try {
-    export_log(output_, {folder_, folder_ / "a.csv"});
-    FAIL() << "read";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is a folder, not a file"), std::string::npos) << error.what();
-  }
+  const std::string refused = testing::refusal_of([&] { export_log(output_, {folder_, folder_ / "a.csv"}); });
+  EXPECT_NE(refused.find("is a folder, not a file"), std::string::npos) << refused;
 }
 
 TEST_F(EventLogs, WhatTheClientWritesLcmsOwnReaderReads) {

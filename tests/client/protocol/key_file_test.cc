@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include <fstream>
-#include <sstream>
 #include <strainwave/setpoint_v1.hpp>
 
 #include "base/input_error.h"
+#include "base/text_file.h"
 #include "client/protocol/sender.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -23,12 +23,6 @@ class KeyFile : public ::testing::Test {
     EXPECT_EQ(::stat(path.c_str(), &status), 0);
     return status.st_mode & 07777;
   }
-  static std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
 
   TemporaryFolder temporary_;
   const std::filesystem::path& folder_ = temporary_.path();
@@ -40,7 +34,7 @@ TEST_F(KeyFile, IsMadeForItsOwnerAloneWhateverTheUmask) {
   const AuthorizedKey key = write_new_key(path_, Role::kEngineer, "Ann");
   ::umask(before);
   EXPECT_EQ(mode_of(path_), 0600U);
-  EXPECT_EQ(text_of(path_.string() + ".pub"), to_line(key) + "\n");
+  EXPECT_EQ(read_text_file(path_.string() + ".pub"), to_line(key) + "\n");
   const SecretKeyText read = read_secret_key(path_);
   EXPECT_EQ(read.key.public_key(), key.key);
   EXPECT_EQ(read.role, Role::kEngineer);
@@ -48,37 +42,27 @@ TEST_F(KeyFile, IsMadeForItsOwnerAloneWhateverTheUmask) {
 
 TEST_F(KeyFile, NeverOverwritesAKeyOrItsPublicLine) {
   write_new_key(path_, Role::kOperator, "");
-  const std::string secret = text_of(path_);
+  const std::string secret = read_text_file(path_);
   EXPECT_THROW(write_new_key(path_, Role::kOperator, ""), InputError);
-  EXPECT_EQ(text_of(path_), secret);
+  EXPECT_EQ(read_text_file(path_), secret);
   std::filesystem::remove(path_.string() + ".pub");
   EXPECT_THROW(write_new_key(path_, Role::kOperator, ""), InputError);
-  EXPECT_EQ(text_of(path_), secret);
+  EXPECT_EQ(read_text_file(path_), secret);
   EXPECT_FALSE(std::filesystem::exists(path_.string() + ".pub"));
 }
 
 TEST_F(KeyFile, IsSaidToBeThePublicOneThoughThatMayBeReadByOthers) {
   write_new_key(path_, Role::kOperator, "");
-  try {
-    read_secret_key(path_.string() + ".pub");
-    FAIL() << "taken for a secret key";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("this is a public key: give the file without .pub"),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string refused = testing::refusal_of([&] { read_secret_key(path_.string() + ".pub"); });
+  EXPECT_NE(refused.find("this is a public key: give the file without .pub"), std::string::npos) << refused;
 }
 
 TEST_F(KeyFile, IsRefusedWhenOthersCanReadIt) {
   write_new_key(path_, Role::kOperator, "");
   for (const mode_t mode : {0640U, 0604U, 0620U}) {
     ASSERT_EQ(::chmod(path_.c_str(), mode), 0);
-    try {
-      read_secret_key(path_);
-      FAIL() << "mode " << std::oct << mode;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("chmod 600"), std::string::npos);
-    }
+    const std::string refused = testing::refusal_of([&] { read_secret_key(path_); });
+    EXPECT_NE(refused.find("chmod 600"), std::string::npos);
   }
 }
 
@@ -87,12 +71,8 @@ TEST_F(KeyFile, SaysWhatIsWrongWithAFileThatIsNone) {
   EXPECT_THROW(read_secret_key(folder_), InputError);
   write_new_key(path_, Role::kOperator, "");
   ASSERT_EQ(::chmod((path_.string() + ".pub").c_str(), 0600), 0);
-  try {
-    read_secret_key(path_.string() + ".pub");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("without .pub"), std::string::npos);
-  }
+  const std::string refused = testing::refusal_of([&] { read_secret_key(path_.string() + ".pub"); });
+  EXPECT_NE(refused.find("without .pub"), std::string::npos);
 }
 
 TEST_F(KeyFile, SignsEveryOrderOfASenderButAStop) {

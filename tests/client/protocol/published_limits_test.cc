@@ -8,11 +8,12 @@
 
 #include "strainwave/client_error.h"
 #include "tests/client/protocol/fake_daemon.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
 
-class PublishedLimitsTest : public testing::Test {
+class PublishedLimitsTest : public ::testing::Test {
  protected:
   Connection connection{"memq://"};
   FakeDaemon daemon{connection, "SW", "elbow"};
@@ -34,12 +35,8 @@ TEST_F(PublishedLimitsTest, OfADaemonThatWasStartedAnewAreNotThoseFromBefore) {
   daemon.state.session_id = 78;
   daemon.publish_state();
   client.catch_up();
-  try {
-    (void)limits.wait_for("elbow");
-    ADD_FAILURE() << "they were those from before";
-  } catch (const NoAnswer& error) {
-    EXPECT_STREQ(error.what(), "elbow: its limits are not known: no state for 2.0 s");
-  }
+  const std::string refused = testing::refusal_of<NoAnswer>([&] { (void)limits.wait_for("elbow"); });
+  EXPECT_EQ(refused, "elbow: its limits are not known: no state for 2.0 s");
   daemon.limits.position_max_rad = 2.0;
   daemon.publish_limits();
   EXPECT_EQ(limits.wait_for("elbow").position_max_rad, 2.0);

@@ -10,7 +10,7 @@
 namespace strainwave {
 namespace {
 
-class StateViewTest : public testing::Test {
+class StateViewTest : public ::testing::Test {
  protected:
   void hear(const std::string& channel, std::int64_t session_id) {
     state_v1 state{};

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/input_error.h"
 #include "client/commands/commands.h"
 #include "strainwave/client_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -34,12 +34,7 @@ class FlightRecordPlot : public ::testing::Test {
     return folder_ / name;
   }
   std::string refusal(const std::filesystem::path& path) {
-    try {
-      read_flight_record(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return testing::refusal_of([&] { read_flight_record(path); });
   }
   TemporaryFolder temporary_;
   const std::filesystem::path folder_ = temporary_.path();
@@ -102,12 +97,10 @@ TEST_F(FlightRecordPlot, TakesTheErrorAtTheInstantOfThePosition) {
 TEST_F(FlightRecordPlot, SaysWhenThePictureCannotBeWritten) {
   std::ostringstream text;
   const auto path = file(std::string(kHead) + kColumns + kRows);
-  try {
+  const std::string refused = testing::refusal_of<std::runtime_error>([&] {
     plot_record({text}, {path, folder_ / "no" / "such" / "b.png", std::nullopt});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("b.png"), std::string::npos) << error.what();
-  }
+  });
+  EXPECT_NE(refused.find("b.png"), std::string::npos) << refused;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "control/table/gain_table_json.h"
 #include "lcmtypes/wire.h"
 #include "tests/support/joint_bench.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -100,9 +101,7 @@ TEST_F(PendingOrdersTest, AreAnsweredWhenTheLoopHasReplied) {
 }
 
 TEST_F(PendingOrdersTest, ThatTheLoopRefusesByANumberSayTheNumberWhatIsAllowedAndTheKey) {
-  const auto expect_mentions = [](const std::string& text, std::initializer_list<const char*> parts) {
-    for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
-  };
+  using testing::expect_mentions;
   expect_mentions(refusal(OrderKind::kEnable, {0, Reason::kMoving, Mode::kOff, 3.6, 0.01}),
                   {"3.6 rad/s", "at most 0.01", "joint.supervision.standstill_rad_s"});
   expect_mentions(refusal(OrderKind::kSetpoint, {0, Reason::kOutOfRange, Mode::kHolding, 2.5, 1.0}),

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "control/table/gain_table_json.h"
 #include "daemon/admission/table_admission.h"
 #include "daemon/assembly.h"
@@ -21,11 +22,6 @@ class DataSheets : public ConfigFileTest {
   DataSheets() { testing::write_authorized_keys(folder_); }
   static std::filesystem::path sheet(const std::string& name) {
     return std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "tests/drivers/can/eds" / name;
-  }
-  static std::string text_of(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
   }
   /// What start-up would say of the first joint's drive.
   std::string check(const std::string& config, const std::string& eds) {
@@ -80,7 +76,7 @@ TEST_F(DataSheets, AnObjectThatCannotBeMappedIsRefusedByItsName) {
 
 TEST_F(DataSheets, AConfiguredDriveIsJudgedByWhatItIsSetTo) {
   // A DCF of an EPOS4 with node id 7: 6502h, 6076h and the vendor as they were read from the drive.
-  std::string dcf = text_of(sheet("epos4.eds"));
+  std::string dcf = read_text_file(sheet("epos4.eds"));
   for (const auto& [object, value] :
        {std::pair{"[1018sub1]", "0xFB"}, {"[6502]", "0x3A5"}, {"[6076]", "192000"}})
     dcf = replaced(dcf, std::string(object) + "\n", std::string(object) + "\nParameterValue=" + value + "\n");
@@ -108,7 +104,7 @@ TEST_F(DataSheets, ALimitThatExcludesWhatStartUpWritesIsNamedAndRefusesNothing) 
 }
 
 TEST_F(DataSheets, WhatIsUnclearMattersOnlyWhereStartUpLooks) {
-  const std::string eds = text_of(sheet("epos4.eds"));
+  const std::string eds = read_text_file(sheet("epos4.eds"));
   std::ofstream(folder_ / "drive.eds") << replaced(eds, "[6064]\n", "[6064]\nAccessType=perhaps\n")
                                        << "\n[2099]\nDataType=long\nAccessType=ro\n";
   const std::string text = check(example("epos4.toml"), folder_ / "drive.eds");
@@ -161,7 +157,7 @@ TEST_F(DataSheets, HomingByTheEncodersIndexNeedsAllOfTheTouchProbe) {
   const std::string by_index =
       replaced(replaced(example("epos4.toml"), "to = \"negative_limit\"", "to = \"index\""),
                "negative_limit = true", "index = \"encoder\"\nnegative_limit = true");
-  const std::string epos4 = text_of(sheet("epos4.eds"));
+  const std::string epos4 = read_text_file(sheet("epos4.eds"));
   const auto check_with = [&](const std::string& objects) {
     std::ofstream(folder_ / "drive.eds") << epos4 << third_pdo(epos4) << objects;
     return check(by_index, folder_ / "drive.eds");

@@ -6,24 +6,22 @@
 
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
-#include <sstream>
 #include <string>
 
-#include "base/input_error.h"
+#include "base/text_file.h"
 #include "daemon/config/config.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
+
+using testing::expect_mentions;
 
 class ConfigFileTest : public ::testing::Test {
  protected:
   /// An example of config/, whole.
   static std::string example(const std::string& name) {
-    std::ifstream file(std::string(STRAINWAVE_SOURCE_DIR "/config/") + name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+    return read_text_file(std::string(STRAINWAVE_SOURCE_DIR "/config/") + name);
   }
   /// `text` with the first `from`, which must be there, replaced.
   static std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -37,17 +35,7 @@ class ConfigFileTest : public ::testing::Test {
   }
   /// Why `text` is refused.
   std::string error_of(const std::string& text) {
-    try {
-      ConfigFileTest::read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "accepted: " << text;
-    return "";
-  }
-  static void expect_mentions(const std::string& message, std::initializer_list<const char*> parts) {
-    for (const char* part : parts)
-      EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+    return testing::refusal_of([&] { ConfigFileTest::read(text); });
   }
 
   TemporaryFolder temporary_;

@@ -9,6 +9,7 @@
 #include "daemon/assembly.h"
 #include "tests/daemon/config/config_file_test.h"
 #include "tests/support/example_keys.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -178,12 +179,8 @@ TEST_F(ConfigTest, SaysEveryErrorOfTheFileAtOnceEachInALine) {
 }
 
 TEST_F(ConfigTest, NamesAFileThatCannotBeRead) {
-  try {
-    read_config(folder_ / "absent.toml");
-    FAIL();
-  } catch (const InputError& error) {
-    expect_mentions(error.what(), {"absent.toml", "cannot be read"});
-  }
+  const std::string refused = testing::refusal_of([&] { read_config(folder_ / "absent.toml"); });
+  expect_mentions(refused, {"absent.toml", "cannot be read"});
 }
 
 TEST_F(ConfigTest, ObeysNobodyWithoutKeysUnlessToldTo) {

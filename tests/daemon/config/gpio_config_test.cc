@@ -2,9 +2,9 @@
 // [joint.gpio], [joint.homing] and [joint.thermometer]: the example is sound, and what cannot be is refused
 // by name.
 
-#include <fstream>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "daemon/config/config.h"
 #include "daemon/drive_check.h"
 #include "tests/daemon/config/config_file_test.h"
@@ -108,10 +108,9 @@ TEST_F(GpioConfig, NeverMovesForAnybodyWhoAsks) {
 }
 
 TEST_F(GpioConfig, RefusesAThermometerForTheSimulatedJoint) {
-  std::ifstream file(STRAINWAVE_SOURCE_DIR "/config/demo.toml");
-  std::ostringstream text;
-  text << file.rdbuf() << "\n[joint.thermometer]\nfile = \"/sys/x\"\n";
-  expect_refused(text.str(), {"thermometer"});
+  expect_refused(read_text_file(STRAINWAVE_SOURCE_DIR "/config/demo.toml") +
+                     "\n[joint.thermometer]\nfile = \"/sys/x\"\n",
+                 {"thermometer"});
 }
 
 }  // namespace

@@ -3,24 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/text_file.h"
 #include "daemon/config/config.h"
 
 namespace strainwave {
 namespace {
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // Keys that the code reads: the literal in section.number_or("key", ...) and its kin.
 std::set<std::string> keys_in_code() {
@@ -30,7 +23,7 @@ std::set<std::string> keys_in_code() {
   for (const auto& entry : std::filesystem::directory_iterator(STRAINWAVE_SOURCE_DIR "/daemon/config")) {
     const std::string name = entry.path().filename().string();
     if (name.rfind("config", 0) != 0 || entry.path().extension() != ".cc") continue;
-    const std::string text = read(entry.path());
+    const std::string text = read_text_file(entry.path());
     for (std::sregex_iterator it(text.begin(), text.end(), asks), end; it != end; ++it) keys.insert((*it)[1]);
   }
   return keys;
@@ -46,7 +39,7 @@ std::vector<std::string> split(const std::string& path) {
 // Keys and table names of the file, commented-out examples included.
 std::set<std::string> keys_in_reference() {
   std::set<std::string> keys;
-  std::istringstream lines(read(STRAINWAVE_SOURCE_DIR "/config/reference.toml"));
+  std::istringstream lines(read_text_file(STRAINWAVE_SOURCE_DIR "/config/reference.toml"));
   const std::regex assignment(R"(^(?:# )?([A-Za-z0-9_]+) = )");
   const std::regex header(R"(^(?:# )?\[+([a-z_.]+)\]+)");
   for (std::string line; std::getline(lines, line);) {

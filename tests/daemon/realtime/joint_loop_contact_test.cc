@@ -46,7 +46,7 @@ BenchJoint joint_before_a_wall(double stiffness_Nm_rad, bool flexible, OverloadS
   return joint;
 }
 
-class RunsIntoAWall : public ::testing::TestWithParam<std::tuple<double, bool>> {
+class ContactWithAWall : public ::testing::TestWithParam<std::tuple<double, bool>> {
  protected:
   Blow run_into_it(OverloadStop stop) {
     const auto [stiffness_Nm_rad, flexible] = GetParam();
@@ -112,7 +112,7 @@ class RunsIntoAWall : public ::testing::TestWithParam<std::tuple<double, bool>> 
 /// The estimate is so much later than the wall's push.
 constexpr int kShowsPeriods = 30;
 
-TEST_P(RunsIntoAWall, AndIsOffInTime) {
+TEST_P(ContactWithAWall, SwitchesOffInTime) {
   const Blow blow = run_into_it(OverloadStop::kTorqueOff);
   EXPECT_EQ(bench_->fault(0), Fault::kOverload);
   ASSERT_GE(blow.overloaded, 0);
@@ -121,7 +121,7 @@ TEST_P(RunsIntoAWall, AndIsOffInTime) {
   EXPECT_EQ(blow.touches, 1) << "it does not bounce";
 }
 
-TEST_P(RunsIntoAWall, AndHoldsBeforeItHavingYielded) {
+TEST_P(ContactWithAWall, YieldsAndHoldsBeforeIt) {
   const Blow blow = run_into_it(OverloadStop::kHoldLoad);
   EXPECT_EQ(bench_->fault(0), Fault::kNone);
   EXPECT_EQ(bench_->mode(0), Mode::kHolding);
@@ -133,7 +133,7 @@ TEST_P(RunsIntoAWall, AndHoldsBeforeItHavingYielded) {
   EXPECT_LE(blow.peak_torque_Nm, kReferencePeakTorque_Nm);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEveryStiffness, RunsIntoAWall,
+INSTANTIATE_TEST_SUITE_P(OfEveryStiffness, ContactWithAWall,
                          ::testing::Combine(::testing::Values(200.0, 2000.0, 20000.0), ::testing::Bool()),
                          [](const ::testing::TestParamInfo<std::tuple<double, bool>>& instance) {
                            return std::to_string(static_cast<int>(std::get<double>(instance.param))) +

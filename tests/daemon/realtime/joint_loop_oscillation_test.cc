@@ -29,7 +29,7 @@ std::string words_of_fault(BenchJoint joint, const GainTable& table) {
   return words;
 }
 
-TEST(AnOscillatingJoint, IsStoppedAndSaysWhatWasSeenWhereTheDelayIsLonger) {
+TEST(JointLoopOscillation, IsStoppedAndSaysWhatWasSeenWhereTheDelayIsLonger) {
   BenchJoint joint = flexible_joint();
   joint.drive.plant.delay.periods += 3.0;
   const std::string words = words_of_fault(joint, flexible_table());
@@ -37,7 +37,7 @@ TEST(AnOscillatingJoint, IsStoppedAndSaysWhatWasSeenWhereTheDelayIsLonger) {
   EXPECT_NE(words.find("check delay_periods"), std::string::npos);
 }
 
-TEST(AnOscillatingJoint, IsStoppedWhereTheMotorIsLighterAndTheDelayLonger) {
+TEST(JointLoopOscillation, IsStoppedWhereTheMotorIsLighterAndTheDelayLonger) {
   BenchJoint joint = flexible_joint();
   joint.drive.plant.joint.inertia_kgm2 *= 0.3;
   joint.drive.plant.delay.periods += 1.0;
@@ -45,7 +45,7 @@ TEST(AnOscillatingJoint, IsStoppedWhereTheMotorIsLighterAndTheDelayLonger) {
   EXPECT_EQ(words.find("torque oscillation: the torque reversed "), 0U);
 }
 
-TEST(AJointAsConfigured, NeverOscillates) {
+TEST(JointLoopOscillation, DoesNotOccurInAJointAsConfigured) {
   EXPECT_EQ(words_of_fault(flexible_joint(), flexible_table()), "none");
 }
 

@@ -28,12 +28,12 @@ BenchJoint joint_that_yields() {
 }
 
 // Who was not looking sees it until somebody moves the joint anew.
-class AYieldIsTold : public ::testing::Test {
+class YieldNotice : public ::testing::Test {
  protected:
   static constexpr Order kIntoTheWall{
       .kind = OrderKind::kSetpoint, .position_rad = 1.0, .speed_limit_rad_s = kRunsAt_rad_s};
 
-  AYieldIsTold() { bench_.bring_to_hold(0); }
+  YieldNotice() { bench_.bring_to_hold(0); }
   bool told() { return bench_.has_notice(0, Notice::kYielded); }
   void run_into_the_wall(const Order& order = kIntoTheWall) {
     ASSERT_EQ(bench_.order(0, order), Reason::kAccepted);
@@ -44,7 +44,7 @@ class AYieldIsTold : public ::testing::Test {
   JointBench bench_{{joint_that_yields()}};
 };
 
-TEST_F(AYieldIsTold, WithTheLoadWhatWasAllowedAndWhereItWas) {
+TEST_F(YieldNotice, WithTheLoadWhatWasAllowedAndWhereItWas) {
   EXPECT_TRUE(std::isnan(bench_.state(0).yield_load_Nm));
   run_into_the_wall();
   const state_v1 began = bench_.state(0);
@@ -61,7 +61,7 @@ TEST_F(AYieldIsTold, WithTheLoadWhatWasAllowedAndWhereItWas) {
   EXPECT_EQ(bench_.state(0).yield_position_rad, began.yield_position_rad);
 }
 
-TEST_F(AYieldIsTold, OnceToTheLogWithTheModeThatItWasIn) {
+TEST_F(YieldNotice, OnceToTheLogWithTheModeThatItWasIn) {
   LoopEvent event;
   while (bench_.events().pop(event)) EXPECT_FALSE(event.yield);
   run_into_the_wall();
@@ -78,7 +78,7 @@ TEST_F(AYieldIsTold, OnceToTheLogWithTheModeThatItWasIn) {
   EXPECT_EQ(yields, 1);
 }
 
-TEST_F(AYieldIsTold, UntilTheNextMotionIsAccepted) {
+TEST_F(YieldNotice, UntilTheNextMotionIsAccepted) {
   run_into_the_wall();
   EXPECT_EQ(bench_.move(0, 0.1), Reason::kMoving) << "it still yields";
   bench_.run(1.0);
@@ -97,7 +97,7 @@ TEST_F(AYieldIsTold, UntilTheNextMotionIsAccepted) {
   EXPECT_TRUE(std::isnan(bench_.state(0).yield_load_Nm));
 }
 
-TEST_F(AYieldIsTold, UntilAPathBegins) {
+TEST_F(YieldNotice, UntilAPathBegins) {
   run_into_the_wall();
   bench_.run(1.0);
   const double here_rad = bench_.state(0).target_position_rad;
@@ -113,7 +113,7 @@ TEST_F(AYieldIsTold, UntilAPathBegins) {
   EXPECT_FALSE(told());
 }
 
-TEST(AYieldIsToldUntil, TheJointIsHomed) {
+TEST(YieldNoticeInHoming, StandsUntilTheJointIsHomed) {
   BenchJoint joint = joint_that_yields();
   joint.drive.inputs = {-2.0, 2.0, -0.3, -0.2, 0.05, 0.125};
   joint.loop.homing.target = HomingTarget::kHomeSwitch;
@@ -129,7 +129,7 @@ TEST(AYieldIsToldUntil, TheJointIsHomed) {
   EXPECT_FALSE(bench.has_notice(0, Notice::kYielded));
 }
 
-TEST_F(AYieldIsTold, UntilTheFaultThatCameOfItIsCleared) {
+TEST_F(YieldNotice, UntilTheFaultThatCameOfItIsCleared) {
   run_into_the_wall();
   bench_.joint(0).raise_fault(Fault::kOverload, bench_.time());
   bench_.run(0.5);
@@ -139,7 +139,7 @@ TEST_F(AYieldIsTold, UntilTheFaultThatCameOfItIsCleared) {
   EXPECT_FALSE(told());
 }
 
-TEST_F(AYieldIsTold, ToTheStreamThatItEndedAndToNoOther) {
+TEST_F(YieldNotice, ToTheStreamThatItEndedAndToNoOther) {
   Order sample = kIntoTheWall;
   sample.valid_for_s = 10.0;
   sample.stream_id = 1;
@@ -170,7 +170,7 @@ void yield_on_the_way(JointBench& bench, double speed_rad_s) {
 
 // In its first period its plan stood still and the observer knew of no motion: 1.5 times the speed, 30 N.m for a period, and fault 13 near the
 // speed limit.
-TEST(AYieldsEnd, BrakesTheJointWithoutASurprise) {
+TEST(YieldEnd, BrakesTheJointWithoutASurprise) {
   for (const double stiffness_Nm_rad : {200.0, 2000.0})
     for (const double speed_rad_s : {1.0, 2.0, 3.5}) {
       BenchJoint joint = joint_that_yields();

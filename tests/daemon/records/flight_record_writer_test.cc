@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/text_file.h"
 #include "daemon/realtime/periodic_clock.h"
 #include "daemon/records/flight_record_file.h"
 #include "lcmtypes/reading_doubt.h"
@@ -154,11 +155,9 @@ TEST_F(FlightRecordWriterTest, DocumentsEveryColumn) {
   const auto lines = lines_of(files().at(0));
   const auto names = split(lines[11], ',');
   const auto units = split(lines[10].substr(9), ',');
-  std::ifstream file(fs::path(STRAINWAVE_SOURCE_DIR) / "docs" / "flight-recorder.md");
-  std::stringstream page;
-  page << file.rdbuf();
+  const std::string page = read_text_file(STRAINWAVE_SOURCE_DIR "/docs/flight-recorder.md");
   for (std::size_t i = 0; i < names.size(); ++i)
-    EXPECT_NE(page.str().find("\n| `" + names[i] + "` | " + units[i] + " |"), std::string::npos) << names[i];
+    EXPECT_NE(page.find("\n| `" + names[i] + "` | " + units[i] + " |"), std::string::npos) << names[i];
 }
 
 TEST_F(FlightRecordWriterTest, ReleasesTheMemoryWhateverBecomesOfTheFile) {

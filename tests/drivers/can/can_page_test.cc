@@ -2,22 +2,14 @@
 // docs/can.md against the code: every detail of a fault with its number and name.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 
+#include "base/text_file.h"
 #include "drivers/can/can_detail.h"
 
 namespace strainwave {
 namespace {
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream(std::string(STRAINWAVE_SOURCE_DIR "/") + file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 std::map<int, std::string> matches(const std::string& text, const std::regex& pattern, std::size_t number,
                                    std::size_t name) {
@@ -28,11 +20,12 @@ std::map<int, std::string> matches(const std::string& text, const std::regex& pa
 }
 
 TEST(CanPage, ListsEveryDetailWithItsNumberAndName) {
-  const std::string header = text_of("drivers/can/can_detail.h");
+  const std::string header = read_text_file(STRAINWAVE_SOURCE_DIR "/drivers/can/can_detail.h");
   const std::size_t begin = header.find("enum class CanDetail");
   const auto declared =
       matches(header.substr(begin, header.find("};", begin) - begin), std::regex(R"((k\w+) = (\d+))"), 2, 1);
-  const auto documented = matches(text_of("docs/can.md"), std::regex(R"(\| (\d+) \| `(k\w+)` \|)"), 1, 2);
+  const auto documented = matches(read_text_file(STRAINWAVE_SOURCE_DIR "/docs/can.md"),
+                                  std::regex(R"(\| (\d+) \| `(k\w+)` \|)"), 1, 2);
   ASSERT_GT(declared.size(), 10U);
   EXPECT_EQ(documented, declared);
   for (const auto& [number, name] : declared)

@@ -3,14 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/input_error.h"
 #include "sim/joint/reference_plant.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave::testing {
-
-void expect_mentions(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
-}
 
 BenchDrive bench_drive(std::uint8_t node_id) {
   BenchDrive drive;
@@ -48,13 +44,7 @@ void DriveBench::start() {
 }
 
 std::string DriveBench::start_refusal() {
-  try {
-    start();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "started";
-  return "";
+  return testing::refusal_of([&] { start(); });
 }
 
 void DriveBench::step(const ActuatorCommand& command) {

@@ -10,12 +10,10 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/can/cia402/cia402_node.h"
 #include "tests/support/can_nodes/cia402_node.h"
+#include "tests/support/refusal.h"
 #include "tests/support/virtual_can.h"
 
 namespace strainwave::testing {
-
-/// Fails unless `text` has each of `parts`.
-void expect_mentions(const std::string& text, std::initializer_list<const char*> parts);
 
 /// A drive as the node is made, and as the configuration describes it.
 struct BenchDrive {

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <limits>
 #include <random>
-#include <sstream>
 
 #include "base/input_error.h"
 #include "base/unique_fd.h"
 #include "drivers/gpio/counter_counts.h"
 #include "drivers/gpio/pwm_channel.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace strainwave {
@@ -94,13 +94,10 @@ TEST_F(SysfsParts, PwmIsIdleAtTheEnd) {
 }
 
 TEST_F(SysfsParts, PwmThatDoesNotExistIsNamed) {
-  try {
-    const PwmChannel channel(pwm(), 0.0, "joint[0].gpio.pwm");
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("joint[0].gpio.pwm"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("pwmchip0"), std::string::npos);
-  }
+  const std::string refused =
+      testing::refusal_of([&] { const PwmChannel channel(pwm(), 0.0, "joint[0].gpio.pwm"); });
+  EXPECT_NE(refused.find("joint[0].gpio.pwm"), std::string::npos);
+  EXPECT_NE(refused.find("pwmchip0"), std::string::npos);
 }
 
 TEST_F(SysfsParts, CounterIsSetUpAndCountsFromWhereItStands) {

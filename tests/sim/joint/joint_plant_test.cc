@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/input_error.h"
 #include "sim/joint/reference_plant.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -127,12 +127,7 @@ TEST(JointPlant, WantsSubstepsThatItsFastestSwingAndDecayBear) {
   const auto message = [](auto&& change) {
     JointPlantConfig config = flexible_plant();
     change(config);
-    try {
-      JointPlant plant(config);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return testing::refusal_of([&] { JointPlant plant(config); });
   };
   EXPECT_EQ(message([](auto&) {}), "accepted");
   const std::string stiff = message([](auto& c) { c.effects.transmission->spring.stiffness_3_Nm_rad = 1e9; });
@@ -154,12 +149,7 @@ TEST(JointPlant, RefusesAnImpossibleConfigurationByName) {
   const auto message = [](auto&& spoil) {
     JointPlantConfig config = realistic_plant();
     spoil(config);
-    try {
-      JointPlant plant(config);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return testing::refusal_of([&] { JointPlant plant(config); });
   };
   EXPECT_NE(message([](auto& c) { c.joint.inertia_kgm2 = 0.0; }).find("inertia_kgm2"), std::string::npos);
   EXPECT_NE(message([](auto& c) { c.period_s = -1.0; }).find("period_s"), std::string::npos);

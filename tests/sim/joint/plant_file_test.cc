@@ -8,17 +8,13 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "sim/joint/reference_plant.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
-    plant_from_toml(text, "joint.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return testing::refusal_of([&] { plant_from_toml(text, "joint.toml"); });
 }
 
 TEST(PlantFile, TakesWhatItDoesNotSayFromItsBase) {

@@ -7,25 +7,20 @@
 #include <fstream>
 #include <string>
 
-#include "base/input_error.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
 
 std::filesystem::path file_with(const std::string& text) {
-  const auto path = std::filesystem::path(testing::TempDir()) /
-                    (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  const auto path = std::filesystem::path(::testing::TempDir()) /
+                    (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
   std::ofstream(path) << text;
   return path;
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    TemperatureProfile::parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return testing::refusal_of([&] { TemperatureProfile::parse(text); });
 }
 
 TEST(TemperatureProfile, RisesAtEveryWholeIntervalAndThenHolds) {

@@ -6,18 +6,14 @@
 #include <cmath>
 
 #include "control/joint/gear_catalogue.h"
-#include "control/table/gain_table_json.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/flexible_study.h"
+#include "tests/support/reference_joint.h"
 
 namespace strainwave {
 namespace {
 
 constexpr double kDamping_Nms_rad = 1.0;
-
-GainTable shipped() {
-  return read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/csf-17-50-link.json");
-}
 
 FlexibleCell cell(double link_kgm2, double delay_periods, double temperature_C, double step_rad) {
   FlexibleCell cell{link_kgm2, 1.0, 0.0, temperature_C, step_rad, "none", realistic_plant(), {}, 4.0};
@@ -71,7 +67,7 @@ LinkArrival run(const FlexibleCell& cell, const GainTable& table) {
 
 // Outside the box as well: a link of 0.05 and one of 0.3 kg m2.
 TEST(LinkEncoder, ArrivesWithoutOscillatingWhateverTheLink) {
-  const GainTable table = shipped();
+  const GainTable table = testing::shipped_table("csf-17-50-link");
   for (int delay = table.box.least_delay; delay <= table.box.most_delay; ++delay) {
     for (const double link_kgm2 : {0.05, 0.085, 0.1, 0.115, 0.3}) {
       for (const double temperature_C : {-10.0, 20.0, 40.0}) {

@@ -7,9 +7,9 @@
 #include <functional>
 #include <string>
 
-#include "base/input_error.h"
 #include "sim/joint/reference_plant.h"
 #include "sim/studies/time_optimal.h"
+#include "tests/support/refusal.h"
 
 namespace strainwave {
 namespace {
@@ -24,12 +24,7 @@ ClosedLoopConfig step_of(const JointPlantConfig& plant, double setpoint_rad) {
 }
 
 std::string refusal(const ClosedLoopConfig& config) {
-  try {
-    physical_limit(config);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return testing::refusal_of([&] { physical_limit(config); });
 }
 
 TEST(PhysicalLimit, IsTheTimeOptimalMotionOfARigidJointAndTheBestMotionOfALink) {

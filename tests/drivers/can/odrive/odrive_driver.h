@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/input_error.h"
 #include "drivers/can/can_bus.h"
 #include "drivers/can/can_detail.h"
 #include "drivers/can/odrive/odrive_node.h"
 #include "sim/joint/reference_plant.h"
 #include "tests/support/can_nodes/odrive_node.h"
+#include "tests/support/refusal.h"
 #include "tests/support/virtual_can.h"
 
 namespace strainwave::testing {
@@ -47,13 +47,7 @@ class OdriveDriver : public ::testing::Test {
     joint_ = bus_->make_actuator(0);
   }
   std::string refusal() {
-    try {
-      start();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    ADD_FAILURE() << "started";
-    return "";
+    return testing::refusal_of([&] { start(); });
   }
   void step(const ActuatorCommand& command) {
     can_.run_to(can_.now_ns() + kPeriod_ns);
