@@ -47,7 +47,10 @@ std::int64_t fault_ns(const FlightRecordInfo& info, const std::string& source) {
       marks[4] >> second >> marks[5];
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
                                          std::chrono::day(day)};
-  if (!stream || std::string_view(marks.data(), marks.size()) != "--T::Z" || !date.ok())
+  // Nanoseconds since 1970 have to hold it.
+  const bool in_range = year >= 1970 && year < 2262 && date.ok() && hour >= 0 && hour < 24 && minute >= 0 &&
+                        minute < 60 && second >= 0 && second <= 60;
+  if (!stream || std::string_view(marks.data(), marks.size()) != "--T::Z" || !in_range)
     throw InputError(source, "fault_utc", text, "a time as 2026-11-21T03:04:05Z is allowed");
   const auto at = std::chrono::sys_days(date) + std::chrono::hours(hour) + std::chrono::minutes(minute) +
                   std::chrono::seconds(second);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "client/commands/commands.h"
+#include "client/text/mcap_flight.h"
 #include "strainwave/client_error.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
@@ -92,6 +93,20 @@ TEST_F(FlightRecordPlot, TakesTheErrorAtTheInstantOfThePosition) {
   const FlightRecordInfo info = read_flight_record(file(std::string(kHead) + kColumns + kRows));
   const std::string script = plot_script(info, folder_ / "a", folder_ / "b", std::nullopt);
   EXPECT_NE(script.find("using 2:($5 - 0.001 * $6 - $7)"), std::string::npos) << script;
+}
+
+TEST_F(FlightRecordPlot, TurnsNoTimeIntoMcapThatItsNanosecondsCannotHold) {
+  for (const char* utc : {"9999-11-21T03:04:05Z", "1969-12-31T23:59:59Z", "2026-11-21T2000000000:04:05Z",
+                          "2026-11-21T-3:04:05Z"}) {
+    std::string text = std::string(kHead) + kColumns + kRows;
+    text.replace(text.find("2026-11-21T03:04:05Z"), 20, utc);
+    try {
+      write_flight_mcap(file(text), folder_ / "a.mcap");
+      ADD_FAILURE() << utc << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("fault_utc"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(FlightRecordPlot, SaysWhenThePictureCannotBeWritten) {
