@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "drivers/simulated_inputs.h"
 
@@ -129,70 +130,62 @@ constexpr double kCreepPerPeriod_rad = 0.02 * kPeriod_s;
 /// The walker, unlike the joint, does not brake for the target: two periods of the search.
 constexpr double kOvershoot_rad = 2.0 * 0.5 * kPeriod_s;
 
-TEST(Homing, FindsTheEdgeOfALimitSwitchFromAnywhere) {
-  for (const double begin_rad : {-1.01, -0.99, -0.5, 0.3, 0.99}) {
-    Homing homing(config_to(HomingTarget::kNegativeLimit));
-    Walker joint(begin_rad, inputs());
-    joint.run(homing);
-    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
-    EXPECT_NEAR(homing.found_rad(), -1.0, 2.0 * kCreepPerPeriod_rad) << begin_rad;
-  }
-  Homing homing(config_to(HomingTarget::kPositiveLimit));
-  Walker joint(0.2, inputs());
-  joint.run(homing);
-  ASSERT_EQ(homing.phase(), Homing::Phase::kDone);
-  EXPECT_NEAR(homing.found_rad(), 1.0, 2.0 * kCreepPerPeriod_rad) << "whatever the direction says";
-}
-
-TEST(Homing, FindsTheSameEdgeOfAHomeSwitchFromEitherSideOfIt) {
-  // Direction negative: the upper edge, also from below, by way of the limit switch and past the switch.
-  for (const double begin_rad : {0.9, 0.36, 0.349, 0.31, 0.29, -0.5, -0.999, -1.2}) {
-    Homing homing(config_to(HomingTarget::kHomeSwitch));
-    Walker joint(begin_rad, inputs());
-    joint.run(homing);
-    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
-    EXPECT_NEAR(homing.found_rad(), 0.35, 2.0 * kCreepPerPeriod_rad) << begin_rad;
-  }
+TEST(Homing, FindsTheSamePlaceFromAnywhere) {
   HomingConfig upwards = config_to(HomingTarget::kHomeSwitch);
   upwards.direction = 1.0;
-  for (const double begin_rad : {-0.5, 0.32, 0.6}) {
-    Homing homing(upwards);
-    Walker joint(begin_rad, inputs());
-    joint.run(homing);
-    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
-    EXPECT_NEAR(homing.found_rad(), 0.30, 2.0 * kCreepPerPeriod_rad) << begin_rad;
-  }
-}
-
-TEST(Homing, FindsAHomeSwitchThatIsNarrowerThanTheWayToAStop) {
+  HomingConfig then_index = config_to(HomingTarget::kHomeSwitch);
+  then_index.then_index = true;
   SimulatedInputsConfig narrow = inputs();
   narrow.home_to_rad = narrow.home_from_rad + 0.002;  // the joint needs 0.025 to stop
-  for (const double begin_rad : {0.8, -0.2}) {
-    Homing homing(config_to(HomingTarget::kHomeSwitch));
-    Walker joint(begin_rad, narrow);
-    joint.run(homing);
-    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
-    EXPECT_NEAR(homing.found_rad(), narrow.home_to_rad, 2.0 * kCreepPerPeriod_rad) << begin_rad;
-  }
-}
-
-TEST(Homing, FindsAnIndexPulseExactlyAloneOrAfterASwitch) {
-  Homing alone(config_to(HomingTarget::kIndex));
-  Walker joint(0.2, inputs());
-  joint.run(alone);
-  ASSERT_EQ(alone.phase(), Homing::Phase::kDone);
-  EXPECT_NEAR(alone.found_rad(), 0.135, 1e-12) << "the pulse's place, not where the joint was seen after it";
-  EXPECT_LE(joint.fastest_rad_s_, 0.02);
-
-  HomingConfig config = config_to(HomingTarget::kHomeSwitch);
-  config.then_index = true;
-  for (const double begin_rad : {0.9, -0.5}) {
-    Homing homing(config);
-    Walker other(begin_rad, inputs());
-    other.run(homing);
-    ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << begin_rad;
-    EXPECT_NEAR(homing.found_rad(), 0.385, 1e-12) << "the first above the switch, from " << begin_rad;
-  }
+  constexpr double kEdge_rad = 2.0 * kCreepPerPeriod_rad;
+  constexpr double kPulse_rad = 1e-12;  // the pulse's place, not where the joint was seen after it
+  const struct {
+    const char* what;
+    HomingConfig config;
+    SimulatedInputsConfig inputs;
+    std::vector<double> begins_rad;
+    double found_rad;
+    double within_rad;
+  } cases[] = {
+      {"negative limit",
+       config_to(HomingTarget::kNegativeLimit),
+       inputs(),
+       {-1.01, -0.99, -0.5, 0.3, 0.99},
+       -1.0,
+       kEdge_rad},
+      {"positive limit, whatever the direction says",
+       config_to(HomingTarget::kPositiveLimit),
+       inputs(),
+       {0.2},
+       1.0,
+       kEdge_rad},
+      {"upper edge, also from below, by way of the limit switch and past the switch",
+       config_to(HomingTarget::kHomeSwitch),
+       inputs(),
+       {0.9, 0.36, 0.349, 0.31, 0.29, -0.5, -0.999, -1.2},
+       0.35,
+       kEdge_rad},
+      {"lower edge", upwards, inputs(), {-0.5, 0.32, 0.6}, 0.30, kEdge_rad},
+      {"narrow switch",
+       config_to(HomingTarget::kHomeSwitch),
+       narrow,
+       {0.8, -0.2},
+       narrow.home_to_rad,
+       kEdge_rad},
+      {"index alone", config_to(HomingTarget::kIndex), inputs(), {0.2}, 0.135, kPulse_rad},
+      {"first index above the switch", then_index, inputs(), {0.9, -0.5}, 0.385, kPulse_rad},
+  };
+  for (const auto& one : cases)
+    for (const double begin_rad : one.begins_rad) {
+      Homing homing(one.config);
+      Walker joint(begin_rad, one.inputs);
+      joint.run(homing);
+      ASSERT_EQ(homing.phase(), Homing::Phase::kDone) << one.what << ", " << begin_rad;
+      EXPECT_NEAR(homing.found_rad(), one.found_rad, one.within_rad) << one.what << ", " << begin_rad;
+      if (one.config.target == HomingTarget::kIndex) {
+        EXPECT_LE(joint.fastest_rad_s_, 0.02);
+      }
+    }
 }
 
 TEST(Homing, NeverGoesFasterThanItsSpeedsNorFartherThanItsTravel) {

@@ -20,13 +20,10 @@ constexpr int kOverloadPeriods = 20;
 
 /// In periods since the wall is touched; -1: never.
 struct Blow {
-  double peak_contact_Nm = 0.0;
   double peak_torque_Nm = 0.0;
   int overloaded = -1;  ///< the wall pushes with more than the load that is allowed
   int noticed = -1;
   int yielded = -1;  ///< the torque is what it yields with
-  int held = -1;     ///< it rests under control
-  int left = -1;     ///< the last period in which the wall is touched
   int touches = 0;
   double last_speed_rad_s = 0.0;  ///< the largest in the last half second
 };
@@ -68,13 +65,6 @@ class ContactWithAWall : public ::testing::TestWithParam<std::tuple<double, bool
             std::max(blow.last_speed_rad_s,
                      std::abs(bench_->drive(0).simulated().plant().link_state().velocity_rad_s));
     }
-    std::printf(
-        "%5.0f N.m/rad, %s, %s: %.1f N.m at the wall, torque %.1f N.m, %d ms until overloaded, notice after "
-        "%d, yields after %d, "
-        "off the wall after %d, holds after %d\n",
-        stiffness_Nm_rad, flexible ? "spring" : "rigid", stop == OverloadStop::kHoldLoad ? "hold" : "off",
-        blow.peak_contact_Nm, blow.peak_torque_Nm, blow.overloaded, blow.noticed, blow.yielded, blow.left,
-        blow.held);
     return blow;
   }
 
@@ -85,13 +75,9 @@ class ContactWithAWall : public ::testing::TestWithParam<std::tuple<double, bool
     const JointState link = bench_->drive(0).simulated().plant().link_state();
     const double push_Nm = wall.torque_Nm(link.position_rad, link.velocity_rad_s);
     const double torque_Nm = bench_->state(0).torque_commanded_Nm;
-    if (push_Nm > 0.0) {
-      if (!touching_) ++blow.touches;
-      blow.left = since;
-    }
+    if (push_Nm > 0.0 && !touching_) ++blow.touches;
     touching_ = push_Nm > 0.0;
     if (blow.touches == 0) return;
-    blow.peak_contact_Nm = std::max(blow.peak_contact_Nm, push_Nm);
     blow.peak_torque_Nm = std::max(blow.peak_torque_Nm, std::abs(torque_Nm));
     const auto first = [since](int& when, bool now) {
       if (when < 0 && now) when = since;
@@ -101,9 +87,6 @@ class ContactWithAWall : public ::testing::TestWithParam<std::tuple<double, bool
     // No feedback has a part in the torque of a joint that yields, rests or is off.
     const bool yields = bench_->state(0).torque_feedback_Nm == 0.0;
     first(blow.yielded, blow.overloaded >= 0 && yields);
-    first(blow.held, blow.yielded >= 0 && bench_->mode(0) == Mode::kHolding &&
-                         bench_->state(0).setpoint_velocity_rad_s == 0.0 &&
-                         std::abs(link.velocity_rad_s) < 1e-3);
   }
 
   bool touching_ = false;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "daemon/realtime/path_follower.h"
@@ -92,8 +91,6 @@ TEST_F(GroupOnAPath, ComesToRestAlongItAndFaultsThen) {
       }));
       bench_->step();
     }
-    std::printf("after %g s: at rest in %d ms, at most %.2e rad off the path\n", after_s, periods,
-                farthest_rad);
     EXPECT_TRUE(others_are(1, Mode::kHolding)) << "in one cycle, in which they fault";
     bench_->step();
     EXPECT_LT(periods, 300);
@@ -134,8 +131,6 @@ TEST_F(GroupOnAPath, StopsAtOnceAfterAFaultThatTellsOfMoreThanOneJoint) {
   bench_->step();
   EXPECT_EQ(bench_->fault(1), Fault::kPowerLost);
   EXPECT_TRUE(others(1, [&](std::size_t i) { return bench_->fault(i) == Fault::kGroup; }));
-  bench_->run(0.5);
-  std::printf("at once: %.2e rad off the path in the end\n", off_path_rad(1));
 }
 
 TEST_F(GroupOnAPath, StopsAtOnceWhenASecondFaultTellsOfMoreThanOneJoint) {
@@ -151,7 +146,6 @@ TEST_F(GroupOnAPath, StopsAtOnceWhenASecondFaultTellsOfMoreThanOneJoint) {
   EXPECT_EQ(bench_->fault(3), Fault::kGroup);
 }
 
-// Nobody is led elsewhere by a joint that is to stop.
 TEST_F(GroupOnAPath, StopsAJointAtOnceThatAnOrderTakesOffThePath) {
   begin(OnFault::kGroup);
   bench_->run(0.6);
@@ -235,7 +229,7 @@ TEST_F(GroupOnAPath, StopsEachOnItsOwnAtOnceWhenOneYieldsToAWall) {
   EXPECT_TRUE(others(1, [&](std::size_t i) { return bench_->state(i).setpoint_velocity_rad_s == 0.0; }));
 }
 
-TEST_F(GroupOnAPath, TellsOfAnEndThatSomebodyOrders) {
+TEST_F(GroupOnAPath, TellsOfAnEndThatIsOrdered) {
   begin(OnFault::kGroup);
   bench_->run(0.6);
   EXPECT_FALSE(bench_->has_notice(2, Notice::kPathEnds));

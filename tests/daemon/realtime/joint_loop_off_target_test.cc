@@ -58,24 +58,5 @@ TEST(JointLoopOffTarget, ALoadThatFeedbackCarriesMilliradiansOffIsToldAfterASeco
   EXPECT_FALSE(told(bench)) << "a second anew";
 }
 
-TEST(JointLoopOffTarget, ALoadBelowTheBreakawayMovesNothingAndIsNotTold) {
-  JointBench bench({plain_joint()});
-  bring_to_rest(bench);
-  bench.run(1.5);
-  bench.drive(0).simulated().set_load_torque_Nm(1.0);
-  EXPECT_EQ(periods_off_when_told(bench, 3000), 0);
-}
-
-TEST(JointLoopOffTarget, TheToleranceIsTheConfigurations) {
-  BenchJoint joint = plain_joint();
-  joint.loop.rest_tolerance_rad = 5e-3;
-  JointBench bench({joint});
-  bring_to_rest(bench);
-  bench.drive(0).simulated().set_load_torque_Nm(10.0);
-  bench.run(3.0);
-  EXPECT_GT(off_rad(bench), 2e-3);
-  EXPECT_FALSE(told(bench));
-}
-
 }  // namespace
 }  // namespace strainwave::testing

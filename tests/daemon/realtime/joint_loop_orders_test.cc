@@ -14,24 +14,8 @@ class JointLoopOrders : public ::testing::Test {
  protected:
   JointLoopOrders() : bench_({demo_joint()}) {}
   const state_v1& state() const { return bench_.state(0); }
-  /// A stream that moves at 1 rad/s, a setpoint each 10 ms, for `duration_s`.
-  void stream(double duration_s, double valid_for_s) {
-    for (double sent_s = 0.0; sent_s < duration_s; sent_s += 0.01) {
-      streamed_rad_ += 0.01;
-      ASSERT_EQ(bench_.move(0, streamed_rad_, valid_for_s), Reason::kAccepted);
-      bench_.run(0.009);
-    }
-  }
   JointBench bench_;
-  double streamed_rad_ = 0.0;
 };
-
-TEST_F(JointLoopOrders, FollowAStreamAsLongAsItGoesOn) {
-  bench_.bring_to_hold(0);
-  stream(1.0, 0.05);
-  EXPECT_EQ(bench_.mode(0), Mode::kTracking);
-  EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
-}
 
 TEST_F(JointLoopOrders, MoveNoFasterThanTheOrderSaysAndOnlyThatOrder) {
   bench_.bring_to_hold(0);
@@ -54,26 +38,6 @@ TEST_F(JointLoopOrders, MoveNoFasterThanTheOrderSaysAndOnlyThatOrder) {
   EXPECT_GT(fastest_rad_s, 5.0);
 }
 
-TEST_F(JointLoopOrders, SlowDownWithinTheDecelerationWhenASlowerOrderComes) {
-  const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
-  bench_.bring_to_hold(0);
-  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
-  bench_.run(0.15);
-  double previous_rad_s = state().setpoint_velocity_rad_s;
-  ASSERT_GT(previous_rad_s, 5.0);
-  Order slower;
-  slower.kind = OrderKind::kSetpoint;
-  slower.position_rad = 3.0;
-  slower.speed_limit_rad_s = 1.0;
-  ASSERT_EQ(bench_.order(0, slower), Reason::kAccepted);
-  for (int i = 0; i < 200; ++i) {
-    EXPECT_LE(previous_rad_s - state().setpoint_velocity_rad_s, deceleration_rad_s2 * 0.001 * (1.0 + 1e-9));
-    previous_rad_s = state().setpoint_velocity_rad_s;
-    bench_.step();
-  }
-  EXPECT_NEAR(previous_rad_s, 1.0, 1e-9);
-}
-
 TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
   const double deceleration_rad_s2 = demo_joint().loop.controller.motion.deceleration_rad_s2;
   bench_.bring_to_hold(0);
@@ -94,47 +58,6 @@ TEST_F(JointLoopOrders, EndAStreamThatStopsInABoundedDecelerationAndHold) {
   EXPECT_EQ(bench_.mode(0), Mode::kHolding);
   EXPECT_EQ(bench_.fault(0), Fault::kNone);
   EXPECT_LT(state().joint_position_rad, 1.5) << "it did not go on to the target";
-}
-
-TEST_F(JointLoopOrders, KeepTheExpiryLatchedUntilANewStreamIsBegunExplicitly) {
-  bench_.bring_to_hold(0);
-  ASSERT_EQ(bench_.move(0, 0.5, 0.02), Reason::kAccepted);
-  bench_.run(1.0);
-  const double held_rad = state().setpoint_position_rad;
-  EXPECT_EQ(bench_.move(0, 0.6, 0.02, false), Reason::kStreamEnded)
-      << "a late packet must not move the joint";
-  bench_.run(0.5);
-  EXPECT_EQ(state().setpoint_position_rad, held_rad);
-  EXPECT_TRUE(bench_.has_notice(0, Notice::kSetpointExpired));
-
-  ASSERT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
-  EXPECT_TRUE(bench_.has_notice(0, Notice::kSetpointExpired)) << "stays until a setpoint is accepted";
-  EXPECT_EQ(bench_.move(0, 0.2, 0.5, false), Reason::kStreamEnded) << "a hold begins nothing";
-  EXPECT_EQ(bench_.move(0, 0.2, 0.5), Reason::kAccepted);
-  bench_.run(0.1);
-  EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
-}
-
-TEST_F(JointLoopOrders, TakeAMoveAfterAnExpiry) {
-  bench_.bring_to_hold(0);
-  ASSERT_EQ(bench_.move(0, 0.5, 0.02), Reason::kAccepted);
-  bench_.run(1.0);
-  EXPECT_EQ(bench_.move(0, -0.2), Reason::kAccepted);
-  EXPECT_EQ(bench_.move(0, -0.2, 0.5), Reason::kAccepted) << "the move began something new";
-}
-
-TEST_F(JointLoopOrders, OfAHoldEndAStreamForGood) {
-  bench_.bring_to_hold(0);
-  ASSERT_EQ(bench_.move(0, 0.5, 0.1), Reason::kAccepted);
-  bench_.run(0.05);
-  ASSERT_EQ(bench_.order(0, OrderKind::kHold), Reason::kAccepted);
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(bench_.move(0, 1.0, 0.1, false), Reason::kStreamEnded);
-  bench_.run(1.0);
-  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
-  const double held_rad = state().joint_position_rad;
-  EXPECT_EQ(bench_.move(0, 1.0, 0.1, false), Reason::kStreamEnded);
-  bench_.run(0.5);
-  EXPECT_NEAR(state().joint_position_rad, held_rad, 1e-4);
 }
 
 // Of the owner until now, with its samples that are for later.
@@ -220,14 +143,6 @@ TEST_F(JointLoopOrders, ThatWaitedWhileTheJointFaultedAreRefused) {
   order.kind = OrderKind::kDisable;
   order.challenge_cycle = -1;
   EXPECT_NE(bench_.order(0, order), Reason::kTooOld);
-}
-
-TEST_F(JointLoopOrders, DoNotExpireAMove) {
-  bench_.bring_to_hold(0);
-  ASSERT_EQ(bench_.move(0, 0.5), Reason::kAccepted);
-  bench_.run(10.0);
-  EXPECT_FALSE(bench_.has_notice(0, Notice::kSetpointExpired));
-  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
 }
 
 TEST_F(JointLoopOrders, AreRefusedBeforeTheirTime) {

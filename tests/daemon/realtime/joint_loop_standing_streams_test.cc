@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "sim/joint/reference_plant.h"
 #include "tests/support/flexible_bench.h"
@@ -67,17 +66,9 @@ TEST(StandingStream, ThatFlickersByUpToHalfACountDoesNotThrowFrictionToAndFro) {
       }
 }
 
-struct Ends {
-  int faults = 0;
-  int oscillating = 0;
-  int elsewhere = 0;  ///< more than 10 mrad from the end
-};
-
 // A stream whose every sample begins it anew is a poor sender's, and no reason to shake: its reference turned round in every period at
 // the end, by 13 N.m and more, until the sensor was taken for stuck (49 of 168).
 TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoadAre) {
-  Ends ends;
-  int streams = 0;
   for (const double friction : {0.6, 0.8, 1.0, 1.2, 1.5, 1.7})
     for (const double load_Nm : {0.0, 4.0, 8.0, 12.0})
       for (const double end_rad : {1.0, 0.7, 0.3}) {
@@ -88,23 +79,13 @@ TEST(StandingStream, EndsQuietlyWhereEverySampleBeginsOneWhateverFrictionAndLoad
         bench.drive(0).simulated().set_load_torque_Nm(load_Nm);
         bench.run(1.0);
         const double begin_rad = bench.state(0).joint_position_rad;
-        bool oscillates = false;
         for (int sent = 0; sent < 300 && bench.fault(0) == Fault::kNone; ++sent) {
           (void)bench.move(0, std::min(end_rad, begin_rad + 0.01 * sent), 0.05);
-          for (int k = 0; k < 9; ++k) {
-            bench.step();
-            oscillates = oscillates || bench.fault(0) == Fault::kChatter;
-          }
+          bench.run(0.009);
         }
-        ++streams;
-        ends.faults += bench.fault(0) != Fault::kNone ? 1 : 0;
-        ends.oscillating += oscillates ? 1 : 0;
-        ends.elsewhere += std::abs(bench.state(0).joint_position_rad - end_rad) > 0.01 ? 1 : 0;
+        EXPECT_EQ(bench.fault(0), Fault::kNone) << friction << ", " << load_Nm << ", " << end_rad;
+        EXPECT_NEAR(bench.state(0).joint_position_rad, end_rad, 0.01) << friction << ", " << load_Nm;
       }
-  EXPECT_EQ(ends.faults, 0) << "of " << streams;
-  EXPECT_EQ(ends.elsewhere, 0) << "of " << streams;
-  // With a friction that is not told, and a load that comes at once; a sound joint does not.
-  EXPECT_LE(ends.oscillating, 4) << "of " << streams;
 }
 
 // What it was told of the load is gone with the stream, and what it was held with against that is not forgotten either: the joint stays where it is.
@@ -142,9 +123,6 @@ TEST(StandingStream, ThatToldOfALoadThatIsNoneLeaveNothingOfItForTheNextEnable) 
         bench.run(1.5);
         left_rad = std::max(left_rad, std::abs(bench.state(0).joint_position_rad - target_rad));
       }
-      std::printf(
-          "told %.0f N.m, %s: stood at %.2f mrad, enable moved it by %.2f mrad, moves end %.2f mrad beside\n",
-          configured_Nm, flexible ? "spring" : "rigid", 1e3 * stood_rad, 1e3 * moved_rad, 1e3 * left_rad);
       EXPECT_LT(moved_rad, 1e-4);
       EXPECT_LT(left_rad, 1.2e-3);
     }

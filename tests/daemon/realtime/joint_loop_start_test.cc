@@ -2,8 +2,6 @@
 // What a motion may begin with: a joint at rest, not too hot, and orders that are numbers.
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/daemon/realtime/scripted_joint.h"
 
 namespace strainwave::testing {
@@ -100,21 +98,6 @@ TEST_F(JointLoopStart, RefuseEveryOrderThatCouldMoveAJointWhileTheDaemonEnds) {
   ASSERT_EQ(loop_->mode(), Mode::kOff);
   EXPECT_EQ(order(OrderKind::kEnable), Reason::kEnding);
   EXPECT_EQ(loop_->mode(), Mode::kOff);
-}
-
-TEST_F(JointLoopStart, RefuseNumbersThatAreNone) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (double ActuatorReading::*field :
-       {&ActuatorReading::joint_position_rad, &ActuatorReading::torque_applied_Nm}) {
-    drive_->reading.drive_state = DriveState::kDisabled;
-    hold();
-    drive_->reading.*field = nan;
-    EXPECT_EQ(cycles_until_fault(1), 1);
-    EXPECT_EQ(fault(), Fault::kImplausibleReading);
-    drive_->reading.*field = 0.0;
-    drive_->reading.drive_state = DriveState::kDisabled;
-    ASSERT_EQ(order(OrderKind::kClearFault), Reason::kAccepted);
-  }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "tests/support/flexible_bench.h"
 
@@ -168,8 +167,6 @@ void yield_on_the_way(JointBench& bench, double speed_rad_s) {
   ASSERT_GE(bench.step_until(yields, 3000), 0);
 }
 
-// In its first period its plan stood still and the observer knew of no motion: 1.5 times the speed, 30 N.m for a period, and fault 13 near the
-// speed limit.
 TEST(YieldEnd, BrakesTheJointWithoutASurprise) {
   for (const double stiffness_Nm_rad : {200.0, 2000.0})
     for (const double speed_rad_s : {1.0, 2.0, 3.5}) {
@@ -177,8 +174,7 @@ TEST(YieldEnd, BrakesTheJointWithoutASurprise) {
       joint.drive.plant.effects.contact.stiffness_Nm_rad = stiffness_Nm_rad;
       JointBench bench({joint});
       ASSERT_NO_FATAL_FAILURE(yield_on_the_way(bench, speed_rad_s));
-      const bool caught =
-          bench.step_until([&] { return bench.state(0).setpoint_velocity_rad_s != 0.0; }, 1000) >= 0;
+      (void)bench.step_until([&] { return bench.state(0).setpoint_velocity_rad_s != 0.0; }, 1000);
       double largest_Nm = 0.0, farthest_rad_s = 0.0, last_rad = bench.state(0).joint_position_rad;
       for (int k = 0; k < 400; ++k) {
         bench.step();
@@ -188,10 +184,6 @@ TEST(YieldEnd, BrakesTheJointWithoutASurprise) {
                                                            1e3 * (state.joint_position_rad - last_rad)));
         last_rad = state.joint_position_rad;
       }
-      std::printf(
-          "wall %.0f N.m/rad at %.1f rad/s: caught %d, at most %.1f N.m, velocity %.2f rad/s off what "
-          "positions say\n",
-          stiffness_Nm_rad, speed_rad_s, caught, largest_Nm, farthest_rad_s);
       EXPECT_EQ(bench.fault(0), Fault::kNone);
       EXPECT_LT(largest_Nm, 16.0) << "what decelerating takes is 13.4";
       EXPECT_LT(farthest_rad_s, 0.5);

@@ -94,6 +94,10 @@ TEST(OrderedTarget, ShowsAnExpiryUntilTheNextSetpointAndNoOtherEnd) {
   target.end();
   EXPECT_FALSE(target.expire(INT64_MAX));
   EXPECT_FALSE(target.shows_expiry());
+  target.accept(kStreamed, 0);
+  ASSERT_TRUE(target.expire(INT64_MAX));
+  target.forget();
+  EXPECT_FALSE(target.shows_expiry()) << "the joint was enabled anew";
 }
 
 TEST(OrderedTarget, IsShownToTheBitAsItWasOrderedAlsoAfterTheZeroHasMoved) {
