@@ -2,8 +2,6 @@
 // The daemon's controller on the simulated joint, whose friction law is not the controller's own, a period at a time.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -39,23 +37,12 @@ class ControlledJoint {
   JointStep step() {
     plant_.set_ambient_temperature(temperature_C);
     JointMeasurement measurement;
-    std::shift_right(positions_rad_.begin(), positions_rad_.end(), 1);
-    positions_rad_.front() = plant_.measured_position_rad();
-    measurement.joint_position_rad = positions_rad_.at(static_cast<std::size_t>(late_periods));
-    measurement.late_periods = tells_lateness ? late_periods : 0;
+    measurement.joint_position_rad = plant_.measured_position_rad();
     measurement.temperature_C = temperature_C;
-    measurement.temperature_valid = temperature_valid;
-    measurement.elapsed_periods = 1 + skipped_periods_;
-    skipped_periods_ = 0;
+    measurement.temperature_valid = true;
     const JointStep result = controller_.step(measurement);
-    torque_Nm_ = result.output.torque_Nm;
-    plant_.step(torque_Nm_, load_torque_Nm);
+    plant_.step(result.output.torque_Nm, load_torque_Nm);
     return result;
-  }
-  /// Periods in which the joint goes on and the controller is not called.
-  void skip(int periods) {
-    for (int k = 0; k < periods; ++k) plant_.step(torque_Nm_, load_torque_Nm);
-    skipped_periods_ += periods;
   }
   void run(double duration_s) {
     for (int k = 0; k < static_cast<int>(duration_s * 1000.0); ++k) step();
@@ -68,20 +55,13 @@ class ControlledJoint {
   }
   JointController& controller() { return controller_; }
   double position_rad() const { return plant_.state().position_rad; }
-  double velocity_rad_s() const { return plant_.state().velocity_rad_s; }
 
   double temperature_C = 20.0;
   double load_torque_Nm = 0.0;
-  bool temperature_valid = true;
-  int late_periods = 0;  ///< positions come so many periods after their sampling
-  bool tells_lateness = true;
 
  private:
-  std::array<double, kMaxControlDelay> positions_rad_{};  ///< the newest first
   JointPlant plant_;
   JointController controller_;
-  double torque_Nm_ = 0.0;
-  int skipped_periods_ = 0;
 };
 
 }  // namespace strainwave::testing

@@ -107,32 +107,12 @@ TEST(LawInUse, ALeadBeginsAnewOnceAnotherTorqueWasAppliedOrTheReferenceJumps) {
   EXPECT_EQ(torque_after_Nm(2.0, jump), torque_after_Nm(0.0, jump));
 }
 
-TEST(LawInUse, ATemperatureThatIsLostWhileTheLawChangesIsNotTakenForLoad) {
-  LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
-  law.load(with_lead(2.0));
-  law.choose_gains(20.0);
-  for (int k = 0; k < 5; ++k) law.step(input_at(1e-4 * k, 0.02 * k));
-  LawInUse without_temperature = law;
-  without_temperature.choose_gains({});
-  const ControllerInput input = input_at(5e-4, 0.1);
-  EXPECT_NEAR(without_temperature.step(input).torque_Nm, law.step(input).torque_Nm, 1e-9);
-  EXPECT_NEAR(without_temperature.integral_torque_Nm(), law.integral_torque_Nm(), 0.3);
-}
-
 TEST(LawInUse, ACountMakesMoreWithALead) {
   LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
   law.load(with_lead(0.0));
   const double count_Nm = law.count_torque_Nm();
   law.load(with_lead(2.0));
   EXPECT_NEAR(law.count_torque_Nm(), 3.0 * count_Nm, 1e-12);
-}
-
-TEST(LawInUse, SaysWhetherItHasATable) {
-  LawInUse law(kPeriod_s, kCount_rad);
-  EXPECT_FALSE(law.loaded());
-  law.load(testing::shipped_table("c4"));
-  law.begin_anew();
-  EXPECT_TRUE(law.loaded());
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The motion that StreamBuffer makes of samples. What networks do to them: stream_buffer_network_test.cc. Above 300 lines: the properties of
-// one class, all on the same sine.
+// The motion that StreamBuffer makes of samples. What networks do to them: stream_buffer_network_test.cc.
 #include "control/trajectory/stream_buffer.h"
 
 #include <gtest/gtest.h>
@@ -45,25 +44,6 @@ StreamBuffer begun(double position_rad = 0.0, double velocity_rad_s = 0.0, doubl
   return buffer;
 }
 
-TEST(StreamBuffer, FollowsASineWithoutLagWhateverIsGivenOfIt) {
-  for (const int derivatives : {0, 1, 2}) {
-    StreamBuffer by_cycle = begun();
-    StreamBuffer by_sending = begun();
-    for (int k = 0; k < 3000; ++k) {
-      const double t_s = kPeriod_s * k;
-      if (k % 10 == 0) {
-        by_cycle.take(stamped(sine(t_s + 0.02, derivatives), 20), kReach);
-        by_sending.take(sent(sine(t_s, derivatives), k), kReach);
-      }
-      const double cycle_rad = by_cycle.step().position_rad;
-      const double sending_rad = by_sending.step().position_rad;
-      if (k < 500) continue;
-      EXPECT_NEAR(cycle_rad, sine(t_s, 0).position_rad, 1e-4) << derivatives;
-      EXPECT_NEAR(sending_rad, sine(t_s - kConfig.delay_s, 0).position_rad, 1e-4) << derivatives;
-    }
-  }
-}
-
 TEST(StreamBuffer, IsAheadOfItsSamplesByItsLead) {
   constexpr int kLead = 7;
   StreamBuffer buffer = begun(0.0, 0.0, kLead);
@@ -82,35 +62,6 @@ TEST(StreamBuffer, CountsAsLateWhatComesAfterItsInstant) {
   for (int k = 0; k < 10; ++k) buffer.step();
   EXPECT_EQ(buffer.take(stamped({0.02}, 4), kReach), SampleFate::kLate) << "the target is 5 periods ahead";
   EXPECT_EQ(buffer.take(stamped({0.02}, 6), kReach), SampleFate::kInTime);
-}
-
-TEST(StreamBuffer, CatchesUpAfterAGapWithoutAStepOfVelocity) {
-  for (const int gap : {30, 60, 150}) {
-    StreamBuffer buffer = begun();
-    double hardest_rad_s2 = 0.0;
-    double last_rad_s = 0.0;
-    double off_rad = 0.0;
-    for (int k = 0; k < 2000; ++k) {
-      const bool open = k > 1000 && k < 1000 + gap;
-      if (k % 10 == 0 && !open) {
-        if (buffer.ended()) buffer.resume(sine(1.0, 0).position_rad, 0.0, {});
-        buffer.take(sent(sine(kPeriod_s * k, 1), k), kReach);
-      }
-      const MovingTarget target = buffer.step();
-      if (k > 500)
-        hardest_rad_s2 = std::max(hardest_rad_s2,
-                                  std::abs(target.next_velocity_rad_s - target.velocity_rad_s) / kPeriod_s);
-      last_rad_s = target.next_velocity_rad_s;
-      if (k > 1000 + 2 * gap + 100)
-        off_rad = std::max(
-            off_rad, std::abs(target.position_rad - sine(kPeriod_s * k - kConfig.delay_s, 0).position_rad));
-    }
-    EXPECT_TRUE(std::isfinite(last_rad_s));
-    EXPECT_LT(off_rad, 1e-4) << gap;
-    if (gap < 100) {
-      EXPECT_LT(hardest_rad_s2, 30.0) << gap << ", the sine has 4.9 rad/s2";
-    }
-  }
 }
 
 TEST(StreamBuffer, EndsSoonAfterTheLastSampleOfAMotion) {
@@ -205,15 +156,6 @@ int samples_until_contradiction(const Velocity& velocity_of, double lost = 0.0) 
   return 0;
 }
 
-TEST(StreamBuffer, EndsWhereVelocitiesContradictThePositions) {
-  EXPECT_LE(samples_until_contradiction([](double v) { return 180.0 / std::numbers::pi * v; }), 8);
-  EXPECT_LE(samples_until_contradiction([](double v) { return -v; }), 8);
-  EXPECT_LE(samples_until_contradiction([](double) { return 0.0; }), 8);
-  EXPECT_LE(samples_until_contradiction([](double v) { return 0.5 * v; }), 8);
-  for (const double wrong : {180.0 / std::numbers::pi, -1.0, 0.0, 0.5})
-    EXPECT_GT(samples_until_contradiction([&](double v) { return wrong * v; }), 0) << wrong;
-}
-
 TEST(StreamBuffer, UsesNoDerivativesThatAreNotAnnounced) {
   StreamBuffer buffer = begun();
   for (int k = 0; k < 1000; ++k) {
@@ -243,7 +185,7 @@ TEST(StreamBuffer, GoesOnWhereASenderStallsAndCatchesUp) {
 
 TEST(StreamBuffer, FollowsThePositionsUntilContradictingVelocitiesEndIt) {
   for (const int every : {5, 10, 20, 50})
-    for (const double wrong : {180.0 / std::numbers::pi, -1.0, 0.0}) {
+    for (const double wrong : {180.0 / std::numbers::pi, -1.0, 0.0, 0.5}) {
       StreamBuffer buffer = begun(0.0, 0.5 * kOmega_rad_s);
       double fastest_rad_s = 0.0;
       SampleFate fate = SampleFate::kInTime;
@@ -266,28 +208,6 @@ TEST(StreamBuffer, GoesOnWhereVelocitiesAreALittleOff) {
   EXPECT_EQ(samples_until_contradiction([](double v) { return v; }, 0.3), 0);
   EXPECT_EQ(samples_until_contradiction([](double v) { return 0.8 * v; }), 0);
   EXPECT_EQ(samples_until_contradiction([&](double v) { return v + noise(random); }), 0);
-}
-
-TEST(StreamBuffer, GoesOnWithoutAJumpWhereTheSendersClockIsSet) {
-  for (const double set_s : {-3600.0, -0.3, 0.3, 3600.0}) {
-    StreamBuffer buffer = begun();
-    double off_rad = 0.0;
-    double fastest_rad_s = 0.0;
-    for (int k = 0; k < 3000; ++k) {
-      if (k % 10 == 0) {
-        StreamSample sample = sent(sine(kPeriod_s * k, 1), k);
-        if (k >= 1000) sample.sent_us += std::llround(1e6 * set_s);
-        buffer.take(sample, kReach);
-      }
-      const MovingTarget target = buffer.step();
-      if (k < 500) continue;
-      off_rad = std::max(
-          off_rad, std::abs(target.position_rad - sine(kPeriod_s * k - kConfig.delay_s, 0).position_rad));
-      fastest_rad_s = std::max(fastest_rad_s, std::abs(target.next_velocity_rad_s));
-    }
-    EXPECT_LT(off_rad, 5e-3) << set_s;
-    EXPECT_LT(fastest_rad_s, 2.0) << set_s;
-  }
 }
 
 TEST(StreamBuffer, IsAfterSkippedPeriodsWhereItsSamplesAre) {

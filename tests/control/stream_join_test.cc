@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "control/trajectory/reference_shaper.h"
@@ -129,10 +128,6 @@ Joins joins(double share) {
               all.most_s = std::max(all.most_s, took_s - least_s);
             }
   all.mean_ratio /= all.count;
-  std::printf(
-      "%2.0f %% of the limits: %d joins, on average %.2f times the shortest time, %d of them slow, at most "
-      "%.2f s more\n",
-      100.0 * share, all.count, all.mean_ratio, all.slow, all.most_s);
   return all;
 }
 
