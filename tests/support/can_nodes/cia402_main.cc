@@ -55,7 +55,10 @@ void add_options(CLI::App& app, Options& options, Cia402NodeConfig& config) {
       ->capture_default_str();
   app.add_option("--rated-current_A", drive.rated_current_A, "6075h")->capture_default_str();
   app.add_flag("--reversed", options.reversed, "the drive's positive direction is the joint's negative one");
-  app.add_option("--modes", options.modes, "of 6502h: cst, tq")->delimiter(',')->capture_default_str();
+  app.add_option("--modes", options.modes,
+                 "of 6502h: cst, tq, ip, csp, csv; in the last three the drive closes its own loop")
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--ambient-temperature_C", options.ambient,
                  "temperature over time, as in the configuration of a simulated joint")
       ->capture_default_str();
@@ -83,8 +86,14 @@ void finish(const Options& options, Cia402NodeConfig& config) {
       (options.torque_side == "motor" ? options.gear_ratio : 1.0) * (options.reversed ? -1.0 : 1.0);
   drive.plant.period_s = options.period_s;
   drive.ambient = TemperatureProfile::parse(options.ambient);
-  drive.has_cst = std::find(options.modes.begin(), options.modes.end(), "cst") != options.modes.end();
-  drive.has_tq = std::find(options.modes.begin(), options.modes.end(), "tq") != options.modes.end();
+  const auto has = [&](const char* mode) {
+    return std::find(options.modes.begin(), options.modes.end(), mode) != options.modes.end();
+  };
+  drive.has_cst = has("cst");
+  drive.has_tq = has("tq");
+  drive.has_ip = has("ip");
+  drive.has_csp = has("csp");
+  drive.has_csv = has("csv");
   if (options.temperature_type == "real32") drive.temperature.type = DataType::kReal32;
   if (options.temperature_object.size() == 2)
     drive.temperature.key = {static_cast<std::uint16_t>(options.temperature_object[0]),

@@ -197,6 +197,7 @@ void Cia402Node::on_sync() {
     pdos_.use_held();
   }
   const std::int64_t period_us = sync_period_us();
+  drive_.take_setpoint(period_us);
   for (std::int64_t t = 0; t < period_us; t += drive_.period_us()) step_drive();
   next_step_us_ = now_us_ + period_us + period_us / 2;
 }

@@ -92,9 +92,14 @@ class ObjectDictionary {
   Abort write(Key key, std::span<const std::uint8_t> bytes);
 
   const Object* find(Key key) const;
-  /// From the device itself; the object must be there.
-  std::int64_t number(Key key) const { return objects_.at(key).value; }
-  void set(Key key, std::int64_t value) { objects_.at(key).value = value; }
+  /// From the device itself: 0 where it has no such object, and nothing to set.
+  std::int64_t number(Key key) const {
+    const Object* object = find(key);
+    return object == nullptr ? 0 : object->value;
+  }
+  void set(Key key, std::int64_t value) {
+    if (const auto found = objects_.find(key); found != objects_.end()) found->second.value = value;
+  }
 
   /// Pretends from now on, to every reader on the bus, that the object had this value.
   void pretend(Key key, std::int64_t value) { pretended_[key] = value; }

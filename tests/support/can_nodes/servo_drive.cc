@@ -15,6 +15,10 @@ constexpr double kVelocityFilterShare = 0.3;
 /// Share of the momentum that a quick stop takes away in each period, torque permitting.
 constexpr double kBrakingShare = 0.2;
 
+bool closes_loop(std::int64_t mode) {
+  return mode == kModeInterpolatedPosition || mode == kModeCyclicPosition || mode == kModeCyclicVelocity;
+}
+
 JointPlantConfig plant_of(const ServoDriveConfig& config) {
   JointPlantConfig plant = config.plant;
   plant.encoder.counts_per_joint_revolution = config.counts_per_joint_revolution;
@@ -28,7 +32,10 @@ ServoDrive::ServoDrive(const ServoDriveConfig& config, ObjectDictionary& diction
       dictionary_(dictionary),
       events_(std::move(events)),
       plant_(plant_of(config)),
-      period_us_(std::llround(config.plant.period_s * 1e6)) {
+      period_us_(std::llround(config.plant.period_s * 1e6)),
+      loop_({config.plant.period_s, config.velocity_bandwidth_rad_s,
+             config.plant.joint.inertia_kgm2 * 2.0 * std::numbers::pi / config.counts_per_joint_revolution /
+                 std::abs(joint_torque_per_permille())}) {
   add_objects();
   plant_.set_ambient_temperature(config_.ambient.at(0.0));
   show_temperature();
@@ -59,6 +66,7 @@ void ServoDrive::change_power(PowerState to) {
   in_state_us_ = 0;
   enabling_ = false;
   ramped_permille_ = 0.0;
+  loop_.begin(drive_counts());
   if (from == PowerState::kOperationEnabled) awaiting_rest_ = true;
   show_state();
   if (events_.power_changed) events_.power_changed(from, to);
@@ -113,23 +121,42 @@ double ServoDrive::limit_permille(std::uint16_t index) const {
                                                  : static_cast<double>(dictionary_.number({index, 0}));
 }
 
-// Joint side, from 6071h.
+// Bit 12. In IP the master has to ask for it, by bit 4 of the controlword.
+bool ServoDrive::follows() const {
+  const std::int64_t mode = dictionary_.number({0x6061, 0});
+  return power_ == PowerState::kOperationEnabled && mode != kModeTorqueProfile &&
+         (mode != kModeInterpolatedPosition || (controlword_ & 0x10) != 0);
+}
+
+void ServoDrive::take_setpoint(std::int64_t sync_period_us) {
+  const std::int64_t mode = dictionary_.number({0x6061, 0});
+  if (!closes_loop(mode)) return;
+  const bool by_velocity = mode == kModeCyclicVelocity;
+  const Key target = mode == kModeInterpolatedPosition ? Key{0x60C1, 1} : Key{0x607A, 0};
+  MotionLoop::Setpoint setpoint;
+  setpoint.velocity_counts_s = static_cast<double>(dictionary_.number({0x60B1, 0}) +
+                                                   (by_velocity ? dictionary_.number({0x60FF, 0}) : 0));
+  if (!by_velocity) setpoint.position_counts = static_cast<double>(dictionary_.number(target));
+  loop_.take(setpoint, static_cast<double>(sync_period_us) * 1e-6);
+}
+
+// Joint side.
 double ServoDrive::target_torque_Nm() {
   const auto target = static_cast<double>(dictionary_.number({0x6071, 0}));
   const std::int64_t mode = dictionary_.number({0x6061, 0});
-  if (mode == kModeTorqueProfile) {
-    const double slope =
-        static_cast<double>(dictionary_.number({0x6087, 0})) * static_cast<double>(period_us_) * 1e-6;
+  const double slope =
+      static_cast<double>(dictionary_.number({0x6087, 0})) * static_cast<double>(period_us_) * 1e-6;
+  if (mode == kModeTorqueProfile)
     ramped_permille_ += std::clamp(target - ramped_permille_, -slope, slope);
-  } else {
+  else if (closes_loop(mode))
+    ramped_permille_ = follows() ? loop_.step(drive_counts()) : 0.0;
+  else
     ramped_permille_ = mode == kModeCyclicTorque ? target : 0.0;
-  }
   const double low = -std::min(limit_permille(0x6072), limit_permille(0x60E1));
   const double high = std::min(limit_permille(0x6072), limit_permille(0x60E0));
-  const double wanted =
-      ramped_permille_ +
-      (dictionary_.find({0x60B2, 0}) == nullptr ? 0.0 : static_cast<double>(dictionary_.number({0x60B2, 0})));
+  const double wanted = ramped_permille_ + static_cast<double>(dictionary_.number({0x60B2, 0}));
   limited_ = wanted < low || wanted > high;
+  if (limited_) loop_.was_limited();
   return std::clamp(wanted, low, high) * joint_torque_per_permille();
 }
 
@@ -149,6 +176,9 @@ void ServoDrive::step() {
   switch (power_) {
     case PowerState::kOperationEnabled:
       demand_Nm_ = target_torque_Nm();
+      if (const std::int64_t window = dictionary_.number({0x6065, 0});
+          window > 0 && loop_.error_counts() > static_cast<double>(window))
+        raise_error(kErrorFollowing);
       break;
     case PowerState::kQuickStopActive:
     case PowerState::kFaultReactionActive:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A simulated servo drive of the profile CiA 402 around the project's joint plant: power states, torque modes
-// (CST and TQ), reactions to faults and to a lost connection, drive units. It knows the object dictionary but
+// (CST and TQ), position and velocity modes with a cascade of its own (IP, CSP and CSV), reactions to faults and to a lost connection, drive units. It knows the object dictionary but
 // no network. Each step() is one control period of the drive. Source: CiA 402-2 (IEC 61800-7-201).
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "sim/joint/joint_plant.h"
 #include "sim/joint/temperature_profile.h"
+#include "tests/support/can_nodes/motion_loop.h"
 #include "tests/support/can_nodes/object_dictionary.h"
 #include "tests/support/can_nodes/power_state.h"
 
@@ -16,10 +17,14 @@ namespace strainwave::can_nodes {
 
 /// Modes of operation, 6060h.
 inline constexpr int kModeTorqueProfile = 4;
+inline constexpr int kModeInterpolatedPosition = 7;
+inline constexpr int kModeCyclicPosition = 8;
+inline constexpr int kModeCyclicVelocity = 9;
 inline constexpr int kModeCyclicTorque = 10;
 
 /// Error codes of CiA 301 (table 26) and CiA 402 that the drive raises by itself.
 inline constexpr std::uint16_t kErrorHeartbeat = 0x8130;
+inline constexpr std::uint16_t kErrorFollowing = 0x8611;
 inline constexpr std::uint16_t kErrorPdoLength = 0x8210;
 inline constexpr std::uint16_t kErrorRpdoTimeout = 0x8250;
 
@@ -40,8 +45,12 @@ struct ServoDriveConfig {
   double rated_torque_units_per_Nm = 1000.0;  ///< of 6076h: 1000 is the profile's, 1e6 what some drives have
   bool has_cst = true;
   bool has_tq = true;
-  std::int64_t self_test_us = 20000;     ///< from power-on to Switch on disabled
-  std::int64_t enable_delay_us = 10000;  ///< brake and current loop: Switched on to Operation enabled
+  bool has_ip = false;
+  bool has_csp = false;
+  bool has_csv = false;
+  double velocity_bandwidth_rad_s = 200.0;  ///< of its own loop; that of position has a quarter
+  std::int64_t self_test_us = 20000;        ///< from power-on to Switch on disabled
+  std::int64_t enable_delay_us = 10000;     ///< brake and current loop: Switched on to Operation enabled
   std::int64_t temperature_period_us = 100000;
   TemperatureObject temperature;
   double counts_per_index = 6400.0;  ///< of 6064h, between two index pulses; one is at 0
@@ -63,6 +72,8 @@ class ServoDrive {
   void restart();
   /// 6040h was written.
   void obey_controlword();
+  /// A SYNC: what was ordered is where to be at the next one.
+  void take_setpoint(std::int64_t sync_period_us);
   /// One control period.
   void step();
   void raise_error(std::uint16_t code);
@@ -82,6 +93,7 @@ class ServoDrive {
   void advance_power();
   void react_to_fault();
   double target_torque_Nm();
+  bool follows() const;
   double braking_torque_Nm() const;
   double limit_permille(std::uint16_t index) const;
   void show_state();
@@ -104,8 +116,9 @@ class ServoDrive {
   bool enabling_ = false;
   bool awaiting_rest_ = false;
   bool limited_ = false;
-  double demand_Nm_ = 0.0;          ///< joint side
-  double ramped_permille_ = 0.0;    ///< of TQ
+  double demand_Nm_ = 0.0;        ///< joint side
+  double ramped_permille_ = 0.0;  ///< of TQ
+  MotionLoop loop_;
   double velocity_counts_s_ = 0.0;  ///< as the drive estimates it
   double load_torque_Nm_ = 0.0;
   std::int64_t since_temperature_us_ = 0;

@@ -28,6 +28,13 @@ void ServoDrive::add_objects() {
   variable(0x6061, kInteger8, Mappable::kTransmit);
   variable(0x6064, kInteger32, Mappable::kTransmit);
   variable(0x606C, kInteger32, Mappable::kTransmit);
+  setting(0x6065, kUnsigned32, UINT32_MAX, 0, UINT32_MAX);
+  setting(0x607A, kInteger32, 0, INT32_MIN, INT32_MAX, Mappable::kBoth);
+  setting(0x60B1, kInteger32, 0, INT32_MIN, INT32_MAX, Mappable::kBoth);
+  setting(0x60FF, kInteger32, 0, INT32_MIN, INT32_MAX, Mappable::kBoth);
+  dictionary_.add({0x60C1, 0}, {kUnsigned8, Access::kConstant, 1});
+  dictionary_.add({0x60C1, 1},
+                  {kInteger32, Access::kReadWrite, 0, Mappable::kBoth, INT32_MIN, INT32_MAX, {}});
   setting(0x6071, kInteger16, 0, INT16_MIN, INT16_MAX, Mappable::kBoth);
   setting(0x6072, kUnsigned16, 1000, 0, UINT16_MAX, Mappable::kBoth);
   variable(0x6074, kInteger16, Mappable::kTransmit);
@@ -48,7 +55,8 @@ void ServoDrive::add_objects() {
   dictionary_.add({0x60C2, 1}, {kUnsigned8, Access::kReadWrite, 1, Mappable::kNo, 1, 255, {}});
   dictionary_.add({0x60C2, 2}, {kInteger8, Access::kReadWrite, -3, Mappable::kNo, -6, 0, {}});
   variable(0x6502, kUnsigned32, Mappable::kNo,
-           (config_.has_cst ? 1 << 9 : 0) | (config_.has_tq ? 1 << 3 : 0));
+           (config_.has_cst ? 1 << 9 : 0) | (config_.has_tq ? 1 << 3 : 0) | (config_.has_ip ? 1 << 6 : 0) |
+               (config_.has_csp ? 1 << 7 : 0) | (config_.has_csv ? 1 << 8 : 0));
 
   const Key temperature = config_.temperature.key;
   if (temperature.sub != 0)
@@ -57,7 +65,10 @@ void ServoDrive::add_objects() {
 
   dictionary_.guard(0x6060, 0x6060, [this](Key, std::int64_t mode) {
     const bool has = mode == 0 || (mode == kModeCyclicTorque && config_.has_cst) ||
-                     (mode == kModeTorqueProfile && config_.has_tq);
+                     (mode == kModeTorqueProfile && config_.has_tq) ||
+                     (mode == kModeInterpolatedPosition && config_.has_ip) ||
+                     (mode == kModeCyclicPosition && config_.has_csp) ||
+                     (mode == kModeCyclicVelocity && config_.has_csv);
     return has ? Abort::kNone : Abort::kInvalidValue;
   });
 }
@@ -97,10 +108,8 @@ void ServoDrive::show_state() {
   };
   dictionary_.set({0x6074, 0}, permille(demand_Nm_));
   dictionary_.set({0x6077, 0}, permille(plant_.applied_torque_Nm()));
-  const bool follows =
-      power_ == PowerState::kOperationEnabled && dictionary_.number({0x6061, 0}) == kModeCyclicTorque;
   const unsigned status =
-      status_bits(power_) | 1U << 4 | 1U << 9 | (limited_ ? 1U << 11 : 0U) | (follows ? 1U << 12 : 0U);
+      status_bits(power_) | 1U << 4 | 1U << 9 | (limited_ ? 1U << 11 : 0U) | (follows() ? 1U << 12 : 0U);
   dictionary_.set({0x6041, 0}, status);
 }
 
