@@ -10,6 +10,12 @@
 //   learning     s_i and load from u, while the plan moves and the torque is not limited
 //   rest         within a count of its place: the torque that holds; else a small motion (control/rest_corrections.h)
 //
+// A drive that closes its own loop is ordered the plan, and torque as far as it is known without the law:
+//
+//   order        thm* at the end of the period in which it acts, wm*, T* + F + load      (control/joint/drive_mode.h)
+//   velocity     wm* + r (plan - reading), where the drive closes no loop of position
+//   learning     s_i and load from the torque that the drive adds by itself, where it says which
+//
 // A joint that oscillates shows it by its torque (control/oscillation_detector.h).
 #pragma once
 
@@ -37,6 +43,7 @@ enum class MotionPhase : int {
 /// One period's result.
 struct JointStep {
   ControllerOutput output;
+  MotorOrder order;     ///< of a drive that closes its own loop
   Reference reference;  ///< where the encoder should be read now
   /// The same by the orders alone: while a joint corrects its place at rest, that place. What the joint is supervised against.
   Reference ordered_reference;
@@ -111,7 +118,7 @@ class JointController {
   void advance_plan(const JointMeasurement& measurement) noexcept;
   void choose_phase() noexcept;
   void hold_again() noexcept;
-  ControllerOutput compute_torque(int elapsed_periods) noexcept;
+  ControllerOutput compute_torque(const JointMeasurement& measurement) noexcept;
   ControllerOutput track(int elapsed_periods) noexcept;
   bool learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept;
   void weigh(const ControllerOutput& output, int elapsed_periods) noexcept;

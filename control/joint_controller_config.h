@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "control/joint/drive_mode.h"
 #include "control/joint/encoder_side.h"
 #include "control/joint/gravity_load.h"
 #include "control/joint/link_model.h"
@@ -36,6 +37,8 @@ struct JointControllerConfig {
   /// Motor and link with the gear between them; the target is the link's. Without it the joint is rigid, with its table's inertia.
   std::optional<LinkModel> link;
   EncoderSide encoder_side = EncoderSide::kMotor;
+  DriveMode drive_mode = DriveMode::kTorque;
+  bool drive_closes_loop() const noexcept { return closes_loop(drive_mode); }
   /// Of link and payload. Loads that are known otherwise come on top.
   GravityLoad gravity;
   /// Studies alone: runs without it.

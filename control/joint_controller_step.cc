@@ -21,6 +21,9 @@ constexpr double kStandsCounts = 3.0;
 // Smaller swings of the feedback are no oscillation: a share of the torque limit, and what a count makes of the law.
 constexpr double kSwingShare = 0.2;
 constexpr double kSwingCounts = 2.0;
+// Per second: how fast a joint whose drive closes no loop of position returns to its plan. Drives follow a velocity within some 10 ms: a
+// tenth of that rate needs nothing of their loop but that it follows.
+constexpr double kReturn_1_s = 10.0;
 
 bool left_out(const JointMeasurement& measurement) noexcept {
   return measurement.elapsed_periods > kMaxElapsedPeriods;
@@ -48,7 +51,7 @@ JointStep JointController::step(const JointMeasurement& measurement) noexcept {
     reading_.step(measurement, plan_.place_before_rad(0), plan_.place_before_rad(measurement.late_periods));
     choose_phase();
   }
-  const ControllerOutput output = compute_torque(elapsed_periods);
+  const ControllerOutput output = compute_torque(measurement);
   const bool learns = learn(measurement, output);
   weigh(output, elapsed_periods);
   return result(output, learns);
@@ -81,6 +84,7 @@ void JointController::choose_phase() noexcept {
     return;
   }
   ++rest_periods_;
+  if (config_.drive_closes_loop()) return;
   const double off_rad = plan_.place_rad() - reading_.position_rad();
   const bool at_place = std::abs(off_rad) <= kAtPlaceCounts * count_of(config_);
   if (plan_.correct(off_rad, reading_.position_rad(), reading_.still_periods())) {
@@ -111,9 +115,16 @@ void JointController::hold_again() noexcept {
   advance_plan({});
 }
 
-// Only the tracking joint's torque is the law's.
-ControllerOutput JointController::compute_torque(int elapsed_periods) noexcept {
-  if (phase_ == MotionPhase::kTracking) return track(elapsed_periods);
+// Only the tracking joint's torque is the law's. Where the drive closes the loop there is no law; what the drive adds to what it is fed
+// stands where the law's torque does.
+ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
+  if (config_.drive_closes_loop()) {
+    const double fed_Nm = plan_.torque_Nm(joint());
+    return {std::clamp(fed_Nm, -torque_limit_Nm_, torque_limit_Nm_),
+            measurement.drive_torque_Nm.value_or(fed_Nm) - fed_Nm, fed_Nm, law_.zero_velocity_weight(),
+            false};
+  }
+  if (phase_ == MotionPhase::kTracking) return track(led_periods(measurement));
   law_.interrupt();
   const double held_Nm =
       yields() ? yielding_.load_Nm + config_.gravity.at(reading_.position_rad()) : hold_torque_Nm_;
@@ -149,6 +160,8 @@ bool JointController::learn(const JointMeasurement& measurement, const Controlle
     return false;
   const double velocity_rad_s = plan_.now().acting_velocities_rad_s[1];
   const bool moves = plan_.planner().moves();
+  // What a drive adds at rest may be held by friction.
+  if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
   if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
   if (!moves)
     friction_.learn_load(output.feedback_torque_Nm, config_.period_s);
@@ -161,7 +174,9 @@ bool JointController::learn(const JointMeasurement& measurement, const Controlle
 
 void JointController::weigh(const ControllerOutput& output, int elapsed_periods) noexcept {
   double load_Nm = friction_.load_Nm();
-  if (phase_ == MotionPhase::kTracking)
+  if (config_.drive_closes_loop())
+    load_Nm += output.feedback_torque_Nm;
+  else if (phase_ == MotionPhase::kTracking)
     load_Nm += output.torque_Nm - output.feedforward_torque_Nm;
   else if (yields())
     load_Nm = yielding_.load_Nm;
@@ -174,6 +189,11 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
 JointStep JointController::result(const ControllerOutput& output, bool learns) const noexcept {
   JointStep step;
   step.output = output;
+  const double off_rad = plan_.place_rad() - reading_.position_rad();
+  const bool at_place = !plan_.moves() && std::abs(off_rad) <= kAtPlaceCounts * count_of(config_);
+  const bool returns = config_.drive_mode == DriveMode::kVelocity && !at_place;
+  step.order = {plan_.now().acting_end_position_rad,
+                plan_.now().acting_velocities_rad_s[1] + (returns ? kReturn_1_s * off_rad : 0.0)};
   const double position_rad = yields() ? reading_.position_rad() : plan_.place_rad();
   step.reference = {position_rad, yields() ? 0.0 : plan_.now().velocity_rad_s,
                     yields() ? 0.0 : plan_.now().acting_acceleration_rad_s2};

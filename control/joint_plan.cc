@@ -64,7 +64,7 @@ void JointPlan::start(double reading_rad, double velocity_rad_s) noexcept {
 double JointPlan::begin_plan(double reading_rad, double velocity_rad_s) noexcept {
   const double motor_rad = by_encoder(config_, planner_.motor_rest_rad(reading_rad), reading_rad);
   plan_ = {};
-  plan_.position_rad = motor_rad;
+  plan_.position_rad = plan_.acting_end_position_rad = motor_rad;
   plan_.link_position_rad = reading_rad;
   plan_.velocity_rad_s = velocity_rad_s;
   return planner_.reset(motor_rad, velocity_rad_s);

@@ -55,8 +55,12 @@ LoopParts assemble_loop(const DaemonConfig& config) {
 
 ExpectedJoint expected_joint(const JointConfig& joint) {
   const JointControllerConfig& controller = joint.loop.controller;
-  return {joint.plant, controller.torque_limit_Nm, controller.link, controller.delay_periods,
-          controller.encoder_side};
+  return {joint.plant,
+          controller.torque_limit_Nm,
+          controller.link,
+          controller.delay_periods,
+          controller.encoder_side,
+          !controller.drive_closes_loop()};
 }
 
 std::vector<JointAdmission> assemble_admission(const DaemonConfig& config) {

@@ -47,6 +47,7 @@ struct ActuatorReading {
   double joint_velocity_rad_s = 0.0;  ///< valid only when has_velocity
   double link_position_rad = 0.0;     ///< of a second encoder, on the link; valid only when has_link_position
   double torque_applied_Nm = 0.0;     ///< what the drive says it applied last period
+  bool torque_measured = false;       ///< that is a measurement, and no order of ours
   double temperature_C = 0.0;         ///< latest known value; valid only when has_temperature
   std::int64_t temperature_produced_ns = 0;  ///< when the sensor produced it, CLOCK_MONOTONIC
   DriveState drive_state = DriveState::kDisabled;
@@ -63,10 +64,14 @@ struct ActuatorReading {
   bool has_temperature = false;
 };
 
-/// One period's order. With enable false the torque is ignored and the drive is brought to kDisabled.
+/// One period's order. With enable false the rest is ignored and the drive is brought to kDisabled. A drive that obeys torque takes the
+/// torque alone; one that closes its own loop takes torque as what it adds to that loop's.
 struct ActuatorCommand {
   double torque_Nm = 0.0;
   bool enable = false;
+  double motor_position_rad =
+      0.0;  ///< as joint_position_rad is read, at the end of the period over which the order acts
+  double motor_velocity_rad_s = 0.0;  ///< in its middle, at the joint
 };
 
 class Actuator {

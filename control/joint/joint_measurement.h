@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 namespace strainwave {
 
@@ -26,6 +27,8 @@ struct JointMeasurement {
   int elapsed_periods = 1;
   /// >= 0: the position was sampled so many periods before delay_periods has it. More than kMaxControlDelay count as that many.
   int late_periods = 0;
+  /// Of a drive that closes its own loop: the torque that it says it applies.
+  std::optional<double> drive_torque_Nm;
 };
 
 /// Position, and velocity as the difference of two readings.

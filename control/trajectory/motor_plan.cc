@@ -187,6 +187,7 @@ MotorPlan MotorPlanner::plan() noexcept {
   plan.acting_velocities_rad_s = {begin.motor_velocity_rad_s, middle_velocity_rad_s_,
                                   next_.motor_velocity_rad_s};
   plan.acting_acceleration_rad_s2 = (next_.motor_velocity_rad_s - begin.motor_velocity_rad_s) / h;
+  plan.acting_end_position_rad = next_.motor_position_rad;
   const bool rests = begin.motor_velocity_rad_s == 0.0 && next_.motor_velocity_rad_s == 0.0 &&
                      next_.motor_position_rad == begin.motor_position_rad;
   rest_periods_ = rests ? std::min(rest_periods_ + 1, kMaxPlanDelay + 1) : 0;

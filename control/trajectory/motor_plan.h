@@ -62,6 +62,7 @@ struct MotorPlan {
   double torque_Nm = 0.0;                           ///< of motor, link and gravity, without friction
   std::array<double, 3> acting_velocities_rad_s{};  ///< the motor's at its begin, middle and end
   double acting_acceleration_rad_s2 = 0.0;          ///< mean of the motor's
+  double acting_end_position_rad = 0.0;             ///< the motor's at its end
   double wanted_acceleration_rad_s2 = 0.0;          ///< mean of the link's
 };
 

@@ -74,6 +74,7 @@ struct Verdict {
   Order order;                       ///< kOrder
   std::int64_t stop_count = 0;       ///< kOrder: Admission::stop_count() then
   std::unique_ptr<GainTable> table;  ///< kOrder of a table
+  bool proves_box = true;            ///< that table's box is to be proved before it is used
   bool revert_table = false;         ///< kOrder: use the previous table again
   std::unique_ptr<LoadedPath> path;  ///< kOrder of a path
 };

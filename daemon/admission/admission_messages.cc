@@ -220,6 +220,7 @@ Verdict Admission::judge_table_message(std::size_t joint, const WireMessage& mes
   Verdict verdict = pass(requester, OrderKind::kUseTable, table_message->challenge);
   verdict.text = judged.text;
   verdict.table = std::move(table);
+  verdict.proves_box = joints_[joint].expected.law_acts;
   return verdict;
 }
 

@@ -153,7 +153,7 @@ TableVerdict judge_box(const GainTable& table) {
 
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& joint) {
   TableVerdict verdict = judge_table_but_box(table, joint);
-  if (verdict.reason != Reason::kAccepted) return verdict;
+  if (verdict.reason != Reason::kAccepted || !joint.law_acts) return verdict;
   TableVerdict box = judge_box(table);
   if (box.reason != Reason::kAccepted) return box;
   verdict.text += box.text;
@@ -173,6 +173,9 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   if (identity.reason != Reason::kAccepted) return identity;
   TableVerdict friction = judge_friction(table);
   if (friction.reason != Reason::kAccepted) return friction;
+  if (!joint.law_acts)
+    return {Reason::kAccepted,
+            "its friction and inertia are used; the drive closes its own loop, of which nothing is proved"};
   // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
   const PlantIdentity& plant = joint.link ? table.plant : expected;
   TableVerdict primary = judge_gains("primary", table.primary, plant, table.friction);

@@ -25,11 +25,14 @@ struct ExpectedJoint {
   std::optional<LinkModel> link;  ///< its spring, where its model has one
   int delay_periods = 0;          ///< between a torque's computation and its effect, 0..kMaxSpringDelay
   EncoderSide encoder_side = EncoderSide::kMotor;
+  bool law_acts =
+      true;  ///< false: the drive closes its own loop, and of a table only friction and inertia are used
 };
 
 /// Judges `table` for a joint that is `expected`. The certificates are recomputed here, never taken on trust: that of the one inertia, and
 /// where the table carries a box that of every joint with a spring in it. A flexible joint must be in the box, by its damping
 /// only where its model has one. It is refused, too, where its link swings up with that damping, or with the least of any joint's.
+/// Where the law does not act nothing is certified.
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& expected);
 
 /// The same in two parts: all but the box's proof, which takes milliseconds, and that proof, which may take seconds. A rigid table has

@@ -98,6 +98,20 @@ void read_units(TomlSection& section, const JointConfig& joint, cia402::UnitConf
   units.gear_ratio = joint.plant.gear_ratio;
 }
 
+/// A drive that closes its own loop does so at the motor, and goes on against what pushes it.
+void read_drive_mode(TomlSection& section, JointConfig& joint, cia402::DriveConfig& drive) {
+  const std::string mode = section.choice_or("drive_mode", "torque", {"torque", "velocity", "position"});
+  if (mode == "torque") return;
+  drive.drive_mode = mode == "velocity" ? DriveMode::kVelocity : DriveMode::kPosition;
+  joint.loop.controller.drive_mode = drive.drive_mode;
+  if (joint.loop.controller.encoder_side == EncoderSide::kLink)
+    section.fail("drive_mode", "\"torque\" is allowed with encoder_side = \"link\"");
+  if (joint.loop.overload_stop == OverloadStop::kHoldLoad)
+    section.fail("drive_mode", "\"torque\" is allowed with joint.limits.on_overload = \"hold_load\"");
+  if (drive.drive_mode == DriveMode::kVelocity && drive.units.velocity_rad_s_per_unit == 0.0)
+    section.fail("drive_mode", "\"velocity\" needs velocity_rad_s_per_unit, the unit of 60FFh at the joint");
+}
+
 void read_supervision(TomlSection& section, cia402::DriveConfig& drive) {
   drive.drive_heartbeat_s = section.number_or("drive_heartbeat_s", drive.drive_heartbeat_s, kHeartbeat_s);
   drive.drive_heartbeat_timeout_s = section.number_or(
@@ -201,6 +215,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   drive.our_node_id = bus.config.our_node_id;
   drive.period_s = period_s_;
   drive.torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
+  drive.following_error_rad = joint.loop.limits.following_error_rad;
   drive.daemon_sends_sync = bus.config.sync == SyncProducer::kDaemon;
   drive.produces_sync = section.boolean_or("produces_sync", false);
   if (drive.produces_sync && (!bus.drive_makes_sync || bus.has_sync_drive))
@@ -213,6 +228,7 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
   read_encoder_side(section, joint.loop.controller);
+  read_drive_mode(section, joint, drive);
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);

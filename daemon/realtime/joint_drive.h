@@ -22,7 +22,7 @@ class JointDrive {
 
   /// One period. `controlled`: the control law moves the joint, at `velocity_rad_s` by its own estimate.
   void read(bool controlled, double velocity_rad_s, const CycleTime& time) noexcept;
-  void write(double torque_Nm, bool enabled) noexcept { actuator_->write({torque_Nm, enabled}); }
+  void write(const ActuatorCommand& command) noexcept { actuator_->write(command); }
   /// Zero torque and disable, at once.
   void stop() noexcept { actuator_->stop(); }
   /// Also begins to count missed positions anew.

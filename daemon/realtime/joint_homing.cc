@@ -6,8 +6,9 @@ namespace strainwave {
 namespace {
 
 Homing::Observation observe(const JointInLoop& joint, const CycleTime& time) noexcept {
+  const bool own_loop = joint.config.controller.drive_closes_loop();
   return {joint.drive.position_rad(), joint.drive.reading().inputs, joint.law.motion().at_target, time.now_ns,
-          joint.law.motion().output.torque_Nm};
+          own_loop ? joint.drive.reading().torque_applied_Nm : joint.law.motion().output.torque_Nm};
 }
 
 void follow_homing(JointInLoop& joint, const Homing::Order& order) noexcept {

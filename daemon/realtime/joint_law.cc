@@ -24,7 +24,8 @@ JointLaw::JointLaw(const JointLoopConfig& config, std::int64_t turn)
       schedule_(config.temperature_update_period_s, config.controller.period_s, turn),
       inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
                 config.controller.delay_periods}),
-      held_{config.initial_load_Nm, {}} {}
+      held_{config.initial_load_Nm, {}},
+      closes_loop_(config.controller.drive_closes_loop()) {}
 
 // Scales belong to the rules with which they were learned.
 void JointLaw::use_table(const TableSlot& slot) noexcept {
@@ -63,15 +64,16 @@ void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_op
   measurement.late_periods = reading.position_late_periods;
   measurement.elapsed_periods =
       static_cast<int>(std::min<std::int64_t>(time.elapsed_periods, std::numeric_limits<int>::max()));
-  estimate_inertia(measurement, brake_opens);
+  if (closes_loop_ && reading.torque_measured) measurement.drive_torque_Nm = reading.torque_applied_Nm;
+  estimate_inertia(measurement, brake_opens || closes_loop_);
   motion_ = controller_.step(measurement);
   if (motion_.learns) friction_.learned_now(measurement.temperature_C, time.now_ns);
 }
 
-// By the torque that was commanded last. A brake holds whatever the torque.
-void JointLaw::estimate_inertia(const JointMeasurement& measurement, bool brake_opens) noexcept {
+// By the torque that was commanded last. A brake holds whatever the torque; a drive that closes its own loop makes another.
+void JointLaw::estimate_inertia(const JointMeasurement& measurement, bool other_torque) noexcept {
   if (!measurement.has_position || measurement.elapsed_periods != 1 || measurement.late_periods != 0 ||
-      brake_opens)
+      other_torque)
     return inertia_.interrupt();
   inertia_.step(
       {measurement.joint_position_rad, motion_.output.torque_Nm, gravity_.at(measurement.joint_position_rad)},

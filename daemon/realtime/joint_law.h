@@ -75,7 +75,7 @@ class JointLaw {
     std::optional<double> position_rad;
   };
   double load_at_Nm(double position_rad) const noexcept;
-  void estimate_inertia(const JointMeasurement& measurement, bool brake_opens) noexcept;
+  void estimate_inertia(const JointMeasurement& measurement, bool other_torque) noexcept;
 
   GravityLoad gravity_;
   JointController controller_;
@@ -83,6 +83,7 @@ class JointLaw {
   InertiaEstimate inertia_;
   FrictionHistory friction_;
   HeldLoad held_;
+  bool closes_loop_;                  ///< the drive, by itself
   const TableSlot* table_ = nullptr;  ///< the active one
   JointStep motion_;
 };

@@ -116,7 +116,9 @@ void JointLoop::control(const CycleTime& time) noexcept {
   joint_.law.run(joint_.drive, time, brake_opens);
   const double torque_Nm = joint_.law.motion().output.torque_Nm;
   // Homing goes into switches on purpose, slowly; its way to a stop needs the torque.
-  if (!joint_.mode.is(Mode::kHoming) && joint_.drive.into_limit_switch(torque_Nm)) joint_.law.refuse_torque();
+  if (!joint_.config.controller.drive_closes_loop() && !joint_.mode.is(Mode::kHoming) &&
+      joint_.drive.into_limit_switch(torque_Nm))
+    joint_.law.refuse_torque();
   if (!std::isfinite(torque_Nm)) raise_fault(Fault::kNotFinite, time);
   note_limits(joint_);
 }
@@ -174,8 +176,16 @@ void JointLoop::command_drive(const CycleTime& time) noexcept {
   if (joint_.mode.is(Mode::kFaulted) &&
       (joint_.mode.began(time.now_ns) || joint_.drive.reading().drive_state != DriveState::kDisabled))
     joint_.drive.stop();
-  joint_.drive.write(joint_.mode.controlled() ? joint_.law.motion().output.torque_Nm : 0.0,
-                     wants_drive_enabled(mode()));
+  ActuatorCommand command;
+  command.enable = wants_drive_enabled(mode());
+  command.motor_position_rad = joint_.drive.position_rad();
+  if (joint_.mode.controlled()) {
+    const JointStep& motion = joint_.law.motion();
+    command.torque_Nm = motion.output.torque_Nm;
+    command.motor_position_rad = motion.order.position_rad;
+    command.motor_velocity_rad_s = motion.order.velocity_rad_s;
+  }
+  joint_.drive.write(command);
 }
 
 void JointLoop::end(const CycleTime& time) noexcept {

@@ -22,6 +22,10 @@ constexpr MappedObject kMappedModeDisplay{kModeDisplay, 1};
 constexpr MappedObject kPosition{{0x6064, 0}, 4};
 constexpr MappedObject kVelocity{{0x606C, 0}, 4};
 constexpr MappedObject kMappedTargetTorque{kTargetTorque, 2};
+constexpr MappedObject kMappedTargetPosition{kTargetPosition, 4};
+constexpr MappedObject kMappedTargetVelocity{kTargetVelocity, 4};
+constexpr MappedObject kMappedTorqueOffset{kTorqueOffset, 2};
+constexpr MappedObject kMappedVelocityOffset{kVelocityOffset, 4};
 constexpr MappedObject kTorque{{0x6077, 0}, 2};
 constexpr MappedObject kDigitalInputs{{0x60FD, 0}, 4};
 constexpr MappedObject kMappedProbeFunction{kProbeFunction, 2};
@@ -37,6 +41,25 @@ PdoLayout::Field map(Pdo& pdo, const MappedObject& object) {
   if (offset + object.bytes > kMaxCanBytes) return {};
   pdo.objects.push_back(object);
   return {pdo.number, offset, object.bytes};
+}
+
+const MappedObject& target_of(DriveMode mode) {
+  return mode == DriveMode::kTorque     ? kMappedTargetTorque
+         : mode == DriveMode::kPosition ? kMappedTargetPosition
+                                        : kMappedTargetVelocity;
+}
+
+/// RPDO1 of a drive that closes its own loop is full.
+void map_orders(const DriveConfig& config, PdoLayout& layout) {
+  layout.command = {PdoDirection::kReceive, 1, kEverySync, {kMappedControlword}};
+  layout.offsets = {PdoDirection::kReceive, 2, kEverySync, {}};
+  layout.target = map(layout.command, target_of(config.drive_mode));
+  if (closes_loop(config.drive_mode)) layout.torque_offset = map(layout.command, kMappedTorqueOffset);
+  if (config.inputs.index != ProbeSource::kNone)
+    layout.probe_function =
+        map(closes_loop(config.drive_mode) ? layout.offsets : layout.command, kMappedProbeFunction);
+  if (config.drive_mode == DriveMode::kPosition && config.units.velocity_rad_s_per_unit != 0.0)
+    layout.velocity_offset = map(layout.offsets, kMappedVelocityOffset);
 }
 
 std::uint8_t sync_divider(const DriveConfig& config) {
@@ -80,7 +103,7 @@ double temperature_C(const TemperatureObject& object, std::uint64_t raw) noexcep
 
 PdoLayout pdo_layout(const DriveConfig& config) {
   PdoLayout layout;
-  layout.command = {PdoDirection::kReceive, 1, kEverySync, {kMappedControlword, kMappedTargetTorque}};
+  map_orders(config, layout);
   layout.fast = {PdoDirection::kTransmit, 1, kEverySync, {}};
   layout.slow = {PdoDirection::kTransmit, 2, sync_divider(config), {}};
   layout.position = map(layout.fast, kPosition);
@@ -99,7 +122,6 @@ PdoLayout pdo_layout(const DriveConfig& config) {
   layout.mode = map(layout.slow, kMappedModeDisplay);
   layout.probe = {PdoDirection::kTransmit, 3, sync_divider(config), {}};
   if (config.inputs.index != ProbeSource::kNone) {
-    (void)map(layout.command, kMappedProbeFunction);
     layout.probe_status = map(layout.probe, kProbeStatus);
     layout.probe_position = map(layout.probe, kProbePosition);
   }

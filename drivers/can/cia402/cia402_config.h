@@ -7,16 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "control/joint/drive_mode.h"
 #include "drivers/can/canopen/canopen_pdo.h"
 #include "drivers/can/cia402/cia402_units.h"
 #include "drivers/can/cia402/touch_probe.h"
 
 namespace strainwave::cia402 {
 
-/// Mode of operation (6060h), in the order of preference.
+/// Mode of operation (6060h).
 enum class OperationMode : std::int8_t {
-  kCyclicTorque = 10,  ///< CST
-  kTorque = 4,         ///< TQ, torque profile
+  kTorque = 4,                ///< TQ, torque profile
+  kInterpolatedPosition = 7,  ///< IP
+  kCyclicPosition = 8,        ///< CSP
+  kCyclicVelocity = 9,        ///< CSV
+  kCyclicTorque = 10,         ///< CST
 };
 
 /// 6007h: what the drive does when our heartbeat stays away.
@@ -73,15 +77,17 @@ struct DriveInputs {
 };
 
 struct DriveConfig {
-  std::string name;          ///< of the joint
+  std::string name;  ///< of the joint
+  DriveMode drive_mode = DriveMode::kTorque;
   std::uint8_t node_id = 1;  ///< 1..127
   std::uint8_t our_node_id = 127;
   Identity identity;
   UnitConfig units;
-  bool absolute_encoder = false;  ///< the drive knows its position when it has restarted
-  DriveInputs inputs;             ///< what is wired to the drive; 60FDh
-  double torque_limit_Nm = 0.0;   ///< at the joint; written to 6072h, or 60E0h and 60E1h
-  double rated_current_A = 0.0;   ///< of a drive that has no 6075h; 0: not given
+  bool absolute_encoder = false;     ///< the drive knows its position when it has restarted
+  DriveInputs inputs;                ///< what is wired to the drive; 60FDh
+  double torque_limit_Nm = 0.0;      ///< at the joint; written to 6072h, or 60E0h and 60E1h
+  double following_error_rad = 0.0;  ///< the daemon's, which 6065h is compared with; 0: with nothing
+  double rated_current_A = 0.0;      ///< of a drive that has no 6075h; 0: not given
   double period_s = 0.001;
   int delay_periods = 1;       ///< that the control law reckons with; a position that stays older is a fault
   bool produces_sync = false;  ///< this drive is the bus's SYNC producer
@@ -91,18 +97,22 @@ struct DriveConfig {
   double our_heartbeat_timeout_s = 0.15;  ///< 1016h
   double command_deadline_s = 0.02;       ///< 1400h:05; as long as a joint may be without control
   AbortConnection abort_connection = AbortConnection::kQuickStop;
-  std::optional<std::int16_t> quick_stop_option;  ///< 605Ah; unset: as the drive is set
-  int zero_torque_after = 2;                      ///< periods without a position
-  int quick_stop_after = 4;                       ///< more of them: fault
-  double quick_stop_timeout_s = 1.0;              ///< then the voltage is taken off
-  double step_timeout_s = 0.5;                    ///< of each step of enabling
-  double boot_timeout_s = 5.0;                    ///< from the reset of its communication
-  double status_period_s = 0.01;                  ///< of the slow TPDO
+  std::optional<std::int16_t>
+      quick_stop_option;      ///< 605Ah; unset: as the drive is set, or 2 where it closes its own loop
+  int zero_torque_after = 2;  ///< periods without a position
+  int quick_stop_after = 4;   ///< more of them: fault
+  double quick_stop_timeout_s = 1.0;  ///< then the voltage is taken off
+  double step_timeout_s = 0.5;        ///< of each step of enabling
+  double boot_timeout_s = 5.0;        ///< from the reset of its communication
+  double status_period_s = 0.01;      ///< of the slow TPDO
   bool following_bit =
-      true;  ///< in CST, statusword bit 12 shows whether the drive follows the ordered torque
+      true;  ///< but in TQ, statusword bit 12 shows whether the drive follows what it is ordered
   std::optional<TemperatureObject> temperature;
 
-  bool uses_drive_velocity() const noexcept { return units.velocity_rad_s_per_unit != 0.0; }
+  /// Where the drive closes its own loop only orders have the unit of its velocity.
+  bool uses_drive_velocity() const noexcept {
+    return !closes_loop(drive_mode) && units.velocity_rad_s_per_unit != 0.0;
+  }
 };
 
 /// Where the fields of the drive's PDOs lie.
@@ -112,21 +122,23 @@ struct PdoLayout {
     std::size_t offset = 0;  ///< in bytes
     std::size_t bytes = 0;
   };
-  canopen::Pdo command;  ///< RPDO1: controlword, target torque; with a touch probe its function
+  canopen::Pdo command;  ///< RPDO1: controlword, target; torque offset of a drive that closes its own loop
+  canopen::Pdo offsets;  ///< RPDO2, likewise: what RPDO1 has no room for
   canopen::Pdo fast;     ///< TPDO1, with every SYNC
   canopen::Pdo slow;     ///< TPDO2, with every nth; without objects when it is not needed
   canopen::Pdo probe;    ///< TPDO3, likewise: the touch probe's status and position
+  Field target, torque_offset, velocity_offset, probe_function;
   Field position, velocity, statusword, torque, mode, temperature, inputs, probe_status, probe_position;
 };
 
-/// TPDO1 has position, statusword and torque, or position and velocity when the drive's velocity is used;
+/// The target is that of the mode that is preferred. What a drive need not have is the last of its PDO. TPDO1 has position, statusword and torque, or position and velocity when the drive's velocity is used;
 /// TPDO2 the rest, TPDO3 the touch probe. Throws InputError when there is no room for what the configuration asks.
 PdoLayout pdo_layout(const DriveConfig& config);
 
 /// What set-up found.
 struct Found {
   OperationMode mode = OperationMode::kCyclicTorque;
-  double rated_torque_Nm = 0.0;  ///< at the joint
+  double rated_torque_Nm = 0.0;  ///< at the joint; 0: a drive that closes its own loop and has no 6076h
   std::uint16_t statusword = 0;
   std::uint16_t error_code = 0;     ///< 603Fh when the drive is in fault
   std::vector<std::string> report;  ///< for the log

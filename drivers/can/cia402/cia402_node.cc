@@ -2,6 +2,7 @@
 #include "drivers/can/cia402/cia402_node.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,9 @@ using canopen::NmtState;
 
 // More than any estimate goes back.
 constexpr std::int64_t kMostSkipped = 1000;
+
+/// The first of RPDO1.
+constexpr PdoLayout::Field kControlwordField{1, 0, 2};
 
 // 60FDh
 constexpr std::uint32_t kNegativeLimitBit = 1U << 0U;
@@ -163,6 +167,7 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_velocity = fresh_ && layout_.velocity.pdo != 0;
   reading.torque_applied_Nm = torque_applied_Nm_;
+  reading.torque_measured = layout_.torque.pdo != 0;
   fill_temperature(reading);
   reading.inputs = inputs_;
   reading.drive_state = drive_state();
@@ -187,7 +192,8 @@ void Node::fill_temperature(ActuatorReading& reading) const noexcept {
 
 void Node::write(const ActuatorCommand& command) noexcept {
   command_ = command;
-  if (command_.enable && !std::isfinite(command_.torque_Nm))
+  const double sum = command.torque_Nm + command.motor_position_rad + command.motor_velocity_rad_s;
+  if (command_.enable && !std::isfinite(sum))
     watch_.latch(watch_.trouble(ActuatorFault::kWriteRefused, CanDetail::kNone));
 }
 
@@ -206,19 +212,39 @@ void Node::transmit(CanTransmitter& bus) noexcept {
   if (fresh_ && has_status_ && !power_.has_torque()) stop_ordered_ = false;
 }
 
+// A drive that closes its own loop goes on with its last order where positions stay away; one that obeys torque must not.
 void Node::transmit_order(CanTransmitter& bus) noexcept {
   const Goal wanted = goal();
-  const std::uint16_t controlword = power_.controlword(wanted, now_ns_);
+  std::uint16_t controlword = power_.controlword(wanted, now_ns_);
   const bool driven = wanted == Goal::kEnabled && power_.state() == PowerState::kOperationEnabled &&
-                      controlword == controlword::kEnableOperation && missed_ <= config_.zero_torque_after;
-  const std::int16_t torque = driven ? torque_scale_.per_mille(command_.torque_Nm) : std::int16_t{0};
-  CanFrame frame;
-  frame.id = layout_.command.cob_id(config_.node_id);
-  frame.size = static_cast<std::uint8_t>(layout_.command.bytes());
-  put_little_endian(&frame.bytes[0], 2, controlword);
-  put_little_endian(&frame.bytes[2], 2, static_cast<std::uint16_t>(torque));
-  if (config_.inputs.index != ProbeSource::kNone) put_little_endian(&frame.bytes[4], 2, probe_.function());
-  (void)bus.send(frame);
+                      controlword == controlword::kEnableOperation &&
+                      (closes_loop(config_.drive_mode) || missed_ <= config_.zero_torque_after);
+  if (driven && mode_ == OperationMode::kInterpolatedPosition) controlword |= controlword::kInterpolate;
+  std::array<CanFrame, 2> frames{};
+  const auto put = [&frames](const PdoLayout::Field& field, std::uint64_t value) {
+    if (field.pdo != 0)
+      put_little_endian(&frames[static_cast<std::size_t>(field.pdo) - 1].bytes[field.offset], field.bytes,
+                        value);
+  };
+  put(kControlwordField, controlword);
+  put(layout_.probe_function, probe_.function());
+  put(closes_loop(config_.drive_mode) ? layout_.torque_offset : layout_.target,
+      static_cast<std::uint16_t>(driven ? torque_scale_.per_mille(command_.torque_Nm) : std::int16_t{0}));
+  if (config_.drive_mode == DriveMode::kPosition)
+    put(layout_.target,
+        static_cast<std::uint32_t>(driven ? position_scale_.counts(command_.motor_position_rad)
+                                          : position_scale_.last_counts()));
+  if (closes_loop(config_.drive_mode))
+    put(config_.drive_mode == DriveMode::kVelocity ? layout_.target : layout_.velocity_offset,
+        static_cast<std::uint32_t>(driven ? position_scale_.velocity_units(command_.motor_velocity_rad_s)
+                                          : 0));
+  for (const canopen::Pdo* pdo : {&layout_.offsets, &layout_.command}) {
+    if (pdo->objects.empty()) continue;
+    CanFrame& frame = frames[static_cast<std::size_t>(pdo->number) - 1];
+    frame.id = pdo->cob_id(config_.node_id);
+    frame.size = static_cast<std::uint8_t>(pdo->bytes());
+    (void)bus.send(frame);
+  }
 }
 
 void Node::clear_fault() noexcept {

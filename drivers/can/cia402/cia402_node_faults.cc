@@ -10,7 +10,7 @@ namespace {
 
 /// Statusword bit 4: the supply of the power stage is there.
 constexpr std::uint16_t kVoltageEnabled = 1U << 4U;
-/// Bit 12, in CST: the drive follows the torque that it is ordered.
+/// Bit 12, but in TQ: the drive follows what it is ordered.
 constexpr std::uint16_t kFollowing = 1U << 12U;
 /// Once it has followed; a statusword may be of the period before the order.
 constexpr std::int64_t kNotFollowing_ns = 20'000'000;
@@ -70,7 +70,7 @@ NodeFault Node::present_trouble() const noexcept {
 }
 
 bool Node::following() const noexcept {
-  const bool shown = mode_ == OperationMode::kCyclicTorque && config_.following_bit;
+  const bool shown = mode_ != OperationMode::kTorque && config_.following_bit;
   return power_.state() == PowerState::kOperationEnabled &&
          (!shown || (power_.statusword() & kFollowing) != 0);
 }

@@ -50,7 +50,9 @@ std::vector<std::uint32_t> Node::receive_ids() const {
 }
 
 std::vector<std::uint32_t> Node::transmit_ids() const {
-  return {layout_.command.cob_id(config_.node_id)};
+  std::vector<std::uint32_t> ids{layout_.command.cob_id(config_.node_id)};
+  if (!layout_.offsets.objects.empty()) ids.push_back(layout_.offsets.cob_id(config_.node_id));
+  return ids;
 }
 
 std::vector<std::uint32_t> Node::setup_ids() const {
@@ -63,6 +65,8 @@ std::vector<FrameTraffic> Node::traffic() const {
   std::vector<FrameTraffic> traffic{{"RPDO1 of " + config_.name, bytes(layout_.command), rate_Hz},
                                     {"TPDO1 of " + config_.name, bytes(layout_.fast), rate_Hz},
                                     {"heartbeat of " + config_.name, 1, 1.0 / config_.drive_heartbeat_s}};
+  if (!layout_.offsets.objects.empty())
+    traffic.push_back({"RPDO2 of " + config_.name, bytes(layout_.offsets), rate_Hz});
   for (const canopen::Pdo* pdo : {&layout_.slow, &layout_.probe})
     if (!pdo->objects.empty())
       traffic.push_back({"TPDO" + std::to_string(pdo->number) + " of " + config_.name, bytes(*pdo),
@@ -80,7 +84,8 @@ std::vector<std::string> Node::set_up(CanPort& port) {
   identified_ = true;
   const Found found = set_up_drive(client, config_, layout_, description);
   mode_ = found.mode;
-  torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
+  if (found.rated_torque_Nm > 0.0)
+    torque_scale_ = TorqueScale(found.rated_torque_Nm, config_.units.direction, config_.torque_limit_Nm);
   initial_error_ = found.error_code;
   sdo_mode_.put(static_cast<std::uint8_t>(found.mode));
   setup_.end(true);
@@ -143,7 +148,7 @@ void Node::shut_down(CanPort& port) noexcept {
   if (!identified_) return;
   try {
     canopen::SdoClient client(port, config_.node_id, config_.name);
-    release_drive(client);
+    release_drive(client, config_);
   } catch (const std::exception&) {
     // A drive that cannot be reached is disabled by its own supervision of our heartbeat.
   }

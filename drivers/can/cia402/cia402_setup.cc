@@ -29,19 +29,16 @@ constexpr Entry kProducerHeartbeat_ms{0x1017, 0};
 // Drive profile, CiA 402.
 constexpr Entry kAbortConnection{0x6007, 0};
 constexpr Entry kErrorCode{0x603F, 0};
-constexpr Entry kQuickStopOption{0x605A, 0};
-constexpr Entry kMode{0x6060, 0};
 constexpr Entry kInterpolationMantissa{0x60C2, 1};
 constexpr Entry kInterpolationExponent{0x60C2, 2};
 
 constexpr std::uint32_t kSyncProducerBit = 1U << 30U;
-constexpr std::uint32_t kTorqueModeBit = 1U << 3U;
-constexpr std::uint32_t kCyclicTorqueModeBit = 1U << 9U;
 
 /// Of an SDO. Start-up needs about 120, so it takes some 13 s at most.
 constexpr std::int64_t kSlowestAnswer_ns = 100'000'000;
 constexpr std::int64_t kPoll_ns = 5'000'000;
-constexpr std::int64_t kModeWait_ns = 1'000'000'000;
+/// Among the objects of RPDO1.
+constexpr std::size_t kTargetPlace = 1;
 constexpr std::int64_t kDisableWait_ns = 500'000'000;
 /// Two nodes that answer do so one right after the other.
 constexpr std::int64_t kSecondAnswer_ns = 20'000'000;
@@ -160,23 +157,9 @@ void configure_period(SdoClient& client, const DriveConfig& config) {
                          "unit of the interpolation period"});
 }
 
-void set_mode(SdoClient& client, OperationMode mode) {
-  const auto wanted = static_cast<std::uint8_t>(mode);
-  client.download(kMode, wanted, 1);
-  const std::int64_t deadline_ns = client.port().now_ns() + kModeWait_ns;
-  std::uint32_t shown = number(client, kModeDisplay, 1);
-  while (shown != wanted && client.port().now_ns() < deadline_ns) {
-    (void)client.port().wait(kPoll_ns);
-    shown = number(client, kModeDisplay, 1);
-  }
-  if (shown != wanted)
-    refuse(client, "mode of operation " + std::to_string(wanted) + " was ordered, 6061h still shows " +
-                       std::to_string(static_cast<std::int8_t>(shown)));
-}
-
 /// No torque, whatever the drive did before: another daemon may have died with it enabled.
-void take_torque_off(SdoClient& client) {
-  client.download(kTargetTorque, 0, 2);
+void take_torque_off(SdoClient& client, const DriveConfig& config) {
+  if (!closes_loop(config.drive_mode)) client.download(kTargetTorque, 0, 2);
   client.download(kControlword, controlword::kDisableVoltage, 2);
   const std::int64_t deadline_ns = client.port().now_ns() + kDisableWait_ns;
   const auto has_torque = [&] {
@@ -191,37 +174,13 @@ void take_torque_off(SdoClient& client) {
   }
 }
 
-/// The one that 6502h names, or nothing when the drive has no 6502h.
-std::optional<OperationMode> named_mode(SdoClient& client, std::optional<std::uint32_t> supported) {
-  if (!supported) return std::nullopt;
-  if ((*supported & kCyclicTorqueModeBit) != 0) return OperationMode::kCyclicTorque;
-  if ((*supported & kTorqueModeBit) != 0) return OperationMode::kTorque;
-  refuse(client, "supports neither cyclic synchronous torque (mode 10) nor torque (mode 4): 6502h = " +
-                     hexadecimal(*supported, 8) + " (" + modes_text(*supported) +
-                     "); it cannot be driven by torque");
-}
-
-/// The first that 6061h then shows.
-OperationMode tried_mode(SdoClient& client) {
-  std::string reason;
-  for (const OperationMode mode : {OperationMode::kCyclicTorque, OperationMode::kTorque}) {
-    try {
-      set_mode(client, mode);
-      return mode;
-    } catch (const InputError& error) {
-      reason = error.what();
-    }
-  }
-  refuse(client, "has no 6502h, and takes neither cyclic synchronous torque (mode 10) nor torque (mode 4): " +
-                     reason);
-}
-
 void report_found(Found& found, const Description& description, const DriveConfig& config) {
   std::ostringstream text;
   text << config.name << ": node " << static_cast<int>(config.node_id) << ", " << to_text(description)
-       << ", mode " << static_cast<int>(found.mode)
-       << (found.mode == OperationMode::kCyclicTorque ? " (CST)" : " (TQ)") << ", rated "
-       << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm << " N.m";
+       << ", mode " << static_cast<int>(found.mode) << " (" << to_text(found.mode) << ")";
+  if (found.rated_torque_Nm > 0.0)
+    text << ", rated " << found.rated_torque_Nm << " N.m at the joint, limit " << config.torque_limit_Nm
+         << " N.m";
   found.report.push_back(text.str());
   // Where the configuration names the maker it was warned of this already.
   if (const auto doubt = torque_unit_doubt(description.vendor_id, config.units);
@@ -250,16 +209,30 @@ Description identify_drive(SdoClient& client, const DriveConfig& config) {
 Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layout,
                    const Description& description) {
   Found found;
-  const auto named = named_mode(client, description.supported_modes);
+  std::optional<OperationMode> named;
+  if (description.supported_modes)
+    named = choose_mode(client, config.drive_mode, description.supported_modes);
   reset_communication(client, config);
-  take_torque_off(client);
-  found.mode = named ? *named : tried_mode(client);
-  configure_pdos(client, layout, found.report);
+  take_torque_off(client, config);
+  found.mode = named ? *named : choose_mode(client, config.drive_mode, {});
+  if (found.mode == OperationMode::kInterpolatedPosition)
+    layout.command.objects[kTargetPlace].entry = kInterpolatedTarget;
+  const bool knows_torque = !closes_loop(config.drive_mode) || client.upload_if_there(kRatedTorque, 4);
+  if (!knows_torque) {
+    leave_out(layout.command, layout.torque_offset);
+    leave_out(layout.fast, layout.torque);
+    found.report.push_back(
+        client.who() +
+        ": the drive has no 6076h: it is sent no torque, nothing is learned of its friction, "
+        "and it limits its torque by itself");
+  }
+  configure_pdos(client, config, layout, found.report);
   if (config.inputs.index != ProbeSource::kNone)
     client.write_verified({kProbeFunction, 0, 2, ~0U, "touch probe off"});
   configure_supervision(client, config, found.report);
-  found.rated_torque_Nm = configure_torque(client, config, found.report);
+  if (knows_torque) found.rated_torque_Nm = configure_torque(client, config, found.report);
   configure_torque_path(client, config, found.mode, found.report);
+  if (closes_loop(config.drive_mode)) configure_own_loop(client, config, found.report);
   configure_period(client, config);
   set_mode(client, found.mode);
   found.statusword = static_cast<std::uint16_t>(number(client, kStatusword, 2));
@@ -270,8 +243,8 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layo
   return found;
 }
 
-void release_drive(SdoClient& client) {
-  take_torque_off(client);
+void release_drive(SdoClient& client, const DriveConfig& config) {
+  take_torque_off(client, config);
   (void)client.write_if_there({kConsumerHeartbeat, 0, 4, ~0U, "no supervision of our heartbeat"});
 }
 

@@ -30,6 +30,6 @@ std::int64_t measure_position_delay_ns(CanPort& port, const DriveConfig& config,
 
 /// Of a drive that is pre-operational, where it misses no RPDO: takes the torque off and ends its supervision of us, so that our
 /// going is no fault.
-void release_drive(canopen::SdoClient& client);
+void release_drive(canopen::SdoClient& client, const DriveConfig& config);
 
 }  // namespace strainwave::cia402

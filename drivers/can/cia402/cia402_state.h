@@ -35,6 +35,7 @@ inline constexpr std::uint16_t kEnableOperation = 0x0F;
 inline constexpr std::uint16_t kDisableVoltage = 0x00;
 inline constexpr std::uint16_t kQuickStop = 0x02;
 inline constexpr std::uint16_t kFaultReset = 0x80;
+inline constexpr std::uint16_t kInterpolate = 0x10;  ///< beside kEnableOperation, in IP
 }  // namespace controlword
 
 /// Of a statusword (6041h). Every value has one.

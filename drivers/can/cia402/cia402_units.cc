@@ -20,6 +20,7 @@ constexpr double kTolerance = 1.6;
 constexpr double kMillinewtonmetre_Nm = 1e-3;
 constexpr double kMicronewtonmetre_Nm = 1e-6;
 constexpr double kPerMille = 1000.0;
+constexpr double kMostCounts = 1e15;
 /// A gear bears several times a motor's rated torque, so the joint's limit is usually above it; three times the other way leaves room
 /// for a large motor.
 constexpr double kMostRatedShare = 3.0;
@@ -108,6 +109,20 @@ double PositionScale::elsewhere_rad(std::int32_t counts) const noexcept {
   const auto ahead = static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) -
                                                static_cast<std::uint32_t>(last_counts_));
   return rad_per_count_ * static_cast<double>(total_counts_ + ahead) + offset_rad_;
+}
+
+std::int32_t PositionScale::counts(double position_rad) const noexcept {
+  const double wanted = (position_rad - offset_rad_) / rad_per_count_;
+  // Farther away than any joint turns.
+  if (!(std::abs(wanted) < kMostCounts)) return last_counts_;
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::llround(wanted)));
+}
+
+std::int32_t PositionScale::velocity_units(double velocity_rad_s) const noexcept {
+  const double wanted = has_velocity() ? velocity_rad_s / velocity_rad_s_per_unit_ : 0.0;
+  if (!std::isfinite(wanted)) return 0;
+  return static_cast<std::int32_t>(
+      std::lround(std::clamp(wanted, static_cast<double>(INT32_MIN), static_cast<double>(INT32_MAX))));
 }
 
 double PositionScale::position_rad(std::int32_t counts) noexcept {

@@ -66,6 +66,11 @@ class PositionScale {
   double position_rad(std::int32_t counts) noexcept;
   /// Of another count of the same counter, at most half its range from the last one; that is not moved.
   double elsewhere_rad(std::int32_t counts) const noexcept;
+  /// Of a joint angle, modulo 2^32 as the counter; the last count for what is not finite.
+  std::int32_t counts(double position_rad) const noexcept;
+  std::int32_t last_counts() const noexcept { return last_counts_; }
+  /// 0 without a unit, and for what is not finite.
+  std::int32_t velocity_units(double velocity_rad_s) const noexcept;
   double velocity_rad_s(std::int32_t units) const noexcept { return velocity_rad_s_per_unit_ * units; }
   bool has_velocity() const noexcept { return velocity_rad_s_per_unit_ != 0.0; }
 

@@ -59,11 +59,25 @@ void configure_pdo(SdoClient& client, const Pdo& pdo) {
   for (const SdoWrite& write : writes) client.write_verified(write);
 }
 
+/// Without its last object, which is at `field`, where the drive cannot map it.
+void configure_with_optional(SdoClient& client, Pdo& pdo, PdoLayout::Field& field,
+                             std::vector<std::string>& report, const char* without) {
+  if (pdo.objects.empty()) return;
+  try {
+    return configure_pdo(client, pdo);
+  } catch (const SdoError& error) {
+    if (error.no_answer() || field.pdo == 0) throw;
+  }
+  leave_out(pdo, field);
+  if (!pdo.objects.empty()) configure_pdo(client, pdo);
+  report.push_back(client.who() + ": " + without);
+}
+
 // Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it. Drives number theirs
 // without gaps, but for the first four.
 void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
   const auto is_used = [&](PdoDirection direction, int pdo) {
-    for (const Pdo* used : {&layout.command, &layout.fast, &layout.slow, &layout.probe})
+    for (const Pdo* used : {&layout.command, &layout.offsets, &layout.fast, &layout.slow, &layout.probe})
       if (used->direction == direction && used->number == pdo && !used->objects.empty()) return true;
     return false;
   };
@@ -82,20 +96,24 @@ void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
 
 }  // namespace
 
-void configure_pdos(SdoClient& client, PdoLayout& layout, std::vector<std::string>& report) {
-  configure_pdo(client, layout.command);
-  configure_pdo(client, layout.fast);
-  try {
-    if (!layout.slow.objects.empty()) configure_pdo(client, layout.slow);
-  } catch (const SdoError& error) {
-    if (error.no_answer() || layout.mode.pdo == 0) throw;
-    // The mode is the last of its objects.
-    layout.slow.objects.pop_back();
-    layout.mode = {};
-    if (!layout.slow.objects.empty()) configure_pdo(client, layout.slow);
-    report.push_back(client.who() + ": the drive cannot send 6061h in TPDO2, its mode is read by SDO");
-  }
-  if (!layout.probe.objects.empty()) configure_pdo(client, layout.probe);
+void leave_out(Pdo& pdo, PdoLayout::Field& field) {
+  if (field.pdo == 0) return;
+  pdo.objects.pop_back();
+  field = {};
+}
+
+void configure_pdos(SdoClient& client, const DriveConfig& config, PdoLayout& layout,
+                    std::vector<std::string>& report) {
+  configure_with_optional(client, layout.command, layout.torque_offset, report,
+                          "the drive cannot take 60B2h: its loop learns of friction only by its error");
+  configure_with_optional(client, layout.offsets, layout.velocity_offset, report,
+                          "the drive cannot take 60B1h: its loop makes the velocity from its error");
+  PdoLayout::Field none;
+  configure_with_optional(client, layout.fast, closes_loop(config.drive_mode) ? layout.torque : none, report,
+                          "the drive cannot send 6077h: nothing is learned of its friction");
+  configure_with_optional(client, layout.slow, layout.mode, report,
+                          "the drive cannot send 6061h in TPDO2, its mode is read by SDO");
+  configure_with_optional(client, layout.probe, none, report, "");
   switch_off_other_pdos(client, layout);
 }
 

@@ -27,14 +27,28 @@ inline std::uint32_t thousandths(double value) {
   throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
 }
 
-/// Takes 6061h out of `layout` when the drive cannot map it.
-void configure_pdos(canopen::SdoClient& client, PdoLayout& layout, std::vector<std::string>& report);
+/// The first mode for `wanted` that 6502h names (nothing: the drive has none), or that 6061h then shows.
+OperationMode choose_mode(canopen::SdoClient& client, DriveMode wanted,
+                          std::optional<std::uint32_t> supported);
+void set_mode(canopen::SdoClient& client, OperationMode mode);
+/// "CST"
+const char* to_text(OperationMode mode);
+
+/// Takes out of `layout` what the drive cannot map and need not have.
+void configure_pdos(canopen::SdoClient& client, const DriveConfig& config, PdoLayout& layout,
+                    std::vector<std::string>& report);
+/// The last object of `pdo`, if it is at `field`.
+void leave_out(canopen::Pdo& pdo, PdoLayout::Field& field);
 
 /// Has the drive miss RPDO1 (1400h:05); false when it cannot.
 bool configure_deadline(canopen::SdoClient& client, const DriveConfig& config);
 
 /// Rated torque at the joint in N.m: 6075h and 6076h compared, and the limit written to what the drive has for it.
 double configure_torque(canopen::SdoClient& client, const DriveConfig& config,
+                        std::vector<std::string>& report);
+
+/// Of a drive that closes its own loop: its stop, and its own limit of the following error.
+void configure_own_loop(canopen::SdoClient& client, const DriveConfig& config,
                         std::vector<std::string>& report);
 
 /// What would turn, shift or slow the torque that is ordered.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of a CiA 402 drive's set-up that is about torque: its unit, its limits, what would change it on its way.
+#include "drivers/can/cia402/cia402_objects.h"
 #include "drivers/can/cia402/setup_steps.h"
 #include "drivers/can/hexadecimal.h"
 
@@ -12,10 +13,8 @@ using canopen::SdoClient;
 
 constexpr Entry kMaxTorque{0x6072, 0};
 constexpr Entry kRatedCurrent_mA{0x6075, 0};
-constexpr Entry kRatedTorque{0x6076, 0};
 constexpr Entry kPolarity{0x607E, 0};
 constexpr Entry kTorqueSlope{0x6087, 0};
-constexpr Entry kTorqueOffset{0x60B2, 0};
 constexpr Entry kPositiveTorqueLimit{0x60E0, 0};
 constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
 
@@ -23,7 +22,11 @@ constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
 void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, std::vector<std::string>& report) {
   bool limited = false;
   const auto limit_by = [&](Entry entry, const char* purpose) {
-    limited = client.write_if_there({entry, limit_per_mille, 2, ~0U, purpose}) || limited;
+    try {
+      limited = client.write_if_there({entry, limit_per_mille, 2, ~0U, purpose}) || limited;
+    } catch (const canopen::SdoError& error) {
+      if (!error.read_only()) throw;
+    }
   };
   limit_by(kMaxTorque, "torque limit");
   limit_by(kPositiveTorqueLimit, "positive torque limit");

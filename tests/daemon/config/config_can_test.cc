@@ -179,8 +179,29 @@ TEST_F(CanConfigTest, WarnsOfNumbersThatContradictEachOtherWithTheValueThatIsLik
   }
 }
 
+TEST_F(CanConfigTest, ADriveMayCloseItsOwnLoopWhereNothingElseContradicts) {
+  EXPECT_EQ(read(example("epos4.toml")).joints[0].loop.controller.drive_mode, DriveMode::kTorque);
+  const DaemonConfig config = read(example("epos4-position.toml"));
+  EXPECT_EQ(config.joints[0].loop.controller.drive_mode, DriveMode::kPosition);
+  EXPECT_FALSE(expected_joint(config.joints[0]).law_acts);
+  const auto& drive = std::get<cia402::DriveConfig>(config.buses[0].drives[0]);
+  EXPECT_EQ(drive.drive_mode, DriveMode::kPosition);
+  EXPECT_EQ(drive.following_error_rad, 0.1);
+  EXPECT_NEAR(drive.units.velocity_rad_s_per_unit, 2 * std::numbers::pi / 60 / 50, 1e-9)
+      << "rpm of the motor";
+  for (const auto& [from, to, part] :
+       {std::tuple{"\"position\" ", "\"speed\" ", "drive_mode = \"speed\""},
+        {"encoder_side = \"motor\"", "encoder_side = \"link\"", "encoder_side"},
+        {"torque_limit_Nm = 34", "torque_limit_Nm = 34\non_overload = \"hold_load\"", "on_overload"}})
+    expect_mentions(error_after("epos4-position.toml", from, to), {"joint[0].can.drive_mode", part});
+  const std::string by_velocity = replaced(example("epos4-position.toml"), "\"position\" ", "\"velocity\" ");
+  EXPECT_EQ(read(by_velocity).joints[0].loop.controller.drive_mode, DriveMode::kVelocity);
+  expect_mentions(error_of(replaced(by_velocity, "velocity_rad_s_per_unit = 0.0020943951", "")),
+                  {"joint[0].can.drive_mode", "velocity_rad_s_per_unit"});
+}
+
 TEST_F(CanConfigTest, HasNoDoubtsAboutTheShippedExamples) {
-  for (const char* name : {"epos4.toml", "elmo.toml", "elmo-link.toml", "odrive.toml"})
+  for (const char* name : {"epos4.toml", "epos4-position.toml", "elmo.toml", "elmo-link.toml", "odrive.toml"})
     for (const std::string& warning : read(example(name)).warnings)
       EXPECT_NE(warning.find("which a real joint needs"), std::string::npos) << name << ": " << warning;
 }
