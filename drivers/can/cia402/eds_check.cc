@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <numbers>
 
 #include "base/input_error.h"
 #include "drivers/can/canopen/canopen.h"
@@ -34,9 +35,10 @@ enum class Abort : std::uint32_t {
 constexpr std::uint8_t kUpload = 2;
 constexpr std::uint8_t kDownload = 1;
 constexpr std::uint32_t kServoDrive = 0x00020192;
-constexpr std::uint32_t kBothTorqueModes = 1U << 9U | 1U << 3U;
+constexpr std::uint32_t kAllModes = 0x3FF;
 constexpr std::uint32_t kDisabledAndPowered = 0x0250;
 constexpr double kAssumedCurrent_A = 1.0;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// What the data sheet answers on the bus, without any time passing but that which somebody waits.
 class DataSheetDrive final : public CanPort {
@@ -84,7 +86,7 @@ class DataSheetDrive final : public CanPort {
     assume({0x1018, 2}, identity.product_code.value_or(0), "the configuration's product");
     assume({0x1018, 3}, identity.revision_number.value_or(0), "the configuration's revision");
     assume({0x1018, 4}, identity.serial_number.value_or(0), "the configuration's serial number");
-    assume({0x6502, 0}, kBothTorqueModes, "CST and TQ");
+    assume({0x6502, 0}, kAllModes, "every mode");
     const UnitConfig& units = config_.units;
     const double current_A = config_.rated_current_A > 0.0 ? config_.rated_current_A : kAssumedCurrent_A;
     assume({0x6075, 0}, std::lround(current_A * 1e3), "the configuration's rated current, or 1 A");
@@ -94,6 +96,11 @@ class DataSheetDrive final : public CanPort {
     assume({0x6076, 0},
            std::llround(rated_A * units.torque_constant_Nm_A * side / units.rated_torque_unit_Nm),
            "that current times the torque constant");
+    assume({0x6065, 0},
+           !closes_loop(config_.drive_mode)
+               ? 0
+               : std::llround(config_.following_error_rad / kTurn_rad * units.counts_per_output_revolution),
+           "joint.limits.following_error_rad");
     if (values_.contains({0x6041, 0})) values_[{0x6041, 0}] = kDisabledAndPowered;
   }
 

@@ -23,6 +23,17 @@ class DataSheets : public ConfigFileTest {
   static std::filesystem::path sheet(const std::string& name) {
     return std::filesystem::path(STRAINWAVE_SOURCE_DIR) / "tests/drivers/can/eds" / name;
   }
+  /// Without the object's section.
+  static std::string without(const std::string& eds, const std::string& index) {
+    std::string kept;
+    std::istringstream lines(eds);
+    bool skips = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('[')) skips = line.starts_with("[" + index);
+      if (!skips) kept += line + '\n';
+    }
+    return kept;
+  }
   /// What start-up would say of the first joint's drive.
   std::string check(const std::string& config, const std::string& eds) {
     std::ostringstream text;
@@ -35,6 +46,19 @@ TEST_F(DataSheets, TheExampleForEpos4StartsADriveThatHasNo6072h) {
   const std::string text = check(example("epos4.toml"), "epos4.eds");
   EXPECT_EQ(text.find("refused"), std::string::npos) << text;
   expect_mentions(text, {"mode 10 (CST)", "only this daemon limits the torque"});
+}
+
+TEST_F(DataSheets, ADriveThatClosesItsOwnLoopNeedsItsTargetAndNoTargetOfTorque) {
+  const std::string eds = without(read_text_file(sheet("epos4.eds")), "6071");
+  const auto check_with = [&](const std::string& sheet_text) {
+    std::ofstream(folder_ / "drive.eds") << sheet_text;
+    return check(example("epos4-position.toml"), folder_ / "drive.eds");
+  };
+  const std::string whole = check_with(eds);
+  EXPECT_EQ(whole.find("refused"), std::string::npos) << whole;
+  expect_mentions(whole, {"mode 8 (CSP)", "would accept"});
+  expect_mentions(check_with(without(eds, "607A")), {"refused", "607Ah"});
+  expect_mentions(check(example("epos4.toml"), folder_ / "drive.eds"), {"refused", "6071h"});
 }
 
 TEST_F(DataSheets, TheExampleForElmoStartsAGoldDrive) {
