@@ -23,6 +23,7 @@ void add_robustness_command(CLI::App& program, CommandBody& chosen);
 void add_heat_command(CLI::App& program, CommandBody& chosen);
 void add_flexible_command(CLI::App& program, CommandBody& chosen);
 void add_temperature_command(CLI::App& program, CommandBody& chosen);
+void add_own_loop_command(CLI::App& program, CommandBody& chosen);
 void add_ablation_command(CLI::App& program, CommandBody& chosen);
 
 /// The folder `name` ("data") of the installation, or of the source tree the program was built from. Throws

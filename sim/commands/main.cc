@@ -42,5 +42,6 @@ int main(int argc, char** argv) {
   strainwave::add_flexible_command(program, chosen);
   strainwave::add_temperature_command(program, chosen);
   strainwave::add_ablation_command(program, chosen);
+  strainwave::add_own_loop_command(program, chosen);
   return strainwave::run_program(program, argc, argv, [&] { return chosen(); });
 }

@@ -28,12 +28,18 @@ void StreamedController::send(double time_s) noexcept {
                      periods_ == 0, 0.0, {});
 }
 
-double StreamedController::torque_Nm(const LoopSample& sample) noexcept {
+JointStep StreamedController::step(const LoopSample& sample) noexcept {
   if (periods_ == 0) controller_.start(sample.joint_position_rad);
   if (periods_ % kInterval == 0) send(sample.time_s);
   ++periods_;
-  const JointStep step =
-      controller_.step(measurement_of(sample, told_.fixed_C.value_or(sample.temperature_C + told_.shift_C)));
+  JointMeasurement measurement =
+      measurement_of(sample, told_.fixed_C.value_or(sample.temperature_C + told_.shift_C));
+  if (config_.drive_closes_loop()) measurement.drive_torque_Nm = sample.torque_applied_Nm;
+  return controller_.step(measurement);
+}
+
+double StreamedController::torque_Nm(const LoopSample& sample) noexcept {
+  const JointStep step = this->step(sample);
   off_ = off_ || step.oscillates;
   return off_ ? 0.0 : step.output.torque_Nm;
 }

@@ -25,6 +25,8 @@ class StreamedController final : public LoopController {
   StreamedController(const JointControllerConfig& config, const GainTable& table, const SmoothPath& path,
                      const Told& told) noexcept;
   double torque_Nm(const LoopSample& sample) noexcept override;
+  /// The same, with all of the controller's result.
+  JointStep step(const LoopSample& sample) noexcept;
   void reset() noexcept override;
   bool switched_off() const noexcept override { return off_; }
 

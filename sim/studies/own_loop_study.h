@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the plan is worth to a drive that closes its own loop: the cascade of sim/studies/peers/ at its own rate on the motions of
+// sim/studies/temperature_study.h, given more and more of what the daemon knows. Offline; uses all cores.
+//
+//   alone          the path's position each millisecond, as a program sends it
+//   plan           the daemon's plan of a rigid joint: position and velocity
+//   wind-up        the plan with the gear's spring: the motor's position and velocity
+//   all offsets    that, and the torque that plan, friction and load need
+//   torque mode    the daemon's own law, certified
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sim/studies/flexible_study.h"
+#include "sim/studies/temperature_study.h"
+
+namespace strainwave {
+
+/// What the drive is given.
+enum class Told { kNothing, kPlan, kWindUp, kAllOffsets };
+
+inline constexpr std::array<double, 3> kDriveRates_Hz = {1000.0, 4000.0, 8000.0};
+inline constexpr std::array<double, 2> kOwnLoopTemperatures_C = {-10.0, 30.0};
+
+/// The cascade behind a bus of 1 kHz. The plant's period is the drive's.
+FrictionWay own_loop_way(const GainTable& table, Told told);
+
+struct OwnLoopRow {
+  std::string way;
+  double rate_Hz = 0.0;  ///< of the drive's loop
+  double temperature_C = 0.0;
+  /// Geometric means over the motions, of the link's error from the path.
+  double rms_rad = 0.0;
+  double over_torque_mode = 0.0;
+};
+
+/// Every way at every rate, the torque mode first.
+std::vector<OwnLoopRow> run_own_loops(const FlexibleTables& tables);
+
+}  // namespace strainwave
