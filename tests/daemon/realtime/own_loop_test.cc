@@ -166,6 +166,26 @@ TEST_P(OwnLoopInEachMode, LearnsItsFrictionFromTheDrivesTorqueAlone) {
   }
 }
 
+TEST_P(OwnLoopInEachMode, IsHomedAtALimitSwitch) {
+  constexpr double kSwitch_rad = 0.1;
+  OwnLoopJoint made = joint_in(GetParam());
+  made.drive.config.inputs.negative_limit = true;
+  HomingConfig& homing = made.joint.loop.homing;
+  homing.target = HomingTarget::kNegativeLimit;
+  homing.home_position_rad = -1.0;
+  homing.search_speed_rad_s = 0.5;
+  homing.creep_speed_rad_s = 0.05;
+  OwnLoopBench bench(made);
+  bench.give({.kind = OrderKind::kHome});
+  for (int i = 0; i < 5000 && bench.loop->mode() == Mode::kHoming; ++i) {
+    bench.can.node().dictionary().set({0x60FD, 0}, bench.position_rad() < kSwitch_rad ? 1 : 0);
+    bench.step();
+  }
+  EXPECT_EQ(bench.loop->mode(), Mode::kHolding) << to_text(bench.fault());
+  // What creeping makes in a period of the inputs, and the way that stopping takes.
+  EXPECT_NEAR(bench.loop->joint().zero.to_joint_rad(kSwitch_rad), -1.0, 0.002);
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, OwnLoopInEachMode,
                          ::testing::Values(DriveMode::kVelocity, DriveMode::kPosition), [](const auto& mode) {
                            return mode.param == DriveMode::kVelocity ? "Velocity" : "Position";
