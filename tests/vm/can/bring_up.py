@@ -45,6 +45,25 @@ class BringUp(unittest.TestCase):
         self.assertIsNone(drive.find('emcy'))
         drive.end()
 
+    def test_a_joint_whose_drive_closes_its_own_loop_arrives(self):
+        for drive_mode, modes in (('position', 'csp'), ('position', 'ip'), ('velocity', 'csv')):
+            with self.subTest(modes):
+                drive = Drive(options=['--modes', modes, '--initial-position_rad', '0.2'])
+                wait_until(lambda: drive.report()['nmt'] == 'pre-operational', 1, 'the drive has booted')
+                # Of 60FFh and 60B1h: counts a second.
+                daemon = Daemon(daemon_toml([joint_toml(
+                    can=f'drive_mode = "{drive_mode}"\nvelocity_rad_s_per_unit = 1.9634954e-5')]), name=modes)
+                must('enable', JOINT)
+                self.assertAlmostEqual(float(drive.report()['position_rad']), 0.2, delta=2e-4)
+                for setpoint_rad in (0.1, 0.3, 1.0):
+                    must('move', JOINT, str(setpoint_rad), '--wait')
+                    time.sleep(0.5)
+                    self.assertAlmostEqual(float(drive.report()['position_rad']), setpoint_rad, delta=2e-4)
+                must('disable', JOINT)
+                self.assertEqual(daemon.end(), 0, daemon.text())
+                self.assertIn('nothing is proved', daemon.text())
+                drive.end()
+
     def check_start_up(self, lines):
         """Up to the start of the network, without heartbeats: they come when their time comes."""
         frames = [' '.join(line.split()[1:]) for line in lines]
