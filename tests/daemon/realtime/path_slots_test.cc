@@ -45,7 +45,7 @@ TEST(PathSlots, NeverWriteToThePathInUse) {
 TEST(PathSlots, ShowWholePathsToTheOtherThread) {
   PathSlots slots;
   std::atomic<std::int32_t> ordered{-1};
-  constexpr std::int64_t kPaths = 2000;
+  constexpr std::int64_t kPaths = 500;
   std::thread supervisor([&] {
     for (std::int64_t id = 1; id <= kPaths;) {
       const auto slot = slots.hand_over(path_with(id));
