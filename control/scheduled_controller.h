@@ -26,7 +26,7 @@
 //   slow = integral + (P_01 e + P_02 velocity error) / P_00
 // For a given e and velocity, the integral that leaves `slow` unchanged costs least. A new setpoint and a saturated torque therefore
 // keep `slow`, and the integral does not wind up. While the torque is limited
-// V can rise: the certificate is of the law within its limits (docs/theory.md).
+// V can rise: the certificate is of the law within its limits (docs/certificate.md).
 //
 // A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h has it in the loop that is certified). The first
 // sample, and the first after any at which x or F jumped, has no l one period ago: there u = l. Over periods that were left out l is taken

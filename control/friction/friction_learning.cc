@@ -9,7 +9,7 @@ namespace strainwave {
 
 namespace {
 
-// Both per second. The loop of every certified table is stable with their sum up to 40 /s (docs/theory.md, "Learning").
+// Both per second. With their sum the loop is stable at the corners of the shipped boxes, but for a link's encoder (docs/certificate.md).
 constexpr double kFrictionRate_1_s = 35.0;
 constexpr double kLoadRate_1_s = 5.0;
 // Feedback counts up to this share of the friction: a collision must not become friction within a few periods.
