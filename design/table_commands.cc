@@ -10,6 +10,7 @@
 #include "control/table/gain_table_json.h"
 #include "control/table/rigid_loop.h"
 #include "design/commands.h"
+#include "design/exact/exact_certificate.h"
 #include "design/joint_defaults.h"
 #include "design/spring_options.h"
 #include "design/table_reach.h"
@@ -22,6 +23,7 @@ namespace {
 struct VerifyOptions {
   std::string path;
   std::string gear;
+  bool exact = false;
   SpringOptions spring;
 };
 
@@ -62,6 +64,16 @@ bool verify_spring(const GainTable& table, const std::string& gear, const Spring
   return verdict.certified;
 }
 
+bool verify_exactly(const GainTable& table) {
+  const ExactReport report = certify_exactly(table);
+  if (report.certified) {
+    std::printf("in rational numbers: certified, %d inequalities\n", report.inequalities);
+  } else {
+    std::printf("in rational numbers: NOT CERTIFIED: %s\n", report.refusal.c_str());
+  }
+  return report.certified;
+}
+
 ExitStatus verify(const VerifyOptions& options) {
   const GainTable table = read_gain_table(options.path);
   // Before anything is certified in words.
@@ -84,6 +96,7 @@ ExitStatus verify(const VerifyOptions& options) {
                 report.certified ? "certified" : "NOT CERTIFIED", report.text.c_str(), report.inequalities);
     if (report.certified) std::fputs(describe(reach_of(table), table.torque_limit_Nm).c_str(), stdout);
   }
+  if (options.exact) certified = verify_exactly(table) && certified;
   if (spring) certified = verify_spring(table, gear_of(options, table), *spring) && certified;
   std::printf("%s: %s\n", options.path.c_str(), certified ? "certified" : "NOT CERTIFIED");
   return certified ? ExitStatus::kDone : ExitStatus::kRefused;
@@ -103,6 +116,8 @@ void add_verify_command(CLI::App& program, CommandBody& chosen) {
   command->add_option("TABLE", options->path, "gain table (JSON)")->required();
   command->add_option("--gear", options->gear,
                       "the gear that is its spring, by its catalogue name (default: the table's)");
+  command->add_flag("--exact", options->exact,
+                    "prove the table a second time, by other code and without rounding; up to a minute");
   add_spring_options(*command, options->spring);
   command->callback([&chosen, options] { chosen = [options] { return verify(*options); }; });
 }

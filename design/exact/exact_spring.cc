@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "design/exact/exact_spring.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "control/joint/link_velocity.h"
+#include "control/table/table_inspector.h"
+#include "design/exact/least_fall.h"
+
+namespace strainwave {
+
+namespace {
+
+// Stiffness, link inertia, damping, viscous friction.
+constexpr std::size_t kDirections = 4;
+constexpr std::size_t kCorners = std::size_t{1} << kDirections;
+constexpr std::size_t kPlantStates = 4;
+// A part is at most a 2^-10th of its cell.
+constexpr int kMostHalvings = 10;
+
+using Joint = std::array<double, kDirections>;
+using Part = std::array<BoxRange, kDirections>;
+
+Joint corner_of(const Part& part, std::size_t corner) {
+  Joint joint{};
+  for (std::size_t d = 0; d < kDirections; ++d)
+    joint[d] = (corner >> d & 1U) != 0 ? part[d].to : part[d].from;
+  return joint;
+}
+
+std::string text_of(const Joint& joint) {
+  return "stiffness " + table_number(joint[0]) + " N m/rad, link " + table_number(joint[1]) +
+         " kg m2, damping " + table_number(joint[2]) + " N m s/rad, viscous friction " +
+         table_number(joint[3]) + " N m s/rad";
+}
+
+RationalMatrix unit_row(std::size_t size, std::size_t place) {
+  RationalMatrix row(1, size);
+  row(0, place) = 1;
+  return row;
+}
+
+void set_row(RationalMatrix& matrix, std::size_t row, const RationalMatrix& entries) {
+  for (std::size_t j = 0; j < matrix.columns(); ++j) matrix(row, j) = entries(0, j);
+}
+
+/// h [Ac Bc; 0 0] with the states [e, w, s, v] and u.
+RationalMatrix generator(const Joint& joint, const mpq_class& motor_inertia_kgm2, const mpq_class& h) {
+  const mpq_class K = joint[0];
+  const mpq_class Jl = joint[1];
+  const mpq_class D = joint[2];
+  const mpq_class b = joint[3];
+  RationalMatrix spring(1, kPlantStates + 1);  // K s + D v
+  spring(0, 2) = K;
+  spring(0, 3) = D;
+  RationalMatrix on_motor = spring;
+  on_motor(0, 1) -= b;
+  on_motor(0, 4) = 1;
+  const RationalMatrix motor = mpq_class(1 / motor_inertia_kgm2) * on_motor;
+  RationalMatrix M(kPlantStates + 1, kPlantStates + 1);
+  M(0, 1) = 1;
+  M(2, 3) = 1;
+  set_row(M, 1, motor);
+  set_row(M, 3, mpq_class(-1 / Jl) * spring - motor);
+  return h * M;
+}
+
+/// What one gain makes of the state, the plant's own rows left out.
+struct Feedback {
+  RationalMatrix acting;  ///< the torque that acts on the motor, as a row
+  RationalMatrix memory;  ///< the next state, zeros in the plant's rows
+};
+
+Feedback feedback(const GainRow& F, const GainTable& table, int delay) {
+  const CertifiedBox& box = table.box;
+  const mpq_class h = table.plant.period_s;
+  const mpq_class lead = box.lead_periods;
+  const mpq_class a = velocity_share(box.encoder_side, table.plant.period_s);
+  const auto d = static_cast<std::size_t>(delay);
+  const std::size_t n = 6 + d + (lead != 0 ? 1 : 0);
+  const RationalMatrix integral = unit_row(n, 0);
+  const RationalMatrix z = unit_row(n, 5);
+  RationalMatrix y = unit_row(n, 1);
+  if (box.encoder_side == EncoderSide::kLink) y = y + unit_row(n, 3);
+  const RationalMatrix velocity = mpq_class(a / h) * (y - z);
+  const RationalMatrix law = mpq_class(F(0)) * integral + mpq_class(F(1)) * y + mpq_class(F(2)) * velocity;
+  RationalMatrix torque = law;
+  if (lead != 0) torque = mpq_class(1 + lead) * law - lead * unit_row(n, n - 1);
+
+  Feedback result{d == 0 ? torque : unit_row(n, 5 + d), RationalMatrix(n, n)};
+  set_row(result.memory, 0, integral + h * y);
+  set_row(result.memory, 5, z + a * (y - z));
+  if (d > 0) set_row(result.memory, 6, torque);
+  for (std::size_t i = 1; i < d; ++i) set_row(result.memory, 6 + i, unit_row(n, 5 + i));
+  if (lead != 0) set_row(result.memory, n - 1, law);
+  return result;
+}
+
+/// The loop around `sampled` = [A B; 0 1].
+Enclosure closed(const Enclosure& sampled, const Feedback& by) {
+  const std::size_t n = by.memory.columns();
+  Enclosure H{by.memory, RationalMatrix(n, n)};
+  for (std::size_t i = 0; i < kPlantStates; ++i) {
+    for (std::size_t j = 0; j < kPlantStates; ++j) {
+      H.value(1 + i, 1 + j) += sampled.value(i, j);
+      H.radius(1 + i, 1 + j) += sampled.radius(i, j);
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      H.value(1 + i, j) += sampled.value(i, kPlantStates) * by.acting(0, j);
+      H.radius(1 + i, j) += sampled.radius(i, kPlantStates) * abs(by.acting(0, j));
+    }
+  }
+  return H;
+}
+
+RationalMatrix lyapunov_matrix(const BoxCell& cell, std::size_t n) {
+  RationalMatrix P(n, n);
+  std::size_t entry = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) P(i, j) = P(j, i) = cell.P[entry++];
+  return P;
+}
+
+class CellProof {
+ public:
+  CellProof(const GainTable& table, const BoxCell& cell, ExactReport& report)
+      : motor_inertia_kgm2_(table.box.motor_inertia_kgm2),
+        period_s_(table.plant.period_s),
+        delay_periods_(cell.delay_periods),
+        report_(report) {
+    for (const FeedbackGains* gains : {&table.primary, &table.fallback})
+      for (int rule = 0; rule < gains->rule_count; ++rule)
+        feedbacks_.push_back(feedback(gains->gain(rule), table, cell.delay_periods));
+    P_ = lyapunov_matrix(cell, feedbacks_.front().memory.columns());
+    report_.inequalities += 1;
+    if (!is_positive_definite(P_)) refuse("P is not positive definite");
+  }
+
+  void prove(const Part& part, int halvings) {
+    if (!report_.certified || !is_lost_between(part)) return;
+    if (halvings == 0) {
+      refuse("no proof between the corners of a part near " + text_of(corner_of(part, 0)));
+      return;
+    }
+    Part half = part;
+    const BoxRange whole = part[widest_];
+    const std::size_t cut = widest_;
+    const double middle = 0.5 * (whole.from + whole.to);
+    half[cut] = {whole.from, middle};
+    prove(half, halvings - 1);
+    half[cut] = {middle, whole.to};
+    prove(half, halvings - 1);
+  }
+
+ private:
+  // Near the free swing's frequency velocities weigh as much as positions, and the stiffness as much as the torque.
+  std::vector<mpq_class> scale(const Part& part) const {
+    const double K = part[0].to;
+    const mpq_class swing =
+        power_of_two_near(std::sqrt(K * (1 / motor_inertia_kgm2_.get_d() + 1 / part[1].from)));
+    return {1, swing, 1, swing, power_of_two_near(K)};
+  }
+
+  /// E of a part whose corners have these generators. Sets the direction in which most of it lies.
+  RationalMatrix interpolation(const std::array<RationalMatrix, kCorners>& generators, const Part& part) {
+    RationalMatrix size(kPlantStates + 1, kPlantStates + 1);
+    for (const RationalMatrix& M : generators) size = larger(size, magnitude(M));
+    std::array<RationalMatrix, kDirections> bounds;
+    RationalMatrix sum(kPlantStates + 1, kPlantStates + 1);
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      RationalMatrix change(kPlantStates + 1, kPlantStates + 1);
+      for (std::size_t c = 0; c < kCorners; ++c)
+        change = larger(change, magnitude(generators[c | std::size_t{1} << d] - generators[c]));
+      bounds[d] = RationalMatrix(kPlantStates + 1, kPlantStates + 1);
+      if (part[d].from != part[d].to) bounds[d] = interpolation_bound(size, change, scale(part));
+      sum = sum + bounds[d];
+    }
+    double most = 0.0;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      double share = 0.0;
+      for (std::size_t i = 0; i < sum.rows(); ++i)
+        for (std::size_t j = 0; j < sum.columns(); ++j)
+          if (sum(i, j) != 0) share += bounds[d](i, j).get_d() / sum(i, j).get_d();
+      if (share <= most) continue;
+      most = share;
+      widest_ = d;
+    }
+    return sum;
+  }
+
+  /// Whether V falls at the corners, but not within E of them. Where it does not fall at a corner, the proof ends.
+  bool is_lost_between(const Part& part) {
+    std::array<RationalMatrix, kCorners> generators;
+    for (std::size_t c = 0; c < kCorners; ++c)
+      generators[c] = generator(corner_of(part, c), motor_inertia_kgm2_, period_s_);
+    const RationalMatrix E = interpolation(generators, part);
+    for (std::size_t c = 0; c < kCorners; ++c) {
+      const Joint joint = corner_of(part, c);
+      bool repeated = false;
+      for (std::size_t before = 0; before < c; ++before)
+        repeated = repeated || corner_of(part, before) == joint;
+      if (repeated) continue;
+      const Enclosure sampled = exponential(generators[c], scale(part));
+      for (std::size_t gain = 0; gain < feedbacks_.size(); ++gain) {
+        report_.inequalities += 1;
+        if (falls(P_, P_, closed({sampled.value, sampled.radius + E}, feedbacks_[gain]), 1)) continue;
+        if (falls(P_, P_, closed(sampled, feedbacks_[gain]), 1)) return true;
+        refuse("V does not fall under gain rule " + std::to_string(gain) + " at " + text_of(joint));
+        return false;
+      }
+    }
+    return false;
+  }
+
+  void refuse(const std::string& why) {
+    report_.certified = false;
+    report_.refusal = "box, delay " + std::to_string(delay_periods_) + ": " + why;
+  }
+
+  mpq_class motor_inertia_kgm2_;
+  mpq_class period_s_;
+  int delay_periods_;
+  std::vector<Feedback> feedbacks_;  // of every gain
+  RationalMatrix P_;
+  std::size_t widest_ = 0;
+  ExactReport& report_;
+};
+
+}  // namespace
+
+void prove_cell(const GainTable& table, const BoxCell& cell, ExactReport& report) {
+  double most_viscous_Nms_rad = 0.0;
+  for (int rule = 0; rule < table.friction.rule_count; ++rule)
+    most_viscous_Nms_rad = std::max(
+        most_viscous_Nms_rad, table.friction.rules[static_cast<std::size_t>(rule)].friction.viscous_Nms_rad);
+  const BoxRange viscous_Nms_rad{0.0, most_viscous_Nms_rad};
+  CellProof(table, cell, report)
+      .prove({cell.stiffness_Nm_rad, cell.link_inertia_kgm2, table.box.damping_Nms_rad, viscous_Nms_rad},
+             kMostHalvings);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "design/exact/least_fall.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+Eigen::MatrixXd approximate(const RationalMatrix& a) {
+  Eigen::MatrixXd result(a.rows(), a.columns());
+  for (std::size_t i = 0; i < a.rows(); ++i)
+    for (std::size_t j = 0; j < a.columns(); ++j)
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = a(i, j).get_d();
+  return result;
+}
+
+}  // namespace
+
+mpq_class power_of_two_near(double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) return 1;
+  return std::exp2(std::round(std::log2(value)));
+}
+
+bool falls(const RationalMatrix& allowed, const RationalMatrix& P, const Enclosure& loop,
+           const mpq_class& factor) {
+  const std::size_t n = P.rows();
+  const RationalMatrix& H = loop.value;
+  const RationalMatrix& X = loop.radius;
+  const RationalMatrix PH = P * H;
+  RationalMatrix fall = allowed - factor * (transpose(H) * PH);
+
+  // How far a state, and a row of P H, reach where the fall is 1. Only the choice of l and s follows it.
+  const Eigen::MatrixXd W = approximate(PH);
+  const Eigen::MatrixXd G = approximate(fall).llt().solve(Eigen::MatrixXd::Identity(W.cols(), W.cols()));
+  const Eigen::VectorXd row_reach = (W * G * W.transpose()).diagonal().cwiseSqrt();
+  const Eigen::VectorXd state_reach = G.diagonal().cwiseSqrt();
+  const auto at = [](const Eigen::VectorXd& reach, std::size_t i) {
+    return reach(static_cast<Eigen::Index>(i));
+  };
+
+  RationalMatrix a(n, n);
+  RationalMatrix less(n, n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      if (X(i, j) == 0) continue;
+      const mpq_class l = power_of_two_near(at(state_reach, j) / at(row_reach, i));
+      a(i, i) += X(i, j) * l;
+      less(j, j) += X(i, j) / l;
+    }
+  const RationalMatrix R = transpose(X) * (magnitude(P) * X);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (R(i, j) != 0) less(i, i) += R(i, j) * power_of_two_near(at(state_reach, j) / at(state_reach, i));
+  fall = fall - factor * (transpose(PH) * (a * PH) + less);
+  return is_positive_definite(fall);
+}
+
+}  // namespace strainwave
