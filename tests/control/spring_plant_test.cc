@@ -184,7 +184,9 @@ TEST(SpringPlant, TheLoopIsWhatReadingAndLawDo) {
       std::deque<double> under_way(static_cast<std::size_t>(delay), 0.0);
       double largest = 0.0;
       for (int k = 0; k < 400; ++k) {
-        reading.step({.joint_position_rad = reading_rad()}, setpoint_rad, setpoint_rad);
+        JointMeasurement measurement;
+        measurement.joint_position_rad = reading_rad();
+        reading.step(measurement, setpoint_rad, setpoint_rad);
         ControllerInput input;
         input.joint_position_rad = reading.position_rad();
         input.joint_velocity_rad_s = reading.velocity_rad_s();
