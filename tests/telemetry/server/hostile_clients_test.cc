@@ -108,6 +108,33 @@ TEST(TelemetryStart, WaitsForARouteToTheGroup) {
   EXPECT_FALSE(telemetry.metrics().empty());
 }
 
+bool make_adapter() {
+  return std::system(
+             "PATH=$PATH:/usr/sbin:/sbin; set -e; ip link add lan0 type bridge; "
+             "ip address add 192.168.7.1/24 dev lan0; ip link set lan0 up multicast on; "
+             "ip route add 239.255.76.67/32 dev lan0") == 0;
+}
+
+TEST(TelemetryStart, HearsAgainOnceANetworkAdapterIsBack) {
+  if (!enter_private_network(false)) GTEST_SKIP() << "this system allows no network of a test's own";
+  ASSERT_TRUE(make_adapter());
+  const RunningTelemetry telemetry;
+  const auto heard = [&] {
+    return telemetry.metric("strainwave_telemetry_messages_total{kind=\"strainwave\"}");
+  };
+  for (int time = 0; time < 3; ++time) {
+    const double before = heard();
+    for (int i = 0; i < 200 && heard() <= before; ++i) {
+      const timing_v1 timing{};
+      lcm::LCM(kTestUrl).publish("SW.TIMING", &timing);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_GT(heard(), before) << time;
+    ASSERT_EQ(std::system("PATH=$PATH:/usr/sbin:/sbin; ip link delete lan0"), 0);
+    ASSERT_TRUE(make_adapter());
+  }
+}
+
 TEST(HostileClient, WhoReadsNothingLosesMessagesAndCostsNoMemory) {
   const RunningTelemetry telemetry;
   const Chatter chatter;
