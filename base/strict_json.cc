@@ -20,7 +20,7 @@ constexpr std::size_t kShown = 40;
 
 /// Whether reading stopped in the digits behind a decimal comma: "inertia_kgm2": 0,356
 bool stopped_behind_comma(std::string_view text, std::size_t at) {
-  const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
   while (at > 0 && std::string_view("0123456789.eE+-").find(text[at]) != std::string_view::npos) --at;
   return at > 0 && text[at] == ',' && is_digit(at + 1) && is_digit(at - 1);
 }
