@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "control/joint/gear_catalogue.h"
 #include "control/table/gain_table_json.h"
 
@@ -94,6 +96,23 @@ TEST_F(TableAdmission, RefusesGainsThatAreCertifiedButMakeALimitCycleWithDelay) 
   const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, 1});
   EXPECT_EQ(verdict.reason, Reason::kTableNotCertified);
   EXPECT_NE(verdict.text.find("limit cycle at a delay of 1 periods"), std::string::npos) << verdict.text;
+}
+
+TEST_F(TableAdmission, ProvesNothingOfGainsThatDoNotActAndStillWantsTheJointsOwnFriction) {
+  const auto judge_without_law = [&] {
+    return judge_table(table_, {joint_, torque_limit_Nm_, {}, 1, EncoderSide::kMotor, false});
+  };
+  const TableVerdict verdict = judge_without_law();
+  EXPECT_EQ(verdict.reason, Reason::kAccepted);
+  EXPECT_NE(verdict.text.find("nothing is proved"), std::string::npos) << verdict.text;
+  EXPECT_EQ(verdict.text.find("margin"), std::string::npos) << verdict.text;
+  const GainTable stiff =
+      read_gain_table(STRAINWAVE_SOURCE_DIR "/tests/daemon/admission/stiff_without_delay.json");
+  const GainTable own = std::exchange(table_, stiff);
+  EXPECT_EQ(judge_without_law().reason, Reason::kAccepted) << "its limit cycle is the law's";
+  table_ = own;
+  joint_.joint_model = FixedString<32>("another");
+  EXPECT_EQ(judge_without_law().reason, Reason::kTableIdentity);
 }
 
 TEST_F(TableAdmission, RefusesFrictionThatTheMotorCouldNotOvercome) {
