@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kDirections = 4;
 constexpr std::size_t kCorners = std::size_t{1} << kDirections;
 constexpr std::size_t kPlantStates = 4;
-// A part is at most a 2^-10th of its cell.
-constexpr int kMostHalvings = 10;
+// A part is at most a 2^-12th of its cell.
+constexpr int kMostHalvings = 12;
 
 using Joint = std::array<double, kDirections>;
 using Part = std::array<BoxRange, kDirections>;

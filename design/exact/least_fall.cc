@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <vector>
 
 namespace strainwave {
 
@@ -31,11 +32,13 @@ bool falls(const RationalMatrix& allowed, const RationalMatrix& P, const Enclosu
   const RationalMatrix PH = P * H;
   RationalMatrix fall = allowed - factor * (transpose(H) * PH);
 
-  // How far a state, and a row of P H, reach where the fall is 1. Only the choice of l and s follows it.
-  const Eigen::MatrixXd W = approximate(PH);
-  const Eigen::MatrixXd G = approximate(fall).llt().solve(Eigen::MatrixXd::Identity(W.cols(), W.cols()));
-  const Eigen::VectorXd row_reach = (W * G * W.transpose()).diagonal().cwiseSqrt();
-  const Eigen::VectorXd state_reach = G.diagonal().cwiseSqrt();
+  // How far a state, and a row of P H, reach where the fall is 1. Only the choice of l follows it.
+  const Eigen::LLT<Eigen::MatrixXd> factors(approximate(fall));
+  const auto N = static_cast<Eigen::Index>(n);
+  const Eigen::MatrixXd rows = factors.matrixL().solve(Eigen::MatrixXd(approximate(PH).transpose()));
+  const Eigen::MatrixXd states = factors.matrixL().solve(Eigen::MatrixXd::Identity(N, N));
+  const Eigen::VectorXd row_reach = rows.colwise().norm().transpose();
+  const Eigen::VectorXd state_reach = states.colwise().norm().transpose();
   const auto at = [](const Eigen::VectorXd& reach, std::size_t i) {
     return reach(static_cast<Eigen::Index>(i));
   };
@@ -49,11 +52,15 @@ bool falls(const RationalMatrix& allowed, const RationalMatrix& P, const Enclosu
       a(i, i) += X(i, j) * l;
       less(j, j) += X(i, j) / l;
     }
-  const RationalMatrix R = transpose(X) * (magnitude(P) * X);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      if (R(i, j) != 0) less(i, i) += R(i, j) * power_of_two_near(at(state_reach, j) / at(state_reach, i));
   fall = fall - factor * (transpose(PH) * (a * PH) + less);
+
+  const RationalMatrix R = transpose(X) * (magnitude(P) * X);
+  std::vector<mpq_class> scale;  // s
+  for (std::size_t i = 0; i < n; ++i) scale.push_back(power_of_two_near(1.0 / std::sqrt(fall(i, i).get_d())));
+  RationalMatrix second(n, n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) second(i, i) += R(i, j) * scale[j] / scale[i];
+  fall = fall - factor * second;
   return is_positive_definite(fall);
 }
 
