@@ -146,6 +146,8 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
   design.plant.period_s = options.period_s;
   design.sampling = options.sampling == "zoh" ? Sampling::kZeroOrderHold : Sampling::kForwardEuler;
   design.weights = {options.weights[0], options.weights[1], options.weights[2], options.weights[3]};
+  if (joint.spring && command.count("--weights") == 0)
+    design.weights.torque = usual_torque_weight(gear_of(options), design.weights.torque);
   design.initial_states = initial_states(options);
   design.margin = options.margin;
   design.decay_rate = options.decay_rate;
@@ -167,13 +169,9 @@ TableRequest make_request(const GainsOptions& options, const CLI::App& command, 
 ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
   const RequestedJoint joint = read_joint(options);
   TableRequest request = make_request(options, command, joint);
-  std::vector<Controller> wanted;
-  for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
-    if (options.controller == "all" || options.controller == name_of(controller))
-      wanted.push_back(controller);
-  }
   std::vector<std::pair<std::filesystem::path, GainTable>> tables;
-  for (const Controller controller : wanted) {
+  for (const Controller controller : {Controller::kC1, Controller::kC2, Controller::kC3, Controller::kC4}) {
+    if (options.controller != "all" && options.controller != name_of(controller)) continue;
     const std::string label = name_of(controller);
     request.name = options.name.empty() ? model_of(options) + " " + label : options.name;
     std::filesystem::path path = options.out;
@@ -184,7 +182,9 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
       if (const auto swing = find_swing(tables.back().second, 0, kMaxBoxDelay)) throw InputError(*swing);
       continue;
     }
-    const SpringDesign found = design_on_spring(controller, request, options.gear, *joint.spring);
+    const SpringDesign found =
+        design_on_spring(controller, request, options.gear, *joint.spring,
+                         [](const std::string& what) { std::fprintf(stderr, "trying %s\n", what.c_str()); });
     std::fputs(found.text.c_str(), stdout);
     tables.emplace_back(path, found.table);
   }
@@ -238,7 +238,9 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
 }
 
 void add_design_options(CLI::App& command, GainsOptions& options) {
-  command.add_option("--weights", options.weights, "cost: integral,position,velocity,torque")
+  command
+      .add_option("--weights", options.weights,
+                  "cost: integral,position,velocity,torque (torque: 1e-9 with a spring but csf-17-50's)")
       ->delimiter(',')
       ->expected(4)
       ->capture_default_str();

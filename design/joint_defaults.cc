@@ -16,6 +16,9 @@ constexpr const char* kFrictionFile = "data/tables/rhs17-6006-friction.json";
 // What a table says of such friction.
 constexpr const char* kEstimatedFriction = "friction: estimate from the catalogue";
 
+// Where it is certified at once, for sizes 25 and 32, stiffer gains change little; size 14 ends at 6e-6.
+constexpr double kStiffWeight = 1e-9;
+
 const CatalogueJoint* find_actuator(const Gear& gear, const std::string& joint_model) {
   const CatalogueJoint* const joint = find_catalogue_joint_with_gear(gear.name);
   return joint != nullptr && joint->model == joint_model ? joint : nullptr;
@@ -45,6 +48,10 @@ CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_
   friction.origin =
       "an estimate from the catalogue of gears, expect half to twice; measure it with strainwavectl identify";
   return friction;
+}
+
+double usual_torque_weight(const Gear& gear, double actuators) {
+  return find_catalogue_joint_with_gear(gear.name) != nullptr ? actuators : kStiffWeight;
 }
 
 MotorInertia usual_motor_inertia(const std::string& place, const Gear* gear, const std::string& joint_model,

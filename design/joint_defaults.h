@@ -22,6 +22,10 @@ struct CatalogueFriction {
 };
 CatalogueFriction catalogue_friction(const Gear& gear, const std::string& joint_model);
 
+/// The cost's weight of the torque at which the search for gains on a spring begins: that of the catalogue's actuator, else one that is
+/// stiff for each gear of the catalogue.
+double usual_torque_weight(const Gear& gear, double actuators);
+
 /// Inertia in kg m^2 on the motor's side of the spring, at the joint, and where it is from.
 struct MotorInertia {
   double at_joint_kgm2 = 0.0;

@@ -2,6 +2,7 @@
 // Gains for a joint whose gear is a spring: the most aggressive of a family that are certified on the whole box. Offline.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "design/controller_design.h"
@@ -14,11 +15,13 @@ struct SpringDesign {
   std::string text;  ///< the weight that was found and what proves it, in lines
 };
 
-/// Of gains over the torque's weight, from that of `request` on, the first that are certified, to a quarter of a decade; on the motor's
-/// encoder with a lead where they are not without. Throws
-/// InputError where no table can hold what is asked for, NotAchieved with the last refusal when those of the largest weight are
-/// not certified either.
-SpringDesign design_on_spring(Controller controller, TableRequest request, const std::string& gear,
-                              const SpringRequest& spring);
+/// What is tried now, in words.
+using DesignProgress = std::function<void(const std::string&)>;
+
+/// Of gains over the torque's weight, from that of `request` to 1e-5, the first that are certified, to a quarter of a decade; on the motor's
+/// encoder with a lead where they are not without. Throws InputError where no table can hold what is asked for. Throws NotAchieved
+/// with the last refusal where no gains are certified, and with a narrower range of links for which some are, if one was found.
+SpringDesign design_on_spring(Controller controller, const TableRequest& request, const std::string& gear,
+                              const SpringRequest& spring, const DesignProgress& progress);
 
 }  // namespace strainwave

@@ -90,6 +90,29 @@ TEST_F(DesignProgram, GainsOnASpringAreTheStiffestThatAreCertified) {
   EXPECT_NEAR(read_gain_table(file("t.json")).primary.weights.torque, weight, 1e-4 * weight);
 }
 
+// At the torque weight of the RHS-17 the gains are too soft for this gear, and no softer ones are certified.
+TEST_F(DesignProgram, GainsForALargeGearBeginStiff) {
+  const std::string design =
+      "gains --gear csf-32-50 --motor-inertia_kgm2 2.1 --load-inertia_kgm2 1.2..6.9 --out " + file("t.json");
+  ASSERT_EQ(run(design), 0) << output_;
+  EXPECT_NE(output_.find("trying link 1.2..6.9 kg m2, torque weight 1e-09"), std::string::npos) << output_;
+  EXPECT_EQ(run("verify " + file("t.json")), 0) << output_;
+}
+
+// The lightest loads, a tenth of the motor's inertia, have no table with the others; the range that is named instead has one.
+TEST_F(DesignProgram, GainsForTooWideARangeNameANarrowerOne) {
+  const std::string design =
+      "gains --gear csf-17-50 --damping_Nms_rad 0.2..1 --out " + file("t.json") + " --load-inertia_kgm2 ";
+  ASSERT_EQ(run(design + "0.0088..0.0288"), 1) << output_;
+  EXPECT_FALSE(std::filesystem::exists(file("t.json")));
+  const std::string option = "A table is certified with --load-inertia_kgm2 ";
+  const std::size_t at = output_.find(option);
+  ASSERT_NE(at, std::string::npos) << output_;
+  const std::string range =
+      output_.substr(at + option.size(), output_.find(' ', at + option.size()) - at - option.size());
+  EXPECT_EQ(run(design + range), 0) << range << output_;
+}
+
 // Without damping, as nobody asked for any; the shipped table has the same gains, and their proof with damping.
 TEST_F(DesignProgram, GainsForLinksOf50To300GramsAtBothDelaysAreCertifiedWithALead) {
   ASSERT_EQ(run("gains --gear csf-17-50 --load-inertia_kgm2 0.05..0.3 --delay 1..2 --out " + file("t.json")),
