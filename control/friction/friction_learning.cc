@@ -9,7 +9,7 @@ namespace strainwave {
 
 namespace {
 
-// Both per second. With their sum the loop is stable at the corners of the shipped boxes, but for a link's encoder (docs/certificate.md).
+// Both per second. With their sum the loop is stable at the corners of the shipped boxes (docs/certificate.md).
 constexpr double kFrictionRate_1_s = 35.0;
 constexpr double kLoadRate_1_s = 5.0;
 // Feedback counts up to this share of the friction: a collision must not become friction within a few periods.
