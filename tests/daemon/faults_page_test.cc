@@ -49,7 +49,7 @@ std::vector<Row> rows_under(const std::string& title) {
 
 /// Enumerators of an enum class in vocabulary.h, as they are written there.
 std::map<int, std::string> declared(const std::string& name) {
-  const std::string text = read_text_file(kSource / "lcmtypes" / "vocabulary.h");
+  const std::string text = read_text_file(kSource / "strainwave" / "vocabulary.h");
   const std::size_t begin = text.find("enum class " + name + " ");
   const std::string body = text.substr(begin, text.find("};", begin) - begin);
   std::map<int, std::string> enumerators;
