@@ -10,7 +10,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "control/joint/encoder_side.h"
 
@@ -21,12 +20,6 @@ inline constexpr double kLinkVelocity_s = 0.008;
 /// Of each difference of two readings, on a joint with a spring; 1 where the encoder is the motor's.
 constexpr double velocity_share(EncoderSide side, double period_s) noexcept {
   return side == EncoderSide::kLink ? std::min(1.0, period_s / kLinkVelocity_s) : 1.0;
-}
-
-/// `velocity` after so many periods in which the readings' difference, or a reference, was `seen`.
-inline double smoothed(double velocity, double seen, double share, int periods) noexcept {
-  for (int period = 0; period < periods; ++period) velocity = std::lerp(velocity, seen, share);
-  return velocity;
 }
 
 }  // namespace strainwave

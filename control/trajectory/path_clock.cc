@@ -39,19 +39,6 @@ void PathClock::advance(double period_s, const RateRoom& room) noexcept {
   time_s_ += 0.5 * period_s * (before + rate_);
 }
 
-void PathClock::go_on_from(const PathTime& now) noexcept {
-  time_s_ = now.time_s;
-  rate_ = now.rate;
-  change_1_s_ = 0.0;
-}
-
-void PathTimes::go_on_from(const PathTime& now, double period_s) noexcept {
-  for (std::size_t ago = 0; ago < kPeriods; ++ago) {
-    const double time_s = now.time_s - static_cast<double>(ago) * period_s * now.rate;
-    times_[(last_ + kPeriods - ago) % kPeriods] = time_s > 0.0 ? PathTime{time_s, now.rate, 0.0} : PathTime{};
-  }
-}
-
 void PathTimes::note(const PathTime& now) noexcept {
   last_ = (last_ + 1) % kPeriods;
   times_[last_] = now;

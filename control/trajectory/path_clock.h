@@ -50,8 +50,6 @@ class PathClock {
   void rest() noexcept { wish_ = Wish::kRest; }
   /// One period later.
   void advance(double period_s, const RateRoom& room) noexcept;
-  /// It is elsewhere, with another rate in [0, 1]; where it is to go from there stays.
-  void go_on_from(const PathTime& now) noexcept;
 
   double time_s() const noexcept { return time_s_; }
   double rate() const noexcept { return rate_; }
@@ -79,8 +77,6 @@ class PathTimes {
 
   /// One period later it is `now`.
   void note(const PathTime& now) noexcept;
-  /// It is `now`, and has come there at its rate.
-  void go_on_from(const PathTime& now, double period_s) noexcept;
   /// `periods` before the last one, in [0, kPeriods - 2]; between two periods the mean of both. Before all of them the path has not begun.
   PathTime ago(double periods) const noexcept;
 

@@ -52,11 +52,6 @@ class ReferenceShaper {
     position_rad_ = position_rad;
     velocity_rad_s_ = velocity_rad_s;
   }
-  /// Takes the target at once, as a step.
-  void jump() noexcept {
-    position_rad_ = target_rad_;
-    velocity_rad_s_ = 0.0;
-  }
   /// In force from the next step. When they shrink while moving, the speed falls with the new deceleration.
   void set_limits(const MotionLimits& limits) noexcept { limits_ = limits; }
   void set_target(double position_rad) noexcept;

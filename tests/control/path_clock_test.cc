@@ -162,30 +162,5 @@ TEST(PathTimes, TellWhereTheTimeWasAndThatThePathHadNotBegun) {
   EXPECT_EQ(young.ago(1.5).rate, 0.0);
 }
 
-TEST(PathClock, GoesOnFromElsewhereAtAnotherRateAsItIsToldTo) {
-  PathClock clock{};
-  for (int i = 0; i < 500; ++i) clock.advance(kPeriod_s, PathClock::kMostRoom);
-  clock.go_on_from({0.3, 0.2, 0.0});
-  EXPECT_FALSE(clock.steady());
-  clock.advance(kPeriod_s, PathClock::kMostRoom);
-  EXPECT_NEAR(clock.rate(), 0.21, 1e-12);
-  EXPECT_NEAR(clock.time_s(), 0.3 + 0.205e-3, 1e-12);
-  clock.rest();
-  clock.go_on_from({0.7, 0.0, 0.0});
-  EXPECT_TRUE(clock.rests());
-}
-
-TEST(PathTimes, HaveComeAtItsRateToWhereTheyGoOnFrom) {
-  PathTimes times;
-  for (int i = 0; i < 700; ++i) times.note({1e-3 * i, 1.0, 0.0});
-  times.go_on_from({0.01, 0.5, 0.0}, kPeriod_s);
-  EXPECT_EQ(times.ago(0.0).time_s, 0.01);
-  EXPECT_NEAR(times.ago(7.5).time_s, 0.01 - 7.5 * 0.5e-3, 1e-12);
-  EXPECT_NEAR(times.ago(7.5).rate, 0.5, 1e-12);
-  EXPECT_EQ(times.ago(40.0).rate, 0.0) << "before it has begun";
-  times.note({0.0105, 0.5, 0.0});
-  EXPECT_EQ(times.ago(1.0).time_s, 0.01);
-}
-
 }  // namespace
 }  // namespace strainwave
