@@ -135,16 +135,21 @@ class Orders(PlayedOrders):
         time.sleep(0.2)
         with self.assertRaisesRegex(NoAnswer, "the stop was sent 8 times, and nothing answered: no state for 4.[0-9] s"):
             self.impatient_elbow.disable()
-        def daemon(*entry):
-            self.publish_state()
-            later = threading.Timer(0.3, self.publish_state)  # a stop is repeated every 0.5 s
-            later.start()
-            self.addCleanup(later.join)
+        ended = threading.Event()
 
-        self.network.daemon = daemon
-        for order in (self.impatient_elbow.disable, self.impatient_elbow.release):
-            with self.assertRaisesRegex(NoAnswer, ": the daemon publishes its state but does not answer; see its log"):
-                order()
+        def publish():
+            while not ended.wait(0.02):
+                self.publish_state()
+
+        publisher = threading.Thread(target=publish)
+        publisher.start()
+        try:
+            for order in (self.impatient_elbow.disable, self.impatient_elbow.release):
+                with self.assertRaisesRegex(NoAnswer, ": the daemon publishes its state but does not answer; see its log"):
+                    order()
+        finally:
+            ended.set()
+            publisher.join()
         with self.assertRaisesRegex(NoAnswer, "^elbow: its limits are not known: no state for [12].. s$"):
             self.impatient_elbow.limits
 
