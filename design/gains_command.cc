@@ -238,9 +238,7 @@ void add_plant_options(CLI::App& command, GainsOptions& options) {
 }
 
 void add_design_options(CLI::App& command, GainsOptions& options) {
-  command
-      .add_option("--weights", options.weights,
-                  "cost: integral,position,velocity,torque (torque: 1e-9 with a spring but csf-17-50's)")
+  command.add_option("--weights", options.weights, "cost: integral,position,velocity,torque")
       ->delimiter(',')
       ->expected(4)
       ->capture_default_str();
