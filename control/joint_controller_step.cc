@@ -32,16 +32,17 @@ bool left_out(const JointMeasurement& measurement) noexcept {
   return measurement.elapsed_periods > kMaxElapsedPeriods;
 }
 
-// In which the joint was led.
-int led_periods(const JointMeasurement& measurement) noexcept {
-  return left_out(measurement) ? 1 : std::max(1, measurement.elapsed_periods);
+// In which the joint was led. Without an order a drive that closes a loop of position stands, and the plan waits with it.
+int led_periods(const JointControllerConfig& config, const JointMeasurement& measurement) noexcept {
+  if (left_out(measurement) || config.drive_mode == DriveMode::kPosition) return 1;
+  return std::max(1, measurement.elapsed_periods);
 }
 
 }  // namespace
 
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
   if (!law_.loaded()) return {};
-  const int elapsed_periods = led_periods(measurement);
+  const int elapsed_periods = led_periods(config_, measurement);
   std::optional<double> temperature_C;
   if (measurement.temperature_valid) temperature_C = measurement.temperature_C;
   if (law_.choose_gains(temperature_C)) friction_.weigh(law_.temperature_weights());
@@ -72,7 +73,7 @@ void JointController::advance_plan(const JointMeasurement& measurement) noexcept
     rest_periods_ = 0;
     reading_.reset(position_rad, plan_.now().velocity_rad_s);
   }
-  for (int period = 0; period < led_periods(measurement); ++period) {
+  for (int period = 0; period < led_periods(config_, measurement); ++period) {
     plan_.advance(joint());
     const double load_Nm = plan_.take_load_Nm();
     friction_.set_load(friction_.load_Nm() + load_Nm);
@@ -127,7 +128,7 @@ ControllerOutput JointController::compute_torque(const JointMeasurement& measure
             measurement.drive_torque_Nm.value_or(fed_Nm) - fed_Nm, fed_Nm, law_.zero_velocity_weight(),
             false};
   }
-  if (phase_ == MotionPhase::kTracking) return track(led_periods(measurement));
+  if (phase_ == MotionPhase::kTracking) return track(led_periods(config_, measurement));
   law_.interrupt();
   const double held_Nm =
       yields() ? yielding_.load_Nm + config_.gravity.at(reading_.position_rad()) : hold_torque_Nm_;

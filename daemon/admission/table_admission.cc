@@ -139,6 +139,12 @@ std::string which_torque_limit_holds(const GainTable& table, double torque_limit
   return text.str();
 }
 
+// That its friction is an estimate, for one.
+std::string note_of(const GainTable& table) {
+  const std::string_view note = table.provenance.note.view();
+  return note.empty() ? "" : "; " + std::string(note);
+}
+
 }  // namespace
 
 TableVerdict judge_box(const GainTable& table) {
@@ -175,7 +181,8 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   if (friction.reason != Reason::kAccepted) return friction;
   if (!joint.law_acts)
     return {Reason::kAccepted,
-            "its friction and inertia are used; the drive closes its own loop, of which nothing is proved"};
+            "its friction and inertia are used; the drive closes its own loop, of which nothing is proved" +
+                note_of(table)};
   // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
   const PlantIdentity& plant = joint.link ? table.plant : expected;
   TableVerdict primary = judge_gains("primary", table.primary, plant, table.friction);
@@ -185,8 +192,7 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
   TableVerdict loop = joint.link ? judge_on_spring(table, joint) : judge_rigid(table, joint);
   if (loop.reason != Reason::kAccepted) return loop;
   primary.text += which_torque_limit_holds(table, joint.torque_limit_Nm);
-  // That its friction is an estimate, for one.
-  if (!table.provenance.note.view().empty()) primary.text += "; " + std::string(table.provenance.note.view());
+  primary.text += note_of(table);
   return primary;
 }
 

@@ -24,12 +24,18 @@ void follow_homing(JointInLoop& joint, const Homing::Order& order) noexcept {
   }
 }
 
+// A drive that does not say its torque would press at the stop until another fault.
+bool presses_unseen(const JointInLoop& joint) noexcept {
+  return joint.config.controller.drive_closes_loop() && joint.config.homing.stop_torque_Nm > 0.0 &&
+         !joint.drive.reading().torque_measured;
+}
+
 }  // namespace
 
 Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept {
   if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
   if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
-  if (!joint.homing.possible()) return Reason::kNoHoming;
+  if (!joint.homing.possible() || presses_unseen(joint)) return Reason::kNoHoming;
   if (!joint.change_mode(ModeEvent::kHomeOrdered, time)) return Reason::kWrongMode;
   joint.zero.forget();
   joint.yield.reset();

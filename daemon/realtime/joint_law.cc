@@ -86,7 +86,10 @@ void JointLaw::restore(const LearnedFriction& learned, const FrictionHistory& hi
 }
 
 void JointLaw::forget_learned() noexcept {
-  controller_.friction().set({});
+  // A drive that closes its own loop is fed the load even at rest: it must not fall by it at once.
+  LearnedFriction none;
+  if (closes_loop_) none.load_Nm = controller_.friction().load_Nm();
+  controller_.friction().set(none);
   friction_ = {.frozen = friction_.frozen};
 }
 

@@ -31,6 +31,7 @@ const ActuatorReading& ReadingWatch::take(const ActuatorReading& reading, bool c
     reading_.joint_position_rad = last_position_rad + (controlled ? velocity_rad_s * elapsed_s : 0.0);
     reading_.has_velocity = false;
     reading_.torque_applied_Nm = 0.0;
+    reading_.torque_measured = false;
   }
   const std::int64_t missed = missed_ + time.elapsed_periods;
   missed_ = fresh() ? 0 : static_cast<int>(std::min<std::int64_t>(missed, missed_limit_ + 1));

@@ -215,8 +215,10 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layo
   reset_communication(client, config);
   take_torque_off(client, config);
   found.mode = named ? *named : choose_mode(client, config.drive_mode, {});
-  if (found.mode == OperationMode::kInterpolatedPosition)
-    layout.command.objects[kTargetPlace].entry = kInterpolatedTarget;
+  // Also back, where a repeated start-up finds another drive.
+  if (config.drive_mode == DriveMode::kPosition)
+    layout.command.objects[kTargetPlace].entry =
+        found.mode == OperationMode::kInterpolatedPosition ? kInterpolatedTarget : kTargetPosition;
   const bool knows_torque = !closes_loop(config.drive_mode) || client.upload_if_there(kRatedTorque, 4);
   if (!knows_torque) {
     leave_out(layout.command, layout.torque_offset);

@@ -106,6 +106,7 @@ OperationMode choose_mode(SdoClient& client, DriveMode wanted, std::optional<std
 }
 
 void configure_own_loop(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
+  (void)client.write_if_there({kPositionOffset, 0, 4, ~0U, "position offset"});
   (void)client.write_if_there({kVelocityOffset, 0, 4, ~0U, "velocity offset"});
   if (!config.quick_stop_option &&
       !client.write_if_there({kQuickStopOption, kStopOnRamp, 2, ~0U, "reaction to a quick stop"}))

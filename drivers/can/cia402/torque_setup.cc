@@ -19,7 +19,8 @@ constexpr Entry kPositiveTorqueLimit{0x60E0, 0};
 constexpr Entry kNegativeTorqueLimit{0x60E1, 0};
 
 /// In the drive as well, by whichever objects it has.
-void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, std::vector<std::string>& report) {
+void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, DriveMode mode,
+                  std::vector<std::string>& report) {
   bool limited = false;
   const auto limit_by = [&](Entry entry, const char* purpose) {
     try {
@@ -32,8 +33,10 @@ void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, std::vector<
   limit_by(kPositiveTorqueLimit, "positive torque limit");
   limit_by(kNegativeTorqueLimit, "negative torque limit");
   if (!limited)
-    report.push_back(client.who() +
-                     ": the drive has none of 6072h, 60E0h and 60E1h: only this daemon limits the torque");
+    report.push_back(client.who() + ": the drive takes none of 6072h, 60E0h and 60E1h: " +
+                     (closes_loop(mode) ? "only its own setting limits its torque; set it to "
+                                          "joint.limits.torque_limit_Nm in the drive"
+                                        : "only this daemon limits the torque"));
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ double configure_torque(SdoClient& client, const DriveConfig& config, std::vecto
     refuse(client, "torque_limit_Nm = " + std::to_string(config.torque_limit_Nm) +
                        " is less than a thousandth of the rated " + std::to_string(rated_Nm) +
                        " N.m at the joint, which is the drive's step");
-  limit_torque(client, scale.limit_per_mille(), report);
+  limit_torque(client, scale.limit_per_mille(), config.drive_mode, report);
   return rated_Nm;
 }
 

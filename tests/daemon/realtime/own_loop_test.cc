@@ -48,10 +48,11 @@ class OwnLoopBench {
     give({.kind = OrderKind::kEnable});
     EXPECT_TRUE(run_until(Mode::kHolding, 1000));
   }
-  void step() {
-    time_.elapsed_periods = 1;
-    ++time_.cycle;
-    time_.now_ns += DriveBench::kPeriod_ns;
+  /// `periods` later: those between were left out.
+  void step(int periods = 1) {
+    time_.elapsed_periods = periods;
+    time_.cycle += periods;
+    time_.now_ns += periods * DriveBench::kPeriod_ns;
     can.can().run_to(time_.now_ns);
     can.bus().begin_cycle(time_.now_ns);
     loop->step(time_);
@@ -75,6 +76,12 @@ class OwnLoopBench {
     give({.kind = OrderKind::kSetpoint, .position_rad = position_rad, .approaches = true});
     EXPECT_TRUE(run_until(Mode::kHolding, 3000)) << to_text(fault());
     for (int i = 0; i < 500; ++i) step();
+  }
+  Reason last_reason() {
+    Reply reply;
+    while (replies_->pop(reply)) {
+    }
+    return reply.reason;
   }
   const JointStep& motion() const { return loop->joint().law.motion(); }
   Fault fault() const { return static_cast<Fault>(loop->record().state.fault); }
@@ -184,6 +191,33 @@ TEST_P(OwnLoopInEachMode, IsHomedAtALimitSwitch) {
   EXPECT_EQ(bench.loop->mode(), Mode::kHolding) << to_text(bench.fault());
   // What creeping makes in a period of the inputs, and the way that stopping takes.
   EXPECT_NEAR(bench.loop->joint().zero.to_joint_rad(kSwitch_rad), -1.0, 0.002);
+}
+
+// Without SYNC the drive has stood: a target that had gone on would be reached within a period.
+TEST(OwnLoopInPosition, TheTargetDoesNotJumpOverAGap) {
+  OwnLoopBench bench(joint_in(DriveMode::kPosition));
+  bench.give({.kind = OrderKind::kSetpoint, .position_rad = 2.0, .approaches = true});
+  for (int i = 0; i < 150; ++i) bench.step();
+  const JointStep before = bench.motion();
+  ASSERT_GT(before.order.velocity_rad_s, 1.0);
+  bench.step(10);
+  EXPECT_LT(bench.motion().order.position_rad - before.order.position_rad,
+            1.5e-3 * before.order.velocity_rad_s);
+  EXPECT_TRUE(bench.run_until(Mode::kHolding, 3000)) << to_text(bench.fault());
+  EXPECT_EQ(bench.fault(), Fault::kNone);
+}
+
+TEST(OwnLoopInPosition, IsNotHomedAtAStopByADriveThatDoesNotSayItsTorque) {
+  OwnLoopJoint made = joint_in(DriveMode::kPosition);
+  made.drive.node.lacks = {0x6077};
+  HomingConfig& homing = made.joint.loop.homing;
+  homing.target = HomingTarget::kNegativeStop;
+  homing.stop_torque_Nm = 5.0;
+  OwnLoopBench bench(made);
+  ASSERT_TRUE(bench.loop->orders().push({.id = 1000, .kind = OrderKind::kHome}));
+  bench.step();
+  EXPECT_EQ(bench.last_reason(), Reason::kNoHoming);
+  EXPECT_EQ(bench.loop->mode(), Mode::kHolding);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, OwnLoopInEachMode,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cascade of a simulated servo drive: a proportional position loop around a proportional-integral velocity loop, in the drive's units.
-// The setpoint of a SYNC is reached at the next one, on a straight line.
+// The setpoint of a SYNC is reached at the next one, on a straight line. Without another SYNC the drive stands there.
 #pragma once
 
 #include <cmath>
@@ -47,7 +47,9 @@ class MotionLoop {
     if (aim_ && place_) {
       wanted += 0.25 * config_.velocity_bandwidth_rad_s * (*place_ - counts);
       error_ = std::abs(*place_ - counts);
-      *place_ += slope_ * config_.period_s;
+      const double left = *aim_ - *place_;
+      const double step = slope_ * config_.period_s;
+      *place_ = std::abs(step) < std::abs(left) ? *place_ + step : *aim_;
     }
     const double proportional =
         config_.velocity_bandwidth_rad_s * config_.permille_per_count_s2 * (wanted - velocity);
