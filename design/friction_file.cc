@@ -76,8 +76,7 @@ ordered_json exponential_to_json(const ExponentialFriction& exponential) {
 
 ExponentialFriction exponential_from_json(StrictObject object) {
   const FrictionLaw law = friction_law_from_json(object);
-  const ExponentialFriction exponential{law.over_temperature, law.stribeck,
-                                        record_from_json(object.object("fit"))};
+  ExponentialFriction exponential{law.over_temperature, law.stribeck, record_from_json(object.object("fit"))};
   object.finish();
   return exponential;
 }
