@@ -24,6 +24,8 @@ class UniqueFd {
 
   int get() const noexcept { return fd_; }
   explicit operator bool() const noexcept { return fd_ >= 0; }
+  /// Closes what it holds; false where the system says that something of it was lost.
+  bool close() noexcept { return ::close(std::exchange(fd_, kNone)) == 0; }
   /// Closes what it holds and takes `fd`.
   void reset(int fd = kNone) noexcept {
     if (fd_ >= 0) ::close(fd_);

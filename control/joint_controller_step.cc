@@ -38,6 +38,21 @@ int led_periods(const JointControllerConfig& config, const JointMeasurement& mea
   return std::max(1, measurement.elapsed_periods);
 }
 
+double off_rad(const JointPlan& plan, const JointReading& reading) noexcept {
+  return plan.place_rad() - reading.position_rad();
+}
+
+bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
+  return std::abs(off_rad) <= kAtPlaceCounts * count_of(config);
+}
+
+MotorOrder drive_order(const JointControllerConfig& config, const JointPlan& plan, double off_rad) noexcept {
+  const bool returns =
+      config.drive_mode == DriveMode::kVelocity && (plan.moves() || !at_place(config, off_rad));
+  return {plan.now().acting_end_position_rad,
+          plan.now().acting_velocities_rad_s[1] + (returns ? kReturn_1_s * off_rad : 0.0)};
+}
+
 }  // namespace
 
 JointStep JointController::step(const JointMeasurement& measurement) noexcept {
@@ -89,13 +104,12 @@ void JointController::choose_phase() noexcept {
   }
   ++rest_periods_;
   if (config_.drive_closes_loop()) return;
-  const double off_rad = plan_.place_rad() - reading_.position_rad();
-  const bool at_place = std::abs(off_rad) <= kAtPlaceCounts * count_of(config_);
-  if (plan_.correct(off_rad, reading_.position_rad(), reading_.still_periods())) {
+  const double off = off_rad(plan_, reading_);
+  if (plan_.correct(off, reading_.position_rad(), reading_.still_periods())) {
     law_.reference_jumps();
     reading_.replan(reading_.position_rad());
     phase_ = MotionPhase::kTracking;
-  } else if (!at_place || config_.without == Mechanism::kRestTorque) {
+  } else if (!at_place(config_, off) || config_.without == Mechanism::kRestTorque) {
     phase_ = MotionPhase::kTracking;
   } else if (phase_ == MotionPhase::kTracking && rest_periods_ > kSettlingPeriods) {
     hold_torque_Nm_ =
@@ -195,11 +209,7 @@ void JointController::weigh(const ControllerOutput& output, int elapsed_periods)
 JointStep JointController::result(const ControllerOutput& output, bool learns) const noexcept {
   JointStep step;
   step.output = output;
-  const double off_rad = plan_.place_rad() - reading_.position_rad();
-  const bool at_place = !plan_.moves() && std::abs(off_rad) <= kAtPlaceCounts * count_of(config_);
-  const bool returns = config_.drive_mode == DriveMode::kVelocity && !at_place;
-  step.order = {plan_.now().acting_end_position_rad,
-                plan_.now().acting_velocities_rad_s[1] + (returns ? kReturn_1_s * off_rad : 0.0)};
+  if (config_.drive_closes_loop()) step.order = drive_order(config_, plan_, off_rad(plan_, reading_));
   const double position_rad = yields() ? reading_.position_rad() : plan_.place_rad();
   step.reference = {position_rad, yields() ? 0.0 : plan_.now().velocity_rad_s,
                     yields() ? 0.0 : plan_.now().acting_acceleration_rad_s2};

@@ -268,8 +268,9 @@ ExitStatus fit_catalogue(const FitCatalogueOptions& options) {
   if (options.model != "fuzzy") {
     const Estimate<ExponentialFit> law = fit_law(job);
     known_law = law.fit;
-    file.exponential = {to_joint_side(law.fit, options.gear_ratio), source_stribeck_shape(options.gear_ratio),
-                        make_record(job, law.fit, options.method == "epgs" ? &law.search : nullptr)};
+    file.exponential = {
+        {to_joint_side(law.fit, options.gear_ratio), source_stribeck_shape(options.gear_ratio)},
+        make_record(job, law.fit, options.method == "epgs" ? &law.search : nullptr)};
     report("exponential", file.exponential->fit);
     report_residuals("exponential", file.exponential->fit);
   }

@@ -151,7 +151,7 @@ ExitStatus fit_logs(const FitLogOptions& options) {
     throw InputError(options.prior + ": has no fuzzy rules: fit the catalogue with --model fuzzy or both");
   const FuzzyFriction& rules = prior.fuzzy->friction;
   const StribeckShape shape =
-      prior.exponential ? prior.exponential->stribeck : source_stribeck_shape(prior.gear_ratio);
+      prior.exponential ? prior.exponential->law.stribeck : source_stribeck_shape(prior.gear_ratio);
 
   const Measurements all = read_logs(options, prior);
   const std::vector<FrictionRegression> measured =

@@ -69,14 +69,14 @@ FitRecord record_from_json(StrictObject object) {
 }
 
 ordered_json exponential_to_json(const ExponentialFriction& exponential) {
-  ordered_json object = friction_law_to_json({exponential.law, exponential.stribeck});
+  ordered_json object = friction_law_to_json(exponential.law);
   object["fit"] = record_to_json(exponential.fit);
   return object;
 }
 
 ExponentialFriction exponential_from_json(StrictObject object) {
   const FrictionLaw law = friction_law_from_json(object);
-  ExponentialFriction exponential{law.over_temperature, law.stribeck, record_from_json(object.object("fit"))};
+  ExponentialFriction exponential{law, record_from_json(object.object("fit"))};
   object.finish();
   return exponential;
 }

@@ -33,8 +33,7 @@ struct FitRecord {
 };
 
 struct ExponentialFriction {
-  ExponentialTemperatureLaw law;
-  StribeckShape stribeck;
+  FrictionLaw law;
   FitRecord fit;
 };
 struct FuzzyFrictionRecord {

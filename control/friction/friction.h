@@ -37,4 +37,10 @@ struct ExponentialTemperatureLaw {
   FrictionParameters at(double temperature_C) const noexcept;
 };
 
+/// Friction over temperature and speed.
+struct FrictionLaw {
+  ExponentialTemperatureLaw over_temperature;
+  StribeckShape stribeck;
+};
+
 }  // namespace strainwave

@@ -14,26 +14,31 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json parameters_to_json(const FrictionParameters& parameters) {
-  return {{"static_Nm", parameters.static_Nm},
-          {"coulomb_Nm", parameters.coulomb_Nm},
-          {"viscous_Nms_rad", parameters.viscous_Nms_rad}};
-}
-
-FrictionParameters parameters_from_json(StrictObject object) {
-  FrictionParameters parameters;
-  parameters.static_Nm = object.number("static_Nm");
-  parameters.coulomb_Nm = object.number("coulomb_Nm");
-  parameters.viscous_Nms_rad = object.number("viscous_Nms_rad");
-  object.finish();
+FrictionParameters part_from_json(StrictObject part) {
+  const FrictionParameters parameters = friction_parameters_from_json(part);
+  part.finish();
   return parameters;
 }
 
 }  // namespace
 
+ordered_json friction_parameters_to_json(const FrictionParameters& parameters) {
+  return {{"static_Nm", parameters.static_Nm},
+          {"coulomb_Nm", parameters.coulomb_Nm},
+          {"viscous_Nms_rad", parameters.viscous_Nms_rad}};
+}
+
+FrictionParameters friction_parameters_from_json(StrictObject& object) {
+  FrictionParameters parameters;
+  parameters.static_Nm = object.number("static_Nm");
+  parameters.coulomb_Nm = object.number("coulomb_Nm");
+  parameters.viscous_Nms_rad = object.number("viscous_Nms_rad");
+  return parameters;
+}
+
 ordered_json friction_law_to_json(const FrictionLaw& law) {
-  return {{"asymptote", parameters_to_json(law.over_temperature.asymptote)},
-          {"amplitude", parameters_to_json(law.over_temperature.amplitude)},
+  return {{"asymptote", friction_parameters_to_json(law.over_temperature.asymptote)},
+          {"amplitude", friction_parameters_to_json(law.over_temperature.amplitude)},
           {"reference_C", law.over_temperature.reference_C},
           {"decay_C", law.over_temperature.decay_C},
           {"stribeck_velocity_rad_s", law.stribeck.velocity_rad_s},
@@ -42,8 +47,8 @@ ordered_json friction_law_to_json(const FrictionLaw& law) {
 
 FrictionLaw friction_law_from_json(StrictObject& object) {
   FrictionLaw law;
-  law.over_temperature.asymptote = parameters_from_json(object.object("asymptote"));
-  law.over_temperature.amplitude = parameters_from_json(object.object("amplitude"));
+  law.over_temperature.asymptote = part_from_json(object.object("asymptote"));
+  law.over_temperature.amplitude = part_from_json(object.object("amplitude"));
   law.over_temperature.reference_C = object.number("reference_C");
   law.over_temperature.decay_C = object.number("decay_C");
   if (!(law.over_temperature.decay_C > 0.0)) throw InputError(object.where("decay_C") + ": must be above 0");

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Friction over temperature and speed as one law, as strainwave-design fit writes it into a friction file. Joint side. Not real-time.
+// Friction at one temperature, and over temperature and speed as one law, as strainwave-design fit writes it into a friction file. Joint side. Not real-time.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/strict_json.h"
-#include "control/friction/friction_law.h"
+#include "control/friction/friction.h"
 
 namespace strainwave {
+
+nlohmann::ordered_json friction_parameters_to_json(const FrictionParameters& parameters);
+/// Reads their keys of `object`, which may have more. Throws InputError.
+FrictionParameters friction_parameters_from_json(StrictObject& object);
 
 nlohmann::ordered_json friction_law_to_json(const FrictionLaw& law);
 

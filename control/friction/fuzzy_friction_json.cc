@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "control/friction/friction_law_json.h"
+
 namespace strainwave {
 
 using nlohmann::ordered_json;
@@ -11,11 +13,8 @@ ordered_json fuzzy_friction_to_json(const FuzzyFriction& friction) {
   ordered_json rules = ordered_json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(friction.rule_count); ++i) {
     const TemperatureRule& rule = friction.rules[i];
-    rules.push_back({{"center_C", rule.center_C},
-                     {"width_C", rule.width_C},
-                     {"static_Nm", rule.friction.static_Nm},
-                     {"coulomb_Nm", rule.friction.coulomb_Nm},
-                     {"viscous_Nms_rad", rule.friction.viscous_Nms_rad}});
+    rules.push_back({{"center_C", rule.center_C}, {"width_C", rule.width_C}});
+    rules.back().update(friction_parameters_to_json(rule.friction));
   }
   return {{"temperature_min_C", friction.temperature_min_C},
           {"temperature_max_C", friction.temperature_max_C},
@@ -43,9 +42,7 @@ FuzzyFriction fuzzy_friction_from_json(StrictObject object) {
     TemperatureRule& rule = friction.rules[i];
     rule.center_C = rules[i].number("center_C");
     rule.width_C = rules[i].number("width_C");
-    rule.friction.static_Nm = rules[i].number("static_Nm");
-    rule.friction.coulomb_Nm = rules[i].number("coulomb_Nm");
-    rule.friction.viscous_Nms_rad = rules[i].number("viscous_Nms_rad");
+    rule.friction = friction_parameters_from_json(rules[i]);
     rules[i].finish();
   }
   object.finish();

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace strainwave {
 
@@ -11,6 +13,18 @@ enum class DriveMode : std::uint8_t {
   kVelocity,  ///< velocity; nothing of it is proved
   kPosition,  ///< position and velocity, likewise
 };
+
+/// "torque", "velocity" or "position".
+constexpr const char* to_text(DriveMode mode) noexcept {
+  return mode == DriveMode::kTorque ? "torque" : mode == DriveMode::kVelocity ? "velocity" : "position";
+}
+
+/// The mode of that word; nothing of another.
+constexpr std::optional<DriveMode> drive_mode_from_text(std::string_view text) noexcept {
+  for (const DriveMode mode : {DriveMode::kTorque, DriveMode::kVelocity, DriveMode::kPosition})
+    if (text == to_text(mode)) return mode;
+  return std::nullopt;
+}
 
 constexpr bool closes_loop(DriveMode mode) noexcept {
   return mode != DriveMode::kTorque;

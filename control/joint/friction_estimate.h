@@ -10,7 +10,7 @@
 // temperature is that of the RHS-17-6006 and of its grease, SK-2.
 #pragma once
 
-#include "control/friction/friction_law.h"
+#include "control/friction/friction.h"
 #include "control/friction/fuzzy_friction.h"
 #include "control/joint/gear_catalogue.h"
 

@@ -100,9 +100,10 @@ void read_units(TomlSection& section, const JointConfig& joint, cia402::UnitConf
 
 /// A drive that closes its own loop does so at the motor, and goes on against what pushes it.
 void read_drive_mode(TomlSection& section, JointConfig& joint, cia402::DriveConfig& drive) {
-  const std::string mode = section.choice_or("drive_mode", "torque", {"torque", "velocity", "position"});
-  if (mode == "torque") return;
-  drive.drive_mode = mode == "velocity" ? DriveMode::kVelocity : DriveMode::kPosition;
+  drive.drive_mode =
+      drive_mode_from_text(section.choice_or("drive_mode", "torque", {"torque", "velocity", "position"}))
+          .value();
+  if (!closes_loop(drive.drive_mode)) return;
   joint.loop.controller.drive_mode = drive.drive_mode;
   if (joint.loop.controller.encoder_side == EncoderSide::kLink)
     section.fail("drive_mode", "\"torque\" is allowed with encoder_side = \"link\"");

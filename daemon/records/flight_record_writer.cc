@@ -136,14 +136,15 @@ bool FlightRecordWriter::write(const std::string& name, const std::string& text,
   if (!make_room(text.size(), problem)) return false;
   const fs::path path = config_.directory / name;
   const fs::path unfinished = path.string() + kUnfinished;
-  const UniqueFd file(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0640));
+  UniqueFd file(::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0640));
   if (!file) {
     problem = error_text(unfinished.string() + " cannot be made (recorder.directory)");
     return false;
   }
   const bool written = write_all(file.get(), text) && ::fsync(file.get()) == 0;
   if (!written) problem = error_text(unfinished.string() + " cannot be written");
-  if (written && ::rename(unfinished.c_str(), path.c_str()) == 0) return true;
+  const bool closed = file.close();
+  if (written && closed && ::rename(unfinished.c_str(), path.c_str()) == 0) return true;
   if (problem.empty()) problem = error_text(path.string() + " cannot be finished");
   ::unlink(unfinished.c_str());
   return false;

@@ -33,7 +33,8 @@ class DesignProgram : public ::testing::Test {
   }
   /// Of the exponential law in the friction file that was made.
   double decay_C() const {
-    return friction_file_from_json(read_text_file(file("friction.json")), "made").exponential->law.decay_C;
+    return friction_file_from_json(read_text_file(file("friction.json")), "made")
+        .exponential->law.over_temperature.decay_C;
   }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 

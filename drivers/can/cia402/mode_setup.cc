@@ -39,10 +39,6 @@ constexpr std::array<Choice, 5> kChoices{
      {DriveMode::kPosition, OperationMode::kCyclicPosition, 7, "CSP"},
      {DriveMode::kPosition, OperationMode::kInterpolatedPosition, 6, "IP"}}};
 
-const char* to_text(DriveMode mode) {
-  return mode == DriveMode::kTorque ? "torque" : mode == DriveMode::kVelocity ? "velocity" : "position";
-}
-
 bool named(const Choice& choice, std::uint32_t supported) {
   return (supported >> choice.bit & 1U) != 0;
 }
