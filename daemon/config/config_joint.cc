@@ -48,8 +48,6 @@ void read_limits(TomlSection& section, double gear_ratio, JointLoopConfig& loop)
 
 void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   TemperatureCheckConfig& check = loop.temperature;
-  loop.temperature_update_period_s =
-      section.number_or("update_period_s", loop.temperature_update_period_s, {1e-4, 60.0});
   check.min_C = section.number_or("min_C", check.min_C, {-273.0, 300.0});
   check.max_C = section.number_or("max_C", check.max_C, {check.min_C, 300.0});
   check.max_rate_C_s = section.number_or("max_rate_C_s", check.max_rate_C_s, {1e-3, 1e3});

@@ -24,7 +24,7 @@ JointInLoop::JointInLoop(std::int64_t joint, const JointLoopConfig& joint_config
       config(joint_config),
       events(event_queue),
       drive(config, std::move(actuator)),
-      law(config, joint),
+      law(config),
       zero(config.homing.required),
       homing(config.homing),
       motion_watch(watch_config(config)) {}

@@ -18,10 +18,9 @@ constexpr double kCertainDeviations = 3.0;
 
 }  // namespace
 
-JointLaw::JointLaw(const JointLoopConfig& config, std::int64_t turn)
+JointLaw::JointLaw(const JointLoopConfig& config)
     : gravity_(config.controller.gravity),
       controller_(config.controller),
-      schedule_(config.temperature_update_period_s, config.controller.period_s, turn),
       inertia_({config.controller.period_s, config.controller.encoder_resolution_rad,
                 config.controller.delay_periods}),
       held_{config.initial_load_Nm, {}},
@@ -56,8 +55,7 @@ void JointLaw::run(const JointDrive& drive, const CycleTime& time, bool brake_op
   JointMeasurement measurement;
   measurement.joint_position_rad = reading.joint_position_rad;
   measurement.joint_velocity_rad_s = reading.joint_velocity_rad_s;
-  measurement.temperature_C = schedule_.follow_C(drive.temperature().used_C(), time.cycle,
-                                                 motion_.gains_in_use != GainsInUse::kPrimary);
+  measurement.temperature_C = drive.temperature().used_C();
   measurement.has_position = drive.fresh();
   measurement.has_velocity = reading.has_velocity;
   measurement.temperature_valid = drive.temperature().usable();

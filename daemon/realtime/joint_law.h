@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The control law of one joint in the loop, with what it needs around it: the table in use, the schedule of its temperature, what was
-// learned, the load that held the joint, the inertia that its motions show. Real-time safe but for the constructor. Positions are the drive's.
+// The control law of one joint in the loop, with what it needs around it: the table in use, what was learned,
+// the load that held the joint, the inertia that its motions show. Real-time safe but for the constructor. Positions are the drive's.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,6 @@
 #include "daemon/realtime/friction_history.h"
 #include "daemon/realtime/joint_drive.h"
 #include "daemon/realtime/joint_loop_config.h"
-#include "daemon/realtime/temperature_schedule.h"
 
 namespace strainwave {
 
@@ -24,8 +23,8 @@ struct TableSlot {
 
 class JointLaw {
  public:
-  /// Not real-time safe. `turn`: the joint's number among those that schedule their gains in turns.
-  JointLaw(const JointLoopConfig& config, std::int64_t turn);
+  /// Not real-time safe.
+  explicit JointLaw(const JointLoopConfig& config);
 
   JointController& controller() noexcept { return controller_; }
   const JointController& controller() const noexcept { return controller_; }
@@ -65,8 +64,6 @@ class JointLaw {
   bool shows_other_inertia() const noexcept;
   /// Of a joint that oscillates (lcmtypes/oscillation_evidence.h).
   std::uint32_t evidence() const noexcept;
-  /// The temperature that the gains are scheduled for, degC.
-  double scheduled_C() const noexcept { return schedule_.scheduled_C(); }
 
  private:
   /// The torque that held the joint when it last rested under control, and where that was; before, the configuration's.
@@ -79,7 +76,6 @@ class JointLaw {
 
   GravityLoad gravity_;
   JointController controller_;
-  TemperatureSchedule schedule_;
   InertiaEstimate inertia_;
   FrictionHistory friction_;
   HeldLoad held_;

@@ -33,7 +33,7 @@ void note_limits(JointInLoop& joint) noexcept {
   if (motion.off_stream) joint.notice(Notice::kOffStream);
   if (joint.law.shows_other_inertia()) joint.notice(Notice::kOtherInertia);
   const FuzzyFriction& friction = joint.law.table()->table.friction;
-  const double temperature_C = joint.law.scheduled_C();
+  const double temperature_C = joint.drive.temperature().used_C();
   if (motion.gains_in_use == GainsInUse::kFallback && !joint.config.controller.drive_closes_loop())
     joint.notice(Notice::kFallbackGains);
   else if (temperature_C < friction.temperature_min_C || temperature_C > friction.temperature_max_C)

@@ -133,14 +133,6 @@ TEST_F(RecorderConfigTest, ReadsInjectedFaultsAndRefusesUnknownOnes) {
             std::string::npos);
 }
 
-TEST_F(RecorderConfigTest, ReadsThePeriodOfTheTemperatureSchedule) {
-  EXPECT_EQ(read(joint("a")).joints[0].loop.temperature_update_period_s, 0.01);
-  const DaemonConfig config =
-      read(joint("a", "temperature = { update_period_s = 0.1, max_constant_s = 60 }\n"));
-  EXPECT_EQ(config.joints[0].loop.temperature_update_period_s, 0.1);
-  EXPECT_EQ(config.joints[0].loop.temperature.max_constant_s, 60.0);
-}
-
 TEST_F(RecorderConfigTest, TakesOneToSixtyFourJoints) {
   std::string text;
   for (int i = 0; i < 64; ++i) text += joint("j" + std::to_string(i));

@@ -46,7 +46,6 @@ Values loop_values(const JointLoopConfig& loop) {
           {"joint.limits.overspeed_rad_s", loop.limits.overspeed_rad_s},
           {"joint.limits.temperature_limit_C", loop.limits.temperature_limit_C},
           {"joint.limits.on_overload", static_cast<double>(loop.overload_stop)},
-          {"joint.temperature.update_period_s", loop.temperature_update_period_s},
           {"joint.temperature.min_C", temperature.min_C},
           {"joint.temperature.max_C", temperature.max_C},
           {"joint.temperature.max_rate_C_s", temperature.max_rate_C_s},

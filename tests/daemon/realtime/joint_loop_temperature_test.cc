@@ -87,28 +87,5 @@ TEST_P(TemperatureLoss, ChangesTheGainsInMotionWithNoMoreTorqueStepThanTheMotion
 
 INSTANTIATE_TEST_SUITE_P(Temperatures, TemperatureLoss, ::testing::Values(-10.0, 5.0, 25.0, 45.0));
 
-TEST(TemperatureSchedule, IsRecomputedOnceAPeriodAndJointsTakeTurns) {
-  constexpr std::size_t kHeatedJoints = 10;
-  BenchJoint joint = demo_joint();
-  joint.drive.temperature_period_s = 0.0;  // a new value every period
-  joint.loop.temperature_update_period_s = 0.01;
-  JointBench bench(std::vector<BenchJoint>(kHeatedJoints, joint));
-  for (std::size_t i = 0; i < kHeatedJoints; ++i) bench.bring_to_hold(i);
-  std::vector<int> changes(kHeatedJoints, 0);
-  for (int cycle = 0; cycle < 1000; ++cycle) {
-    std::vector<double> before;
-    for (std::size_t i = 0; i < kHeatedJoints; ++i) before.push_back(bench.state(i).temperature_weights[0]);
-    bench.step();
-    int changed_now = 0;
-    for (std::size_t i = 0; i < kHeatedJoints; ++i) {
-      const bool changed = bench.state(i).temperature_weights[0] != before[i];
-      changes[i] += changed ? 1 : 0;
-      changed_now += changed ? 1 : 0;
-    }
-    EXPECT_LE(changed_now, 1) << "ten joints, ten periods: one at a time";
-  }
-  for (std::size_t i = 0; i < kHeatedJoints; ++i) EXPECT_NEAR(changes[i], 100, 1) << i;
-}
-
 }  // namespace
 }  // namespace strainwave::testing
