@@ -1,19 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joint's mode, how long it has lasted, and the fault that is latched in it: daemon/realtime/mode_machine.h with a memory.
-// Real-time safe; time is an argument.
+// The modes of a joint, what leads from one to another, and the mode that a joint is in: how long it has lasted, and the fault that is
+// latched in it. Real-time safe; time is an argument.
+//
+//   Off -> Starting -> (Releasing ->) Holding <-> Tracking -> Stopping -> Off, Holding <-> Homing, and Faulted from anywhere.
+// Releasing: the position is held under torque while the brake opens; no motion is accepted before it is open.
+// Faulted is left only by an explicit clear, and only to Off: nothing resumes motion by itself.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/durations.h"
-#include "daemon/realtime/mode_machine.h"
 #include "strainwave/vocabulary.h"
 
 namespace strainwave {
 
+enum class ModeEvent {
+  kEnableOrdered,     ///< a command to enable
+  kTorqueReady,       ///< the drive takes torque commands, its brake is shut
+  kDriveReady,        ///< the drive takes torque commands, and nothing else holds the joint
+  kSetpointAccepted,  ///< a move or a stream begins or goes on
+  kHomeOrdered,       ///< a command to find the home position
+  kArrived,           ///< the reference rests at its end; after kHomeOrdered: where homing ended
+  kDisableOrdered,    ///< a command to disable, or the end of the daemon
+  kStopped,           ///< the joint stands still after kDisableOrdered
+  kFaultCleared,  ///< a command to clear
+};
+
+/// The mode after `event`, or nothing when the event means nothing in this mode (a command is then refused).
+std::optional<Mode> next_mode(Mode mode, ModeEvent event) noexcept;
+
+/// True while the drive is to be enabled.
+constexpr bool wants_drive_enabled(Mode mode) noexcept {
+  return mode != Mode::kOff && mode != Mode::kFaulted;
+}
+
+/// True while the control law sets the torque.
+constexpr bool is_controlled(Mode mode) noexcept {
+  return wants_drive_enabled(mode) && mode != Mode::kStarting;
+}
+
 class JointMode {
  public:
-  /// False, and nothing changes, when `event` means nothing in this mode. For all events but kFaultRaised.
+  /// False, and nothing changes, when `event` means nothing in this mode.
   bool apply(ModeEvent event, std::int64_t now_ns) noexcept;
   /// Latches `fault` with the drive's own number for it. The first fault stays: false when one is latched already.
   bool latch(Fault fault, std::uint32_t drive_error, std::int64_t now_ns) noexcept;
