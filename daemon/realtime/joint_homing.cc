@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/realtime/joint_homing.h"
+#include "daemon/realtime/joint_in_loop.h"
 
 namespace strainwave {
 

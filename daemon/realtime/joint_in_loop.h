@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One joint in the loop: its parts, and its changes of mode, which touch them all. The loop (daemon/realtime/joint_loop.h) has them act in
-// their order; the functions of joint_orders.h, joint_homing.h, joint_path.h and joint_supervision.h act on them by subject. Real-time safe.
+// their order; the functions below act on them by subject. Real-time safe.
 // Positions are the drive's; `zero` stands at the border.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "daemon/realtime/cycle_time.h"
 #include "daemon/realtime/fault_reach.h"
@@ -81,5 +82,22 @@ struct JointInLoop {
  private:
   void mode_changed(Mode from, const CycleTime& time) noexcept;
 };
+
+/// Obeys an order or refuses it. `tables`: the slots that kUseTable names.
+Ruling obey(JointInLoop& joint, const Order& order, const CycleTime& time,
+            std::span<const TableSlot> tables) noexcept;
+/// Whether the joint could begin `path` in this cycle: it holds where the path begins.
+Ruling may_begin_path(const JointInLoop& joint, const LoadedPath& path) noexcept;
+
+Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+/// One period, before the control law's.
+void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+/// After the control law's: once the home is found or a hold ordered, the joint holds as soon as it rests.
+void end_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+
+/// After the control law: notices of the limits that it met.
+void note_limits(JointInLoop& joint) noexcept;
+/// Faults of a joint under control, and the load that it yields to.
+void check_motion(JointInLoop& joint, const CycleTime& time) noexcept;
 
 }  // namespace strainwave

@@ -5,9 +5,6 @@
 #include <utility>
 
 #include "base/durations.h"
-#include "daemon/realtime/joint_homing.h"
-#include "daemon/realtime/joint_orders.h"
-#include "daemon/realtime/joint_supervision.h"
 #include "daemon/realtime/state_record.h"
 
 namespace strainwave {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/realtime/joint_orders.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "daemon/realtime/joint_homing.h"
-#include "daemon/realtime/joint_path.h"
+#include "daemon/realtime/joint_in_loop.h"
 #include "daemon/realtime/path_follower.h"
 
 namespace strainwave {
@@ -13,6 +10,8 @@ namespace strainwave {
 namespace {
 
 constexpr double kFarthestAhead_s = 1.0;  // of a setpoint that says when it is for
+// A path begins where the joint holds. What it may be off is what the setpoint then catches up with.
+constexpr double kBeginsWithin_rad = 1e-3;
 
 double largest_static_friction_Nm(const FuzzyFriction& friction) noexcept {
   double largest_Nm = 0.0;
@@ -147,6 +146,16 @@ Reason hold(JointInLoop& joint) noexcept {
   return Reason::kAccepted;
 }
 
+Ruling take_path(JointInLoop& joint, const Order& order) noexcept {
+  if (joint.mode.is(Mode::kFaulted)) return Reason::kFaulted;
+  const LoadedPath& offered = joint.path_slots.at(order.path_slot);
+  const Ruling ruling = may_begin_path(joint, offered);
+  if (ruling.reason != Reason::kAccepted) return ruling;
+  joint.path = &offered;
+  joint.path_slots.use(order.path_slot);
+  return Reason::kAccepted;
+}
+
 Reason clear_fault(JointInLoop& joint, const CycleTime& time) noexcept {
   if (!joint.mode.is(Mode::kFaulted)) return Reason::kWrongMode;
   joint.drive.clear_fault();
@@ -155,6 +164,17 @@ Reason clear_fault(JointInLoop& joint, const CycleTime& time) noexcept {
 }
 
 }  // namespace
+
+Ruling may_begin_path(const JointInLoop& joint, const LoadedPath& path) noexcept {
+  if (joint.service == JointInLoop::Service::kEnding) return Reason::kEnding;
+  if (!joint.zero.known()) return Reason::kNotHomed;
+  if (joint.mode.is(Mode::kTracking)) return Reason::kMoving;
+  if (!joint.mode.is(Mode::kHolding)) return Reason::kWrongMode;
+  const double begins_rad = joint.zero.to_drive_rad(path.path.knots[0].position_rad);
+  const double off_rad = std::abs(begins_rad - joint.law.controller().plan().trajectory().target_rad());
+  if (!(off_rad <= kBeginsWithin_rad)) return {Reason::kOutOfRange, off_rad, kBeginsWithin_rad};
+  return Reason::kAccepted;
+}
 
 Ruling obey(JointInLoop& joint, const Order& order, const CycleTime& time,
             std::span<const TableSlot> tables) noexcept {

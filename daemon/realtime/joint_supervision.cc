@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/realtime/joint_supervision.h"
-
 #include <cmath>
+
+#include "daemon/realtime/joint_in_loop.h"
 
 namespace strainwave {
 

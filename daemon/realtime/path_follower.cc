@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "daemon/realtime/joint_loop.h"
-#include "daemon/realtime/joint_path.h"
 
 namespace strainwave {
 
@@ -96,7 +95,12 @@ bool PathFollower::begin_all(std::size_t travel, const CycleTime& time) noexcept
     all = all && joint.path != nullptr && may_begin_path(joint, *joint.path).reason == Reason::kAccepted;
   });
   if (!all) return false;
-  for_each_member(travel, [&](JointInLoop& joint, Member&) { begin_path(joint, time); });
+  for_each_member(travel, [&](JointInLoop& joint, Member&) {
+    (void)joint.change_mode(ModeEvent::kSetpointAccepted, time);
+    joint.yield.reset();
+    const double end_rad = joint.path->path.last().position_rad;
+    joint.ordered.begin_path(end_rad, joint.zero.to_drive_rad(end_rad));
+  });
   wait_for_the_slowest(travel);
   travels_[travel].phase = Phase::kUnderWay;
   return true;
@@ -129,7 +133,8 @@ void PathFollower::advance(std::size_t index, const CycleTime& time) noexcept {
   for_each_member(index, [&](JointInLoop& joint, Member& member) {
     const PathTime now = travel.times.ago(member.behind_periods);
     const PathPoint on = in_path_time(member.reader.at(joint.path->path, now.time_s), now);
-    follow_path(joint, on, time.elapsed_periods);
+    joint.law.controller().follow_path(joint.zero.to_drive_rad(on.position_rad), on.velocity_rad_s,
+                                       time.elapsed_periods, joint.reachable_range());
     // Of the setpoint in the same state: the reference reaches the present point one period later, or more.
     const double later_periods = 1.0 + joint.law.controller().plan().lead_s() / period_s_;
     const PathTime shown = travel.times.ago(member.behind_periods + later_periods);
@@ -155,7 +160,10 @@ bool PathFollower::is_over(std::size_t index) noexcept {
 }
 
 void PathFollower::stop_each(std::size_t travel) noexcept {
-  for_each_member(travel, [](JointInLoop& joint, Member&) { stop_beside_path(joint); });
+  for_each_member(travel, [](JointInLoop& joint, Member&) {
+    joint.law.controller().stop();
+    joint.end_orders();
+  });
   free(travel);
 }
 
