@@ -11,31 +11,12 @@ namespace strainwave {
 
 namespace {
 
-Fault fault_of(ActuatorFault fault) noexcept {
-  switch (fault) {
-    case ActuatorFault::kNone:
-      return Fault::kNone;
-    case ActuatorFault::kReadFailed:
-      return Fault::kReadFailed;
-    case ActuatorFault::kWriteRefused:
-      return Fault::kWriteRefused;
-    case ActuatorFault::kDriveFault:
-      return Fault::kDriveFault;
-    case ActuatorFault::kPowerLost:
-      return Fault::kPowerLost;
-    case ActuatorFault::kImplausible:
-      return Fault::kImplausibleReading;
-    case ActuatorFault::kLinkLost:
-      return Fault::kLinkLost;
-    case ActuatorFault::kEmergencyStop:
-      return Fault::kEmergencyStop;
-    case ActuatorFault::kDriveRestarted:
-      return Fault::kDriveRestarted;
-    case ActuatorFault::kBusError:
-      return Fault::kBusError;
-  }
-  return Fault::kDriveFault;
-}
+// Of each ActuatorFault, in their order.
+constexpr std::array kFaults{Fault::kNone,       Fault::kReadFailed,    Fault::kWriteRefused,
+                             Fault::kDriveFault, Fault::kPowerLost,     Fault::kImplausibleReading,
+                             Fault::kLinkLost,   Fault::kEmergencyStop, Fault::kDriveRestarted,
+                             Fault::kBusError};
+static_assert(kFaults.size() == static_cast<std::size_t>(ActuatorFault::kBusError) + 1);
 
 }  // namespace
 
@@ -89,7 +70,8 @@ void JointLoop::check_reading(const CycleTime& time) noexcept {
   if (reading.inputs.negative_limit || reading.inputs.positive_limit) joint_.notice(Notice::kAtLimitSwitch);
   // A drive that is off may be unreadable; it then cannot be enabled, which is enough.
   if (joint_.mode.is(Mode::kOff)) return;
-  if (reading.fault != ActuatorFault::kNone) return raise_fault(fault_of(reading.fault), time);
+  if (reading.fault != ActuatorFault::kNone)
+    return raise_fault(kFaults[static_cast<std::size_t>(reading.fault)], time);
   if (joint_.drive.too_many_missed()) raise_fault(Fault::kReadFailed, time);
 }
 
@@ -206,27 +188,7 @@ void JointLoop::note_standing() noexcept {
 
 void JointLoop::publish(const CycleTime& time) noexcept {
   note_standing();
-  const JointLaw& law = joint_.law;
-  const JointController& controller = law.controller();
-  JointCycle cycle{time,        joint_.mode,    joint_.drive.reading(),     law.motion(),
-                   joint_.zero, joint_.ordered, joint_.drive.temperature(), controller.temperature_weights()};
-  cycle.target_rad = joint_.ordered.on_path()
-                         ? joint_.zero.to_drive_rad(joint_.path->path.last().position_rad)
-                         : controller.plan().trajectory().target_rad();
-  cycle.joint_velocity_rad_s = joint_.velocity_rad_s();
-  if (joint_.mode.controlled()) cycle.inertia_kgm2 = law.inertia_kgm2();
-  if (const TableSlot* table = law.table(); table != nullptr) {
-    cycle.table_id = table->id;
-    cycle.friction_rules_id = table->friction_rules_id;
-    cycle.friction_rules = &table->table.friction;
-  }
-  cycle.notices = joint_.notices;
-  cycle.yield = joint_.yield;
-  cycle.learned = controller.friction().learned();
-  cycle.friction_factor = controller.friction().factor();
-  cycle.friction = law.friction_history();
-  cycle.late_samples = joint_.stream.late_samples;
-  fill_record(cycle, record_);
+  fill_record(joint_, time, record_);
   if (recorder_ != nullptr)
     recorder_->write(flight_sample(record_, time, joint_.drive.reading().drive_state, joint_.drive.fresh()));
 }
