@@ -16,20 +16,9 @@ constexpr double kStandsShare = 0.1;
 }  // namespace
 
 bool Homing::active(const JointInputs& inputs) const noexcept {
-  switch (config_.target) {
-    case HomingTarget::kHomeSwitch:
-      return inputs.home;
-    case HomingTarget::kNegativeLimit:
-      return inputs.negative_limit;
-    case HomingTarget::kPositiveLimit:
-      return inputs.positive_limit;
-    case HomingTarget::kIndex:
-    case HomingTarget::kNegativeStop:
-    case HomingTarget::kPositiveStop:
-    case HomingTarget::kNone:
-      return false;
-  }
-  return false;
+  return (config_.target == HomingTarget::kHomeSwitch && inputs.home) ||
+         (config_.target == HomingTarget::kNegativeLimit && inputs.negative_limit) ||
+         (config_.target == HomingTarget::kPositiveLimit && inputs.positive_limit);
 }
 
 // A limit switch in the direction of motion that is not the one looked for.
@@ -111,12 +100,9 @@ Homing::Order Homing::step(const Observation& observation) noexcept {
     case Phase::kResting:
       if (observation.at_rest) phase_ = Phase::kDone;
       return {};
-    case Phase::kIdle:
-    case Phase::kDone:
-    case Phase::kFailed:
+    default:
       return {};
   }
-  return {};
 }
 
 Homing::Order Homing::search(const Observation& observation) noexcept {

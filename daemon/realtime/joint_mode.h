@@ -24,7 +24,7 @@ enum class ModeEvent {
   kArrived,           ///< the reference rests at its end; after kHomeOrdered: where homing ended
   kDisableOrdered,    ///< a command to disable, or the end of the daemon
   kStopped,           ///< the joint stands still after kDisableOrdered
-  kFaultCleared,  ///< a command to clear
+  kFaultCleared,      ///< a command to clear
 };
 
 /// The mode after `event`, or nothing when the event means nothing in this mode (a command is then refused).

@@ -47,7 +47,7 @@ RealtimeLoop::~RealtimeLoop() {
 
 void RealtimeLoop::start() {
   refusals_.real_time = lock_memory();
-  refusals_.sleep_states = dma_latency_.request();
+  awake_ = avoid_sleep_states(refusals_.sleep_states);
   thread_ = std::thread([this] { thread_main(); });
   while (!signals_.set_up.load(std::memory_order_acquire))
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

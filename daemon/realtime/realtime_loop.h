@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "daemon/gateway/shared_memory.h"
-#include "daemon/realtime/dma_latency.h"
 #include "daemon/realtime/histogram.h"
 #include "daemon/realtime/joint_group.h"
 #include "daemon/realtime/joint_loop.h"
@@ -111,7 +110,7 @@ class RealtimeLoop {
   std::unique_ptr<JointGroups> groups_;
   std::thread thread_;
   Refusals refusals_;
-  DmaLatency dma_latency_;
+  UniqueFd awake_;  ///< keeps the processors out of sleep states
   Signals signals_;
   Progress progress_;
   OverrunWatch overrun_watch_;

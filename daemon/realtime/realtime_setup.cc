@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/realtime/realtime_setup.h"
 
+#include <fcntl.h>
 #include <linux/capability.h>
 #include <malloc.h>
 #include <pthread.h>
@@ -8,9 +9,11 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
@@ -150,6 +153,19 @@ std::string make_thread_real_time(int priority, int cpu) {
     return "SCHED_FIFO priority " + std::to_string(priority) + " is refused (" + error_text(error) +
            "): " + real_time_remedy(real_time_rights(), priority);
   return "";
+}
+
+UniqueFd avoid_sleep_states(std::string& refusal, const std::string& file) {
+  UniqueFd descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  const bool absent = !descriptor && errno == ENOENT;
+  const std::int32_t latency_us = 0;
+  const bool granted =
+      descriptor && ::write(descriptor.get(), &latency_us, sizeof latency_us) == sizeof latency_us;
+  refusal = absent || granted ? ""
+                              : file + " cannot be written (" + error_text(errno) +
+                                    "): wake-ups may be late by the sleep states' exit times; allow the "
+                                    "service to write it";
+  return descriptor;
 }
 
 long thread_page_faults() noexcept {

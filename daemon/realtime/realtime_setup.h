@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "base/unique_fd.h"
+
 namespace strainwave {
 
 /// Locks all memory, present and future, switches transparent huge pages off, and has malloc keep freed memory. Empty when granted, else
@@ -36,6 +38,10 @@ struct RealTimeRights {
 RealTimeRights real_time_rights();
 /// Which of them is missing for `priority`, and what to do.
 std::string real_time_remedy(const RealTimeRights& rights, int priority);
+
+/// Keeps the processors out of deep sleep states while the descriptor stays open: their wake-up would add to every period. `refusal`
+/// is empty when that is granted, else why not and what to do; a machine without that file (a virtual one) has nothing to ask for.
+UniqueFd avoid_sleep_states(std::string& refusal, const std::string& file = "/dev/cpu_dma_latency");
 
 /// Page faults of the calling thread so far, minor and major. Real-time safe.
 long thread_page_faults() noexcept;

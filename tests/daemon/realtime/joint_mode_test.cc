@@ -10,11 +10,10 @@ namespace {
 
 constexpr std::array kModes{Mode::kOff,      Mode::kStarting, Mode::kHolding, Mode::kTracking,
                             Mode::kStopping, Mode::kFaulted,  Mode::kHoming,  Mode::kReleasing};
-constexpr std::array kEvents{ModeEvent::kEnableOrdered,    ModeEvent::kDriveReady,
-                             ModeEvent::kSetpointAccepted, ModeEvent::kArrived,
-                             ModeEvent::kDisableOrdered,   ModeEvent::kStopped,
-                             ModeEvent::kFaultCleared,
-                             ModeEvent::kHomeOrdered,      ModeEvent::kTorqueReady};
+constexpr std::array kEvents{
+    ModeEvent::kEnableOrdered, ModeEvent::kDriveReady,     ModeEvent::kSetpointAccepted,
+    ModeEvent::kArrived,       ModeEvent::kDisableOrdered, ModeEvent::kStopped,
+    ModeEvent::kFaultCleared,  ModeEvent::kHomeOrdered,    ModeEvent::kTorqueReady};
 
 TEST(ModeMachine, LeavesFaultedOnlyByAClearAndOnlyToOff) {
   for (const ModeEvent event : kEvents) {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -18,6 +19,16 @@
 
 namespace strainwave {
 namespace {
+
+namespace fs = std::filesystem;
+
+bool held_open(const fs::path& file) {
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;
+    if (fs::read_symlink(entry.path(), gone) == file) return true;
+  }
+  return false;
+}
 
 TEST(RealtimeSetup, SwitchesTransparentHugePagesOff) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
@@ -38,6 +49,27 @@ TEST(RealtimeSetup, WarnsOfAKernelThatMovesLockedMemoryAndOfNoOther) {
   EXPECT_EQ(compaction_warning(path), "");
   std::ofstream(path) << "1\n";
   EXPECT_NE(compaction_warning(path).find("compact_unevictable_allowed=0"), std::string::npos);
+}
+
+TEST(RealtimeSetup, AsksForNoWakeUpLatencyAsLongAsItsFileIsOpenAndNoLonger) {
+  const TemporaryFolder folder;
+  const fs::path file = fs::canonical(folder.path()) / "cpu_dma_latency";
+  std::string refusal;
+  EXPECT_FALSE(avoid_sleep_states(refusal, file));
+  EXPECT_EQ(refusal, "") << "no such file: nothing to ask for";
+  EXPECT_FALSE(fs::exists(file));
+  std::ofstream(file) << "";
+  {
+    const UniqueFd awake = avoid_sleep_states(refusal, file);
+    EXPECT_EQ(refusal, "");
+    EXPECT_TRUE(held_open(file)) << "the kernel forgets the wish when the file is closed";
+    std::int32_t wanted_us = -1;
+    std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(&wanted_us), sizeof wanted_us);
+    EXPECT_EQ(wanted_us, 0);
+  }
+  EXPECT_FALSE(held_open(file));
+  EXPECT_FALSE(avoid_sleep_states(refusal, folder.path()));
+  EXPECT_NE(refusal.find(folder.path().string()), std::string::npos) << "a folder cannot be written";
 }
 
 TEST(RealtimeSetup, NamesTheCapabilityAndTheLimitThatAreMissing) {

@@ -1,70 +1,81 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "daemon/realtime/reading_watch.h"
-
-#include <gtest/gtest.h>
+#include "daemon/realtime/joint_drive.h"
 
 #include <limits>
 
-namespace strainwave {
+#include "lcmtypes/reading_doubt.h"
+#include "tests/daemon/realtime/scripted_joint.h"
+
+namespace strainwave::testing {
 namespace {
 
-class ReadingWatchTest : public ::testing::Test {
+class JointDriveTest : public ::testing::Test {
  protected:
-  ReadingWatchTest() : watch_({0.001, 5.0, 2e-5}, 3) {
+  static JointLoopConfig config() {
+    JointLoopConfig config;
+    config.limits.overspeed_rad_s = 5.0;
+    config.controller.encoder_resolution_rad = 2e-5;
+    config.missed_readings_limit = 3;
+    return config;
+  }
+  JointDriveTest() {
     reading_.has_position = true;
     reading_.drive_state = DriveState::kEnabled;
   }
   const ActuatorReading& take(bool controlled = true, double velocity_rad_s = 0.0) {
     time_.now_ns += 1'000'000;
     ++time_.cycle;
-    return watch_.take(reading_, controlled, velocity_rad_s, time_);
+    actuator_->reading = reading_;
+    drive_.read(controlled, velocity_rad_s, time_);
+    return drive_.reading();
   }
-  ReadingWatch watch_;
+  ScriptedActuator* actuator_ = new ScriptedActuator;
+  JointDrive drive_{config(), std::unique_ptr<Actuator>(actuator_)};
   ActuatorReading reading_;
   CycleTime time_;
 };
 
-TEST_F(ReadingWatchTest, PassesAGoodReadingOnAsItIs) {
+TEST_F(JointDriveTest, PassesAGoodReadingOnAsItIs) {
   reading_.joint_position_rad = 0.5;
   reading_.joint_velocity_rad_s = 0.25;
   reading_.has_velocity = true;
   EXPECT_EQ(take().joint_position_rad, 0.5);
-  EXPECT_EQ(watch_.reading().joint_velocity_rad_s, 0.25);
-  EXPECT_TRUE(watch_.fresh());
-  EXPECT_FALSE(watch_.missed());
+  EXPECT_EQ(drive_.reading().joint_velocity_rad_s, 0.25);
+  EXPECT_TRUE(drive_.fresh());
+  EXPECT_FALSE(drive_.missed());
 }
 
-TEST_F(ReadingWatchTest, CarriesAMissingPositionOnByTheVelocityOfAControlledJointOnly) {
+TEST_F(JointDriveTest, CarriesAMissingPositionOnByTheVelocityOfAControlledJointOnly) {
   reading_.joint_position_rad = 0.5;
   take();
   reading_.has_position = false;
   EXPECT_DOUBLE_EQ(take(true, 2.0).joint_position_rad, 0.502);
   EXPECT_DOUBLE_EQ(take(true, 2.0).joint_position_rad, 0.504);
   EXPECT_DOUBLE_EQ(take(false, 2.0).joint_position_rad, 0.504);
-  EXPECT_FALSE(watch_.fresh());
-  EXPECT_EQ(watch_.reading().fault, ActuatorFault::kNone);
+  EXPECT_FALSE(drive_.fresh());
+  EXPECT_EQ(drive_.reading().fault, ActuatorFault::kNone);
 }
 
-TEST_F(ReadingWatchTest, CountsMissesInARowAndForgivesThemWhenTold) {
-  EXPECT_TRUE(watch_.too_many_missed()) << "nothing has been heard";
+TEST_F(JointDriveTest, CountsMissesInARowAndForgivesThemWhenTold) {
+  EXPECT_TRUE(drive_.too_many_missed()) << "nothing has been heard";
   take();
-  EXPECT_FALSE(watch_.missed());
+  EXPECT_FALSE(drive_.missed());
   reading_.has_position = false;
   for (int i = 0; i < 3; ++i) take();
-  EXPECT_TRUE(watch_.missed());
-  EXPECT_FALSE(watch_.too_many_missed());
+  EXPECT_TRUE(drive_.missed());
+  EXPECT_FALSE(drive_.too_many_missed());
   take();
-  EXPECT_TRUE(watch_.too_many_missed());
-  watch_.forgive();
-  EXPECT_FALSE(watch_.missed());
+  EXPECT_TRUE(drive_.too_many_missed());
+  drive_.clear_fault();
+  EXPECT_FALSE(drive_.missed());
   for (int i = 0; i < 3; ++i) take();
-  EXPECT_FALSE(watch_.too_many_missed());
+  EXPECT_FALSE(drive_.too_many_missed());
   reading_.has_position = true;
   take();
-  EXPECT_FALSE(watch_.missed());
+  EXPECT_FALSE(drive_.missed());
 }
 
-TEST_F(ReadingWatchTest, CallsWhatIsNoNumberImplausibleAndGoesOnWithNumbers) {
+TEST_F(JointDriveTest, CallsWhatIsNoNumberImplausibleAndGoesOnWithNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   take();
   for (double ActuatorReading::*field :
@@ -78,7 +89,7 @@ TEST_F(ReadingWatchTest, CallsWhatIsNoNumberImplausibleAndGoesOnWithNumbers) {
   }
 }
 
-TEST_F(ReadingWatchTest, SaysWhichOfItsCausesAnImplausibleReadingHas) {
+TEST_F(JointDriveTest, SaysWhichOfItsCausesAnImplausibleReadingHas) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   take();
   reading_.joint_position_rad = nan;
@@ -102,25 +113,25 @@ TEST_F(ReadingWatchTest, SaysWhichOfItsCausesAnImplausibleReadingHas) {
   EXPECT_EQ(take().drive_error, 0x2310U) << "no doubt takes the place of the drive's own number";
 }
 
-TEST_F(ReadingWatchTest, SaysHowFarAStuckSensorMustHaveMoved) {
-  watch_.set_joint(0.1, 1.0);
+TEST_F(JointDriveTest, SaysHowFarAStuckSensorMustHaveMoved) {
+  drive_.set_joint(0.1, 1.0);
   take();
-  for (int i = 0; i < 100 && watch_.reading().fault == ActuatorFault::kNone; ++i) {
+  for (int i = 0; i < 100 && drive_.reading().fault == ActuatorFault::kNone; ++i) {
     if (i == 10) reading_.torque_applied_Nm = 20.0;
     take();
   }
-  EXPECT_EQ(watch_.reading().fault, ActuatorFault::kImplausible);
-  EXPECT_EQ(watch_.reading().drive_error >> 24U, static_cast<std::uint32_t>(ReadingDoubt::kStuck));
-  EXPECT_GE(watch_.reading().drive_error & 0xFFFFFFU, 200U) << "ten counts";
+  EXPECT_EQ(drive_.reading().fault, ActuatorFault::kImplausible);
+  EXPECT_EQ(drive_.reading().drive_error >> 24U, static_cast<std::uint32_t>(ReadingDoubt::kStuck));
+  EXPECT_GE(drive_.reading().drive_error & 0xFFFFFFU, 200U) << "ten counts";
 }
 
-TEST_F(ReadingWatchTest, IgnoresAVelocityThatNobodyVouchesFor) {
+TEST_F(JointDriveTest, IgnoresAVelocityThatTheDriveDoesNotGive) {
   reading_.joint_velocity_rad_s = std::numeric_limits<double>::quiet_NaN();
   take();
-  EXPECT_TRUE(watch_.fresh());
+  EXPECT_TRUE(drive_.fresh());
 }
 
-TEST_F(ReadingWatchTest, CallsAJumpOfADrivenJointImplausible) {
+TEST_F(JointDriveTest, CallsAJumpOfADrivenJointImplausible) {
   take();
   reading_.joint_position_rad = 0.5;
   EXPECT_EQ(take().fault, ActuatorFault::kImplausible);
@@ -128,7 +139,7 @@ TEST_F(ReadingWatchTest, CallsAJumpOfADrivenJointImplausible) {
   EXPECT_EQ(take(false).fault, ActuatorFault::kNone) << "somebody may turn a joint that is off";
 }
 
-TEST_F(ReadingWatchTest, LeavesTheDrivesOwnFaultInItsPlace) {
+TEST_F(JointDriveTest, LeavesTheDrivesOwnFaultInItsPlace) {
   take();
   reading_.joint_position_rad = 0.5;
   reading_.fault = ActuatorFault::kPowerLost;
@@ -136,4 +147,4 @@ TEST_F(ReadingWatchTest, LeavesTheDrivesOwnFaultInItsPlace) {
 }
 
 }  // namespace
-}  // namespace strainwave
+}  // namespace strainwave::testing
