@@ -35,18 +35,14 @@ void FrictionLearning::set(const LearnedFriction& learned) noexcept {
 }
 
 void FrictionLearning::blend() noexcept {
-  friction_ = {};
+  TemperatureWeights scaled = weights_;
+  scaled.count = std::min(weights_.count, table_.rule_count);
   double squares = 0.0;
-  const auto count = static_cast<std::size_t>(std::min(weights_.count, table_.rule_count));
-  for (std::size_t i = 0; i < count; ++i) {
-    const FrictionParameters& rule = table_.rules[i].friction;
-    const double weight = weights_.weight[i];
-    const double scaled = weight * (1.0 + learned_.scale[i]);
-    friction_.static_Nm += scaled * rule.static_Nm;
-    friction_.coulomb_Nm += scaled * rule.coulomb_Nm;
-    friction_.viscous_Nms_rad += scaled * rule.viscous_Nms_rad;
-    squares += weight * weight;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(scaled.count); ++i) {
+    squares += weights_.weight[i] * weights_.weight[i];
+    scaled.weight[i] *= 1.0 + learned_.scale[i];
   }
+  friction_ = table_.blend(scaled);
   reciprocal_squares_ = squares > 0.0 ? 1.0 / squares : 0.0;
 }
 

@@ -17,10 +17,8 @@ constexpr double kHalfUlp = 0.5 * std::numeric_limits<double>::epsilon();
 constexpr double kLargestEntry = 0x1p400;
 constexpr double kSmallestDiagonal = 0x1p-400;
 
-// Each sweep squares what is left beside the diagonal: a handful does.
-constexpr int kMostSweeps = 30;
-// Beside a diagonal near 1: less than its rounding.
-constexpr double kNegligible = 0x1p-6 * kHalfUlp;
+// Halvings of the range in which the smallest eigenvalue lies: to 1e-12 of its width.
+constexpr int kHalvings = 40;
 
 struct Balanced {
   ProofMatrix matrix;
@@ -80,43 +78,25 @@ bool cholesky_succeeds(const ProofMatrix& matrix, int size) noexcept {
   return true;
 }
 
-// The rotation that makes (p, q) zero.
-void rotate(ProofMatrix& matrix, int p, int q) noexcept {
-  const double beside = matrix(p, q);
-  const double cotangent = (matrix(q, q) - matrix(p, p)) / (2.0 * beside);  // of twice the angle
-  const double tangent =
-      std::copysign(1.0, cotangent) / (std::abs(cotangent) + std::sqrt(1.0 + cotangent * cotangent));
-  const double c = 1.0 / std::sqrt(1.0 + tangent * tangent);
-  const double s = tangent * c;
-  matrix(p, p) -= tangent * beside;
-  matrix(q, q) += tangent * beside;
-  matrix(p, q) = matrix(q, p) = 0.0;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    if (i == p || i == q) continue;
-    const double at_p = matrix(i, p);
-    const double at_q = matrix(i, q);
-    matrix(i, p) = matrix(p, i) = c * at_p - s * at_q;
-    matrix(i, q) = matrix(q, i) = s * at_p + c * at_q;
-  }
+ProofMatrix shifted(ProofMatrix matrix, int size, double shift) noexcept {
+  for (int i = 0; i < size; ++i) matrix(i, i) -= shift;
+  return matrix;
 }
 
-// Jacobi's cyclic method. Compiling Eigen's solver takes longer than the rest of the proofs. Source: Golub and Van Loan, "Matrix
-// Computations", section 8.5.
-double smallest_eigenvalue(ProofMatrix matrix, int size) noexcept {
-  bool diagonal = false;
-  for (int sweep = 0; !diagonal && sweep < kMostSweeps; ++sweep) {
-    diagonal = true;
-    for (int p = 0; p < size; ++p) {
-      for (int q = p + 1; q < size; ++q) {
-        if (std::abs(matrix(p, q)) <= kNegligible) continue;
-        diagonal = false;
-        rotate(matrix, p, q);
-      }
-    }
+// The largest shift at which Cholesky succeeds, within the circles of Gershgorin. Compiling Eigen's solver takes longer than the rest of
+// the proofs.
+double smallest_eigenvalue(const ProofMatrix& matrix, int size) noexcept {
+  double low = matrix(0, 0);
+  double high = low;
+  for (int i = 0; i < size; ++i) {
+    low = std::min(low, 2.0 * matrix(i, i) - matrix.row(i).cwiseAbs().sum());
+    high = std::min(high, matrix(i, i));
   }
-  double smallest = matrix(0, 0);
-  for (int i = 1; i < size; ++i) smallest = std::min(smallest, matrix(i, i));
-  return smallest;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (cholesky_succeeds(shifted(matrix, size, middle), size) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace

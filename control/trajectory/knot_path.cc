@@ -157,75 +157,36 @@ Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s
   return std::nullopt;
 }
 
-// Of the number that is wrong.
-const char* name_of(const PathDefect& defect) {
-  switch (defect.kind) {
-    case PathDefect::Kind::kCount:
-      return "knot_count = ";
-    case PathDefect::Kind::kNotFinite:
-      return defect.number;
-    case PathDefect::Kind::kTime:
-    case PathDefect::Kind::kDuration:
-      return "time_s = ";
-    case PathDefect::Kind::kNotAtRest:
-      return "velocity_rad_s = ";
-    case PathDefect::Kind::kPosition:
-      return "position_rad = ";
-    case PathDefect::Kind::kSpeed:
-      return "speed in rad/s = ";
-    case PathDefect::Kind::kAcceleration:
-      return "acceleration in rad/s^2 = ";
-    case PathDefect::Kind::kDeceleration:
-      return "deceleration in rad/s^2 = ";
-    case PathDefect::Kind::kTorque:
-      return "torque of the inertia alone in N.m = ";
-  }
-  return "";
-}
+// Of the number that is wrong, and of the key that bounds it from above, by kind of defect.
+struct Words {
+  const char* name;
+  const char* key;
+};
+constexpr std::array kWords{Words{"knot_count = ", ""},
+                            Words{"", ""},
+                            Words{"time_s = ", ""},
+                            Words{"time_s = ", ""},
+                            Words{"velocity_rad_s = ", ""},
+                            Words{"position_rad = ", "position_max_rad"},
+                            Words{"speed in rad/s = ", "speed_limit_rad_s"},
+                            Words{"acceleration in rad/s^2 = ", "acceleration_rad_s2"},
+                            Words{"deceleration in rad/s^2 = ", "deceleration_rad_s2"},
+                            Words{"torque of the inertia alone in N.m = ", "torque_limit_Nm"}};
+static_assert(kWords.size() == static_cast<std::size_t>(PathDefect::Kind::kTorque) + 1);
 
 // What would be right, and where the limit is set.
-std::string what_is_allowed(const PathDefect& defect) {
-  const bool above = defect.value > defect.bound;
+std::string what_is_allowed(const PathDefect& defect, const Words& words) {
   const std::string bound = bound_text(defect.bound);
-  std::ostringstream text;
-  const auto at_most = [&](const char* key) {
-    text << "at most " << bound << " is allowed (joint.limits." << key << ")";
-  };
-  switch (defect.kind) {
-    case PathDefect::Kind::kCount:
-    case PathDefect::Kind::kNotFinite:
-      text << "a finite number is allowed";
-      break;
-    case PathDefect::Kind::kTime:
-      if (defect.knot == 0)
-        text << "0 is allowed, the first knot begins the path";
-      else
-        text << "at least " << bound << " is allowed, a period after the knot before";
-      break;
-    case PathDefect::Kind::kDuration:
-      text << "at most " << bound << " is allowed";
-      break;
-    case PathDefect::Kind::kNotAtRest:
-      text << "0 is allowed, a path begins and ends at rest";
-      break;
-    case PathDefect::Kind::kPosition:
-      if (above) at_most("position_max_rad");
-      if (!above) text << "at least " << bound << " is allowed (joint.limits.position_min_rad)";
-      break;
-    case PathDefect::Kind::kSpeed:
-      at_most("speed_limit_rad_s");
-      break;
-    case PathDefect::Kind::kAcceleration:
-      at_most("acceleration_rad_s2");
-      break;
-    case PathDefect::Kind::kDeceleration:
-      at_most("deceleration_rad_s2");
-      break;
-    case PathDefect::Kind::kTorque:
-      at_most("torque_limit_Nm");
-      break;
-  }
-  return text.str();
+  if (defect.kind == PathDefect::Kind::kNotFinite) return "a finite number is allowed";
+  if (defect.kind == PathDefect::Kind::kNotAtRest) return "0 is allowed, a path begins and ends at rest";
+  if (defect.kind == PathDefect::Kind::kTime && defect.knot == 0)
+    return "0 is allowed, the first knot begins the path";
+  if (defect.kind == PathDefect::Kind::kTime)
+    return "at least " + bound + " is allowed, a period after the knot before";
+  if (defect.kind == PathDefect::Kind::kPosition && !(defect.value > defect.bound))
+    return "at least " + bound + " is allowed (joint.limits.position_min_rad)";
+  const std::string key = words.key;
+  return "at most " + bound + " is allowed" + (key.empty() ? "" : " (joint.limits." + key + ")");
 }
 
 }  // namespace
@@ -277,8 +238,9 @@ std::string describe(const PathDefect& defect) {
   }
   text << "knot " << defect.knot;
   if (std::isfinite(defect.time_s)) text << " (at " << defect.time_s << " s)";
-  text << ": " << name_of(defect) << beyond_text(defect.value, defect.bound) << ": "
-       << what_is_allowed(defect);
+  const Words& words = kWords[static_cast<std::size_t>(defect.kind)];
+  text << ": " << words.name << defect.number << beyond_text(defect.value, defect.bound) << ": "
+       << what_is_allowed(defect, words);
   return text.str();
 }
 
