@@ -30,12 +30,6 @@ TEST(Friction, BeginsWithStaticFrictionAndBecomesCoulombPlusViscous) {
   EXPECT_DOUBLE_EQ(stribeck_friction_Nm(friction, shape, 1.0), 3.6 + 2.3);
 }
 
-TEST(Friction, AlwaysOpposesTheMotion) {
-  const FrictionParameters friction{4.4, 3.6, 0.0};
-  for (const double velocity_rad_s : {1e-300, 1e-6, 0.01, 0.1, 10.0, 1e300})
-    EXPECT_GE(stribeck_friction_Nm(friction, {0.042, 2.0}, velocity_rad_s), 3.6) << velocity_rad_s;
-}
-
 TEST(Friction, TheTemperatureLawFallsWithWarmthAndIsNeverNegative) {
   const ExponentialTemperatureLaw law{{1.5, 0.7, -0.5}, {3.0, 3.0, 2.0}, -10.0, 11.0};
   double last_Nm = std::numeric_limits<double>::infinity();

@@ -26,21 +26,6 @@ TEST(FuzzyFriction, IsOddInVelocityAtEveryTemperature) {
   }
 }
 
-TEST(FuzzyFriction, ABlendLiesBetweenItsRules) {
-  const FuzzyFriction friction = shipped();
-  double least_Nm = std::numeric_limits<double>::infinity();
-  double most_Nm = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(friction.rule_count); ++i) {
-    least_Nm = std::min(least_Nm, friction.rules[i].friction.static_Nm);
-    most_Nm = std::max(most_Nm, friction.rules[i].friction.static_Nm);
-  }
-  for (double temperature_C = -100.0; temperature_C < 200.0; temperature_C += 0.9) {
-    const double static_Nm = friction.blend(friction.weights(temperature_C)).static_Nm;
-    EXPECT_GE(static_Nm, least_Nm * (1.0 - 1e-14)) << temperature_C;
-    EXPECT_LE(static_Nm, most_Nm * (1.0 + 1e-14)) << temperature_C;
-  }
-}
-
 TEST(FuzzyFriction, AtACrawlItIsStaticFrictionAndAtSpeedCoulombPlusViscous) {
   const FuzzyFriction friction = shipped();
   const FrictionParameters parameters{4.4, 3.6, 2.3};

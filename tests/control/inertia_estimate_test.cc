@@ -138,16 +138,5 @@ TEST(InertiaEstimate, IsTheSameForFasterAndSlowerLoops) {
   }
 }
 
-TEST(InertiaEstimate, IsForgottenWithTheLoad) {
-  Case what;
-  what.joint = with_friction(table_for(what.told_kgm2), what.temperature_C, 1.0);
-  Watched watched(what);
-  EXPECT_FALSE(watched.estimate().inertia_kgm2());
-  watched.move({0.3, 0.0});
-  ASSERT_TRUE(watched.estimate().inertia_kgm2());
-  watched.estimate().forget();
-  EXPECT_FALSE(watched.estimate().inertia_kgm2());
-}
-
 }  // namespace
 }  // namespace strainwave::testing

@@ -195,28 +195,6 @@ TEST(JointControllerWithLink, BeginsTheMotionInThePeriodOfTheOrder) {
   EXPECT_GT(loop.step().output.torque_Nm, 5.0);
 }
 
-TEST(JointControllerWithLink, ComesToRestFromTheMotionThatItFinds) {
-  const JointPlantConfig plant = plant_with(0.089);
-  JointController controller(config_for(plant));
-  controller.load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.178/c4.json"));
-  controller.start(0.3, 2.0);
-  JointMeasurement measurement;
-  measurement.temperature_C = 20.0;
-  measurement.temperature_valid = true;
-  double last_rad = 0.3 - 2.0 * 1e-3;  // the delay's period ago
-  measurement.joint_position_rad = 0.3;
-  for (int k = 0; k < 500; ++k) {
-    const JointStep step = controller.step(measurement);
-    if (k > 0) {
-      EXPECT_LE(std::abs(step.reference.position_rad - last_rad), 3.0 * 1e-3) << "no jump";
-    }
-    last_rad = step.reference.position_rad;
-    measurement.joint_position_rad = last_rad;
-  }
-  EXPECT_GT(last_rad, 0.3);
-  EXPECT_EQ(last_rad, controller.plan().trajectory().target_rad());
-}
-
 TEST(JointControllerWithLink, AllocatesNothing) {
   if (!AllocationTrap::available()) GTEST_SKIP() << "the sanitizer has its own malloc";
   const JointPlantConfig plant = plant_with(0.089);

@@ -198,14 +198,5 @@ TEST(JointController, LearnsFrictionThatIsNotTheTables) {
   }
 }
 
-TEST(JointController, LearnsNothingWhileFrozen) {
-  JointPlantConfig plant = realistic_plant();
-  plant.joint.friction.asymptote.coulomb_Nm *= 2.0;
-  ControlledJoint loop(plant);
-  loop.controller().friction().freeze(true);
-  rms_error_rad(loop);
-  EXPECT_EQ(loop.controller().friction().learned(), LearnedFriction{});
-}
-
 }  // namespace
 }  // namespace strainwave::testing

@@ -76,20 +76,6 @@ TEST(KnotPath, PassesThroughItsKnotsWithTheirVelocities) {
   }
 }
 
-TEST(KnotPath, HasNoStepInPositionAndVelocity) {
-  std::mt19937 random(2);
-  const KnotPath path = random_path(random);
-  PathReader reader;
-  const double fastest = needs_of(path).speed;
-  PathPoint last = reader.at(path, 0.0);
-  for (double t = 1e-6; t < path.duration_s(); t += 1e-4) {
-    const PathPoint now = reader.at(path, t);
-    EXPECT_LE(std::abs(now.position_rad - last.position_rad), 1.01e-4 * fastest);
-    EXPECT_NEAR(now.velocity_rad_s, last.velocity_rad_s, 0.2) << t;
-    last = now;
-  }
-}
-
 TEST(KnotPath, VelocityAndAccelerationAreTheDerivatives) {
   std::mt19937 random(3);
   const KnotPath path = random_path(random);
@@ -183,20 +169,6 @@ TEST(KnotPath, NamesKnotTimeValueAndLimit) {
   EXPECT_EQ(describe(*find_defect(path, limits)),
             "knot 1 (at 1 s): torque of the inertia alone in N.m = 3: at most 2.9 is allowed "
             "(joint.limits.torque_limit_Nm)");
-}
-
-TEST(KnotPath, NamesABoundThatItTakes) {
-  PathLimits limits = wide();
-  limits.motion.velocity_rad_s = 1.4142135;
-  const KnotPath fast = make_path({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}});
-  EXPECT_NE(describe(*find_defect(fast, limits)).find("at most 1.4142135 is allowed"), std::string::npos)
-      << describe(*find_defect(fast, limits));
-  limits = wide();
-  limits.range.max_rad = 0.9;
-  const KnotPath beyond = make_path({{0, 0, 0}, {1, 0.90000001, 0}});
-  EXPECT_NE(describe(*find_defect(beyond, limits)).find("position_rad = 0.90000001: at most 0.9 is"),
-            std::string::npos)
-      << describe(*find_defect(beyond, limits));
 }
 
 TEST(KnotPath, NamesANumberThatIsNone) {

@@ -59,20 +59,6 @@ TEST(LawInUse, ContinuesNoTorqueOnceAnotherWasApplied) {
   EXPECT_GT(std::abs(next_torque_Nm(law) - expected_Nm), 0.01);
 }
 
-TEST(LawInUse, BeginsAnewWithNothingButItsTable) {
-  LawInUse law = running();
-  law.begin_anew();
-  EXPECT_EQ(law.integral_torque_Nm(), 0.0);
-  EXPECT_EQ(law.gains_in_use(), GainsInUse::kNone);
-}
-
-TEST(LawInUse, ACountMakesNothingWherePositionsAreExact) {
-  EXPECT_GT(running().count_torque_Nm(), 0.0);
-  LawInUse exact(kPeriod_s, 0.0);
-  exact.load(testing::shipped_table("c4"));
-  EXPECT_EQ(exact.count_torque_Nm(), 0.0);
-}
-
 GainTable with_lead(double lead_periods) {
   GainTable led = testing::shipped_table("c4");
   led.box.lead_periods = lead_periods;

@@ -27,21 +27,5 @@ TEST(MovingMean, IsTheIntegralOfACubicOverItsWidth) {
   EXPECT_NEAR(result.jerk_rad_s3, 6.0, 1e-9);
 }
 
-TEST(MovingMean, RestsExactlyWhereTheMotionHasEndedAndNotBefore) {
-  MovingMean mean(5, kPeriod_s);
-  mean.reset(1.0 / 3.0);
-  const MotionPoint end{0.7, 0.0, 0.0, 0.0};
-  for (int k = 1; k <= 5; ++k) {
-    const MotionPoint result = mean.step(end);
-    if (k < 5) {
-      EXPECT_NE(result.velocity_rad_s, 0.0);
-    }
-  }
-  const MotionPoint result = mean.step(end);
-  EXPECT_EQ(result.position_rad, 0.7);
-  EXPECT_EQ(result.velocity_rad_s, 0.0);
-  EXPECT_EQ(result.acceleration_rad_s2, 0.0);
-}
-
 }  // namespace
 }  // namespace strainwave

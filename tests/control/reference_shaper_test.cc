@@ -78,18 +78,6 @@ TEST(ReferenceShaper, ReturnsToWhereItBeganAtRestHoweverOftenItBeginsAnew) {
   EXPECT_EQ(shaper.target_rad(), 0.25);
 }
 
-TEST(ReferenceShaper, StartsAtRestWhereItWasReset) {
-  ReferenceShaper shaper(kPeriod_s);
-  shaper.reset(0.25, 0.0);
-  for (int k = 0; k < 5; ++k) {
-    const Reference reference = shaper.step();
-    EXPECT_EQ(reference.position_rad, 0.25);
-    EXPECT_EQ(reference.velocity_rad_s, 0.0);
-    EXPECT_EQ(reference.acceleration_rad_s2, 0.0);
-  }
-  EXPECT_TRUE(shaper.at_target());
-}
-
 TEST(ReferenceShaper, ReachesTheTargetExactlyAndStaysWithoutOvershootNearTheShortestTime) {
   Cases cases(1);
   for (int run = 0; run < 2000; ++run) {

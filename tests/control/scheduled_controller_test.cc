@@ -101,21 +101,6 @@ TEST(ScheduledController, ANewSetpointDoesNotRaiseTheSlowPartOfTheLyapunovFuncti
   EXPECT_NEAR(slow(used, 0.701, 0.0), before, 1e-12);
 }
 
-TEST(ScheduledController, AGainChangeMakesNoTorqueStep) {
-  std::mt19937_64 random(29);
-  std::uniform_real_distribution<double> error(-3e-3, 3e-3);
-  std::uniform_real_distribution<double> velocity(-0.5, 0.5);
-  for (int trial = 0; trial < 300; ++trial) {
-    ScheduledController outgoing = scheduled();
-    const ControllerInput input = input_at(error(random), velocity(random), 1e3);
-    for (int k = 0; k < 5; ++k) outgoing.step(input);
-    const double torque_Nm = outgoing.step(input).torque_Nm;
-    ScheduledController incoming(table().fallback, table().friction, table().plant);
-    incoming.carry_over(input, torque_Nm);
-    EXPECT_NEAR(incoming.step(input).torque_Nm, torque_Nm, 1e-9);
-  }
-}
-
 TEST(ScheduledController, ATemperatureChangeMovesTheTorqueByNoMoreThanFrictionAndGainsDiffer) {
   ScheduledController controller = scheduled();
   const ControllerInput input = input_at(0.0, 0.0);

@@ -64,19 +64,6 @@ TEST(StreamBuffer, CountsAsLateWhatComesAfterItsInstant) {
   EXPECT_EQ(buffer.take(stamped({0.02}, 6), kReach), SampleFate::kInTime);
 }
 
-TEST(StreamBuffer, EndsSoonAfterTheLastSampleOfAMotion) {
-  StreamBuffer buffer = begun();
-  for (int k = 0; k < 500; ++k) {
-    if (k % 10 == 0) buffer.take(stamped({0.001 * (k + 20), 1.0, 0.0, 1}, 20), kReach);
-    buffer.step();
-    ASSERT_FALSE(buffer.ended());
-  }
-  int more = 0;
-  for (; more < 300 && !buffer.ended(); ++more) buffer.step();
-  EXPECT_GT(more, 50);
-  EXPECT_LT(more, 90);
-}
-
 TEST(StreamBuffer, NeverEndsWhereItStandsStill) {
   StreamBuffer buffer = begun(0.3);
   for (int k = 0; k < 100; k += 10) buffer.take(stamped({0.3}, 20), kReach);
@@ -222,28 +209,6 @@ TEST(StreamBuffer, IsAfterSkippedPeriodsWhereItsSamplesAre) {
   EXPECT_FALSE(buffer.ended());
   buffer.skip(400);
   EXPECT_TRUE(buffer.ended());
-}
-
-TEST(ReferenceShaper, KeepsAllLimitsWhileItFollowsAnything) {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> place(-2.0, 2.0);
-  StreamBuffer buffer = begun();
-  ReferenceShaper shaper(kPeriod_s);
-  const MotionLimits limits{3.0, 40.0, 60.0};
-  const PositionRange range{-1.0, 1.0};
-  shaper.set_limits(limits);
-  double before_rad_s = 0.0;
-  for (int k = 0; k < 20000; ++k) {
-    if (k % 17 == 0)
-      buffer.take(stamped({place(random), 3.0 * place(random), 0.0, k % 3 == 0 ? 1 : 0}, 25), limits);
-    shaper.follow(buffer.step(), range);
-    const double change_rad_s2 = (std::abs(shaper.velocity_rad_s()) - std::abs(before_rad_s)) / kPeriod_s;
-    EXPECT_LE(std::abs(shaper.velocity_rad_s()), limits.velocity_rad_s * (1.0 + 1e-9));
-    EXPECT_LE(change_rad_s2, limits.acceleration_rad_s2 * (1.0 + 1e-9));
-    EXPECT_GE(change_rad_s2, -limits.deceleration_rad_s2 * (1.0 + 1e-9));
-    EXPECT_LE(std::abs(shaper.position_rad()), 1.0 + 1e-9);
-    before_rad_s = shaper.velocity_rad_s();
-  }
 }
 
 }  // namespace

@@ -11,14 +11,6 @@ namespace {
 // The gear of the source, and numbers that were worked out with a pocket calculator.
 constexpr double kRatio = 50.0;
 
-TEST(Units, ATorqueAtTheMotorIsRatioTimesAsLargeAtTheJoint) {
-  EXPECT_DOUBLE_EQ(joint_torque_Nm_from_motor_Ncm(6.0, kRatio), 3.0);
-}
-
-TEST(Units, ASpeedAtTheMotorIsRatioTimesAsSmallAtTheJoint) {
-  EXPECT_NEAR(joint_velocity_rad_s_from_motor_rpm(3000.0, kRatio), 6.283185307, 1e-9);
-}
-
 TEST(Units, AViscousTorqueIsTheSameWhetherItIsConvertedAsOneOrAsSpeedTimesCoefficient) {
   for (const double rpm : {1.0, 500.0, 3500.0}) {
     const double coefficient_Ncm_per_rpm = 0.0031;
@@ -28,13 +20,6 @@ TEST(Units, AViscousTorqueIsTheSameWhetherItIsConvertedAsOneOrAsSpeedTimesCoeffi
         joint_viscous_Nms_rad_from_motor_Ncm_per_rpm(coefficient_Ncm_per_rpm, kRatio) * velocity_rad_s,
         torque_Nm, 1e-12 * torque_Nm);
   }
-}
-
-TEST(Units, TheInversesGiveBackWhatWasConverted) {
-  EXPECT_DOUBLE_EQ(motor_torque_Ncm_from_joint_Nm(joint_torque_Nm_from_motor_Ncm(7.25, 80.0), 80.0), 7.25);
-  EXPECT_DOUBLE_EQ(motor_viscous_Ncm_per_rpm_from_joint_Nms_rad(
-                       joint_viscous_Nms_rad_from_motor_Ncm_per_rpm(0.004, 80.0), 80.0),
-                   0.004);
 }
 
 TEST(Units, TheSignOfNothingIsNothing) {

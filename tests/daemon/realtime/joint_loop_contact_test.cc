@@ -137,29 +137,6 @@ TEST(Contact, AFastJointIsTooFarFromItsOrdersBeforeItsLoadHasLasted) {
   }
 }
 
-TEST(Contact, AJointThatYieldsTakesNoSetpointUntilItHolds) {
-  JointBench bench({joint_before_a_wall(2000.0, false, OverloadStop::kHoldLoad)});
-  bench.bring_to_hold(0);
-  Order sample{.kind = OrderKind::kSetpoint,
-               .position_rad = 2.0 * kWall_rad,
-               .valid_for_s = 10.0,
-               .speed_limit_rad_s = kSpeed_rad_s,
-               .stream_id = 1,
-               .begins_stream = true,
-               .approaches = true,
-               .sent_us = bench.sent_us()};
-  ASSERT_EQ(bench.order(0, sample), Reason::kAccepted);
-  ASSERT_GE(bench.step_until([&] { return bench.has_notice(0, Notice::kLoadHigh); }, 2000), 0);
-  ASSERT_GE(bench.step_until([&] { return bench.state(0).torque_feedback_Nm == 0.0; }, 100), 0);
-  sample.begins_stream = false;
-  EXPECT_EQ(bench.order(0, sample), Reason::kStreamEnded) << "its stream is over";
-  EXPECT_EQ(bench.move(0, 0.1), Reason::kMoving);
-  bench.run(0.5);
-  EXPECT_EQ(bench.move(0, 0.1), Reason::kAccepted);
-  bench.run(1.0);
-  EXPECT_NEAR(bench.state(0).joint_position_rad, 0.1, 1e-4);
-}
-
 // A load that lasts lets the joint go only while that is pushed away. Caught, it is pushed again at once.
 TEST(Contact, ALoadThatIsBackAsSoonAsTheJointIsHeldIsAFaultOfTheLoad) {
   for (const bool flexible : {false, true})

@@ -166,16 +166,5 @@ TEST_F(JointLoopLimits, EnableADriveWhosePositionIsMissingInThisVeryPeriod) {
   EXPECT_EQ(loop_->mode(), Mode::kHolding);
 }
 
-TEST_F(JointLoopLimits, ShowTheFirstOfSeveralFaults) {
-  hold();
-  drive_->reading.fault = ActuatorFault::kPowerLost;
-  step();
-  drive_->reading.fault = ActuatorFault::kLinkLost;
-  drive_->reading.joint_position_rad = 50.0;
-  step();
-  EXPECT_EQ(fault(), Fault::kPowerLost);
-  EXPECT_EQ(loop_->record().state.faults_total, 1);
-}
-
 }  // namespace
 }  // namespace strainwave::testing

@@ -161,20 +161,6 @@ TEST_F(JointLoopOrders, AreRefusedBeforeTheirTime) {
   EXPECT_EQ(state().target_position_rad, state().setpoint_position_rad) << "what was refused is forgotten";
 }
 
-TEST_F(JointLoopOrders, NeverSurviveADisable) {
-  bench_.bring_to_hold(0);
-  ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);
-  bench_.run(0.1);
-  ASSERT_EQ(bench_.order(0, OrderKind::kDisable), Reason::kAccepted);
-  ASSERT_GE(bench_.step_until([&] { return bench_.mode(0) == Mode::kOff; }, 3000), 0);
-  bench_.run(1.0);
-  const double rest_rad = state().joint_position_rad;
-  ASSERT_EQ(bench_.order(0, OrderKind::kEnable), Reason::kAccepted);
-  bench_.run(2.0);
-  EXPECT_EQ(bench_.mode(0), Mode::kHolding);
-  EXPECT_NEAR(state().joint_position_rad, rest_rad, 1e-3);
-}
-
 TEST_F(JointLoopOrders, ShowNoticesWithTheLimitsInForce) {
   bench_.bring_to_hold(0);
   ASSERT_EQ(bench_.move(0, 3.0), Reason::kAccepted);

@@ -413,16 +413,5 @@ TEST(JointLoopStreaming, EndWithANoticeWhereTheirVelocitiesContradictTheirPositi
     }
 }
 
-TEST(JointLoopStreaming, CountTheirLateSamples) {
-  JointBench bench({demo_joint()});
-  bench.bring_to_hold(0);
-  for (int k = 0; k < 100; ++k) {
-    Order order = sample({.derivatives = 1, .ahead = 30}, bench.cycle() + 1, k);
-    if (k == 50) order.at_cycle = bench.cycle();
-    EXPECT_EQ(bench.order(0, order), k == 50 ? Reason::kCycleIsOver : Reason::kAccepted);
-  }
-  EXPECT_EQ(bench.state(0).late_samples, 1);
-}
-
 }  // namespace
 }  // namespace strainwave::testing

@@ -69,10 +69,6 @@ TEST(ModeMachine, TakesNoTorqueFromAControlledJointBeforeItCameToRest) {
       }
 }
 
-TEST(ModeMachine, TakesNoSetpointWhileItLooksForHome) {
-  EXPECT_FALSE(next_mode(Mode::kHoming, ModeEvent::kSetpointAccepted));
-}
-
 TEST(ModeMachine, ObeysADisableInEveryMode) {
   for (const Mode mode : kModes) EXPECT_TRUE(next_mode(mode, ModeEvent::kDisableOrdered).has_value());
 }

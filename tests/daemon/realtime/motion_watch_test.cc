@@ -37,12 +37,6 @@ class MotionWatchTest : public ::testing::Test {
   std::int64_t now_ns_ = 1'000'000'000;
 };
 
-TEST_F(MotionWatchTest, HasNothingAgainstAJointThatDoesWhatItIsOrdered) {
-  EXPECT_EQ(periods_until(Fault::kNone, 5000,
-                          [&] { motion_.ordered_reference.position_rad = position_rad_ += 0.001; }),
-            0);
-}
-
 TEST_F(MotionWatchTest, ComparesWithTheOrdersAndNotWithThePlanThatBeganAnewWhereTheJointIs) {
   motion_.reference.position_rad = position_rad_;
   motion_.ordered_reference.position_rad = 0.101;

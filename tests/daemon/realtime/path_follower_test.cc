@@ -86,77 +86,9 @@ class PathFollowerTest : public ::testing::Test {
       if (bench_.mode(i) != mode) return false;
     return true;
   }
-  /// The first cycle in which the setpoint has moved is the second of the path.
-  static double path_time_s(std::int64_t cycle, std::int64_t began) {
-    return static_cast<double>(cycle - began + 1) * kPeriod_s;
-  }
-  /// Largest distance of a joint from where its path was `late_s` before.
-  double farthest_when_late(std::int64_t began, double late_s) const {
-    double farthest_rad = 0.0;
-    for (std::size_t i = 0; i < traces_.size(); ++i) {
-      PathReader reader;
-      const KnotPath path = wave(i);
-      for (const state_v1& state : traces_[i].states) {
-        if (state.cycle < began) continue;
-        const double at_s = std::max(0.0, path_time_s(state.cycle, began) - late_s);
-        farthest_rad =
-            std::max(farthest_rad, std::abs(state.joint_position_rad - reader.at(path, at_s).position_rad));
-      }
-    }
-    return farthest_rad;
-  }
-
   JointBench bench_;
   std::vector<Trace> traces_;
 };
-
-TEST_F(PathFollowerTest, SixJointsLeaveAndArriveInOneCycleAndAreOnThePathInBetween) {
-  begin();
-  run(2.5);
-  const std::int64_t began = traces_[0].first_motion(0.0);
-  const std::int64_t ended = traces_[0].last_motion();
-  EXPECT_NEAR(static_cast<double>(ended - began) * kPeriod_s, 2.0, 2e-3);
-  for (std::size_t i = 0; i < kJoints; ++i) {
-    EXPECT_EQ(traces_[i].first_motion(0.0), began) << i;
-    EXPECT_EQ(traces_[i].last_motion(), ended) << i;
-    PathReader reader;
-    double setpoint_rad = 0.0;
-    for (const state_v1& state : traces_[i].states) {
-      if (state.cycle < began) continue;
-      const double path_rad = reader.at(wave(i), path_time_s(state.cycle, began)).position_rad;
-      setpoint_rad = std::max(setpoint_rad, std::abs(state.setpoint_position_rad - path_rad));
-    }
-    EXPECT_LT(setpoint_rad, 1e-8) << i;
-    EXPECT_EQ(bench_.state(i).target_position_rad, wave(i).last().position_rad) << i;
-  }
-  // By the delay of torque and reading.
-  EXPECT_LT(farthest_when_late(began, kPeriod_s), kDeviation_rad);
-  EXPECT_TRUE(all_are(Mode::kHolding));
-}
-
-TEST(PathTimes, AreThoseOfTheSetpointsInTheSameStates) {
-  BenchJoint gentle = demo_joint();
-  gentle.loop.controller.jerk_limit_rad_s3 = 2000.0;
-  const std::pair<BenchJoint, double> cases[] = {{demo_joint(), 1e-9}, {gentle, 1e-3}};
-  for (const auto& [joint, tolerance_rad] : cases) {
-    JointBench bench({joint});
-    bench.bring_to_hold(0);
-    const KnotPath path = wave(0);
-    const auto slot = bench.joint(0).path_slots().hand_over({7, 1, path});
-    ASSERT_EQ(bench.order(0, Order{.kind = OrderKind::kLoadPath, .path_slot = slot.value_or(0)}),
-              Reason::kAccepted);
-    ASSERT_EQ(bench.order(0, OrderKind::kResumePath), Reason::kAccepted);
-    PathReader reader;
-    double farthest_rad = 0.0;
-    for (int k = 0; k < 3000 && !std::isnan(bench.state(0).path_time_s); ++k) {
-      const state_v1& state = bench.state(0);
-      farthest_rad = std::max(farthest_rad, std::abs(state.setpoint_position_rad -
-                                                     reader.at(path, state.path_time_s).position_rad));
-      bench.step();
-    }
-    EXPECT_LT(farthest_rad, tolerance_rad);
-  }
-}
 
 TEST_F(PathFollowerTest, NothingMovesBeforeEveryJointHasItsPart) {
   for (std::size_t i = 0; i + 1 < kJoints; ++i) ASSERT_EQ(load(i, wave(i)), Reason::kAccepted);
@@ -182,39 +114,6 @@ TEST_F(PathFollowerTest, NothingMovesWhenOneJointIsNotWhereItsPathBegins) {
   run(0.1);
   EXPECT_TRUE(all_are(Mode::kHolding));
   EXPECT_EQ(traces_[0].first_motion(0.0), -1);
-}
-
-TEST_F(PathFollowerTest, PausesOnThePathAndGoesOnAlongIt) {
-  begin();
-  run(0.7);
-  ASSERT_EQ(bench_.order(5, OrderKind::kPausePath), Reason::kAccepted);
-  run(0.3);
-  std::vector<double> paused_rad;
-  for (std::size_t i = 0; i < kJoints; ++i) {
-    EXPECT_EQ(bench_.state(i).setpoint_velocity_rad_s, 0.0) << i;
-    EXPECT_EQ(bench_.mode(i), Mode::kTracking) << "it is still on the path";
-    paused_rad.push_back(bench_.state(i).setpoint_position_rad);
-  }
-  // One time of the path, where all setpoints are.
-  double at_s = 0.7;
-  PathReader first;
-  while (first.at(wave(0), at_s).position_rad < paused_rad[0] - 1e-9) at_s += 1e-6;
-  for (std::size_t i = 0; i < kJoints; ++i) {
-    PathReader reader;
-    EXPECT_NEAR(reader.at(wave(i), at_s).position_rad, paused_rad[i], 1e-5) << i;
-  }
-  run(2.0);
-  for (std::size_t i = 0; i < kJoints; ++i) {
-    EXPECT_EQ(bench_.state(i).setpoint_position_rad, paused_rad[i]) << i;
-    EXPECT_NEAR(bench_.state(i).joint_position_rad, paused_rad[i], 1e-4) << i;
-  }
-  ASSERT_EQ(bench_.order(1, OrderKind::kResumePath), Reason::kAccepted);
-  run(2.0);
-  EXPECT_TRUE(all_are(Mode::kHolding));
-  for (std::size_t i = 0; i < kJoints; ++i) {
-    EXPECT_EQ(traces_[i].last_motion(), traces_[0].last_motion()) << i;
-    EXPECT_NEAR(bench_.state(i).joint_position_rad, wave(i).last().position_rad, kDeviation_rad) << i;
-  }
 }
 
 TEST_F(PathFollowerTest, StatesTellWhereAPathIsAndThatItIsPaused) {
