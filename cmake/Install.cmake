@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What goes where on a machine, by package (install component). Programs find what belongs to them from where they are
+# What goes where on a machine; an install component has the name of its Debian package (debian/control). Programs find what belongs to them from where they are
 # themselves: nothing points back into the source or build tree.
 set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc")
 # systemd and udev of Debian 12 look below /lib; with its merged /usr that is /usr/lib.
@@ -20,114 +20,88 @@ function(strainwave_install_manual component)
 endfunction()
 
 # Package strainwave: daemon, client, units, example configuration, documentation.
-set(packages daemon:strainwave lcmtypes:libstrainwave-lcmtypes-dev client:libstrainwave-client-dev python:python3-strainwave)
-install(TARGETS strainwavectl DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
-strainwave_install_manual(daemon strainwavectl.1)
+install(TARGETS strainwavectl DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT strainwave)
+strainwave_install_manual(strainwave strainwavectl.1)
 if(STRAINWAVE_BUILD_DAEMON)
-  install(TARGETS strainwaved strainwave-telemetry DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
-  install(TARGETS strainwave-gateway DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
-  install(PROGRAMS systemd/grant-sysfs DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT daemon)
+  install(TARGETS strainwaved strainwave-telemetry DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT strainwave)
+  install(TARGETS strainwave-gateway DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT strainwave)
+  install(PROGRAMS systemd/grant-sysfs DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/strainwave COMPONENT strainwave)
 
   # strainwave_unit(NAME CONFIGURATION STATE TITLE COMMENT): one source for the service and its template.
   function(strainwave_unit UNIT_NAME UNIT_CONFIGURATION UNIT_STATE UNIT_TITLE UNIT_COMMENT)
     configure_file(systemd/strainwaved.service.in "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" @ONLY)
-    install(FILES "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" DESTINATION ${unit_dir} COMPONENT daemon)
+    install(FILES "${CMAKE_BINARY_DIR}/systemd/${UNIT_NAME}.service" DESTINATION ${unit_dir} COMPONENT strainwave)
   endfunction()
   strainwave_unit(strainwaved strainwaved strainwave "" "The daemon of this machine, with /etc/strainwave/strainwaved.toml.")
   strainwave_unit(strainwaved@ %i strainwave/%i " (%i)"
     "A further daemon: strainwaved@left uses /etc/strainwave/left.toml, with a daemon.prefix and drives of its own.")
   configure_file(systemd/strainwave-telemetry.service.in "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" @ONLY)
-  install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" DESTINATION ${unit_dir} COMPONENT daemon)
+  install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-telemetry.service" DESTINATION ${unit_dir} COMPONENT strainwave)
   configure_file("systemd/strainwave-gateway@.service.in" "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" @ONLY)
   install(FILES "${CMAKE_BINARY_DIR}/systemd/strainwave-gateway@.service" systemd/strainwave-gateway.socket
-          systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT daemon)
-  install(FILES systemd/strainwave.sysusers DESTINATION lib/sysusers.d RENAME strainwave.conf COMPONENT daemon)
-  install(FILES systemd/strainwave.tmpfiles DESTINATION lib/tmpfiles.d RENAME strainwave.conf COMPONENT daemon)
-  install(FILES systemd/60-strainwave.rules DESTINATION lib/udev/rules.d COMPONENT daemon)
-  install(DIRECTORY systemd/network DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
+          systemd/strainwave-multicast.service DESTINATION ${unit_dir} COMPONENT strainwave)
+  install(FILES systemd/strainwave.sysusers DESTINATION lib/sysusers.d RENAME strainwave.conf COMPONENT strainwave)
+  install(FILES systemd/strainwave.tmpfiles DESTINATION lib/tmpfiles.d RENAME strainwave.conf COMPONENT strainwave)
+  install(FILES systemd/60-strainwave.rules DESTINATION lib/udev/rules.d COMPONENT strainwave)
+  install(DIRECTORY systemd/network DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT strainwave)
   install(FILES packaging/strainwaved.toml packaging/authorized_keys
-          DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/strainwave COMPONENT daemon)
-  install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave/tables COMPONENT daemon)
+          DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/strainwave COMPONENT strainwave)
+  install(FILES data/tables/rhs17-6006.json DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave/tables COMPONENT strainwave)
   # The tree's own order, so that links between the pages hold.
-  install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
-  install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT daemon)
-  install(DIRECTORY "${STRAINWAVE_WEB}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT daemon)
-  strainwave_install_manual(daemon strainwaved.8 strainwave-telemetry.8)
+  install(FILES README.md DESTINATION ${doc_dir}/strainwave COMPONENT strainwave)
+  install(DIRECTORY docs config DESTINATION ${doc_dir}/strainwave COMPONENT strainwave)
+  install(DIRECTORY "${STRAINWAVE_WEB}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT strainwave)
+  strainwave_install_manual(strainwave strainwaved.8 strainwave-telemetry.8)
 endif()
 
 # Package strainwave-design: what needs no robot.
 if(TARGET strainwave-sim)
-  list(APPEND packages design:strainwave-design)
-  install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
-  strainwave_install_manual(design strainwave-sim.1)
-  install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT design)
+  install(TARGETS strainwave-sim DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT strainwave-design)
+  strainwave_install_manual(strainwave-design strainwave-sim.1)
+  install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave COMPONENT strainwave-design)
 endif()
 if(STRAINWAVE_BUILD_DESIGN)
-  install(TARGETS strainwave-design DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT design)
-  strainwave_install_manual(design strainwave-design.1)
+  install(TARGETS strainwave-design DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT strainwave-design)
+  strainwave_install_manual(strainwave-design strainwave-design.1)
 endif()
 
 # Package strainwave-spy.
 if(STRAINWAVE_BUILD_SPY)
-  list(APPEND packages spy:strainwave-spy)
-  install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave-spy COMPONENT spy)
-  install(PROGRAMS spy/strainwave-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT spy)
-  install(FILES "${CMAKE_BINARY_DIR}/man/strainwave-spy.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT spy)
+  install(FILES "${STRAINWAVE_SPY_JAR}" DESTINATION ${CMAKE_INSTALL_DATADIR}/strainwave-spy COMPONENT strainwave-spy)
+  install(PROGRAMS spy/strainwave-spy DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT strainwave-spy)
+  install(FILES "${CMAKE_BINARY_DIR}/man/strainwave-spy.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT strainwave-spy)
 endif()
 
 # Package libstrainwave-lcmtypes-dev.
-install(FILES ${STRAINWAVE_LCM_SOURCES} DESTINATION ${CMAKE_INSTALL_DATADIR}/lcmtypes/strainwave COMPONENT lcmtypes)
-install(TARGETS strainwave-lcmtypes DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lcmtypes)
+install(FILES ${STRAINWAVE_LCM_SOURCES} DESTINATION ${CMAKE_INSTALL_DATADIR}/lcmtypes/strainwave COMPONENT libstrainwave-lcmtypes-dev)
+install(TARGETS strainwave-lcmtypes DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libstrainwave-lcmtypes-dev)
 install(DIRECTORY "${STRAINWAVE_LCM_GENERATED_DIR}/strainwave" "${STRAINWAVE_LCM_GENERATED_DIR}/c/strainwave"
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT lcmtypes FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libstrainwave-lcmtypes-dev FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 # Where a .pc file finds its prefix, from where it is itself: another prefix needs no other file.
 file(RELATIVE_PATH up_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(packaging/strainwave-lcmtypes.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-lcmtypes.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
-        COMPONENT lcmtypes)
+        COMPONENT libstrainwave-lcmtypes-dev)
 
 # Package libstrainwave-client-dev: find_package(strainwave-client), target strainwave::client, or pkg-config.
-install(TARGETS strainwave-client EXPORT strainwave-client DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT client)
+install(TARGETS strainwave-client EXPORT strainwave-client DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libstrainwave-client-dev)
 install(EXPORT strainwave-client NAMESPACE strainwave:: FILE strainwave-client-targets.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT libstrainwave-client-dev)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file("${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES packaging/strainwave-client-config.cmake "${CMAKE_BINARY_DIR}/packaging/strainwave-client-config-version.cmake"
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT client)
-install(DIRECTORY strainwave DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT client)
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strainwave-client COMPONENT libstrainwave-client-dev)
+install(DIRECTORY strainwave DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libstrainwave-client-dev)
 configure_file(packaging/strainwave-client.pc.in "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/packaging/strainwave-client.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
-        COMPONENT client)
+        COMPONENT libstrainwave-client-dev)
 
 # Package python3-strainwave: our modules and lcm-gen's types.
-install(DIRECTORY "${STRAINWAVE_PYTHON_PACKAGE}" DESTINATION lib/python3/dist-packages COMPONENT python
+install(DIRECTORY "${STRAINWAVE_PYTHON_PACKAGE}" DESTINATION lib/python3/dist-packages COMPONENT python3-strainwave
         FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 
-# Debian wants a copyright, our changelog and that of the packaging in every package's folder.
-find_program(GZIP gzip REQUIRED)
-function(strainwave_compressed source result)
-  add_custom_command(OUTPUT "${CMAKE_BINARY_DIR}/packaging/${result}" DEPENDS ${source} COMMENT "${result}" VERBATIM
-    COMMAND sh -c "\"$1\" -9nc \"$2\" >\"$3\"" sh ${GZIP} "${PROJECT_SOURCE_DIR}/${source}"
-            "${CMAKE_BINARY_DIR}/packaging/${result}")
-endfunction()
-strainwave_compressed(CHANGELOG.md changelog.gz)
-strainwave_compressed(packaging/changelog changelog.Debian.gz)
-set(changelogs "${CMAKE_BINARY_DIR}/packaging/changelog.gz" "${CMAKE_BINARY_DIR}/packaging/changelog.Debian.gz")
-add_custom_target(strainwave_changelogs ALL DEPENDS ${changelogs})
-foreach(pair IN LISTS packages)
-  string(REPLACE ":" ";" pair "${pair}")
-  list(GET pair 0 component)
-  list(GET pair 1 package)
-  set(copyright packaging/copyright)
-  if(EXISTS "${PROJECT_SOURCE_DIR}/packaging/${package}/copyright")
-    set(copyright packaging/${package}/copyright)
-  endif()
-  install(FILES ${copyright} DESTINATION ${doc_dir}/${package} RENAME copyright COMPONENT ${component})
-  install(FILES ${changelogs} DESTINATION ${doc_dir}/${package} COMPONENT ${component})
-endforeach()
-
 # What the packages hold; scripts/package builds it without the tests.
-add_custom_target(products DEPENDS strainwavectl strainwave-lcmtypes strainwave-client strainwave_python manual strainwave_changelogs)
+add_custom_target(products DEPENDS strainwavectl strainwave-lcmtypes strainwave-client strainwave_python manual)
 foreach(product strainwaved strainwave-gateway strainwave-telemetry strainwave-sim strainwave-design strainwave_spy)
   if(TARGET ${product})
     add_dependencies(products ${product})
