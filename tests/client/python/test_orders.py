@@ -51,7 +51,7 @@ class Orders(PlayedOrders):
             self.publish_state(challenge=23)
 
         self.network.daemon = daemon
-        with self.assertRaisesRegex(Refused, "order is too old"):
+        with self.assertRaisesRegex(Refused, "command is too old"):
             self.elbow.release()
         self.assertEqual(len(self.network.published), 1)
 
