@@ -56,8 +56,8 @@ void add_loop_options(CLI::App& command, LoopOptions& options);
 /// Throws InputError.
 ClosedLoopConfig loop_config(const LoopOptions& options);
 
-/// "extended" (as the daemon runs it), "told" (with the plant's spring and gravity in its model), "plain" or "fallback"
-/// with `table`, or "pid". Throws InputError for another kind.
+/// "extended" (as the daemon runs it), "plain" (the bare law) or "fallback" with `table`, or "pid". Throws InputError for
+/// another kind.
 Contender contender_of_kind(const std::string& kind, const GainTable& table);
 
 }  // namespace strainwave

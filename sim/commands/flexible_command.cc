@@ -11,7 +11,7 @@
 #include "sim/studies/flexible_report.h"
 #include "sim/studies/html_page.h"
 #include "sim/studies/peers/planned_peer.h"
-#include "sim/studies/wrongly_told.h"
+#include "sim/studies/wrongly_configured.h"
 
 namespace strainwave {
 
@@ -42,7 +42,7 @@ std::size_t number_of(const std::string& name, const std::vector<Contender>& con
   return static_cast<std::size_t>(found - contenders.begin());
 }
 
-/// The daemon's controller told of its spring beside what a user would take instead, on the grid alone.
+/// The daemon's controller beside what a user would take instead, on the grid alone.
 void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::vector<Contender> contenders = {daemon_contender(gains)};
   for (Contender& peer : peer_contenders()) contenders.push_back(std::move(peer));
@@ -56,12 +56,12 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
   std::cout << "written to " << out.string() << "\n";
 }
 
-/// The daemon's controller told of its spring, and told wrongly, on the grid and on joints drawn at random.
+/// The daemon's controller, configured wrongly, on the grid and on joints drawn at random.
 void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
-  const Contender told = daemon_contender(gains);
+  const Contender daemon = daemon_contender(gains);
   for (const auto& cells :
-       {wrongly_told_grid(), wrongly_told_joints(options.joints.count, options.joints.seed)})
-    std::cout << wrongly_told_summary(run_wrongly_told(cells, told)).markdown();
+       {wrongly_configured_grid(), wrongly_configured_joints(options.joints.count, options.joints.seed)})
+    std::cout << wrongly_configured_summary(run_wrongly_configured(cells, daemon)).markdown();
 }
 
 void run(const FlexibleOptions& options) {

@@ -121,8 +121,8 @@ AblationRow run_without(Mechanism without, const FlexibleTables& tables, int ran
   row.without = without;
   const Contender daemon = daemon_contender(tables, without);
   judge_grid(run_cells(flexible_grid(), daemon), row);
-  judge_wrong(run_cells(wrongly_told_grid(), daemon), row);
-  row.random_rest_rad = rest_error_rad(run_cells(wrongly_told_joints(random, seed), daemon));
+  judge_wrong(run_cells(wrongly_configured_grid(), daemon), row);
+  row.random_rest_rad = rest_error_rad(run_cells(wrongly_configured_joints(random, seed), daemon));
   row.load_rest_rad = rest_error_rad(run_cells(loaded_grid(), daemon));
   const FrictionWay way = product_way_without(tables, without);
   row.first_rms_rad = mean_rms_rad(way, 1);

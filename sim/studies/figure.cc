@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPanelWidth = 460;
 constexpr int kPanelHeight = 330;
-// Okabe and Ito's palette: told apart by colour-blind readers.
+// Okabe and Ito's palette: distinct for colour-blind readers.
 constexpr std::array<const char*, 8> kPalette = {"#000000", "#E69F00", "#56B4E9", "#009E73",
                                                  "#0072B2", "#D55E00", "#CC79A7", "#999999"};
 

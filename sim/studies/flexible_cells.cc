@@ -72,12 +72,12 @@ const std::vector<Effect>& effects() {
   return list;
 }
 
-/// One thing, or several, that a controller is told wrongly or not at all.
+/// One quantity, or several, that the configuration of a joint has wrong.
 struct Wrong {
   std::string name;
-  double load = 1.0;       ///< told over true
-  double stiffness = 1.0;  ///< told over true
-  double friction = 1.0;   ///< true over told
+  double load = 1.0;       ///< configured over true
+  double stiffness = 1.0;  ///< configured over true
+  double friction = 1.0;   ///< true over configured
   double more_delay_periods = 0.0;
   double jitter_periods = 0.0;
 };
@@ -98,11 +98,11 @@ const std::vector<Wrong>& wrongs() {
   return list;
 }
 
-FlexibleCell wrongly_told(FlexibleCell cell, const Wrong& wrong) {
+FlexibleCell wrongly_configured(FlexibleCell cell, const Wrong& wrong) {
   cell.effect = wrong.name;
-  Transmission& told = *cell.nominal.effects.transmission;
-  told.link_inertia_kgm2 *= wrong.load;
-  told.spring = told.spring.scaled(wrong.stiffness);
+  Transmission& configured = *cell.nominal.effects.transmission;
+  configured.link_inertia_kgm2 *= wrong.load;
+  configured.spring = configured.spring.scaled(wrong.stiffness);
   scale_friction(cell.plant, wrong.friction);
   cell.plant.delay.periods += wrong.more_delay_periods;
   cell.plant.delay.jitter_periods += wrong.jitter_periods;
@@ -163,12 +163,12 @@ std::vector<FlexibleCell> effect_grid() {
   return cells;
 }
 
-std::vector<FlexibleCell> wrongly_told_grid() {
+std::vector<FlexibleCell> wrongly_configured_grid() {
   std::vector<FlexibleCell> cells;
   for (const FlexibleCell& cell : flexible_grid()) {
     if (cell.link_inertia_kgm2 > 0.3) continue;
     cells.push_back(cell);
-    for (const Wrong& wrong : wrongs()) cells.push_back(wrongly_told(cell, wrong));
+    for (const Wrong& wrong : wrongs()) cells.push_back(wrongly_configured(cell, wrong));
     FlexibleCell everything = cell;
     everything.effect = "every effect of the study at once";
     for (const Effect& effect : effects())
@@ -179,15 +179,15 @@ std::vector<FlexibleCell> wrongly_told_grid() {
   return cells;
 }
 
-std::vector<FlexibleCell> wrongly_told_joints(int count, std::uint64_t seed) {
+std::vector<FlexibleCell> wrongly_configured_joints(int count, std::uint64_t seed) {
   std::vector<FlexibleCell> cells;
   std::mt19937_64 random(seed);
   for (FlexibleCell& cell : random_joints(count, seed)) {
     cell.nominal.effects.gravity = cell.plant.effects.gravity;
     cell.effect = "none";
     cells.push_back(cell);
-    cells.push_back(wrongly_told(cell, {"random joints, wrong model", draw(random, 0.7, 1.3),
-                                        draw(random, 0.75, 1.25), draw(random, 0.7, 1.3)}));
+    cells.push_back(wrongly_configured(cell, {"random joints, wrong model", draw(random, 0.7, 1.3),
+                                              draw(random, 0.75, 1.25), draw(random, 0.7, 1.3)}));
   }
   return cells;
 }

@@ -32,10 +32,10 @@ std::vector<FlexibleCell> effect_grid();
 std::vector<FlexibleCell> first_grid();
 /// The joints of the grid with links up to 0.267 kg m2, first with the right model (effect "none"). Then each has one thing or several
 /// that are wrong or missing in the model: `nominal` differs from the joint.
-std::vector<FlexibleCell> wrongly_told_grid();
+std::vector<FlexibleCell> wrongly_configured_grid();
 /// `count` joints of random_joints, effects and all, each twice: with the right model (effect "none"), and with load, stiffness and
 /// friction wrong by up to 30, 25 and 30 %.
-std::vector<FlexibleCell> wrongly_told_joints(int count, std::uint64_t seed);
+std::vector<FlexibleCell> wrongly_configured_joints(int count, std::uint64_t seed);
 /// Joints drawn at random around the grid, effects included; the cell depends on the seed and its number alone.
 std::vector<FlexibleCell> random_joints(int count, std::uint64_t seed);
 

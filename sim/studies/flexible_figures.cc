@@ -11,7 +11,7 @@ namespace strainwave {
 
 namespace {
 
-// PID, C4, the daemon's controller, told of its spring, and with every part on: more lines are not told apart.
+// More lines could not be distinguished.
 constexpr std::size_t kDrawnContenders = 5;
 
 double free_free_Hz(const FlexibleCell& cell) {

@@ -12,7 +12,7 @@ namespace {
 
 /// Whether a few joints of the grid behave differently, as they are or configured wrongly.
 bool differ(const Contender& complete, const Contender& without) {
-  for (const auto& cells : {flexible_grid(), wrongly_told_grid()})
+  for (const auto& cells : {flexible_grid(), wrongly_configured_grid()})
     for (std::size_t i = 3; i < cells.size(); i += 67) {
       const FlexibleResult before = run_without_limit(cells[i], complete);
       const FlexibleResult after = run_without_limit(cells[i], without);

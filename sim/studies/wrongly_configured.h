@@ -10,18 +10,18 @@
 
 namespace strainwave {
 
-struct WronglyToldRow {
+struct WronglyConfiguredRow {
   FlexibleCell cell;
   FlexibleResult result;  ///< without a limit
   double over_known =
-      1.0;  ///< the link's sum |e / r| above 40 urad over that of the same joint, told as it is
+      1.0;  ///< the link's sum |e / r| above 40 urad over that of the same joint, configured as it is
 };
 
 /// Runs `contender` on every cell. A cell of effect "none" is what those after it are compared with, up to the next.
-std::vector<WronglyToldRow> run_wrongly_told(const std::vector<FlexibleCell>& cells,
-                                             const Contender& contender);
+std::vector<WronglyConfiguredRow> run_wrongly_configured(const std::vector<FlexibleCell>& cells,
+                                                         const Contender& contender);
 
 /// A row for each thing that is wrong in the model, in the order of the cells.
-TextTable wrongly_told_summary(const std::vector<WronglyToldRow>& rows);
+TextTable wrongly_configured_summary(const std::vector<WronglyConfiguredRow>& rows);
 
 }  // namespace strainwave

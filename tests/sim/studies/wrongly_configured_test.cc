@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joints that are configured wrongly, of the whole grid and of a thousand joints drawn at random.
-#include "sim/studies/wrongly_told.h"
+#include "sim/studies/wrongly_configured.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,8 @@ Contender daemon_controller() {
 // for tables that are designed for it.
 TEST(WronglyConfigured, EveryJointOfTheGridRestsNearItsTarget) {
   std::map<std::string, double> worst_rad;
-  for (const WronglyToldRow& row : run_wrongly_told(wrongly_told_grid(), daemon_controller())) {
+  for (const WronglyConfiguredRow& row :
+       run_wrongly_configured(wrongly_configured_grid(), daemon_controller())) {
     EXPECT_FALSE(row.result.oscillates) << row.cell.effect << ", link " << row.cell.link_inertia_kgm2;
     if (row.cell.effect == "one period of delay more") continue;
     EXPECT_FALSE(row.result.switched_off) << row.cell.effect << ", link " << row.cell.link_inertia_kgm2;
@@ -33,9 +34,9 @@ TEST(WronglyConfigured, EveryJointOfTheGridRestsNearItsTarget) {
 }
 
 TEST(WronglyConfigured, NineteenOfTwentyRandomJointsRestWithinFourTenthsOfAMilliradianAndNoneOscillates) {
-  const auto rows = run_wrongly_told(wrongly_told_joints(300, 1), daemon_controller());
+  const auto rows = run_wrongly_configured(wrongly_configured_joints(300, 1), daemon_controller());
   std::vector<double> rest_rad;
-  for (const WronglyToldRow& row : rows) {
+  for (const WronglyConfiguredRow& row : rows) {
     EXPECT_FALSE(row.result.oscillates) << row.cell.effect << ", link " << row.cell.link_inertia_kgm2;
     rest_rad.push_back(row.result.rest_error_rad);
   }
