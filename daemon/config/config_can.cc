@@ -7,6 +7,7 @@
 #include "base/input_error.h"
 #include "control/units.h"
 #include "daemon/config/config_doubts.h"
+#include "daemon/config/config_drive_mode.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
 #include "daemon/config/config_odrive.h"
@@ -96,21 +97,6 @@ void read_units(TomlSection& section, const JointConfig& joint, cia402::UnitConf
   units.rated_torque_unit_Nm = section.choice("rated_torque_unit", {"mNm", "uNm"}) == "mNm" ? 1e-3 : 1e-6;
   units.torque_at_joint = section.choice("torque_side", {"motor", "joint"}) == "joint";
   units.gear_ratio = joint.plant.gear_ratio;
-}
-
-/// A drive that closes its own loop does so at the motor, and goes on against what pushes it.
-void read_drive_mode(TomlSection& section, JointConfig& joint, cia402::DriveConfig& drive) {
-  drive.drive_mode =
-      drive_mode_from_text(section.choice_or("drive_mode", "torque", {"torque", "velocity", "position"}))
-          .value();
-  if (!closes_loop(drive.drive_mode)) return;
-  joint.loop.controller.drive_mode = drive.drive_mode;
-  if (joint.loop.controller.encoder_side == EncoderSide::kLink)
-    section.fail("drive_mode", "\"torque\" is allowed with encoder_side = \"link\"");
-  if (joint.loop.overload_stop == OverloadStop::kHoldLoad)
-    section.fail("drive_mode", "\"torque\" is allowed with joint.limits.on_overload = \"hold_load\"");
-  if (drive.drive_mode == DriveMode::kVelocity && drive.units.velocity_rad_s_per_unit == 0.0)
-    section.fail("drive_mode", "\"velocity\" needs velocity_rad_s_per_unit, the unit of 60FFh at the joint");
 }
 
 void read_supervision(TomlSection& section, cia402::DriveConfig& drive) {
@@ -229,7 +215,9 @@ HomingInputs CanConfig::read_cia402(TomlSection& section, Bus& bus, int node_id,
   drive.identity = read_identity(section.section_or_empty("identity"));
   read_units(section, joint, drive.units);
   read_encoder_side(section, joint.loop.controller);
-  read_drive_mode(section, joint, drive);
+  drive.drive_mode = read_drive_mode(section, joint);
+  if (drive.drive_mode == DriveMode::kVelocity && drive.units.velocity_rad_s_per_unit == 0.0)
+    section.fail("drive_mode", "\"velocity\" needs velocity_rad_s_per_unit, the unit of 60FFh at the joint");
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.inputs = read_inputs(section.section_or_empty("inputs"));
   read_supervision(section, drive);

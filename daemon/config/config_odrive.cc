@@ -2,9 +2,12 @@
 #include "daemon/config/config_odrive.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/printable.h"
 #include "control/units.h"
 #include "daemon/config/config_doubts.h"
+#include "daemon/config/config_drive_mode.h"
 #include "daemon/config/config_encoder.h"
 #include "daemon/config/config_motor.h"
 #include "drivers/can/odrive/odrive_node.h"
@@ -41,6 +44,25 @@ void read_units(TomlSection& section, const JointConfig& joint, odrive::UnitConf
   units.gear_ratio = joint.plant.gear_ratio;
 }
 
+// Beside a position stand a velocity and a torque of 16 bits.
+void require_order_fits(TomlSection& section, const JointConfig& joint, odrive::DriveConfig& drive) {
+  drive.units.velocity_units_per_turn_s =
+      section.number_or("input_vel_scale", drive.units.velocity_units_per_turn_s, {1.0, 1e6});
+  if (drive.drive_mode != DriveMode::kPosition) return;
+  const double speed_rad_s = joint.loop.controller.motion.velocity_rad_s;
+  const double turns_s = std::abs(odrive::drive_turns(drive.units, speed_rad_s));
+  if (turns_s * drive.units.velocity_units_per_turn_s > odrive::kMostUnits)
+    section.fail("input_vel_scale", "at most " + number_text(std::floor(odrive::kMostUnits / turns_s)) +
+                                        " is allowed with speed_limit_rad_s = " + number_text(speed_rad_s) +
+                                        ": set it here, and axis0.config.can.input_vel_scale in the drive");
+  const double torque_Nm =
+      std::abs(odrive::drive_torque_Nm(drive.units, drive.torque_limit_Nm, drive.torque_limit_Nm));
+  if (torque_Nm * odrive::kTorqueUnitsPerNm > odrive::kMostUnits)
+    section.fail("drive_mode", "\"velocity\" and \"torque\" are allowed with " + number_text(torque_Nm) +
+                                   " N.m at the drive: \"position\" takes " +
+                                   number_text(odrive::kMostUnits / odrive::kTorqueUnitsPerNm));
+}
+
 }  // namespace
 
 odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period_s, JointConfig& joint) {
@@ -50,6 +72,8 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
   drive.period_s = period_s;
   drive.torque_limit_Nm = joint.loop.controller.torque_limit_Nm;
   read_units(section, joint, drive.units);
+  drive.drive_mode = read_drive_mode(section, joint);
+  require_order_fits(section, joint, drive);
   drive.absolute_encoder = section.choice("encoder", {"absolute", "incremental"}) == "absolute";
   drive.heartbeat_period_s = section.number_or("drive_heartbeat_s", drive.heartbeat_period_s, kRates_s);
   drive.heartbeat_timeout_s = section.number_or("drive_heartbeat_timeout_s", 3.5 * drive.heartbeat_period_s,
@@ -69,7 +93,9 @@ odrive::DriveConfig read_odrive(TomlSection& section, int node_id, double period
   const double counts = section.number("encoder_counts_per_joint_turn", {1.0, 1e10});
   controller.encoder_resolution_rad = kTurn_rad / counts;
   // Both read the edges of an encoder that is sampled with the loop. This one has its own clock, and its own velocity.
-  controller.delay_periods = static_cast<int>(section.integer_or("delay_periods", 1, 0, kMaxControlDelay));
+  // Its own loop takes an order as soon as the frame is there; a law of torque reckons with the longest delay.
+  controller.delay_periods = static_cast<int>(
+      section.integer_or("delay_periods", closes_loop(drive.drive_mode) ? 0 : 1, 0, kMaxControlDelay));
   TomlSection motor = section.section("motor");
   controller.motor =
       read_motor_limits(motor, read_motor_constants(motor), drive.units.gear_ratio, drive.torque_limit_Nm);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/can/odrive/odrive.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace strainwave::odrive {
 
 namespace {
 
-constexpr std::uint32_t kTorqueControl = 1;
 constexpr std::uint32_t kPassthrough = 1;
 constexpr std::uint8_t kRead = 0;
 
@@ -61,6 +61,15 @@ std::optional<Pair> decode_pair(const CanFrame& frame) noexcept {
   return pair;
 }
 
+void put_float(CanFrame& frame, std::size_t offset, double value) noexcept {
+  put_little_endian(&frame.bytes[offset], 4, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+}
+
+void put_int16(CanFrame& frame, std::size_t offset, double value) noexcept {
+  const auto rounded = static_cast<std::int16_t>(std::lround(std::clamp(value, -kMostUnits, kMostUnits)));
+  put_little_endian(&frame.bytes[offset], 2, static_cast<std::uint16_t>(rounded));
+}
+
 CanFrame frame_of(std::uint8_t node, Command command, std::size_t size) noexcept {
   CanFrame frame;
   frame.id = can_id(command, node);
@@ -108,6 +117,12 @@ std::optional<Estimates> decode_estimates(const CanFrame& frame) noexcept {
   return Estimates{pair->first, pair->second};
 }
 
+// The first is what its loop wants.
+std::optional<double> decode_torque_Nm(const CanFrame& frame) noexcept {
+  const std::optional<Pair> pair = decode_pair(frame);
+  return pair ? std::optional(pair->second) : std::nullopt;
+}
+
 std::optional<Temperatures> decode_temperatures(const CanFrame& frame) noexcept {
   if (frame.size != kMaxCanBytes) return std::nullopt;
   const auto finite = [&frame](std::size_t offset) {
@@ -142,16 +157,32 @@ CanFrame axis_state_frame(std::uint8_t node, AxisState state) noexcept {
   return frame;
 }
 
-CanFrame torque_mode_frame(std::uint8_t node) noexcept {
+CanFrame mode_frame(std::uint8_t node, ControlMode mode) noexcept {
   CanFrame frame = frame_of(node, Command::kSetControllerMode, 8);
-  put_little_endian(&frame.bytes[0], 4, kTorqueControl);
+  put_little_endian(&frame.bytes[0], 4, static_cast<std::uint64_t>(mode));
   put_little_endian(&frame.bytes[4], 4, kPassthrough);
   return frame;
 }
 
 CanFrame torque_frame(std::uint8_t node, double torque_Nm) noexcept {
   CanFrame frame = frame_of(node, Command::kSetTorque, 4);
-  put_little_endian(frame.bytes.data(), 4, std::bit_cast<std::uint32_t>(static_cast<float>(torque_Nm)));
+  put_float(frame, 0, torque_Nm);
+  return frame;
+}
+
+CanFrame velocity_frame(std::uint8_t node, double velocity_turns_s, double torque_Nm) noexcept {
+  CanFrame frame = frame_of(node, Command::kSetVelocity, 8);
+  put_float(frame, 0, velocity_turns_s);
+  put_float(frame, 4, torque_Nm);
+  return frame;
+}
+
+CanFrame position_frame(std::uint8_t node, double position_turns, double velocity_units,
+                        double torque_units) noexcept {
+  CanFrame frame = frame_of(node, Command::kSetPosition, 8);
+  put_float(frame, 0, position_turns);
+  put_int16(frame, 4, velocity_units);
+  put_int16(frame, 6, torque_units);
   return frame;
 }
 

@@ -24,16 +24,20 @@ enum class Command : std::uint8_t {
   kSetAxisState = 0x07,
   kEstimates = 0x09,
   kSetControllerMode = 0x0B,
+  kSetPosition = 0x0C,
+  kSetVelocity = 0x0D,
   kSetTorque = 0x0E,
   kTemperatures = 0x15,
   kSupply = 0x17,
   kClearErrors = 0x18,
+  kTorques = 0x1C,
 };
 constexpr std::uint32_t can_id(Command command, std::uint8_t node) noexcept {
   return static_cast<std::uint32_t>(node) << 5U | static_cast<std::uint32_t>(command);
 }
 
 enum class AxisState : std::uint8_t { kUndefined = 0, kIdle = 1, kClosedLoop = 8 };
+enum class ControlMode : std::uint8_t { kTorque = 1, kVelocity = 2, kPosition = 3 };
 
 /// Bits of an axis error that mean more than "a fault of the drive".
 inline constexpr std::uint32_t kOverVoltage = 0x100;
@@ -65,11 +69,16 @@ struct Temperatures {
   std::optional<double> motor_C;
 };
 
+/// Of what position_frame() holds in 16 bits.
+inline constexpr double kMostUnits = 32767.0;
+
 // Nothing for a frame of another size, or with a number that is not finite (of temperatures: both).
 std::optional<Version> decode_version(const CanFrame& frame) noexcept;
 std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept;
 std::optional<Estimates> decode_estimates(const CanFrame& frame) noexcept;
 std::optional<Temperatures> decode_temperatures(const CanFrame& frame) noexcept;
+/// N m that the drive estimates, on its side.
+std::optional<double> decode_torque_Nm(const CanFrame& frame) noexcept;
 
 /// The value of a parameter that was asked for by read_parameter_frame(): a boolean or a REAL32.
 std::optional<bool> decode_parameter_bool(const CanFrame& frame, std::uint16_t endpoint) noexcept;
@@ -78,10 +87,14 @@ std::optional<double> decode_parameter_float(const CanFrame& frame, std::uint16_
 /// Asks for `command`'s message; a remote frame.
 CanFrame request_frame(std::uint8_t node, Command command) noexcept;
 CanFrame axis_state_frame(std::uint8_t node, AxisState state) noexcept;
-/// Torque control, input passed through.
-CanFrame torque_mode_frame(std::uint8_t node) noexcept;
-/// On the drive's side. `torque_Nm` must be finite.
+/// Input passed through: the drive neither filters nor interpolates it.
+CanFrame mode_frame(std::uint8_t node, ControlMode mode) noexcept;
+// On the drive's side; all numbers must be finite.
 CanFrame torque_frame(std::uint8_t node, double torque_Nm) noexcept;
+CanFrame velocity_frame(std::uint8_t node, double velocity_turns_s, double torque_Nm) noexcept;
+/// Velocity and torque in units of the drive's settings, within 16 bits.
+CanFrame position_frame(std::uint8_t node, double position_turns, double velocity_units,
+                        double torque_units) noexcept;
 CanFrame clear_errors_frame(std::uint8_t node) noexcept;
 /// `endpoint` is the number in the firmware's flat_endpoints.json.
 CanFrame read_parameter_frame(std::uint8_t node, std::uint16_t endpoint) noexcept;

@@ -9,12 +9,16 @@
 #include <optional>
 #include <string>
 
+#include "control/joint/drive_mode.h"
 #include "drivers/can/odrive/odrive.h"
 
 namespace strainwave::odrive {
 
 /// Which of the two temperatures that the drive sends is the joint's.
 enum class TemperatureSource : std::uint8_t { kNone, kMotor, kInverter };
+
+/// axis0.config.can.input_torque_scale, as the drive has it by default: of the torque beside a position.
+inline constexpr double kTorqueUnitsPerNm = 1000.0;
 
 struct UnitConfig {
   double encoder_turns_per_joint_turn =
@@ -23,6 +27,8 @@ struct UnitConfig {
   double position_offset_rad = 0.0;  ///< joint position where the drive says 0
   double gear_ratio = 1.0;           ///< motor turns per joint turn
   bool torque_at_joint = false;  ///< the drive's N m are the joint's (its torque constant includes the gear)
+  double velocity_units_per_turn_s =
+      1000.0;  ///< axis0.config.can.input_vel_scale: of the velocity beside a position
 };
 
 /// Numbers in flat_endpoints.json of the drive's firmware; without them the watchdog is not verified.
@@ -34,13 +40,14 @@ struct WatchdogEndpoints {
 struct DriveConfig {
   std::string name;  ///< of the joint
   std::uint8_t node_id = 0;
+  DriveMode drive_mode = DriveMode::kTorque;
   UnitConfig units;
   bool absolute_encoder = false;  ///< the drive knows its position when it has restarted
   double torque_limit_Nm = 0.0;   ///< at the joint, > 0
   double period_s = 0.001;
   double heartbeat_period_s = 0.1;  ///< axis0.config.can.heartbeat_msg_rate_ms, for the bus load
   double heartbeat_timeout_s = 0.35;
-  int zero_torque_after = 2;   ///< periods without a position
+  int zero_torque_after = 2;   ///< periods without a position; of a drive that closes no loop of its own
   int fault_after = 10;        ///< more of them
   double arm_timeout_s = 1.0;  ///< from the order to closed loop
   TemperatureSource temperature = TemperatureSource::kMotor;
@@ -51,6 +58,10 @@ struct DriveConfig {
 
 inline double joint_rad(const UnitConfig& units, double turns) noexcept {
   return units.direction * turns * 2.0 * std::numbers::pi / units.encoder_turns_per_joint_turn;
+}
+
+inline double drive_turns(const UnitConfig& units, double joint_rad) noexcept {
+  return units.direction * joint_rad / (2.0 * std::numbers::pi) * units.encoder_turns_per_joint_turn;
 }
 
 inline double joint_position_rad(const UnitConfig& units, double turns) noexcept {
@@ -76,6 +87,10 @@ inline double drive_torque_Nm(const UnitConfig& units, double limit_Nm, double j
   if (!std::isfinite(joint_torque_Nm)) return 0.0;
   const double limited_Nm = std::clamp(joint_torque_Nm, -limit_Nm, limit_Nm);
   return units.direction * limited_Nm / (units.torque_at_joint ? 1.0 : units.gear_ratio);
+}
+
+inline double joint_torque_Nm(const UnitConfig& units, double drive_Nm) noexcept {
+  return units.direction * drive_Nm * (units.torque_at_joint ? 1.0 : units.gear_ratio);
 }
 
 }  // namespace strainwave::odrive

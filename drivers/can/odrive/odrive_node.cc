@@ -7,6 +7,7 @@
 #include "base/durations.h"
 #include "base/input_error.h"
 #include "drivers/can/can_detail.h"
+#include "drivers/can/odrive/odrive_order.h"
 #include "drivers/can/odrive/odrive_setup.h"
 
 namespace strainwave::odrive {
@@ -48,13 +49,14 @@ std::vector<std::uint32_t> Node::receive_ids() const {
   std::vector<std::uint32_t> ids;
   for (const Command command : {Command::kHeartbeat, Command::kEstimates, Command::kTemperatures})
     ids.push_back(can_id(command, config_.node_id));
+  if (closes_loop(config_.drive_mode)) ids.push_back(can_id(Command::kTorques, config_.node_id));
   return ids;
 }
 
 std::vector<std::uint32_t> Node::transmit_ids() const {
   std::vector<std::uint32_t> ids;
-  for (const Command command :
-       {Command::kSetTorque, Command::kSetAxisState, Command::kSetControllerMode, Command::kClearErrors})
+  for (const Command command : {order_command(config_.drive_mode), Command::kSetAxisState,
+                                Command::kSetControllerMode, Command::kClearErrors})
     ids.push_back(can_id(command, config_.node_id));
   return ids;
 }
@@ -68,11 +70,12 @@ std::vector<std::uint32_t> Node::setup_ids() const {
 
 std::vector<FrameTraffic> Node::traffic() const {
   const double rate_Hz = 1.0 / config_.period_s;
-  std::vector<FrameTraffic> traffic{{"torque of " + config_.name, 4, rate_Hz},
+  std::vector<FrameTraffic> traffic{{"order of " + config_.name, order_frame(config_, {}).size, rate_Hz},
                                     {"encoder of " + config_.name, 8, rate_Hz},
                                     {"heartbeat of " + config_.name, 8, 1.0 / config_.heartbeat_period_s}};
   if (config_.temperature != TemperatureSource::kNone)
     traffic.push_back({"temperature of " + config_.name, 8, 1.0 / config_.temperature_period_s});
+  if (closes_loop(config_.drive_mode)) traffic.push_back({"torque of " + config_.name, 8, rate_Hz});
   return traffic;
 }
 
@@ -127,7 +130,8 @@ void Node::forget_drive() noexcept {
 }
 
 void Node::note_own(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept {
-  if (frame.id == can_id(Command::kSetTorque, config_.node_id)) kernel_clock_.echoed(kernel_time_ns);
+  if (frame.id == can_id(order_command(config_.drive_mode), config_.node_id))
+    kernel_clock_.echoed(kernel_time_ns);
 }
 
 void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept {
@@ -150,6 +154,11 @@ void Node::receive(const CanFrame& frame, std::int64_t kernel_time_ns) noexcept 
       watch_.hear(now_ns_);
       has_heartbeat_ = true;
       return;
+    }
+  } else if (is(Command::kTorques)) {
+    if (const auto torque_Nm = decode_torque_Nm(frame)) {
+      torque_measured_Nm_ = joint_torque_Nm(config_.units, *torque_Nm);
+      torque_ns_ = now_ns_;
     }
   } else if (const auto temperatures = decode_temperatures(frame)) {
     const auto temperature_C = joint_temperature_C(config_.temperature, *temperatures);
@@ -174,7 +183,10 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   // One that was out of sight may have restarted: it has no message that tells of it.
   reading.position_lost = !config_.absolute_encoder &&
                           (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kLinkLost);
-  reading.torque_applied_Nm = closed_loop() ? torque_sent_Nm_ : 0.0;
+  reading.torque_measured = closes_loop(config_.drive_mode) && now_ns_ - torque_ns_ < 2 * period_ns_;
+  reading.torque_applied_Nm = closes_loop(config_.drive_mode) ? torque_measured_Nm_
+                              : closed_loop()                 ? sent_.torque_Nm
+                                                              : 0.0;
   reading.has_temperature = has_temperature_;
   reading.temperature_C = temperature_C_;
   reading.temperature_produced_ns = temperature_ns_;
@@ -224,27 +236,30 @@ void Node::write(const ActuatorCommand& command) noexcept {
     was_armed_ = false;
   }
   command_ = command;
-  if (command_.enable && !std::isfinite(command_.torque_Nm))
+  const double sum = command.torque_Nm + command.motor_position_rad + command.motor_velocity_rad_s;
+  if (command_.enable && !std::isfinite(sum))
     watch_.latch(watch_.trouble(ActuatorFault::kWriteRefused, CanDetail::kNone));
 }
 
-bool Node::wants_torque() const noexcept {
+bool Node::wants_power() const noexcept {
   return command_.enable && !stop_ordered_ && !watch_.latched();
 }
 
 void Node::transmit(CanTransmitter& bus) noexcept {
   if (!setup_.ready()) return;
   lead_state(bus);
-  const bool driven = wants_torque() && closed_loop() && missed_ <= config_.zero_torque_after;
-  torque_sent_Nm_ =
-      driven ? std::clamp(command_.torque_Nm, -config_.torque_limit_Nm, config_.torque_limit_Nm) : 0.0;
+  // A drive that closes its own loop goes on with the plan where positions stay away; one that obeys torque must not.
+  const bool driven = wants_power() && closed_loop() &&
+                      (closes_loop(config_.drive_mode) || missed_ <= config_.zero_torque_after);
+  // Where the joint is: it does not jump when it is enabled.
+  sent_ = driven ? command_ : ActuatorCommand{0.0, false, position_rad_, 0.0};
+  sent_.torque_Nm = std::clamp(sent_.torque_Nm, -config_.torque_limit_Nm, config_.torque_limit_Nm);
   // Sent in every period, enabled or not: it feeds the drive's watchdog, and its echo tells the kernel's time.
   kernel_clock_.sent(now_ns_);
-  (void)bus.send(torque_frame(config_.node_id,
-                              drive_torque_Nm(config_.units, config_.torque_limit_Nm, torque_sent_Nm_)));
+  (void)bus.send(order_frame(config_, sent_));
 }
 
-// Closed loop while torque is wanted, idle otherwise; at most one order in a while, since the heartbeat
+// Closed loop while power is wanted, idle otherwise; at most one order in a while, since the heartbeat
 // answers slowly.
 void Node::lead_state(CanTransmitter& bus) noexcept {
   if (clear_ordered_ && bus.send(clear_errors_frame(config_.node_id))) {
@@ -252,14 +267,14 @@ void Node::lead_state(CanTransmitter& bus) noexcept {
     heartbeat_.errors = 0;  // the next heartbeat tells those that stay
   }
   if (stop_ordered_ && has_heartbeat_ && heartbeat_ns_ == now_ns_ && !closed_loop()) stop_ordered_ = false;
-  const bool wanted = wants_torque();
+  const bool wanted = wants_power();
   if (has_heartbeat_ && closed_loop() == wanted) return;
   if (wanted && was_armed_) return;  // it left by itself, which is a fault
-  // Taking the torque off does not wait.
-  const bool urgent = !wanted && torque_sent_Nm_ != 0.0;
+  // Taking the power off does not wait.
+  const bool urgent = !wanted && sent_.enable;
   if (!urgent && now_ns_ - state_sent_ns_ < kRepeatStateAfter_ns) return;
   state_sent_ns_ = now_ns_;
-  if (wanted) (void)bus.send(torque_mode_frame(config_.node_id));
+  if (wanted) (void)bus.send(mode_frame(config_.node_id, control_mode(config_.drive_mode)));
   (void)bus.send(axis_state_frame(config_.node_id, wanted ? AxisState::kClosedLoop : AxisState::kIdle));
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ODrive axis in the loop, by CANSimple: its frames in, its state, its torque out, and every way in which
+// One ODrive axis in the loop, by CANSimple: its frames in, its state, its order out, and every way in which
 // it can fail. The rules of calls and of real time are those of can_node.h; faults are latched as in cia402_node.h.
 //
 // CANSimple has no SYNC: the drive sends its position by its own clock, and where in the loop's period that falls changes.
 // Each position comes with the velocity of the same instant; with it the position is carried to the beginning of the cycle.
 //
-// CANSimple has no supervision of the host but the drive's watchdog, which each torque frame
+// CANSimple has no supervision of the host but the drive's watchdog, which each order
 // feeds. It has no boot-up message either: a drive that restarted shows itself by heartbeats that stay away
 // and by having left closed loop. Its controller mode is set anew whenever it is enabled.
 #pragma once
@@ -53,7 +53,7 @@ class Node final : public CanNode {
 
  private:
   bool closed_loop() const noexcept { return heartbeat_.state == AxisState::kClosedLoop; }
-  bool wants_torque() const noexcept;
+  bool wants_power() const noexcept;
   void forget_drive() noexcept;
   void supervise() noexcept;
   std::int64_t position_age_ns() const noexcept { return now_ns_ - sampled_ns_; }
@@ -78,10 +78,12 @@ class Node final : public CanNode {
   double position_rad_ = 0.0;
   double velocity_rad_s_ = 0.0;
   double temperature_C_ = 0.0;
-  double torque_sent_Nm_ = 0.0;
+  double torque_measured_Nm_ = 0.0;
+  std::int64_t torque_ns_ = 0;
   int missed_ = 0;
   NodeWatch watch_;
   ActuatorCommand command_;
+  ActuatorCommand sent_;  ///< not enabled: where the joint is, without torque
   bool fresh_ = false;
   bool has_heartbeat_ = false;
   bool has_temperature_ = false;

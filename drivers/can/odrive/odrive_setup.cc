@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t kAnswerTimeout_ns = 500'000'000;
 constexpr std::int64_t kListenFor_ns = 500'000'000;
-/// Share of the expected encoder messages that must have come: two clocks never agree exactly.
-constexpr double kEnoughEstimates = 0.9;
+/// Share of the expected messages that must have come: two clocks never agree exactly.
+constexpr double kEnough = 0.9;
 
 std::string where(const DriveConfig& config) {
   return config.name + ": ODrive node " + std::to_string(config.node_id);
@@ -109,11 +109,13 @@ std::vector<std::string> check_axis(CanPort& port, const DriveConfig& config) {
 
 void verify_axis(CanPort& port, const DriveConfig& config) {
   int estimates = 0;
+  int torques = 0;
   bool heartbeat = false;
   bool temperature = config.temperature == TemperatureSource::kNone;
   listen(port, config, kListenFor_ns, [&](const CanFrame& frame) {
     const auto is = [&](Command command) { return frame.id == can_id(command, config.node_id); };
     if (is(Command::kEstimates) && decode_estimates(frame)) ++estimates;
+    if (is(Command::kTorques) && decode_torque_Nm(frame)) ++torques;
     heartbeat = heartbeat || (is(Command::kHeartbeat) && decode_heartbeat(frame));
     if (is(Command::kTemperatures))
       if (const auto temperatures = decode_temperatures(frame))
@@ -124,12 +126,14 @@ void verify_axis(CanPort& port, const DriveConfig& config) {
   if (!heartbeat)
     throw InputError(settings + "heartbeat_msg_rate_ms: no heartbeat within 0.5 s; set it to " +
                      std::to_string(static_cast<int>(config.heartbeat_period_s * 1e3)));
-  const double expected = seconds(kListenFor_ns) / config.period_s;
-  if (estimates < kEnoughEstimates * expected)
-    throw InputError(settings + "encoder_msg_rate_ms: " + std::to_string(estimates) +
-                     " encoder messages in 0.5 s, but the loop "
-                     "needs one each period of " +
-                     std::to_string(config.period_s * 1e3) + " ms");
+  const auto require_each_period = [&](int count, const char* setting, const char* what) {
+    if (count < kEnough * seconds(kListenFor_ns) / config.period_s)
+      throw InputError(settings + setting + ": " + std::to_string(count) + " " + what +
+                       " messages in 0.5 s, but the loop needs one each period of " +
+                       std::to_string(config.period_s * 1e3) + " ms");
+  };
+  require_each_period(estimates, "encoder_msg_rate_ms", "encoder");
+  if (closes_loop(config.drive_mode)) require_each_period(torques, "torques_msg_rate_ms", "torque");
   if (!temperature)
     throw InputError(
         settings +
@@ -137,7 +141,7 @@ void verify_axis(CanPort& port, const DriveConfig& config) {
 }
 
 void release_axis(CanPort& port, const DriveConfig& config) {
-  send(port, config, torque_frame(config.node_id, 0.0));
+  if (!closes_loop(config.drive_mode)) send(port, config, torque_frame(config.node_id, 0.0));
   send(port, config, axis_state_frame(config.node_id, AxisState::kIdle));
 }
 

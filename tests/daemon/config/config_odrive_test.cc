@@ -62,6 +62,29 @@ TEST_F(OdriveConfigTest, RefusesKeysOfTheOtherProtocol) {
   EXPECT_NE(message.find("rated_torque_unit"), std::string::npos);
 }
 
+TEST_F(OdriveConfigTest, ReadsTheLoopThatTheDriveClosesAndWhetherItsOrdersFit) {
+  const std::string position = "torque_side = \"motor\"\ndrive_mode = \"position\"";
+  const auto drive_of = [](const DaemonConfig& config) {
+    return std::get<odrive::DriveConfig>(config.buses[0].drives[0]);
+  };
+  const DaemonConfig config = read_with("torque_side = \"motor\"", position);
+  EXPECT_EQ(drive_of(config).drive_mode, DriveMode::kPosition);
+  EXPECT_EQ(config.joints[0].loop.controller.drive_mode, DriveMode::kPosition);
+  EXPECT_EQ(config.joints[0].loop.controller.delay_periods, 0);
+  // 6 rad/s are 47.7 turns of the motor in a second, more than 32.767.
+  const std::string fast = replaced(replaced(example("odrive.toml"), "torque_side = \"motor\"", position),
+                                    "speed_limit_rad_s = 4.0", "speed_limit_rad_s = 6.0");
+  expect_mentions(error_of(fast), {"input_vel_scale", "686", "speed_limit_rad_s = 6"});
+  const DaemonConfig scaled = read(replaced(fast, position, position + "\ninput_vel_scale = 500"));
+  EXPECT_EQ(drive_of(scaled).units.velocity_units_per_turn_s, 500.0);
+  EXPECT_NO_THROW(read(replaced(fast, "\"position\"", "\"velocity\"")));
+  expect_mentions(error_after("torque_side = \"motor\"", "torque_side = \"joint\"\ndrive_mode = \"position\""),
+                  {"drive_mode", "32.767", "34 N.m"});
+  expect_mentions(error_of(replaced(replaced(example("odrive.toml"), "torque_side = \"motor\"", position),
+                                    "torque_limit_Nm = 34", "torque_limit_Nm = 34\non_overload = \"hold_load\"")),
+                  {"drive_mode", "hold_load"});
+}
+
 TEST_F(OdriveConfigTest, WantsBothEndpointsOfTheWatchdogOrNone) {
   EXPECT_NE(error_after("timeout_endpoint = 191", "").find("timeout_endpoint"), std::string::npos);
   EXPECT_NO_THROW(read_with(

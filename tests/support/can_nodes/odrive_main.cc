@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   double encoder_ms = 10.0;
   double heartbeat_ms = 100.0;
   double temperature_ms = 0.0;
+  double torques_ms = 0.0;
   int node_id = 0;
   std::string encoder_side = "motor";
   bool reversed = false;
@@ -43,6 +44,8 @@ int run(int argc, char** argv) {
   app.add_option("--heartbeat_ms", heartbeat_ms, "period of the heartbeat");
   app.add_option("--temperature_ms", temperature_ms,
                  "period of the cyclic temperature message; 0: on request only");
+  app.add_option("--torques_ms", torques_ms, "period of the cyclic torque message; 0: on request only");
+  app.add_option("--input-vel-scale", config.velocity_units_per_turn_s, "of the velocity beside a position");
   CLI11_PARSE(app, argc, argv);
 
   config.node_id = static_cast<std::uint8_t>(node_id);
@@ -52,6 +55,7 @@ int run(int argc, char** argv) {
   config.ambient = TemperatureProfile::parse(ambient);
   config.encoder_us = static_cast<std::int64_t>(encoder_ms * 1e3);
   config.heartbeat_us = static_cast<std::int64_t>(heartbeat_ms * 1e3);
+  config.torques_us = static_cast<std::int64_t>(torques_ms * 1e3);
   config.temperature_us = static_cast<std::int64_t>(temperature_ms * 1e3);
   CanPort port(interface, {{static_cast<std::uint32_t>(config.node_id) << 5, 0x7E0}});
   BusAndRecord output(port);

@@ -77,6 +77,8 @@ std::optional<Content> OdriveNode::content_of(OdriveCommand command) const {
     case OdriveCommand::kIq:
       return two_floats(input_torque_Nm_ / config_.torque_constant_Nm_A,
                         motor_Nm / config_.torque_constant_Nm_A);
+    case OdriveCommand::kTorques:
+      return two_floats(torque_Nm_ / config_.joint_torque_per_drive_torque, motor_Nm);
     case OdriveCommand::kTemperature:
       return two_floats(plant_.sensor_temperature_C() + 5.0, plant_.sensor_temperature_C());
     case OdriveCommand::kBusVoltageCurrent: {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/can_nodes/text.h"
 
@@ -12,10 +13,22 @@ namespace strainwave::can_nodes {
 namespace {
 
 constexpr std::uint32_t kTorqueControl = 1;
+constexpr std::uint32_t kVelocityControl = 2;
+constexpr std::uint32_t kPositionControl = 3;
 constexpr std::uint32_t kPassthrough = 1;
 constexpr std::uint8_t kProcedureSuccess = 0;
 constexpr std::uint8_t kProcedureDisarmed = 3;
 constexpr double kVelocityShare = 0.3;
+
+// Of a frame that is to be taken; an input that is no number is not.
+bool take(double& input, double value) {
+  if (std::isfinite(value)) input = value;
+  return std::isfinite(value);
+}
+
+double int16_at(const Frame& frame, std::size_t offset) {
+  return static_cast<std::int16_t>(little_endian(frame.bytes().subspan(offset, 2)));
+}
 
 JointPlantConfig plant_of(const OdriveNodeConfig& config) {
   JointPlantConfig plant = config.plant;
@@ -48,7 +61,7 @@ void OdriveNode::boot() {
   procedure_result_ = kProcedureSuccess;
   control_mode_ = 3;
   input_mode_ = 1;
-  input_torque_Nm_ = 0.0;
+  input_position_turns_ = input_velocity_turns_s_ = input_torque_Nm_ = 0.0;
   watchdog_deadline_us_.reset();
   output_.note("boot");
 }
@@ -121,13 +134,23 @@ void OdriveNode::obey(OdriveCommand command, const Frame& frame) {
       break;
     case OdriveCommand::kSetInputTorque:
       if (!has(4)) break;
-      if (const float torque_Nm = float_at(frame, 0); std::isfinite(torque_Nm))
-        input_torque_Nm_ = static_cast<double>(torque_Nm);
+      take(input_torque_Nm_, static_cast<double>(float_at(frame, 0)));
       ++inputs_;
       feed_watchdog();
       break;
     case OdriveCommand::kSetInputPosition:
+      if (!has(8)) break;
+      take(input_position_turns_, static_cast<double>(float_at(frame, 0)));
+      input_velocity_turns_s_ = int16_at(frame, 4) / config_.velocity_units_per_turn_s;
+      input_torque_Nm_ = int16_at(frame, 6) / config_.torque_units_per_Nm;
+      ++inputs_;
+      feed_watchdog();
+      break;
     case OdriveCommand::kSetInputVelocity:
+      if (!has(8)) break;
+      take(input_velocity_turns_s_, static_cast<double>(float_at(frame, 0)));
+      take(input_torque_Nm_, static_cast<double>(float_at(frame, 4)));
+      ++inputs_;
       feed_watchdog();
       break;
     case OdriveCommand::kReboot:
@@ -155,6 +178,7 @@ void OdriveNode::send_cyclic() {
   cyclic(OdriveCommand::kTemperature, config_.temperature_us);
   cyclic(OdriveCommand::kBusVoltageCurrent, config_.bus_us);
   cyclic(OdriveCommand::kGetError, config_.error_us);
+  cyclic(OdriveCommand::kTorques, config_.torques_us);
 }
 
 void OdriveNode::advance(std::int64_t now_us) {
@@ -186,13 +210,31 @@ std::int64_t OdriveNode::next_deadline_us() const {
   return next;  // cyclic messages are sent at the drive's steps
 }
 
+// Drive side, by the drive's published cascade: proportional in position, proportional and integral in velocity.
+double OdriveNode::wanted_torque_Nm() {
+  double wanted_Nm = input_torque_Nm_;
+  if (control_mode_ >= kVelocityControl) {
+    double wanted_turns_s = input_velocity_turns_s_;
+    if (control_mode_ == kPositionControl)
+      wanted_turns_s += 0.25 * config_.velocity_bandwidth_rad_s * (input_position_turns_ - encoder_turns());
+    // The inertia is the joint's, a turn the encoder's.
+    const double gain_Nm_per_turn_s = config_.velocity_bandwidth_rad_s * config_.plant.joint.inertia_kgm2 *
+                                      2.0 * std::numbers::pi * config_.joint_turns_per_encoder_turn /
+                                      config_.joint_torque_per_drive_torque;
+    const double proportional_Nm = gain_Nm_per_turn_s * (wanted_turns_s - encoder_turns_s_);
+    wanted_Nm += proportional_Nm + integral_Nm_;
+    if (std::abs(wanted_Nm) < config_.torque_limit_Nm)
+      integral_Nm_ += 0.5 * config_.velocity_bandwidth_rad_s * config_.plant.period_s * proportional_Nm;
+  }
+  return std::clamp(wanted_Nm, -config_.torque_limit_Nm, config_.torque_limit_Nm);
+}
+
 void OdriveNode::step() {
-  const bool follows =
-      state_ == OdriveState::kClosedLoop && control_mode_ == kTorqueControl && input_mode_ == kPassthrough;
+  const bool follows = state_ == OdriveState::kClosedLoop && control_mode_ >= kTorqueControl &&
+                       control_mode_ <= kPositionControl && input_mode_ == kPassthrough;
   const double before_Nm = torque_Nm_;
-  torque_Nm_ = follows ? std::clamp(input_torque_Nm_, -config_.torque_limit_Nm, config_.torque_limit_Nm) *
-                             config_.joint_torque_per_drive_torque
-                       : 0.0;
+  torque_Nm_ = follows ? wanted_torque_Nm() * config_.joint_torque_per_drive_torque : 0.0;
+  if (!follows) integral_Nm_ = 0.0;
   if (notes_torque_ && (before_Nm != 0.0) != (torque_Nm_ != 0.0))
     output_.note(torque_Nm_ != 0.0 ? "torque on" : "torque zero");
   if (!follows) plant_.clear_pending_torque();

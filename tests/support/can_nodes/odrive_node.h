@@ -4,7 +4,7 @@
 // Source: ODrive's documentation, "CAN Protocol" and the reference of ODrive.Axis.Error, firmware 0.6.
 //
 // Where the documentation leaves a choice the stricter one is taken: the watchdog is fed by input messages
-// only, and runs from the first of them on, armed or not.
+// only, and runs from the first of them on, armed or not; closed loop begins at the last input, wherever the joint is.
 #pragma once
 
 #include <array>
@@ -36,6 +36,7 @@ enum class OdriveCommand : std::uint8_t {
   kReboot = 0x16,
   kBusVoltageCurrent = 0x17,
   kClearErrors = 0x18,
+  kTorques = 0x1C,
 };
 
 enum class OdriveState : std::uint8_t { kUndefined = 0, kIdle = 1, kClosedLoop = 8 };
@@ -61,6 +62,9 @@ struct OdriveNodeConfig {
       0.02;  ///< 1 / gear ratio, or 1 for an encoder at the joint; < 0: reversed
   double joint_torque_per_drive_torque = 50.0;  ///< gear ratio, with the same sign
   double torque_limit_Nm = 1.0;                 ///< of the drive
+  double velocity_bandwidth_rad_s = 200.0;      ///< of its own loop; that of position has a quarter
+  double velocity_units_per_turn_s = 1000.0;    ///< axis0.config.can.input_vel_scale
+  double torque_units_per_Nm = 1000.0;          ///< axis0.config.can.input_torque_scale
   double torque_constant_Nm_A = 0.192;
   double bus_V = 48.0;
   double under_voltage_V = 10.0;
@@ -74,6 +78,7 @@ struct OdriveNodeConfig {
   std::int64_t heartbeat_us = 100000;
   std::int64_t encoder_us = 10000;  ///< cyclic messages; 0: on request only
   std::int64_t temperature_us = 0;
+  std::int64_t torques_us = 0;
   std::int64_t bus_us = 0;
   std::int64_t error_us = 0;
 };
@@ -110,6 +115,7 @@ class OdriveNode final : public Node {
   void send_cyclic();
   std::optional<std::array<std::uint8_t, 8>> content_of(OdriveCommand command) const;
   void step();
+  double wanted_torque_Nm();
   double encoder_turns() const;
   std::string report() const;
 
@@ -131,8 +137,12 @@ class OdriveNode final : public Node {
   std::uint8_t procedure_result_ = 0;
   std::uint32_t control_mode_ = 3;  ///< position: what a fresh drive has
   std::uint32_t input_mode_ = 1;
-  double input_torque_Nm_ = 0.0;  ///< drive side
-  double torque_Nm_ = 0.0;        ///< joint side, as demanded
+  // Drive side.
+  double input_position_turns_ = 0.0;
+  double input_velocity_turns_s_ = 0.0;
+  double input_torque_Nm_ = 0.0;
+  double integral_Nm_ = 0.0;
+  double torque_Nm_ = 0.0;  ///< joint side, as demanded
   double encoder_turns_s_ = 0.0;
   double bus_V_;
   long inputs_ = 0;

@@ -68,17 +68,31 @@ TEST_F(OdriveNodeTest, TellsItsVersionOnRequest) {
   EXPECT_EQ(ask(0x00)[0].data[5], 5);
 }
 
-TEST_F(OdriveNodeTest, TurnsTheJointInTorqueModeOnly) {
-  bench_.wait_us(60000);
-  tell(0x07, 8, 4);
-  run(0.3F, 20);
-  EXPECT_EQ(bench_.node.torque_Nm(), 0.0);  // still in position mode
-  tell(0x0B, 1 | std::uint64_t{1} << 32, 8);
+TEST_F(OdriveNodeTest, TurnsTheJointByTorqueInTorqueMode) {
+  arm();
   run(0.3F, 20);
   EXPECT_NEAR(bench_.node.torque_Nm(), 15.0, 1e-6);  // ratio 50
   const double joint_rad = bench_.node.plant().state().position_rad;
   EXPECT_GT(joint_rad, 0.0);
   EXPECT_NEAR(float_of(ask(0x09)[0], 0), joint_rad / (2.0 * M_PI) * 50.0, 0.5 * 50.0 / 320000.0 + 1e-6);
+}
+
+TEST_F(OdriveNodeTest, ClosesItsOwnLoopsOfPositionAndVelocity) {
+  arm();
+  tell(0x0B, 3 | std::uint64_t{1} << 32, 8);
+  // 2 turns of the motor.
+  for (int i = 0; i < 1000; ++i) {
+    tell(0x0C, std::bit_cast<std::uint32_t>(2.0F), 8);
+    bench_.wait_us(1000);
+  }
+  EXPECT_NEAR(bench_.node.plant().state().position_rad, 2.0 * 2.0 * M_PI / 50.0, 1e-4);
+  EXPECT_NEAR(float_of(ask(0x1C)[0], 4) * 50.0, bench_.node.torque_Nm(), 1e-3);
+  tell(0x0B, 2 | std::uint64_t{1} << 32, 8);
+  for (int i = 0; i < 300; ++i) {
+    tell(0x0D, std::bit_cast<std::uint32_t>(-8.0F), 8);
+    bench_.wait_us(1000);
+  }
+  EXPECT_NEAR(bench_.node.plant().state().velocity_rad_s, -8.0 * 2.0 * M_PI / 50.0, 0.01);
 }
 
 TEST_F(OdriveNodeTest, DisarmsWhenItsWatchdogIsNotFed) {

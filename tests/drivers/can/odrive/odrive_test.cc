@@ -35,7 +35,7 @@ TEST(Odrive, NumbersItsFramesByNodeAndCommand) {
 TEST(Odrive, EncodesOrdersAsTheDocumentationPrintsThem) {
   EXPECT_EQ(axis_state_frame(1, AxisState::kClosedLoop).payload().size(), 4U);
   EXPECT_EQ(axis_state_frame(1, AxisState::kClosedLoop).bytes[0], 8);
-  const CanFrame mode = torque_mode_frame(1);
+  const CanFrame mode = mode_frame(1, ControlMode::kTorque);
   EXPECT_EQ(mode.size, 8);
   EXPECT_EQ(mode.bytes[0], 1);
   EXPECT_EQ(mode.bytes[4], 1);
