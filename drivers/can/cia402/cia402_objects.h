@@ -15,6 +15,7 @@ inline constexpr canopen::Entry kTargetTorque{0x6071, 0};
 inline constexpr canopen::Entry kRatedTorque{0x6076, 0};
 inline constexpr canopen::Entry kTargetPosition{0x607A, 0};
 inline constexpr canopen::Entry kTorqueOffset{0x60B2, 0};
+inline constexpr canopen::Entry kVelocityUnit{0x60A9, 0};
 inline constexpr canopen::Entry kPositionOffset{0x60B0, 0};
 inline constexpr canopen::Entry kVelocityOffset{0x60B1, 0};
 inline constexpr canopen::Entry kInterpolatedTarget{0x60C1, 1};

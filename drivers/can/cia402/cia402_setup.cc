@@ -234,6 +234,10 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layo
   configure_supervision(client, config, found.report);
   if (knows_torque) found.rated_torque_Nm = configure_torque(client, config, found.report);
   configure_torque_path(client, config, found.mode, found.report);
+  if (config.units.velocity_rad_s_per_unit != 0.0) {
+    const auto unit = static_cast<std::uint32_t>(client.upload_if_there(kVelocityUnit, 4).value_or(0));
+    found.report.push_back(velocity_unit_text(unit, config.units, client.who()));
+  }
   if (closes_loop(config.drive_mode)) configure_own_loop(client, config, found.report);
   configure_period(client, config);
   set_mode(client, found.mode);

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "base/input_error.h"
+#include "base/printable.h"
+#include "drivers/can/hexadecimal.h"
 
 namespace strainwave::cia402 {
 
@@ -36,6 +38,35 @@ double rated_motor_Nm(const RatedValues& rated, double unit_Nm, bool at_joint, d
 std::string setting(double unit_Nm, bool at_joint) {
   return std::string("rated_torque_unit = \"") + (unit_Nm == kMillinewtonmetre_Nm ? "mNm" : "uNm") +
          "\" with torque_side = \"" + (at_joint ? "joint" : "motor") + "\"";
+}
+
+struct VelocityUnit {
+  std::string text;
+  double rad_s = 0.0;
+};
+
+// 60A9h: power of ten, what turns, by what time, reserved.
+std::optional<VelocityUnit> velocity_unit(std::uint32_t unit) {
+  struct Code {
+    std::uint32_t code;
+    double value;
+    const char* name;
+  };
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  constexpr Code kAngles[]{{0xB4, kTurn_rad, "rev"}, {0x10, 1.0, "rad"}, {0x41, kTurn_rad / 360.0, "deg"}};
+  constexpr Code kTimes[]{{0x03, 1.0, "s"}, {0x47, 60.0, "min"}};
+  const double power = std::pow(10.0, static_cast<std::int8_t>(unit >> 24U));
+  for (const Code& angle : kAngles)
+    for (const Code& time : kTimes)
+      if ((unit >> 16U & 0xFFU) == angle.code && (unit >> 8U & 0xFFU) == time.code)
+        return VelocityUnit{number_text(power) + " " + angle.name + "/" + time.name,
+                            power * angle.value / time.value};
+  return std::nullopt;
+}
+
+/// As a configuration rounds it.
+bool is_near(double a, double b) {
+  return std::abs(a - b) < 1e-3 * b;
 }
 
 /// The settings that agree with the current, for the message.
@@ -68,6 +99,23 @@ double rated_joint_torque_Nm(const RatedValues& rated, const UnitConfig& units, 
   else
     text << fitting << " would agree; check which it is before any torque is applied";
   throw InputError(text.str());
+}
+
+std::string velocity_unit_text(std::uint32_t unit, const UnitConfig& units, const std::string& where) {
+  const double given_rad_s = units.velocity_rad_s_per_unit;
+  const std::string given = "velocity_rad_s_per_unit = " + number_text(given_rad_s);
+  const std::string object = "60A9h = " + hexadecimal(unit, 8);
+  const std::optional<VelocityUnit> found = velocity_unit(unit);
+  if (!found)
+    return where + ": the unit of velocity is taken from " + given +
+           " alone: " + (unit == 0 ? "the drive does not say it (60A9h)" : object + " is not known here");
+  const double at_motor_rad_s = found->rad_s / units.gear_ratio;
+  const std::string says = "the drive's unit of velocity is " + found->text + " (" + object + ")";
+  if (is_near(given_rad_s, at_motor_rad_s)) return where + ": " + says + ", taken at the motor by " + given;
+  if (is_near(given_rad_s, found->rad_s)) return where + ": " + says + ", taken at the joint by " + given;
+  throw InputError(where + ": " + given + ", but " + says + ": " + number_text(at_motor_rad_s) +
+                   " is allowed if that is the motor's, " + number_text(found->rad_s) +
+                   " if it is the joint's");
 }
 
 std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig& units, double limit_Nm) {

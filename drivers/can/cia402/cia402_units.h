@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A drive's units and ours: counts to joint angle, per mille of rated torque to joint torque. Conversions are
-// real-time safe; building them is not. Source: CiA 402-2, objects 6064h, 606Ch, 6071h, 6075h, 6076h.
+// real-time safe; building them is not. Source: CiA 402-2, objects 6064h, 606Ch, 6071h, 6075h, 6076h, 60A9h.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ struct UnitConfig {
   double counts_per_output_revolution = 0.0;  ///< > 0, of 6064h per turn of the joint
   int direction = 1;                          ///< -1: the drive counts against the joint
   double position_offset_rad = 0.0;           ///< joint position where the drive says 0
-  double velocity_rad_s_per_unit = 0.0;       ///< of 606Ch, at the joint; 0: 606Ch is not used
-  double rated_torque_unit_Nm = 1e-3;         ///< of 6076h: 1e-3 (mNm, the profile's) or 1e-6 (uNm)
-  bool torque_at_joint = false;               ///< 6071h and 6076h are at the joint; else at the motor
-  double gear_ratio = 1.0;                    ///< motor turns per joint turn
-  double torque_constant_Nm_A = 0.0;          ///< > 0, of the motor, at the motor
+  double velocity_rad_s_per_unit = 0.0;  ///< of 606Ch, 60B1h and 60FFh, at the joint; 0: they are not used
+  double rated_torque_unit_Nm = 1e-3;    ///< of 6076h: 1e-3 (mNm, the profile's) or 1e-6 (uNm)
+  bool torque_at_joint = false;          ///< 6071h and 6076h are at the joint; else at the motor
+  double gear_ratio = 1.0;               ///< motor turns per joint turn
+  double torque_constant_Nm_A = 0.0;     ///< > 0, of the motor, at the motor
 };
 
 /// 6076h in the drive's unit and 6075h in mA.
@@ -38,6 +38,10 @@ std::optional<std::string> rated_torque_doubt(double rated_Nm, const UnitConfig&
 
 /// What speaks against the unit of rated torque: the drive's maker (1018h:01) uses the other one.
 std::optional<std::string> torque_unit_doubt(std::uint32_t vendor_id, const UnitConfig& units);
+
+/// What 60A9h, the drive's unit of velocity, says of the configured one, for the log; `unit` 0: the drive has none. Throws InputError when
+/// they contradict each other, with the values that fit a unit of the motor and of the joint. Source: CiA 303-2, codes of units.
+std::string velocity_unit_text(std::uint32_t unit, const UnitConfig& units, const std::string& where);
 
 /// Torque in per mille of rated torque, both ways.
 class TorqueScale {

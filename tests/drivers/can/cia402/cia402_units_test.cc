@@ -55,6 +55,31 @@ TEST(RatedTorque, ThatNothingExplainsIsRefused) {
   EXPECT_NE(refusal({0, 1000}, motor_units()), "accepted");
 }
 
+TEST(VelocityUnit, IsComparedWithTheDrivesOnEitherSideOfTheGear) {
+  constexpr std::uint32_t kTenthRpm = 0xFFB44700;
+  UnitConfig units = motor_units();
+  const double rpm_rad_s = 2.0 * std::numbers::pi / 60.0;
+  const auto text_of = [&](std::uint32_t unit) { return velocity_unit_text(unit, units, "elbow"); };
+  units.velocity_rad_s_per_unit = 0.1 * rpm_rad_s / 50.0;
+  testing::expect_mentions(text_of(kTenthRpm), {"0.1 rev/min", "at the motor"});
+  units.velocity_rad_s_per_unit = 0.1 * rpm_rad_s;
+  testing::expect_mentions(text_of(kTenthRpm), {"at the joint"});
+  units.velocity_rad_s_per_unit = 1e-3 * 2.0 * std::numbers::pi / 360.0;
+  testing::expect_mentions(text_of(0xFD410300), {"0.001 deg/s", "at the joint"});
+  units.velocity_rad_s_per_unit = rpm_rad_s / 50.0;
+  testing::expect_mentions(
+      testing::refusal_of([&] { text_of(kTenthRpm); }),
+      {"velocity_rad_s_per_unit = 0.00209439", "FFB44700h", "0.000209439", "the motor's"});
+}
+
+TEST(VelocityUnit, ThatTheDriveDoesNotSayIsTakenFromTheConfiguration) {
+  UnitConfig units = motor_units();
+  units.velocity_rad_s_per_unit = 0.5;
+  testing::expect_mentions(velocity_unit_text(0, units, "elbow"), {"0.5 alone", "does not say"});
+  testing::expect_mentions(velocity_unit_text(0x00770300, units, "elbow"),
+                           {"0.5 alone", "00770300h", "not known"});
+}
+
 TEST(RatedTorque, AllowsForPeakAndRmsAmperes) {
   EXPECT_EQ(refusal({192, 1414}, motor_units()), "accepted");
   EXPECT_EQ(refusal({192, 707}, motor_units()), "accepted");
