@@ -201,7 +201,8 @@ TEST_F(CanConfigTest, ADriveMayCloseItsOwnLoopWhereNothingElseContradicts) {
 }
 
 TEST_F(CanConfigTest, HasNoDoubtsAboutTheShippedExamples) {
-  for (const char* name : {"epos4.toml", "epos4-position.toml", "elmo.toml", "elmo-link.toml", "odrive.toml"})
+  for (const char* name : {"epos4.toml", "epos4-position.toml", "elmo.toml", "elmo-link.toml", "odrive.toml",
+                           "schunk-powerball.toml"})
     for (const std::string& warning : read(example(name)).warnings)
       EXPECT_NE(warning.find("which a real joint needs"), std::string::npos) << name << ": " << warning;
 }

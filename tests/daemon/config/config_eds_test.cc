@@ -61,6 +61,23 @@ TEST_F(DataSheets, ADriveThatClosesItsOwnLoopNeedsItsTargetAndNoTargetOfTorque) 
   expect_mentions(check(example("epos4.toml"), folder_ / "drive.eds"), {"refused", "6071h"});
 }
 
+TEST_F(DataSheets, TheExampleForAStrainWaveActuatorStartsItsOwnDriveByInterpolatedPosition) {
+  const std::string text = check(example("schunk-powerball.toml"), "schunk_powerball.eds");
+  EXPECT_EQ(text.find("refused"), std::string::npos) << text;
+  expect_mentions(text, {"mode 7 (IP)", "no 6076h", "no 605Ah", "would accept"});
+  expect_mentions(check(replaced(example("schunk-powerball.toml"), "drive_mode = \"position\"", ""),
+                        "schunk_powerball.eds"),
+                  {"refused", "CST (mode 10)", "drive_mode = \"position\" is possible"});
+}
+
+TEST_F(DataSheets, TheUnitOfVelocityIsComparedWithTheDrives) {
+  expect_mentions(check(example("epos4-position.toml"), "epos4.eds"),
+                  {"1 rev/min (60A9h = 00B44700h), taken at the motor"});
+  expect_mentions(
+      check(replaced(example("epos4-position.toml"), "= 0.0020943951", "= 0.020943951"), "epos4.eds"),
+      {"refused", "velocity_rad_s_per_unit = 0.020943951", "00B44700h"});
+}
+
 TEST_F(DataSheets, TheExampleForElmoStartsAGoldDrive) {
   const std::string text = check(example("elmo.toml"), "elmo_gold.eds");
   EXPECT_EQ(text.find("refused"), std::string::npos) << text;
