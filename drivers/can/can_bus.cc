@@ -69,7 +69,6 @@ void CanBus::note_sync(std::int64_t kernel_time_ns) noexcept {
 
 void CanBus::take_link(CanLink link) noexcept {
   if (link == CanLink::kUp) return;
-  link_down_ = true;
   link_gone_ = link_gone_ || link == CanLink::kGone;
   // An interface that goes down forgets what waited in it, and its controller begins anew.
   outstanding_ = 0;
@@ -143,7 +142,7 @@ void CanBus::send_heartbeat() noexcept {
 }
 
 bool CanBus::send(const CanFrame& frame) noexcept {
-  if (held_back_ || link_down_ || bus_off_) {
+  if (held_back_ || bus_off_) {
     add(counters_.frames_dropped);
     return false;
   }
@@ -170,7 +169,6 @@ bool CanBus::send(const CanFrame& frame) noexcept {
 
 void CanBus::try_recover() noexcept {
   if (trouble_.fault == ActuatorFault::kNone || link_gone_ || bus_off_ || held_back_) return;
-  link_down_ = false;
   // The first frame shows whether the link is there; it orders nothing.
   if (config_.heartbeat_period_s > 0.0) {
     send_heartbeat();

@@ -7,7 +7,8 @@
 // Nothing stale is ever queued: every frame that we send comes back once it is on the bus, and while frames
 // older than a period have not come back nothing more is sent, only counted. So after a bus was dead the drives
 // hear at most two periods' old orders, and their heartbeat supervision has disabled them by then. Trouble of
-// the bus is latched, told to every node, and leaves only by a joint's clear_fault().
+// the bus is latched and told to every node, and leaves only by a joint's clear_fault(). Until then the nodes of joints
+// in use order nothing but to stop, and that goes out as soon as the interface takes it.
 //
 // Our heartbeat comes from end_cycle() alone: when the loop ends or hangs, the drives notice. It also ends when a node
 // withdraws it from a drive that obeys nothing else.
@@ -124,8 +125,7 @@ class CanBus final : public Fieldbus, private CanTransmitter {
 
   std::int64_t now_ns_ = 0;
   std::int64_t heartbeat_due_ns_ = 0;
-  NodeFault trouble_;       ///< latched
-  bool link_down_ = false;  ///< nothing can be sent; ends by try_recover()
+  NodeFault trouble_;  ///< latched
   bool link_gone_ = false;
   bool bus_off_ = false;          ///< until the interface was down or the controller restarted
   std::int64_t outstanding_ = 0;  ///< frames sent that have not come back, heartbeats not counted
