@@ -175,13 +175,14 @@ void SdoClient::write_verified(const SdoWrite& write) {
                    ": the drive does not take this value");
 }
 
-bool SdoClient::write_if_there(const SdoWrite& write) {
+bool SdoClient::write_if_writable(const SdoWrite& write) {
   try {
     write_verified(write);
     return true;
   } catch (const SdoError& error) {
     if (error.no_such_entry()) return false;
-    throw;
+    if (!error.read_only()) throw;
+    return upload_number(write.entry, write.bytes) == write.value;
   }
 }
 

@@ -51,8 +51,8 @@ class SdoClient {
   /// Writes and reads back; throws InputError when the drive kept another value.
   /// What it throws names the purpose of the write as well.
   void write_verified(const SdoWrite& write);
-  /// The same; false when the drive has no such entry.
-  bool write_if_there(const SdoWrite& write);
+  /// Whether the entry has the value afterwards: false when it is not there, or read-only with another value.
+  bool write_if_writable(const SdoWrite& write);
 
   void send_nmt(NmtCommand command);
   /// Resets the node's communication and waits for its boot-up message; false when none came.

@@ -104,29 +104,29 @@ void configure_supervision(SdoClient& client, const DriveConfig& config, std::ve
   const std::uint32_t consumer =
       static_cast<std::uint32_t>(config.our_node_id) << 16U | thousandths(config.our_heartbeat_timeout_s);
   const bool hears_heartbeat =
-      client.write_if_there({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
+      client.write_if_writable({kConsumerHeartbeat, consumer, 4, ~0U, "supervision of our heartbeat"});
   const bool has_deadline = configure_deadline(client, config);
   if (!hears_heartbeat && !has_deadline)
-    refuse(client,
-           "has neither 1016h (supervision of our heartbeat) nor 1400h:05 (deadline of RPDO1): nothing would "
-           "stop "
-           "it when this daemon dies; it cannot be driven");
+    refuse(
+        client,
+        "takes neither 1016h (supervision of our heartbeat) nor 1400h:05 (deadline of RPDO1): nothing would "
+        "stop it when this daemon dies; it cannot be driven");
   if (!has_deadline)
     report.push_back(
         client.who() + ": the drive has no deadline of RPDO1 (1400h:05): it misses this daemon " +
         std::to_string(thousandths(config.our_heartbeat_timeout_s)) +
         " ms after its last heartbeat, and not at all while another node sends the same heartbeat");
   if (!hears_heartbeat)
-    report.push_back(
-        client.who() +
-        ": the drive has no 1016h: only the deadline of RPDO1 (1400h:05) tells it that this daemon is gone");
+    report.push_back(client.who() +
+                     ": the drive does not take 1016h: only the deadline of RPDO1 (1400h:05) tells it that "
+                     "this daemon is gone");
   client.write_verified(
       {kProducerHeartbeat_ms, thousandths(config.drive_heartbeat_s), 2, ~0U, "the drive's heartbeat"});
-  if (!client.write_if_there({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2, ~0U,
-                              "reaction to a lost connection"}))
+  if (!client.write_if_writable({kAbortConnection, static_cast<std::uint16_t>(config.abort_connection), 2,
+                                 ~0U, "reaction to a lost connection"}))
     report.push_back(
         client.who() +
-        ": the drive has no 6007h: what it does without our heartbeat is its own choice. Kill the "
+        ": the drive does not take 6007h: what it does without our heartbeat is its own choice. Kill the "
         "daemon while the unloaded joint moves slowly, and see it stop, before it is used");
   if (config.quick_stop_option)
     client.write_verified({kQuickStopOption, static_cast<std::uint16_t>(*config.quick_stop_option), 2, ~0U,
@@ -140,7 +140,7 @@ void configure_supervision(SdoClient& client, const DriveConfig& config, std::ve
 /// A period as a number of one byte and a power of ten of seconds.
 void configure_period(SdoClient& client, const DriveConfig& config) {
   const auto period_us = static_cast<std::uint32_t>(std::lround(config.period_s * 1e6));
-  (void)client.write_if_there({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
+  (void)client.write_if_writable({kSyncPeriod_us, period_us, 4, ~0U, "SYNC period"});
   if (config.produces_sync) {
     const std::uint32_t sync = canopen::cob_id(canopen::CobId::kSync);
     client.write_verified({kSyncIdentifier, sync | kSyncProducerBit, 4, ~0U, "production of SYNC"});
@@ -251,7 +251,7 @@ Found set_up_drive(SdoClient& client, const DriveConfig& config, PdoLayout& layo
 
 void release_drive(SdoClient& client, const DriveConfig& config) {
   take_torque_off(client, config);
-  (void)client.write_if_there({kConsumerHeartbeat, 0, 4, ~0U, "no supervision of our heartbeat"});
+  (void)client.write_if_writable({kConsumerHeartbeat, 0, 4, ~0U, "no supervision of our heartbeat"});
 }
 
 }  // namespace strainwave::cia402

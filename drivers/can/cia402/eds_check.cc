@@ -231,8 +231,14 @@ std::vector<std::string> check_data_sheet(const canopen::EdsFile& eds, const Dri
     const Description description = identify_drive(client, config);
     PdoLayout layout = pdo_layout(config);
     const Found found = set_up_drive(client, config, layout, description);
-    if (config.temperature && config.temperature->way == TemperatureObject::Way::kSdo)
-      (void)client.upload_number(config.temperature->entry, bytes_of(config.temperature->type));
+    if (config.temperature && config.temperature->way == TemperatureObject::Way::kSdo) try {
+        (void)client.upload_number(config.temperature->entry, bytes_of(config.temperature->type));
+      } catch (const InputError& error) {
+        throw InputError(
+            error.what() +
+            std::string(", as joint.can.temperature has it: give index, sub_index and type of an "
+                        "object of this drive, or leave that table out"));
+      }
     for (const std::string& note : drive.notes()) report.push_back(config.name + ": " + note);
     report.insert(report.end(), found.report.begin(), found.report.end());
   } catch (const InputError& error) {

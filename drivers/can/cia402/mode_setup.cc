@@ -102,11 +102,11 @@ OperationMode choose_mode(SdoClient& client, DriveMode wanted, std::optional<std
 }
 
 void configure_own_loop(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
-  (void)client.write_if_there({kPositionOffset, 0, 4, ~0U, "position offset"});
-  (void)client.write_if_there({kVelocityOffset, 0, 4, ~0U, "velocity offset"});
+  clear_offset(client, kPositionOffset, 4, "position offset");
+  clear_offset(client, kVelocityOffset, 4, "velocity offset");
   if (!config.quick_stop_option &&
-      !client.write_if_there({kQuickStopOption, kStopOnRamp, 2, ~0U, "reaction to a quick stop"}))
-    report.push_back(client.who() + ": the drive has no 605Ah: how it stops is its own choice");
+      !client.write_if_writable({kQuickStopOption, kStopOnRamp, 2, ~0U, "reaction to a quick stop"}))
+    report.push_back(client.who() + ": the drive does not take 605Ah: how it stops is its own choice");
   if (config.drive_mode != DriveMode::kPosition || config.following_error_rad <= 0.0) return;
   const auto window = client.upload_if_there(kFollowingErrorWindow, 4);
   std::ostringstream text;

@@ -73,6 +73,18 @@ void configure_with_optional(SdoClient& client, Pdo& pdo, PdoLayout::Field& fiel
   report.push_back(client.who() + ": " + without);
 }
 
+// An identifier that the drive has for good is left to a PDO that holds nothing: CiA 301 takes that for switched off as well.
+void switch_off_unused(SdoClient& client, PdoDirection direction, int pdo, std::uint32_t old_identifier) {
+  const SdoWrite off = canopen::pdo_switched_off(direction, pdo, old_identifier);
+  try {
+    client.write_verified(off);
+  } catch (const SdoError& error) {
+    if (!error.read_only()) throw;
+    client.write_verified(
+        {Pdo{direction, pdo, 1, {}}.mapping(0), 0, 1, ~0U, off.purpose + ", by emptying it"});
+  }
+}
+
 // Whatever else the drive was set to send would fill the bus; whatever else it listens to could command it. Drives number theirs
 // without gaps, but for the first four.
 void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
@@ -88,8 +100,7 @@ void switch_off_other_pdos(SdoClient& client, const PdoLayout& layout) {
       const auto old_identifier = client.upload_if_there(identifier, 4);
       if (!old_identifier && pdo > kUsualPdos) break;
       if (!old_identifier || (*old_identifier & canopen::kPdoInvalid) != 0) continue;
-      client.write_verified(
-          canopen::pdo_switched_off(direction, pdo, static_cast<std::uint32_t>(*old_identifier)));
+      switch_off_unused(client, direction, pdo, static_cast<std::uint32_t>(*old_identifier));
     }
   }
 }
@@ -119,7 +130,7 @@ void configure_pdos(SdoClient& client, const DriveConfig& config, PdoLayout& lay
 
 bool configure_deadline(SdoClient& client, const DriveConfig& config) {
   try {
-    return client.write_if_there(
+    return client.write_if_writable(
         {kCommandDeadline_ms, thousandths(config.command_deadline_s), 2, ~0U, "deadline of RPDO1"});
   } catch (const SdoError& error) {
     if (error.no_answer()) throw;

@@ -27,6 +27,9 @@ inline std::uint32_t thousandths(double value) {
   throw InputError(client.who() + ": node " + std::to_string(client.node()) + ": " + what);
 }
 
+/// 0 to an offset that the drive need not have; one that keeps another value is refused.
+void clear_offset(canopen::SdoClient& client, canopen::Entry entry, std::uint8_t bytes, const char* purpose);
+
 /// The first mode for `wanted` that 6502h names (nothing: the drive has none), or that 6061h then shows.
 OperationMode choose_mode(canopen::SdoClient& client, DriveMode wanted,
                           std::optional<std::uint32_t> supported);

@@ -23,11 +23,7 @@ void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, DriveMode mo
                   std::vector<std::string>& report) {
   bool limited = false;
   const auto limit_by = [&](Entry entry, const char* purpose) {
-    try {
-      limited = client.write_if_there({entry, limit_per_mille, 2, ~0U, purpose}) || limited;
-    } catch (const canopen::SdoError& error) {
-      if (!error.read_only()) throw;
-    }
+    limited = client.write_if_writable({entry, limit_per_mille, 2, ~0U, purpose}) || limited;
   };
   limit_by(kMaxTorque, "torque limit");
   limit_by(kPositiveTorqueLimit, "positive torque limit");
@@ -40,6 +36,13 @@ void limit_torque(SdoClient& client, std::uint16_t limit_per_mille, DriveMode mo
 }
 
 }  // namespace
+
+void clear_offset(SdoClient& client, Entry entry, std::uint8_t bytes, const char* purpose) {
+  if (client.write_if_writable({entry, 0, bytes, ~0U, purpose}) || !client.upload_if_there(entry, bytes))
+    return;
+  refuse(client, to_text(entry) + " (" + purpose +
+                     ") is read-only and not 0, and would be added to each order: set it to 0 in the drive");
+}
 
 double configure_torque(SdoClient& client, const DriveConfig& config, std::vector<std::string>& report) {
   const auto current_mA = client.upload_if_there(kRatedCurrent_mA, 4);
@@ -68,7 +71,7 @@ void configure_torque_path(SdoClient& client, const DriveConfig& config, Operati
     refuse(client,
            "607Eh (polarity) = " + hexadecimal(*polarity, 2) +
                " turns signs in the drive: set it to 0 and store it, and say the direction by `direction`");
-  (void)client.write_if_there({kTorqueOffset, 0, 2, ~0U, "torque offset"});
+  clear_offset(client, kTorqueOffset, 2, "torque offset");
   if (mode != OperationMode::kTorque || !client.upload_if_there(kTorqueSlope, 4)) return;
   // All of the torque there and back within a period.
   const auto slope = static_cast<std::uint32_t>(std::lround(2.0 * INT16_MAX / config.period_s));

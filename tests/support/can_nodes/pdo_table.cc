@@ -104,8 +104,10 @@ Abort PdoTable::check_communication(Key key, std::int64_t value) const {
 
 Abort PdoTable::check_mapping(Key key, std::int64_t value) const {
   if (!configurable_) return Abort::kDeviceState;
-  // 1600h belongs to 1400h, 1A00h to 1800h.
-  if (enabled(static_cast<std::uint16_t>(key.index - 0x200))) return Abort::kUnsupportedAccess;
+  // 1600h belongs to 1400h, 1A00h to 1800h. A PDO that cannot be switched off is changed as it is.
+  const auto communication = static_cast<std::uint16_t>(key.index - 0x200);
+  if (enabled(communication) && dictionary_.find({communication, 1})->access == Access::kReadWrite)
+    return Abort::kUnsupportedAccess;
   if (key.sub != 0) {
     if (dictionary_.number({key.index, 0}) != 0) return Abort::kUnsupportedAccess;
     return check_entry(key, value);

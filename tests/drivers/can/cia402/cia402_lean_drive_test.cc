@@ -46,7 +46,7 @@ TEST_F(Cia402LeanDrive, Without1016hNeedsTheDeadlineOfItsRpdo) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("refuse 0x1016 1" + std::string(kNoObject));
   bench.start();
-  expect_mentions(bench.said(), {"no 1016h", "only the deadline of RPDO1"});
+  expect_mentions(bench.said(), {"not take 1016h", "only the deadline of RPDO1"});
   EXPECT_TRUE(bench.enable());
   bench.end();
   EXPECT_EQ(bench.node().drive().power(), can_nodes::PowerState::kSwitchOnDisabled);
@@ -54,14 +54,14 @@ TEST_F(Cia402LeanDrive, Without1016hNeedsTheDeadlineOfItsRpdo) {
   DriveBench neither({bench_drive(3)});
   neither.tell_node("refuse 0x1016 1" + std::string(kNoObject));
   neither.tell_node("refuse 0x1400 5" + std::string(kNoObject));
-  expect_mentions(neither.start_refusal(), {"neither 1016h", "nor 1400h:05", "nothing would stop it"});
+  expect_mentions(neither.start_refusal(), {"takes neither 1016h", "nor 1400h:05", "nothing would stop it"});
 }
 
 TEST_F(Cia402LeanDrive, Without6007hSaysWhatIsToBeTried) {
   DriveBench bench({bench_drive(3)});
   bench.tell_node("refuse 0x6007 0" + std::string(kNoObject));
   bench.start();
-  expect_mentions(bench.said(), {"no 6007h", "Kill the daemon", "see it stop"});
+  expect_mentions(bench.said(), {"not take 6007h", "Kill the daemon", "see it stop"});
   EXPECT_TRUE(bench.enable());
 }
 
@@ -100,6 +100,52 @@ TEST_F(Cia402LeanDrive, ThatCannotMap6061hIsAskedForItsModeBySdo) {
   bench.bus().serve();
   EXPECT_GT(bench.periods_until_fault(3, {1.0, true}), 0);
   EXPECT_EQ(detail_of(bench.reading().drive_error), CanDetail::kWrongMode);
+}
+
+TEST_F(Cia402LeanDrive, ThatLetsAnEntryOnlyBeReadIsTakenWhereItsValueDoesNoHarm) {
+  using can_nodes::Access;
+  BenchDrive drive = bench_drive(3);
+  drive.config.drive_mode = DriveMode::kPosition;
+  drive.node.drive.has_csp = true;
+  drive.node.read_only = {{0x605A, 0}, {0x60B1, 0}, {0x60B2, 0}, {0x6007, 0}, {0x1006, 0}, {0x60E0, 0}};
+  DriveBench bench({drive});
+  store(bench, {0x6007, 0}, 3, Access::kReadOnly);
+  bench.start();
+  for (const char* line : {"605Ah", "6007h"}) EXPECT_EQ(bench.said().find(line), std::string::npos) << line;
+
+  DriveBench other({drive});
+  store(other, {0x605A, 0}, 6, Access::kReadOnly);
+  other.start();
+  expect_mentions(other.said(), {"not take 605Ah", "its own choice", "not take 6007h"});
+
+  DriveBench offset({drive});
+  store(offset, {0x60B2, 0}, 20, Access::kReadOnly);
+  expect_mentions(offset.start_refusal(), {"60B2h", "read-only and not 0", "added to each order"});
+}
+
+TEST_F(Cia402LeanDrive, WhosePdosHaveTheirIdentifiersForGoodIsLeftWithEmptyOnes) {
+  using can_nodes::Access;
+  const auto fix_identifiers = [](DriveBench& bench) {
+    for (const std::int64_t pdo : {0, 1, 2, 3}) {
+      const auto number = static_cast<std::uint16_t>(pdo);
+      store(bench, {static_cast<std::uint16_t>(0x1400 + number), 1}, 0x203 + 0x100 * pdo, Access::kReadOnly);
+      store(bench, {static_cast<std::uint16_t>(0x1800 + number), 1}, 0x183 + 0x100 * pdo, Access::kReadOnly);
+    }
+    store(bench, {0x1602, 1}, 0x60400010, Access::kReadWrite);
+    store(bench, {0x1602, 0}, 1, Access::kReadWrite);
+  };
+  DriveBench bench({bench_drive(3)});
+  fix_identifiers(bench);
+  bench.start();
+  EXPECT_EQ(bench.node().dictionary().number({0x1602, 0}), 0) << "a stranger could order by it";
+  ASSERT_TRUE(bench.enable());
+  bench.run(20, {5.0, true});
+  EXPECT_NEAR(bench.node().drive().torque_demand_Nm(), 5.0, 0.01);
+
+  DriveBench fixed({bench_drive(3)});
+  fix_identifiers(fixed);
+  store(fixed, {0x1602, 0}, 1, Access::kReadOnly);
+  expect_mentions(fixed.start_refusal(), {"1602h:00", "read-only", "RPDO3 off"});
 }
 
 TEST_F(Cia402LeanDrive, WithNothingElseForTpdo2SendsNone) {

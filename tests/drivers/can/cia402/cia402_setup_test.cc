@@ -140,17 +140,6 @@ TEST(Cia402Setup, ChangesTheIdentifierOfAPdoOnlyWhileItIsSwitchedOff) {
   EXPECT_TRUE(bench.enable());
 }
 
-TEST(Cia402Setup, TakesADriveWhoseFirstRpdoHasItsIdentifierForGood) {
-  BenchDrive drive = bench_drive(3);
-  drive.node.read_only = {{0x1400, 1}};
-  DriveBench bench({drive});
-  // Such a drive lets the mapping be changed while the PDO is on; the simulated one needs it to be off.
-  bench.node().dictionary().set({0x1400, 1}, 0x203);
-  bench.can().run_to(bench.can().now_ns() + 200'000'000);
-  const std::string text = bench.start_refusal();
-  EXPECT_EQ(text.find("1400h"), std::string::npos) << text;
-}
-
 TEST(Cia402Setup, TakesADriveWithoutOptionalObjectsAndSaysWhatItDoesWithout) {
   BenchDrive drive = bench_drive(3);
   drive.node.lacks = {0x6072, 0x60E0, 0x60E1, 0x607E, 0x60B2};
