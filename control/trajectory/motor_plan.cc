@@ -12,9 +12,7 @@ namespace {
 
 // Two means of one period at least on a spring: else the acceleration steps.
 constexpr int kLeastSpread = 2;
-// The model has lost the motion where it is farther off than this share of the wind-up that the torque limit makes; it then gives way
-// by this share a period.
-constexpr double kLostShare = 0.25;
+// Of the way to the motion, in a period.
 constexpr double kYield = 0.2;
 
 // sqrt(8) / w, w at the secant of half the torque that the hardest acceleration transmits; nothing without a spring.
@@ -155,16 +153,6 @@ void MotorPlanner::follow(double wanted_Nm, const LinkState& wanted_end, const T
   middle_velocity_rad_s_ = period.middle_velocity_rad_s;
 }
 
-// A regulator at its torque limit can excite the spring in a limit cycle. The model then gives way to the motion: where it is far from it,
-// and where the regulator needs more torque than the motion. A motion that has ended needs none.
-void MotorPlanner::yield(bool ended) noexcept {
-  const LinkState off = moved(wanted_, next_, -1.0);
-  const double farthest_rad = std::max(std::abs(off.link_position_rad), std::abs(off.motor_position_rad));
-  const double lost_rad = kLostShare * config_.joint.spring.angle_rad(config_.torque_limit_Nm);
-  if (config_.gives_way && exhausted_ && (ended || regulates_ || farthest_rad >= lost_rad))
-    next_ = moved(next_, off, kYield);
-}
-
 // The motion has ended: once the model is where that was, it stands still.
 void MotorPlanner::settle() noexcept {
   const double slow_rad_s = 0.5 * config_.tolerance_rad / config_.period_s;
@@ -218,7 +206,9 @@ MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possib
   follow(momentum_Nms / h + gravity_Nm, wanted_end, possible, taken_Nm);
   const double wanted_rad_s2 = (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s) / h;
   wanted_ = wanted_end;
-  yield(ended);
+  // A regulator at its torque limit can excite the spring in a limit cycle: where it needs more torque than the motion the model gives way.
+  if (config_.gives_way && exhausted_ && regulates_)
+    next_ = moved(next_, moved(wanted_, next_, -1.0), kYield);
   if (ended) settle();
   MotorPlan plan = this->plan();
   plan.wanted_acceleration_rad_s2 = wanted_rad_s2;

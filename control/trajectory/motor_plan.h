@@ -120,7 +120,6 @@ class MotorPlanner {
   LinkState flat(const MotionPoint& link, double snap_rad_s4) const noexcept;
   void follow(double wanted_Nm, const LinkState& wanted_end, const TorqueRange& possible,
               double taken_Nm) noexcept;
-  void yield(bool ended) noexcept;
   void settle() noexcept;
   MotorPlan plan() noexcept;
 
