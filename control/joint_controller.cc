@@ -10,6 +10,50 @@ namespace strainwave {
 
 namespace {
 
+// A reading at its place may be off by one count, and by rounding.
+constexpr double kAtPlaceCounts = 1.01;
+// A plan that has ended is held from then on.
+constexpr int kSettlingPeriods = 2;
+// Of the load that shows: longer than a count's torque lasts.
+constexpr double kWeigh_s = 0.01;
+// So long a joint that was pushed stands before it is brought to rest; within so many counts it stands.
+constexpr double kStands_s = 0.02;
+constexpr double kStandsCounts = 3.0;
+// Smaller swings of the feedback are no oscillation: a share of the torque limit, and what a count makes of the law.
+constexpr double kSwingShare = 0.2;
+constexpr double kSwingCounts = 2.0;
+// Per second: how fast a joint whose drive closes no loop of position returns to its plan. Drives follow a velocity within some 10 ms: a
+// tenth of that rate needs nothing of their loop but that it follows.
+constexpr double kReturn_1_s = 10.0;
+
+// With the spring between motor and encoder the loop is stable with half the rate of learning, and not with the whole (docs/certificate.md).
+constexpr double kLinkLearning = 0.5;
+
+bool left_out(const JointMeasurement& measurement) noexcept {
+  return measurement.elapsed_periods > kMaxElapsedPeriods;
+}
+
+// In which the joint was led. Without an order a drive that closes a loop of position stands, and the plan waits with it.
+int led_periods(const JointControllerConfig& config, const JointMeasurement& measurement) noexcept {
+  if (left_out(measurement) || config.drive_mode == DriveMode::kPosition) return 1;
+  return std::max(1, measurement.elapsed_periods);
+}
+
+double off_rad(const JointPlan& plan, const JointReading& reading) noexcept {
+  return plan.place_rad() - reading.position_rad();
+}
+
+bool at_place(const JointControllerConfig& config, double off_rad) noexcept {
+  return std::abs(off_rad) <= kAtPlaceCounts * count_of(config);
+}
+
+MotorOrder drive_order(const JointControllerConfig& config, const JointPlan& plan, double off_rad) noexcept {
+  const bool returns =
+      config.drive_mode == DriveMode::kVelocity && (plan.moves() || !at_place(config, off_rad));
+  return {plan.now().acting_end_position_rad,
+          plan.now().acting_velocities_rad_s[1] + (returns ? kReturn_1_s * off_rad : 0.0)};
+}
+
 double share_of_velocity(const JointControllerConfig& config) noexcept {
   return config.link ? velocity_share(config.encoder_side, config.period_s) : 1.0;
 }
@@ -65,6 +109,180 @@ PlannedJoint JointController::joint() const noexcept {
   joint.model.inertia_kgm2 += plan_.trajectory().load().inertia_kgm2;
   joint.model.friction = friction_.friction();
   return joint;
+}
+
+// The steps of a period, in their order.
+JointStep JointController::step(const JointMeasurement& measurement) noexcept {
+  if (!law_.loaded()) return {};
+  const int elapsed_periods = led_periods(config_, measurement);
+  std::optional<double> temperature_C;
+  if (measurement.temperature_valid) temperature_C = measurement.temperature_C;
+  if (law_.choose_gains(temperature_C)) friction_.weigh(law_.temperature_weights());
+  if (yields()) {
+    reading_.step(measurement, plan_.now().position_rad, plan_.now().position_rad);
+    yielding_.see(reading_.position_rad(), count_of(config_), elapsed_periods);
+    if (yielding_.periods * config_.period_s >= kStands_s) hold_again();
+  } else {
+    advance_plan(measurement);
+    reading_.step(measurement, plan_.place_before_rad(0), plan_.place_before_rad(measurement.late_periods));
+    choose_phase();
+  }
+  const ControllerOutput output = compute_torque(measurement);
+  const bool learns = learn(measurement, output);
+  weigh(output, elapsed_periods);
+  return result(output, learns);
+}
+
+// A motion over a gap in which the loop did not run goes on from where the joint is.
+void JointController::advance_plan(const JointMeasurement& measurement) noexcept {
+  if (left_out(measurement) && plan_.moves()) {
+    const double passed_s = measurement.elapsed_periods * config_.period_s;
+    const bool seen = measurement.has_position;
+    const double position_rad = seen ? measurement.joint_position_rad : reading_.position_rad();
+    const double velocity_rad_s = seen ? (position_rad - reading_.position_rad()) / passed_s : 0.0;
+    law_.reference_jumps();
+    plan_.go_on_from(position_rad, velocity_rad_s);
+    rest_periods_ = 0;
+    reading_.reset(position_rad, plan_.now().velocity_rad_s);
+  }
+  for (int period = 0; period < led_periods(config_, measurement); ++period) {
+    plan_.advance(joint());
+    const double load_Nm = plan_.take_load_Nm();
+    friction_.set_load(friction_.load_Nm() + load_Nm);
+    hold_torque_Nm_ += load_Nm;
+  }
+}
+
+void JointController::choose_phase() noexcept {
+  if (plan_.moves()) {
+    rest_periods_ = 0;
+    phase_ = MotionPhase::kTracking;
+    return;
+  }
+  ++rest_periods_;
+  if (config_.drive_closes_loop()) return;
+  const double off = off_rad(plan_, reading_);
+  if (plan_.correct(off, reading_.position_rad(), reading_.still_periods())) {
+    law_.reference_jumps();
+    reading_.replan(reading_.position_rad());
+    phase_ = MotionPhase::kTracking;
+  } else if (!at_place(config_, off) || config_.without == Mechanism::kRestTorque) {
+    phase_ = MotionPhase::kTracking;
+  } else if (phase_ == MotionPhase::kTracking && rest_periods_ > kSettlingPeriods) {
+    hold_torque_Nm_ =
+        config_.gravity.at(plan_.now().link_position_rad) + friction_.load_Nm() + law_.integral_torque_Nm();
+    phase_ = MotionPhase::kResting;
+  }
+}
+
+// The joint goes where it is pushed; once it stands it is held again.
+void JointController::Yielding::see(double position_rad, double count_rad, int elapsed_periods) noexcept {
+  const bool moved = std::abs(position_rad - stands_at_rad) > kStandsCounts * count_rad;
+  if (moved) stands_at_rad = position_rad;
+  periods = moved ? 0 : periods + elapsed_periods;
+}
+
+// What pushed the joint has let go. The next reading is one period of this velocity farther, and so is the plan.
+void JointController::hold_again() noexcept {
+  const double position_rad = reading_.position_rad();
+  start(position_rad, reading_.velocity_rad_s(), yielding_.load_Nm + config_.gravity.at(position_rad));
+  reading_.has_been_read();
+  advance_plan({});
+}
+
+// Only the tracking joint's torque is the law's. Where the drive closes the loop there is no law; what the drive adds to what it is fed
+// stands where the law's torque does.
+ControllerOutput JointController::compute_torque(const JointMeasurement& measurement) noexcept {
+  if (config_.drive_closes_loop()) {
+    const double fed_Nm = plan_.torque_Nm(joint());
+    return {std::clamp(fed_Nm, -torque_limit_Nm_, torque_limit_Nm_),
+            measurement.drive_torque_Nm.value_or(fed_Nm) - fed_Nm, fed_Nm, law_.zero_velocity_weight(),
+            false};
+  }
+  if (phase_ == MotionPhase::kTracking) return track(led_periods(config_, measurement));
+  law_.interrupt();
+  const double held_Nm =
+      yields() ? yielding_.load_Nm + config_.gravity.at(reading_.position_rad()) : hold_torque_Nm_;
+  const double torque_Nm = held_Nm + plan_.trajectory().load().torque_Nm;
+  const double limited_Nm = std::clamp(torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  return {limited_Nm, 0.0, torque_Nm, law_.zero_velocity_weight(), limited_Nm != torque_Nm};
+}
+
+ControllerOutput JointController::track(int elapsed_periods) noexcept {
+  ControllerInput input;
+  input.elapsed_periods = elapsed_periods;
+  input.joint_position_rad = reading_.position_rad();
+  input.joint_velocity_rad_s = reading_.velocity_rad_s();
+  input.setpoint_position_rad = plan_.place_rad();
+  input.setpoint_velocity_rad_s = reading_.planned_velocity_rad_s();
+  input.planned = true;
+  input.planned_torque_Nm = plan_.torque_Nm(joint());
+  input.torque_limit_Nm = torque_limit_Nm_;
+  input.torque_max_Nm = config_.motor.available_Nm(reading_.velocity_rad_s());
+  input.torque_min_Nm = -config_.motor.available_Nm(-reading_.velocity_rad_s());
+  const ControllerOutput output = law_.step(input);
+  if (output.saturated) plan_.slow_down(elapsed_periods * config_.period_s);
+  const double least_Nm = std::max(kSwingShare * torque_limit_Nm_, kSwingCounts * law_.count_torque_Nm());
+  const double needed_Nm = std::clamp(output.feedforward_torque_Nm, -torque_limit_Nm_, torque_limit_Nm_);
+  oscillation_.step(output.torque_Nm - needed_Nm, needed_Nm, least_Nm, elapsed_periods);
+  return output;
+}
+
+// From an order's own motion, at a torque that is not limited and a reading that is fresh.
+bool JointController::learn(const JointMeasurement& measurement, const ControllerOutput& output) noexcept {
+  if (phase_ != MotionPhase::kTracking || output.saturated || plan_.planner().exhausted() ||
+      !measurement.has_position || measurement.elapsed_periods > 1)
+    return false;
+  const double velocity_rad_s = plan_.now().acting_velocities_rad_s[1];
+  const bool moves = plan_.planner().moves();
+  // What a drive adds at rest may be held by friction.
+  if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
+  if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
+  const double learns_for_s =
+      config_.period_s * (config_.encoder_side == EncoderSide::kLink ? kLinkLearning : 1.0);
+  if (!moves)
+    friction_.learn_load(output.feedback_torque_Nm, learns_for_s);
+  else if (velocity_rad_s != 0.0 && !plan_.corrections().begun())
+    friction_.learn(output.feedback_torque_Nm, velocity_rad_s, learns_for_s);
+  else
+    return false;
+  return !friction_.frozen();
+}
+
+void JointController::weigh(const ControllerOutput& output, int elapsed_periods) noexcept {
+  double load_Nm = friction_.load_Nm();
+  if (config_.drive_closes_loop())
+    load_Nm += output.feedback_torque_Nm;
+  else if (phase_ == MotionPhase::kTracking)
+    load_Nm += output.torque_Nm - output.feedforward_torque_Nm;
+  else if (yields())
+    load_Nm = yielding_.load_Nm;
+  else
+    load_Nm = hold_torque_Nm_ - config_.gravity.at(plan_.now().link_position_rad);
+  const double share = 1.0 - std::exp(-elapsed_periods * config_.period_s / kWeigh_s);
+  shown_load_Nm_ += share * (load_Nm - shown_load_Nm_);
+}
+
+JointStep JointController::result(const ControllerOutput& output, bool learns) const noexcept {
+  JointStep step;
+  step.output = output;
+  if (config_.drive_closes_loop()) step.order = drive_order(config_, plan_, off_rad(plan_, reading_));
+  const double position_rad = yields() ? reading_.position_rad() : plan_.place_rad();
+  step.reference = {position_rad, yields() ? 0.0 : plan_.now().velocity_rad_s,
+                    yields() ? 0.0 : plan_.now().acting_acceleration_rad_s2};
+  step.ordered_reference = step.reference;
+  if (plan_.corrections().begun() && !yields())
+    step.ordered_reference = {plan_.rest_position_rad(), 0.0, 0.0};
+  step.joint_velocity_rad_s = reading_.velocity_rad_s();
+  step.gains_in_use = law_.gains_in_use();
+  step.at_target = !plan_.moves();
+  step.off_stream = plan_.trajectory().off_stream() && !plan_.corrections().begun();
+  step.phase = phase_;
+  step.load_Nm = shown_load_Nm_;
+  step.corrections = plan_.corrections().count();
+  step.learns = learns;
+  step.oscillates = oscillation_.oscillates();
+  return step;
 }
 
 }  // namespace strainwave

@@ -16,21 +16,17 @@
 //     step reference       torque = clamp(u + f + known load)
 //     planned motion       torque = clamp(u + planned torque)
 //
-// Source: Zhao (2006), (3-9)..(3-35), section 5.4. He leaves two things open. d here is where the joint must
-// go: the sign of the velocity would keep an overshoot going, the sign of u would chatter while the integral settles. A joint at rest
-// needs all of Fs to move again. Controllers without temperature (one rule) have f = 0.
+// Source: Zhao (2006), (3-9)..(3-35), section 5.4. d is where the joint must go, and a joint at rest needs all of Fs to move again: he says
+// neither. Controllers without temperature (one rule) have f = 0.
 //
-// The integral is one number with two duties; only the slow one is wanted: what friction and load leave to
-// correct. With P the Lyapunov matrix of rule 0,
+// The integral has two duties, of which only the slow one is wanted. With P the Lyapunov matrix of rule 0,
 //   V(x) = P_00 slow^2 + (a form in e and velocity alone)
 //   slow = integral + (P_01 e + P_02 velocity error) / P_00
-// For a given e and velocity, the integral that leaves `slow` unchanged costs least. A new setpoint and a saturated torque therefore
-// keep `slow`, and the integral does not wind up. While the torque is limited
-// V can rise: the certificate is of the law within its limits (docs/certificate.md).
+// A new setpoint and a saturated torque keep `slow`: for a given e and velocity that costs least, and nothing winds up. While the torque is
+// limited V can rise: the certificate is of the law within its limits (docs/certificate.md).
 //
-// A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h has it in the loop that is certified). The first
-// sample, and the first after any at which x or F jumped, has no l one period ago: there u = l. Over periods that were left out l is taken
-// to have changed evenly.
+// A lead makes up for the periods by which a torque acts late (control/table/spring_plant.h). The first sample, and the first after a jump of x or
+// F, has no l one period ago: there u = l. Over periods that were left out l has changed evenly.
 #pragma once
 
 #include <array>

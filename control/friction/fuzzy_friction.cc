@@ -12,13 +12,6 @@ double VelocityMemberships::zero_weight(double velocity_rad_s) const noexcept {
   return ZeroVelocityWeight(*this).at(velocity_rad_s);
 }
 
-double FuzzyFriction::least_static_Nm() const noexcept {
-  double least_Nm = rules.front().friction.static_Nm;
-  for (std::size_t i = 1; i < static_cast<std::size_t>(rule_count); ++i)
-    least_Nm = std::min(least_Nm, rules[i].friction.static_Nm);
-  return least_Nm;
-}
-
 TemperatureWeights FuzzyFriction::weights(double temperature_C) const noexcept {
   return TemperatureMemberships(*this).weights(temperature_C);
 }

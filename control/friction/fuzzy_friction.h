@@ -45,9 +45,6 @@ struct FuzzyFriction {
   double temperature_min_C = 0.0;  ///< Range the rules were fitted over; temperatures are clamped to it.
   double temperature_max_C = 0.0;
 
-  /// The smallest static friction of all rules, N.m. Needs a rule.
-  double least_static_Nm() const noexcept;
-
   /// Memberships at `temperature_C`; see TemperatureMemberships, which the loop keeps prepared.
   TemperatureWeights weights(double temperature_C) const noexcept;
 

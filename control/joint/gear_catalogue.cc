@@ -3,7 +3,7 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
-#include "control/joint/gears_csv.h"
+#include "control/joint/catalogue_csv.h"
 #include "control/units.h"
 
 namespace strainwave {

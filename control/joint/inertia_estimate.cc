@@ -21,15 +21,10 @@ constexpr double kKept = 0.97;
 constexpr double kNoiseShare = 0.1;
 // Where the table has no friction.
 constexpr double kLeastScale_Nm = 1e-3;
-// Prior standard deviations: of friction as a share of the table's, and of an unknown load in units of static friction.
+// Prior standard deviation of friction as a share of the table's; that of an unknown load is static friction.
 constexpr double kFrictionDeviation = 0.3;
-constexpr double kLoadDeviation = 1.0;
 // Four windows, as they count then.
 constexpr double kLeastWindows = 3.8;
-
-constexpr double information_of(double deviation) {
-  return 1.0 / (deviation * deviation);
-}
 
 // Of means and windows. Faster loops than 0.1 ms have shorter ones.
 constexpr double kSpan_s = 0.004;
@@ -104,7 +99,7 @@ void InertiaEstimate::learn(double friction_scale_Nm) noexcept {
   const double shown = (end.impulse_Nms - begin.impulse_Nms) / noise_Nms;
   normal_ = kKept * normal_ + by * by.transpose();
   right_ = kKept * right_ + by * shown;
-  const Eigen::Vector3d before(0.0, information_of(kFrictionDeviation), information_of(kLoadDeviation));
+  const Eigen::Vector3d before(0.0, 1.0 / square(kFrictionDeviation), 1.0);
   Eigen::Matrix3d information = normal_;
   information.diagonal() += before;
   Eigen::Vector3d wanted = right_;

@@ -8,8 +8,7 @@
 
 #include "base/csv.h"
 #include "base/input_error.h"
-#include "control/joint/datasheet_csv.h"
-#include "control/joint/friction_csv.h"
+#include "control/joint/catalogue_csv.h"
 #include "control/units.h"
 
 namespace strainwave {

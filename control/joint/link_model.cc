@@ -19,7 +19,6 @@ using Vector = Eigen::Vector4d;  // of a LinkState, in its order
 // Steps of Runge and Kutta's method: this much of a swing in one, which it makes to some 1e-5 of itself. Beyond the most of them, at
 // half a kilohertz and a period of 1 ms, it is still stable.
 constexpr double kStep_rad = 0.25;
-constexpr int kFewestSteps = 2;
 constexpr int kMostSteps = 16;
 
 // Weights of the regulator. This share of the torque limit is spent ...
@@ -56,8 +55,7 @@ Sampled sample(LinkModel joint, double period_s) noexcept {
 int steps_in(const LinkModel& joint, double period_s) noexcept {
   const double swing_rad_s = free_free_frequency_rad_s(joint.motor_inertia_kgm2, joint.link_inertia_kgm2,
                                                        joint.spring.stiffness_3_Nm_rad);
-  return std::clamp(static_cast<int>(std::ceil(period_s * swing_rad_s / kStep_rad)), kFewestSteps,
-                    kMostSteps);
+  return std::clamp(static_cast<int>(std::ceil(period_s * swing_rad_s / kStep_rad)), 1, kMostSteps);
 }
 
 }  // namespace

@@ -187,12 +187,8 @@ FeedbackGains gains_from_json(StrictObject object) {
 
 Provenance provenance_from_json(StrictObject object) {
   Provenance provenance;
-  const std::string sampling = object.text("sampling", 32);
-  if (sampling != kForwardEulerName && sampling != kZeroOrderHoldName) {
-    throw InputError(object.where("sampling") + " = " + sampling + ": must be " + kForwardEulerName + " or " +
-                     kZeroOrderHoldName);
-  }
-  provenance.sampling = sampling == kForwardEulerName ? Sampling::kForwardEuler : Sampling::kZeroOrderHold;
+  const bool euler = is_first(object, "sampling", kForwardEulerName, kZeroOrderHoldName);
+  provenance.sampling = euler ? Sampling::kForwardEuler : Sampling::kZeroOrderHold;
   provenance.created_utc = text_field<32>(object, "created_utc");
   provenance.tool = text_field<32>(object, "tool");
   provenance.friction_sha256 = text_field<72>(object, "friction_sha256");

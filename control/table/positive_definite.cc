@@ -10,7 +10,7 @@ namespace strainwave {
 
 namespace {
 
-constexpr double kHalfUlp = 0.5 * std::numeric_limits<double>::epsilon();
+using bounded_detail::kHalfUlp;
 
 // Powers of two are exact only away from underflow and overflow; a matrix beyond this range is not a design
 // of ours.

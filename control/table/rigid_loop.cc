@@ -14,13 +14,12 @@ namespace strainwave {
 namespace {
 
 constexpr int kRigidLoopStates = 4;
-constexpr int kMostRigidDelay = kMaxProofStates - kRigidLoopStates - 1;
 
 }  // namespace
 
 double rigid_loop_radius(const PlantIdentity& plant, double viscous_Nms_rad, const GainRow& gain,
                          bool has_integrator, int delay_periods) {
-  assert(delay_periods >= 0 && delay_periods <= kMostRigidDelay);
+  assert(delay_periods >= 0 && delay_periods < kMaxProofStates - kRigidLoopStates);
   const Eigen::Index n = kRigidLoopStates + delay_periods;
   const SampledDynamics sampled = sampled_dynamics(plant, viscous_Nms_rad, has_integrator);
   ProofMatrix law = ProofMatrix::Zero(1, n);

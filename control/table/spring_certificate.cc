@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t kDimensions = 4;  // stiffness, 1 / Jl, damping, viscous friction
 constexpr std::size_t kCorners = std::size_t{1} << kDimensions;
 
-constexpr double kTiny = 1e-300;
 // Of a norm in the radius: what is left out of that is below 1e-10.
 constexpr double kSmallestShare = 0x1p-40;
 // A box is cut into at most 2^kMostCuts parts.
@@ -81,7 +80,8 @@ SpringCorners spring_corners(const SpringBox& box, double period_s) {
   }
   double largest = 0.0;
   for (std::size_t d = 0; d < kDimensions; ++d) {
-    const double share = (errors[d].array() / (result.interpolation.array() + kTiny)).sum();
+    const double share =
+        (errors[d].array() / (result.interpolation.array() + std::numeric_limits<double>::min())).sum();
     if (share <= largest) continue;
     largest = share;
     result.widest = d;

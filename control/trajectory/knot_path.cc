@@ -14,10 +14,8 @@ namespace {
 
 // Knots are computed: one that is at a limit is not beyond it for its last bits.
 constexpr double kRounding = 1.0 + kAtBound;
-constexpr double kOnBound_rad = 1e-9;
-constexpr double kRest_rad_s = 1e-9;
-// An instant this close to a knot, as a share of the segment, is the knot's.
-constexpr double kAtKnot = 1e-9;
+// Of a position, a velocity, and an instant as a share of its segment.
+constexpr double kClose = 1e-9;
 
 /// One cubic.
 struct Segment {
@@ -46,7 +44,7 @@ struct Instants {
   std::array<double, 2> since_s{};
   std::size_t count = 0;
   void add_inside(double candidate_s, double duration_s) noexcept {
-    if (candidate_s > kAtKnot * duration_s && candidate_s < (1.0 - kAtKnot) * duration_s)
+    if (candidate_s > kClose * duration_s && candidate_s < (1.0 - kClose) * duration_s)
       since_s[count++] = candidate_s;
   }
 };
@@ -74,11 +72,10 @@ class Judge {
   Judge(const PathLimits& limits, std::size_t knot) : limits_(limits), knot_(knot) {}
 
   Found position(double position_rad, double time_s) const {
-    if (position_rad < limits_.range.min_rad - kOnBound_rad)
-      return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad, limits_.range.min_rad};
-    if (position_rad > limits_.range.max_rad + kOnBound_rad)
-      return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad, limits_.range.max_rad};
-    return std::nullopt;
+    const PositionRange& range = limits_.range;
+    if (position_rad >= range.min_rad - kClose && position_rad <= range.max_rad + kClose) return std::nullopt;
+    return PathDefect{PathDefect::Kind::kPosition, knot_, time_s, position_rad,
+                      position_rad < range.min_rad ? range.min_rad : range.max_rad};
   }
   Found speed(double velocity_rad_s, double time_s) const {
     return above(PathDefect::Kind::kSpeed, std::abs(velocity_rad_s), limits_.motion.velocity_rad_s, time_s);
@@ -116,7 +113,7 @@ Found judge_ends(const Segment& segment, const Judge& judge) {
                              begins_by < 0.0, segment.from.time_s))
     return found;
   const PathPoint end = segment.at(segment.duration_s);
-  const bool at_rest = std::abs(end.velocity_rad_s) <= kRest_rad_s;
+  const bool at_rest = std::abs(end.velocity_rad_s) <= kClose;
   const double ends_by = end.velocity_rad_s * end.acceleration_rad_s2;
   return judge.acceleration(end.acceleration_rad_s2, !at_rest && ends_by > 0.0, at_rest || ends_by < 0.0,
                             segment.from.time_s + segment.duration_s);
@@ -152,7 +149,7 @@ Found find_number_defect(const KnotPath& path, std::size_t knot, double period_s
   if (here.time_s > kLongestPath_s)
     return PathDefect{PathDefect::Kind::kDuration, knot, here.time_s, here.time_s, kLongestPath_s};
   const bool end = knot == 0 || knot + 1 == path.count;
-  if (end && std::abs(here.velocity_rad_s) > kRest_rad_s)
+  if (end && std::abs(here.velocity_rad_s) > kClose)
     return PathDefect{PathDefect::Kind::kNotAtRest, knot, here.time_s, here.velocity_rad_s, 0.0};
   return std::nullopt;
 }

@@ -35,10 +35,6 @@ struct PathPoint {
   double position_rad = 0.0;
   double velocity_rad_s = 0.0;
   double acceleration_rad_s2 = 0.0;
-  PathPoint operator+(const PathPoint& other) const noexcept {
-    return {position_rad + other.position_rad, velocity_rad_s + other.velocity_rad_s,
-            acceleration_rad_s2 + other.acceleration_rad_s2};
-  }
 };
 
 /// The cubic (Hermite) between two knots, at an instant between theirs. Real-time safe.

@@ -57,16 +57,14 @@ double ReferenceShaper::next_velocity_rad_s(double to_target_rad) const noexcept
   const double speed_up = period_s_ * limits_.acceleration_rad_s2;
   const double slow_down = period_s_ * limits_.deceleration_rad_s2;
 
+  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
+                                                      limits_.deceleration_rad_s2);
   if (velocity < 0.0) {
     // A sample that turns round has one acceleration, so both limits hold in it.
     const double turned = velocity + std::min(speed_up, slow_down);
     if (turned <= 0.0) return direction * std::min(0.0, velocity + slow_down);
-    const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
-                                                        limits_.deceleration_rad_s2);
     return direction * std::min({turned, limits_.velocity_rad_s, stoppable});
   }
-  const double stoppable = largest_stoppable_velocity(std::abs(to_target_rad) - 0.5 * period_s_ * velocity,
-                                                      limits_.deceleration_rad_s2);
   const double wanted = std::min({velocity + speed_up, limits_.velocity_rad_s, stoppable});
   return direction * std::max({wanted, velocity - slow_down, 0.0});
 }

@@ -3,8 +3,8 @@
 // transport delay. Delayed and lost messages change nothing. Real-time safe.
 //
 //   sent on our clock = sent on the sender's + offset
-//   offset   mean of arrival - sent over forty messages, without those that are later than it by more than `jitter_s`. A message that is
-//            earlier by more than that begins the mean anew; so do late messages alone for `in_a_row_s`
+//   offset   mean of arrival - sent over forty messages, without those that are later than it by more than 6 ms. A message that is
+//            earlier by more than that begins the mean anew; so do late messages alone for 0.12 s
 //   a clock that was set, or stands still: the message counts as sent at its arrival less the usual delay
 #pragma once
 
@@ -17,15 +17,8 @@ namespace strainwave {
 
 class SenderClock {
  public:
-  struct Waits {
-    double jitter_s = 0.006;    ///< usual jitter of the network; > 0
-    double in_a_row_s = 0.12;   ///< longer than the network delays every message
-    double clock_set_s = 0.25;  ///< longer than any delay: the sender's clock was set
-  };
-
   /// `period_s` > 0: the unit of our clock.
-  explicit SenderClock(double period_s) noexcept : SenderClock(period_s, {}) {}
-  SenderClock(double period_s, const Waits& waits) noexcept : period_us_(period_s * 1e6), waits_(waits) {}
+  explicit SenderClock(double period_s) noexcept : period_us_(period_s * 1e6) {}
 
   /// The next message is the first.
   void forget() noexcept { messages_ = 0; }
@@ -40,19 +33,19 @@ class SenderClock {
     const double since = static_cast<double>(sent_us - last_us_) / period_us_;
     const double late = period - (sent_ + since + offset_);
     last_us_ = sent_us;
-    if (since <= 0.0 || std::abs(late) * period_us_ > 1e6 * waits_.clock_set_s) {
+    if (since <= 0.0 || std::abs(late) * period_us_ > kClockSet_us) {
       sent_ = std::max(sent_, period - offset_);
       return;
     }
     sent_ += since;
-    const double jitter = 1e6 * waits_.jitter_s / period_us_;
+    const double jitter = kJitter_us / period_us_;
     if (late > jitter) {
       if (!std::exchange(held_up_, true)) {
         since_ = period;
         quickest_ = period - sent_;
       }
       quickest_ = std::min(quickest_, period - sent_);
-      if ((period - since_) * period_us_ <= 1e6 * waits_.in_a_row_s) return;
+      if ((period - since_) * period_us_ <= kInARow_us) return;
       offset_ = quickest_;
       return begin_mean();
     }
@@ -73,6 +66,9 @@ class SenderClock {
 
  private:
   static constexpr int kAveraged = 40;
+  static constexpr double kJitter_us = 6e3;      ///< usual jitter of a network
+  static constexpr double kInARow_us = 120e3;    ///< longer than a network delays every message
+  static constexpr double kClockSet_us = 250e3;  ///< longer than any delay: the sender's clock was set
 
   void begin_mean() noexcept {
     messages_ = 1;
@@ -80,7 +76,6 @@ class SenderClock {
   }
 
   double period_us_;
-  Waits waits_;
   std::int64_t last_us_ = 0;
   double sent_ = 0.0;
   double offset_ = 0.0;

@@ -25,10 +25,9 @@ struct FrictionHistory {
 
 /// A factor of 2 must be named while a quarter of it is not learned yet: 2 * 3/4, and the inverse.
 inline constexpr double kMostFrictionFactor = 2.0 * 3.0 / 4.0;
-inline constexpr double kLeastFrictionFactor = 1.0 / kMostFrictionFactor;
 
 constexpr bool differs_from_table(double friction_factor) noexcept {
-  return friction_factor < kLeastFrictionFactor || friction_factor > kMostFrictionFactor;
+  return friction_factor > kMostFrictionFactor || friction_factor < 1.0 / kMostFrictionFactor;
 }
 
 }  // namespace strainwave

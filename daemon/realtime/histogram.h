@@ -2,6 +2,7 @@
 // A histogram of durations with the buckets of lcmtypes/timing_buckets.h, written by one thread and read by others. Real-time safe.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -39,16 +40,9 @@ class Histogram {
 
   /// Counts one duration; negative ones count as 0. One thread only.
   void add(std::int64_t duration_ns) noexcept {
-    std::size_t low = 0;
-    std::size_t high = kHistogramBuckets - 1;
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (duration_ns < upper_ns_[middle])
-        high = middle;
-      else
-        low = middle + 1;
-    }
-    bump(counts_[low]);
+    const auto above = std::upper_bound(upper_ns_.begin(), upper_ns_.end() - 1, duration_ns);
+    std::atomic<std::int64_t>& count = counts_[static_cast<std::size_t>(above - upper_ns_.begin())];
+    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     if (duration_ns > max_ns_.load(std::memory_order_relaxed))
       max_ns_.store(duration_ns, std::memory_order_relaxed);
   }
@@ -62,10 +56,6 @@ class Histogram {
   std::int64_t max_ns() const noexcept { return max_ns_.load(std::memory_order_relaxed); }
 
  private:
-  static void bump(std::atomic<std::int64_t>& count) noexcept {
-    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  }
-
   std::array<std::int64_t, kHistogramBuckets> upper_ns_{};
   std::array<std::atomic<std::int64_t>, kHistogramBuckets> counts_{};
   std::atomic<std::int64_t> max_ns_{0};

@@ -13,7 +13,6 @@ namespace {
 
 // For coming to rest along the path: a multiple of what the slowest joint needs on its own, and what the clock needs of the slowest path.
 constexpr double kPatience = 2.0;
-constexpr double kLeastPatience_s = 2.0 / PathClock::kFastestChange_1_s;
 
 }  // namespace
 
@@ -195,8 +194,8 @@ void PathFollower::bring_to_rest(std::size_t index) noexcept {
     longest_s = std::max(longest_s,
                          std::abs(here.velocity_rad_s) / joint.config.controller.motion.deceleration_rad_s2);
   });
-  travel.rest_cycles =
-      std::llround((kPatience * longest_s + kLeastPatience_s) / period_s_ + travel.most_behind_periods);
+  travel.rest_cycles = std::llround(
+      kPatience * (longest_s + 1.0 / PathClock::kFastestChange_1_s) / period_s_ + travel.most_behind_periods);
   travel.phase = Phase::kEnding;
 }
 
