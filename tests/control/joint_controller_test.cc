@@ -71,18 +71,6 @@ TEST(JointController, BringsALoadStepBackToWithinAMilliradian) {
   }
 }
 
-TEST(JointController, KeepsItsTorqueWhenATableIsSwapped) {
-  ControlledJoint loop;
-  loop.load_torque_Nm = 4.0;
-  loop.controller().set_target(0.2);
-  loop.run(3.0);
-  const double torque_Nm = loop.step().output.torque_Nm;
-  loop.controller().load(read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/c4.json"));
-  EXPECT_NEAR(loop.step().output.torque_Nm, torque_Nm, 0.05);
-  loop.run(1.0);
-  EXPECT_LE(std::abs(loop.position_rad() - 0.2), 1e-3);
-}
-
 TEST(JointController, SurvivesAJointThatIsBlockedAndGoesOnWhenItIsFree) {
   JointPlantConfig blocked = realistic_plant();
   blocked.joint.friction.asymptote.static_Nm = 100.0;

@@ -188,18 +188,6 @@ TEST(Homing, FindsTheSamePlaceFromAnywhere) {
     }
 }
 
-TEST(Homing, NeverGoesFasterThanItsSpeedsNorFartherThanItsTravel) {
-  HomingConfig config = config_to(HomingTarget::kHomeSwitch);
-  config.travel_rad = 0.4;
-  Homing homing(config);
-  Walker joint(0.9, inputs());
-  joint.run(homing);
-  EXPECT_EQ(homing.phase(), Homing::Phase::kFailed) << "the switch is 0.55 away";
-  EXPECT_GE(joint.lowest_rad_, 0.5 - kOvershoot_rad);
-  EXPECT_LE(joint.highest_rad_, 0.9);
-  EXPECT_LE(joint.fastest_rad_s_, 0.5);
-}
-
 TEST(Homing, GivesUpAfterItsTime) {
   HomingConfig config = config_to(HomingTarget::kHomeSwitch);
   config.timeout_s = 0.5;
@@ -249,16 +237,6 @@ TEST(Homing, EndsAtTheTravelWhenASwitchNeverOpensOrNeverCloses) {
     EXPECT_EQ(homing.phase(), Homing::Phase::kFailed) << stuck;
     EXPECT_LE(std::max(joint.highest_rad_, -joint.lowest_rad_), 0.1 + kOvershoot_rad) << stuck;
   }
-}
-
-TEST(Homing, GivesNoOrdersOnceItHasEnded) {
-  Homing homing(config_to(HomingTarget::kNegativeLimit));
-  Walker joint(-0.5, inputs());
-  joint.run(homing);
-  ASSERT_EQ(homing.phase(), Homing::Phase::kDone);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(homing.step(joint.observe()).kind, Homing::Order::Kind::kGoOn);
-  homing.abort();
-  EXPECT_EQ(homing.step(joint.observe()).kind, Homing::Order::Kind::kGoOn);
 }
 
 }  // namespace

@@ -121,14 +121,6 @@ TEST_F(JointLoopHoming, EndsWithADisable) {
   EXPECT_GE(bench_->step_until([&] { return bench_->mode(0) == Mode::kOff; }, 2000), 0);
 }
 
-TEST_F(JointLoopHoming, IsRefusedWhereNothingIsToBeFound) {
-  BenchJoint joint = joint_to_be_homed();
-  joint.loop.homing.target = HomingTarget::kNone;
-  joint.loop.homing.required = false;
-  hold(joint);
-  EXPECT_EQ(bench_->order(0, OrderKind::kHome), Reason::kNoHoming);
-}
-
 TEST_F(JointLoopHoming, ThatFindsNothingIsAFaultAndThePositionStaysUnknown) {
   BenchJoint joint = joint_to_be_homed();
   joint.loop.homing.travel_rad = 0.2;

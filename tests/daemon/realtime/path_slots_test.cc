@@ -26,21 +26,6 @@ TEST(PathSlots, BringOnePathAtATime) {
   EXPECT_TRUE(slots.hand_over(path_with(4)));
 }
 
-TEST(PathSlots, NeverWriteToThePathInUse) {
-  PathSlots slots;
-  for (std::int64_t id = 1; id < 20; ++id) {
-    const auto slot = slots.hand_over(path_with(id));
-    ASSERT_TRUE(slot);
-    slots.use(*slot);
-    slots.judged();
-    const auto refused = slots.hand_over(path_with(1000 + id));
-    ASSERT_TRUE(refused);
-    slots.judged();
-    EXPECT_NE(*refused, *slot);
-    EXPECT_EQ(slots.at(*slot).id, id);
-  }
-}
-
 // One thread hands over what another uses: a path is never seen half-written, also while the one before is in use.
 TEST(PathSlots, ShowWholePathsToTheOtherThread) {
   PathSlots slots;

@@ -89,15 +89,6 @@ TEST_F(TemperatureCheckTest, FollowsADriftWithinTheRate) {
   }
 }
 
-TEST_F(TemperatureCheckTest, LosesASilentSignalByAge) {
-  read(20.0, 0.1);
-  silence(1.9);
-  EXPECT_TRUE(check_.usable());
-  silence(0.2);
-  EXPECT_EQ(check_.status(), TemperatureStatus::kTooOld);
-  EXPECT_FALSE(check_.usable());
-}
-
 TEST_F(TemperatureCheckTest, RefusesAReadingThatIsOldWhenItArrives) {
   check_.update(true, 20.0, now_ns_ - 3 * kSecond_ns, now_ns_);
   EXPECT_EQ(check_.status(), TemperatureStatus::kTooOld);
