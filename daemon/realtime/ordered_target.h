@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/durations.h"
 #include "daemon/realtime/joint_zero.h"
 
 namespace strainwave {
@@ -32,9 +33,19 @@ class OrderedTarget {
   bool takes(std::int64_t stream_id, bool begins) const noexcept {
     return stream_id == 0 || begins || (streamed() && stream_id == stream_id_);
   }
-  void accept(const Setpoint& setpoint, std::int64_t now_ns) noexcept;
+  void accept(const Setpoint& setpoint, std::int64_t now_ns) noexcept {
+    joint_rad_ = setpoint.joint_rad;
+    drive_rad_ = setpoint.drive_rad;
+    stream_id_ = setpoint.stream_id;
+    stream_ = setpoint.stream_id != 0 ? Stream::kLive : Stream::kNone;
+    expires_ns_ = now_ns + nanoseconds(setpoint.valid_for_s);
+  }
   /// True once, in the period in which a live stream has ended.
-  bool expire(std::int64_t now_ns) noexcept;
+  bool expire(std::int64_t now_ns) noexcept {
+    if (stream_ != Stream::kLive || now_ns < expires_ns_) return false;
+    stream_ = Stream::kExpired;
+    return true;
+  }
   /// A path begins, which ends at `joint_rad`. It is not valid for a time: who follows it ends it.
   void begin_path(double joint_rad, double drive_rad) noexcept {
     joint_rad_ = joint_rad;
