@@ -139,8 +139,11 @@ std::string TomlSection::place(std::string_view key) const {
 }
 
 void TomlSection::refuse(std::string_view key, const std::string& allowed) const {
-  if (!table_->document->collects) throw InputError(place(key) + ": " + allowed);
-  table_->document->errors.push_back(place(key) + ": " + allowed);
+  const std::string error = place(key) + ": " + allowed;
+  if (!table_->document->collects) throw InputError(error);
+  // A key may be read twice.
+  std::vector<std::string>& errors = table_->document->errors;
+  if (std::find(errors.begin(), errors.end(), error) == errors.end()) errors.push_back(error);
 }
 
 // What contradicts a value that stands in for another one is no error of the file.

@@ -174,9 +174,9 @@ HomingInputs CanConfig::read_joint(TomlSection& section, JointConfig& joint) {
   const auto node_id = static_cast<int>(is_odrive ? section.integer("node_id", 0, odrive::kMaxNodeId)
                                                   : section.integer("node_id", 1, kMaxNodeId));
   if (std::find(bus.node_ids.begin(), bus.node_ids.end(), node_id) != bus.node_ids.end())
-    section.fail("node_id", "each drive on a bus needs a node id of its own");
+    section.note_error(section.place("node_id") + ": each drive on a bus needs a node id of its own");
   if (!is_odrive && node_id == bus.config.our_node_id)
-    section.fail("node_id", "another than the bus's our_node_id is allowed");
+    section.note_error(section.place("node_id") + ": another than the bus's our_node_id is allowed");
   joint.drive = DriveOnBus{static_cast<std::size_t>(&bus - buses_.data()), bus.drives.size()};
   joint.driver_resource = bus.config.interface_name + " node " + std::to_string(node_id);
   bus.node_ids.push_back(node_id);

@@ -76,6 +76,11 @@ void doubt_angle(const TomlSection& section, std::string_view key, double angle_
   section.warn(key, doubt.str());
 }
 
+std::string fahrenheit_hint(double limit_C) {
+  if (limit_C <= kHottest_C) return {};
+  return "; if degrees Fahrenheit are meant, write " + rounded((limit_C - 32.0) / 1.8);
+}
+
 void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio) {
   const JointLimits& limits = loop.limits;
   doubt_angle(section, "position_min_rad", limits.position_min_rad, kTurn_rad);
@@ -94,8 +99,7 @@ void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, doubl
   doubt_motion(section, loop);
   if (limits.temperature_limit_C > kHottest_C)
     section.warn("temperature_limit_C",
-                 "too hot for the grease of any gear; if degrees Fahrenheit are meant, write " +
-                     rounded((limits.temperature_limit_C - 32.0) / 1.8));
+                 "too hot for the grease of any gear" + fahrenheit_hint(limits.temperature_limit_C));
   if (section.has("overspeed_rad_s") && limits.overspeed_rad_s > kLargeOverspeed * speed_rad_s)
     section.warn("overspeed_rad_s", "a joint that runs away is stopped only at " +
                                         number_text(limits.overspeed_rad_s / speed_rad_s) +

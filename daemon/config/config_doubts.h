@@ -21,6 +21,9 @@ namespace strainwave {
 void doubt_angle(const TomlSection& section, std::string_view key, double angle_rad,
                  double usual_rad = kTurn_rad);
 
+/// What a limit is in degrees Celsius that no motor bears: "; if degrees Fahrenheit are meant, write 70". Else nothing.
+std::string fahrenheit_hint(double limit_C);
+
 /// Of [joint.limits], already read into `loop`, of a joint behind such a gear.
 void doubt_limits(const TomlSection& section, const JointLoopConfig& loop, double gear_ratio);
 

@@ -58,9 +58,10 @@ void read_temperature_check(TomlSection section, JointLoopConfig& loop) {
   check.loss_is_fault = section.choice_or("on_loss", "fallback", {"fallback", "fault"}) == "fault";
   // What is above max_C is not believed: the limit must be reached before.
   if (loop.limits.temperature_limit_C >= check.max_C)
-    section.fail("max_C", "a temperature above joint.limits.temperature_limit_C = " +
-                              number_text(loop.limits.temperature_limit_C) +
-                              " is allowed: a joint at its limit must be believed");
+    section.note_error(section.place("max_C") + ": a temperature above joint.limits.temperature_limit_C = " +
+                       number_text(loop.limits.temperature_limit_C) +
+                       " is allowed: a joint at its limit must be believed" +
+                       fahrenheit_hint(loop.limits.temperature_limit_C));
   section.refuse_unknown_keys();
 }
 

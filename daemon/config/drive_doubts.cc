@@ -2,6 +2,8 @@
 #include "daemon/config/drive_doubts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/printable.h"
@@ -15,6 +17,32 @@ namespace {
 constexpr double kFewestCountsPerMotorTurn = 500.0;
 /// Drives on CAN take less (IEC 61800-5-1: above 120 V a drive is no extra-low voltage device).
 constexpr double kHighestSupply_V = 120.0;
+
+/// Rounding of a unit that was written with three digits; twice or half of a unit is another one.
+constexpr double kUnitTolerance = 0.01;
+/// Units of 60A9h: down to a millionth.
+constexpr double kMostDecades = 6.0;
+
+bool is_decimal_part(double unit, double whole) {
+  const double decades = std::round(std::log10(whole / unit));
+  return decades >= 0.0 && decades <= kMostDecades &&
+         std::abs(unit * std::pow(10.0, decades) / whole - 1.0) < kUnitTolerance;
+}
+
+/// Drives count speed in the counts of their position, or in turns of the motor.
+void doubt_velocity_unit(const TomlSection& section, const cia402::UnitConfig& units) {
+  const double counts_rad_s = 2.0 * std::numbers::pi / units.counts_per_output_revolution;
+  const double rpm_rad_s = 2.0 * std::numbers::pi / 60.0 / units.gear_ratio;
+  const double unit_rad_s = units.velocity_rad_s_per_unit;
+  if (unit_rad_s == 0.0 || is_decimal_part(unit_rad_s, counts_rad_s) ||
+      is_decimal_part(unit_rad_s, rpm_rad_s))
+    return;
+  section.warn("velocity_rad_s_per_unit",
+               "is no usual unit of 606Ch and 60FFh: counts per second are " + number_text(counts_rad_s) +
+                   ", rpm of the motor " + number_text(rpm_rad_s) +
+                   " at the joint, or a tenth, a hundredth and so on; a wrong unit makes the joint faster or "
+                   "slower than ordered");
+}
 
 /// The ratio below `ratio` that is nearest to it and at most `most`.
 std::optional<double> smaller_ratio(double ratio, double most) {
@@ -36,6 +64,7 @@ void doubt_drive(const TomlSection& section, const JointConfig& joint, const cia
                      " in a turn of the motor, where encoders have 500 and more; if a turn of the motor is "
                      "meant, write " +
                      number_text(units.counts_per_output_revolution * units.gear_ratio));
+  doubt_velocity_unit(section, units);
   if (const auto doubt = cia402::torque_unit_doubt(drive.identity.vendor_id.value_or(0), units))
     section.warn("rated_torque_unit", *doubt);
 }

@@ -162,6 +162,9 @@ TEST_F(CanConfigTest, WarnsOfNumbersThatContradictEachOtherWithTheValueThatIsLik
            {"torque_constant_Nm_A = 0.192",
             "torque_constant_Nm_A = 9.6",
             {"480 N.m", "34", "the motor's is 0.192"}},
+           {"rated_torque_unit",
+            "velocity_rad_s_per_unit = 0.10472\nrated_torque_unit",
+            {"velocity_rad_s_per_unit = 0.10472", "rpm of the motor 0.00209"}},
            {"\"uNm\"", "\"mNm\"", {"rated_torque_unit", "maxon", "\"uNm\" is likely meant"}},
            {"motor_inertia_kgm2 = 0.089",
             "motor_inertia_kgm2 = 8.9",
@@ -177,6 +180,28 @@ TEST_F(CanConfigTest, WarnsOfNumbersThatContradictEachOtherWithTheValueThatIsLik
     for (const std::string& warning : warnings) all += warning + '\n';
     expect_mentions(all, row.parts);
   }
+}
+
+TEST_F(CanConfigTest, ANodeIdThatCannotBeHidesNoOtherErrorAndNoErrorIsSaidTwice) {
+  const std::string error = error_of(replaced(replaced(example("epos4.toml"), "node_id = 1", "node_id = 200"),
+                                              "supply_V = 48", "supply_V = -48"));
+  expect_mentions(error, {"node_id = 200", "from 1 to 127", "supply_V = -48"});
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 1) << error;
+}
+
+TEST_F(CanConfigTest, ALimitInFahrenheitIsNamedThoughItIsAboveWhatIsBelieved) {
+  expect_mentions(error_after("epos4.toml", "temperature_limit_C = 70", "temperature_limit_C = 158"),
+                  {"temperature_limit_C = 158", "Fahrenheit", "write 70"});
+}
+
+TEST_F(CanConfigTest, DoubtsNoUnitOfVelocityThatDrivesHave) {
+  // Counts a second; 1 rpm, 0.1 rpm, a millionth of a rpm of the motor (60A9h).
+  for (const char* unit : {"1.9635e-5", "0.0020944", "2.0944e-4", "2.09440e-9"})
+    for (const std::string& warning :
+         read(replaced(example("epos4.toml"), "rated_torque_unit",
+                       std::string("velocity_rad_s_per_unit = ") + unit + "\nrated_torque_unit"))
+             .warnings)
+      EXPECT_EQ(warning.find("velocity_rad_s_per_unit"), std::string::npos) << warning;
 }
 
 TEST_F(CanConfigTest, ADriveMayCloseItsOwnLoopWhereNothingElseContradicts) {
