@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "control/table/certificate.h"
+#include "design/cost_certificate.h"
 #include "control/table/gain_table.h"
 #include "design/sdp_solver.h"
 

@@ -11,7 +11,6 @@
 #include "control/joint/gear_catalogue.h"
 #include "control/joint/joint_catalogue.h"
 #include "control/table/gain_table_json.h"
-#include "control/table/rigid_loop.h"
 #include "design/commands.h"
 #include "design/controller_design.h"
 #include "design/creation_time.h"
@@ -177,9 +176,7 @@ ExitStatus gains(const GainsOptions& options, const CLI::App& command) {
     std::filesystem::path path = options.out;
     if (options.controller == "all") path /= "c" + label.substr(1) + ".json";
     if (!joint.spring) {
-      tables.emplace_back(path, design_table(controller, request));
-      if (request.design.sampling != Sampling::kZeroOrderHold) continue;
-      if (const auto swing = find_swing(tables.back().second, 0, kMaxBoxDelay)) throw InputError(*swing);
+      tables.emplace_back(path, design_rigid(controller, request));
       continue;
     }
     const SpringDesign found =

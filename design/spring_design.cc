@@ -16,6 +16,7 @@ constexpr int kQuarters = 4;  // of a decade of the torque's weight
 // Beyond that of data/tables/csf-17-50-delays.json, the softest shipped gains, a link's swing is not damped.
 constexpr double kSoftestWeight = 1e-5;
 constexpr int kNarrowings = 2;
+constexpr int kSofterSteps = 8;  // of half a decade
 // Of a torque that acts two periods late the velocity of two readings is two and a half periods old. Of the family for links of 0.05 to 0.3
 // kg m2 behind a size 17 gear 1.5 periods are too few without damping, 2.5 too many for the stiffer gains.
 constexpr double kLeadPeriods = 2.0;
@@ -72,6 +73,29 @@ SpringDesign search(Controller controller, TableRequest request, const std::stri
 }
 
 }  // namespace
+
+GainTable design_rigid(Controller controller, const TableRequest& request) {
+  GainTable table = design_table(controller, request);
+  if (request.design.sampling != Sampling::kZeroOrderHold) return table;
+  const SpringVerdict verdict = box_of_rigid(table);
+  if (verdict.certified) {
+    table.box = verdict.box;
+    return table;
+  }
+  std::string text = "gains: the loop of these gains is not certified. " + verdict.text;
+  TableRequest softer = request;
+  for (int i = 0; i < kSofterSteps; ++i) {
+    CostWeights& weights = softer.design.weights;
+    weights.torque *= std::sqrt(10.0);
+    if (!box_of_rigid(design_table(controller, softer)).certified) continue;
+    std::ostringstream wanted;
+    wanted << "Softer gains are certified: --weights " << weights.integral << "," << weights.position << ","
+           << weights.velocity << "," << weights.torque;
+    throw NotAchieved(text + wanted.str());
+  }
+  throw NotAchieved(text + "Nor are those of torque weights up to " +
+                    number_text(softer.design.weights.torque) + ".");
+}
 
 // The lightest links are the hardest: a range is narrowed from their side.
 SpringDesign design_on_spring(Controller controller, const TableRequest& request, const std::string& gear,

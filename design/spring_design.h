@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gains for a joint whose gear is a spring: the most aggressive of a family that are certified on the whole box. Offline.
+// Gains whose box is certified: for a rigid joint those that are asked for, for a gear that is a spring the most aggressive of a family.
+// Offline.
 #pragma once
 
 #include <functional>
@@ -14,6 +15,10 @@ struct SpringDesign {
   GainTable table;   ///< with its box
   std::string text;  ///< the weight that was found and what proves it, in lines
 };
+
+/// design_table(), with its box unless the sampling is forward Euler. Throws NotAchieved where it is not certified, with the weights of
+/// softer gains that are.
+GainTable design_rigid(Controller controller, const TableRequest& request);
 
 /// What is tried now, in words.
 using DesignProgress = std::function<void(const std::string&)>;

@@ -49,4 +49,7 @@ SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, c
 /// first without a proof.
 SpringVerdict box_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request);
 
+/// The box of a rigid joint with the table's inertia, at every delay from 0 to kMaxBoxDelay periods.
+SpringVerdict box_of_rigid(const GainTable& table);
+
 }  // namespace strainwave

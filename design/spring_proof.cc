@@ -18,9 +18,12 @@ namespace strainwave {
 
 namespace {
 
-// The fall that is asked for, W: integral, position, velocity, wind-up, its velocity, last position, torques under way. Only the ratios
+// The fall that is asked for, W: integral, position and wind-up, their velocities, last position, torques under way. Only the ratios
 // count, and little: those of the cost that the gains are designed for, and a wind-up as dear as the position.
-constexpr std::array<double, kSpringLoopStates> kFall{0.1, 1.0, 1e-4, 1.0, 1e-4, 1e-2};
+constexpr double kIntegralFall = 0.1;
+constexpr double kPositionFall = 1.0;
+constexpr double kVelocityFall = 1e-4;
+constexpr double kReadingFall = 1e-2;
 constexpr double kTorqueFall = 1e-6;
 // Samples over which a corner's own sum of H'^k W H^k is formed, as a power of two.
 constexpr int kDoublings = 24;
@@ -28,10 +31,12 @@ constexpr int kDoublings = 24;
 constexpr double kNarrowest = 1.002;
 
 Eigen::VectorXd fall_of(const SpringLoop& loop) {
-  Eigen::VectorXd fall = Eigen::VectorXd::Constant(loop.states(), kTorqueFall);
-  fall.head<kSpringLoopStates>() =
-      Eigen::Map<const Eigen::Matrix<double, kSpringLoopStates, 1>>(kFall.data());
-  return fall;
+  std::vector<double> fall;
+  if (loop.has_integrator) fall.push_back(kIntegralFall);
+  for (int i = 0; i < loop.plant_states; ++i) fall.push_back(i % 2 == 0 ? kPositionFall : kVelocityFall);
+  fall.push_back(kReadingFall);
+  fall.resize(static_cast<std::size_t>(loop.states()), kTorqueFall);
+  return Eigen::VectorXd::Map(fall.data(), loop.states());
 }
 
 std::vector<Eigen::MatrixXd> loops_of(std::span<const GainRow> gains, const SpringBox& box,
@@ -106,6 +111,7 @@ double inertia_ratio(const SpringBox& box) {
 
 // In two, at the geometric mean of what changes the free swing more. False when both are narrow.
 bool cut(const SpringBox& box, std::array<SpringBox, 2>& halves) {
+  if (box.link_inertia_kgm2.to == 0.0) return false;  // rigid
   const double by_stiffness = box.stiffness_Nm_rad.to / box.stiffness_Nm_rad.from;
   const bool stiffness = by_stiffness >= inertia_ratio(box);
   if (std::max(by_stiffness, inertia_ratio(box)) < kNarrowest) return false;

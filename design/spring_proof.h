@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what control/table/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints with a spring. Offline.
+// Finds what control/table/spring_certificate.h verifies: for given gains a matrix P per cell of a box of joints. Offline.
 //
 // P is the least in trace of   P - H' P H / r^2 >= W,   every corner and every gain,   W diagonal,
 // in states that are balanced by the corners' own Lyapunov matrices.

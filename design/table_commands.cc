@@ -6,9 +6,7 @@
 
 #include "base/input_error.h"
 #include "control/table/box_certificate.h"
-#include "control/table/certificate.h"
 #include "control/table/gain_table_json.h"
-#include "control/table/rigid_loop.h"
 #include "design/commands.h"
 #include "design/exact/exact_certificate.h"
 #include "design/joint_defaults.h"
@@ -78,24 +76,11 @@ ExitStatus verify(const VerifyOptions& options) {
   const GainTable table = read_gain_table(options.path);
   // Before anything is certified in words.
   const std::optional<SpringRequest> spring = requested_spring(options, table);
-  bool certified = true;
-  for (const FeedbackGains* gains : {&table.primary, &table.fallback}) {
-    const CertificateReport report = certify(*gains, table.plant, table.friction);
-    certified = certified && report.certified;
-    std::fputs(margins_text(*gains, report).c_str(), stdout);
-  }
-  if (table.box.rigid() && table.provenance.sampling == Sampling::kZeroOrderHold) {
-    const std::optional<std::string> swing = find_swing(table, 0, kMaxBoxDelay);
-    certified = certified && !swing;
-    if (swing) std::printf("delay: NOT CERTIFIED: %s\n", swing->c_str());
-  }
-  if (!table.box.rigid()) {
-    const BoxReport report = certify_box(table);
-    certified = certified && report.certified;
-    std::printf("box: %s\n  %s; %s, %d inequalities\n", describe(table.box).c_str(),
-                report.certified ? "certified" : "NOT CERTIFIED", report.text.c_str(), report.inequalities);
-    if (report.certified) std::fputs(describe(reach_of(table), table.torque_limit_Nm).c_str(), stdout);
-  }
+  const BoxReport report = certify_box(table);
+  bool certified = report.certified;
+  std::printf("box: %s\n  %s; %s, %d inequalities\n", describe(table.box).c_str(),
+              report.certified ? "certified" : "NOT CERTIFIED", report.text.c_str(), report.inequalities);
+  if (report.certified) std::fputs(describe(reach_of(table), table.torque_limit_Nm).c_str(), stdout);
   if (options.exact) certified = verify_exactly(table) && certified;
   if (spring) certified = verify_spring(table, gear_of(options, table), *spring) && certified;
   std::printf("%s: %s\n", options.path.c_str(), certified ? "certified" : "NOT CERTIFIED");

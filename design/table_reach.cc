@@ -30,17 +30,27 @@ constexpr int kHalvings = 40;
 using States = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxProofStates, 1>;
 using Inputs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, kMaxProofStates, 2>;
 
+// The first state of the plant, and the last reading.
+Eigen::Index position_of(const SpringLoop& loop) {
+  return loop.has_integrator ? 1 : 0;
+}
+Eigen::Index last_reading_of(const SpringLoop& loop) {
+  return position_of(loop) + loop.plant_states;
+}
+
 // y of spring_plant.h.
-Eigen::RowVectorXd reading(Eigen::Index states, EncoderSide side) {
-  Eigen::RowVectorXd y = Eigen::RowVectorXd::Zero(states);
-  y(1) = 1.0;
-  if (side == EncoderSide::kLink) y(3) = 1.0;
+Eigen::RowVectorXd reading(const SpringLoop& loop) {
+  Eigen::RowVectorXd y = Eigen::RowVectorXd::Zero(loop.states());
+  y(position_of(loop)) = 1.0;
+  if (loop.encoder_side == EncoderSide::kLink && loop.plant_states == kSpringPlantStates)
+    y(position_of(loop) + 2) = 1.0;
   return y;
 }
 
 // [A B; 0 1] with B of a torque at the link.
 ProofMatrix sampled_with_load(const SpringPlant& plant, double period_s) {
   BoundedMatrix generator = spring_generator(plant, period_s);
+  if (plant.link_inertia_kgm2 == 0.0) return spring_exponential(generator).value;
   for (const Eigen::Index row : {1, 3}) generator.set(row, kSpringPlantStates, 0.0);
   generator.set(3, kSpringPlantStates, Bounded(period_s) / plant.link_inertia_kgm2);
   return spring_exponential(generator).value;
@@ -66,8 +76,9 @@ Eigen::RowVectorXd wanted_torque(const BoundedMatrix& sampled, const GainRow& ga
   const bool at_once = loop.delay_periods == 0;
   if (at_once) loop.delay_periods = 1;
   const ProofMatrix H = spring_loop(sampled, gain, loop).value;
-  Eigen::RowVectorXd K = H.row(kSpringLoopStates).head(n);
-  if (at_once && n > kSpringLoopStates) K(n - 1) = H(kSpringLoopStates, n);
+  const Eigen::Index torque = last_reading_of(loop) + 1;
+  Eigen::RowVectorXd K = H.row(torque).head(n);
+  if (at_once && n > torque) K(n - 1) = H(torque, n);
   return K;
 }
 
@@ -132,17 +143,18 @@ double largest_level(const std::vector<LimitedLoop>& loops) {
 TableReach reach_of(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                     const ProofMatrix& P) {
   const Eigen::Index n = loop.states();
-  const Eigen::RowVectorXd y = reading(n, loop.encoder_side);
+  const Eigen::RowVectorXd y = reading(loop);
+  const Eigen::Index first = position_of(loop);
+  const Eigen::Index plant = loop.plant_states;
   TableReach reach;
   double level = kInfinity;
   for (const SpringCorner& corner : spring_corners(box, loop.period_s).corners) {
     Inputs inputs = Inputs::Zero(n, 2);
-    inputs.col(0).segment(1, kSpringPlantStates) =
-        corner.sampled.value.col(kSpringPlantStates).head(kSpringPlantStates);
-    inputs.col(1).segment(1, kSpringPlantStates) =
-        sampled_with_load(corner.plant, loop.period_s).col(kSpringPlantStates).head(kSpringPlantStates);
+    inputs.col(0).segment(first, plant) = corner.sampled.value.col(plant).head(plant);
+    inputs.col(1).segment(first, plant) =
+        sampled_with_load(corner.plant, loop.period_s).col(plant).head(plant);
     const Eigen::VectorXd B = loop.delay_periods == 0 ? Eigen::VectorXd(inputs.col(0))
-                                                      : Eigen::VectorXd::Unit(n, kSpringLoopStates);
+                                                      : Eigen::VectorXd::Unit(n, last_reading_of(loop) + 1);
     std::vector<LimitedLoop> limited;
     for (const GainRow& gain : gains) {
       const Eigen::MatrixXd H = spring_loop(corner.sampled, gain, loop).value;
@@ -155,10 +167,10 @@ TableReach reach_of(std::span<const GainRow> gains, const SpringBox& box, const 
   }
   // At rest the last reading is as far off; at a velocity it is what makes the law take that velocity.
   Eigen::VectorXd off = Eigen::VectorXd::Zero(n);
-  off(1) = off(kSpringLoopStates - 1) = 1.0;
+  off(first) = off(last_reading_of(loop)) = 1.0;
   Eigen::VectorXd moving = Eigen::VectorXd::Zero(n);
-  moving(2) = 1.0;
-  moving(kSpringLoopStates - 1) = -loop.period_s / velocity_share(loop.encoder_side, loop.period_s);
+  moving(first + 1) = 1.0;
+  moving(last_reading_of(loop)) = -loop.period_s / velocity_share(loop.encoder_side, loop.period_s);
   reach.position_rad_per_Nm = std::sqrt(level / off.dot(P * off));
   reach.velocity_rad_s_per_Nm = std::sqrt(level / moving.dot(P * moving));
   return reach;
@@ -170,10 +182,8 @@ TableReach reach_of(const GainTable& table) {
   worst.position_rad_per_Nm = worst.velocity_rad_s_per_Nm = kInfinity;
   for (int i = 0; i < table.box.cell_count; ++i) {
     const BoxCell& cell = table.box.cells[static_cast<std::size_t>(i)];
-    const SpringLoop loop{table.plant.period_s, cell.delay_periods, 1.0, table.box.encoder_side,
-                          table.box.lead_periods};
-    const TableReach reach =
-        reach_of(gains, spring_box(table, cell), loop, lyapunov_of(cell, table.box.lead_periods));
+    const TableReach reach = reach_of(gains, spring_box(table, cell), loop_of(table, cell.delay_periods),
+                                      lyapunov_of(table, cell));
     worst.motor_rad_per_Nm = std::max(worst.motor_rad_per_Nm, reach.motor_rad_per_Nm);
     worst.link_rad_per_Nm = std::max(worst.link_rad_per_Nm, reach.link_rad_per_Nm);
     worst.position_rad_per_Nm = std::min(worst.position_rad_per_Nm, reach.position_rad_per_Nm);

@@ -2,7 +2,6 @@
 #include "design/table_report.h"
 
 #include <array>
-#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -49,32 +48,6 @@ std::string gains_text(const FeedbackGains& gains, const char* role) {
 
 }  // namespace
 
-std::string margins_text(const FeedbackGains& gains, const CertificateReport& report) {
-  std::string text =
-      format("%s: %s", str(gains.controller).c_str(), report.certified ? "certified" : "NOT CERTIFIED");
-  if (report.plant_rules == 0) return text + ": gains and friction rules do not fit each other\n";
-  text += "; smallest margin " + describe(report.worst) + "\n";
-  text +=
-      "  margin (smallest eigenvalue after balancing, less all rounding errors; the worst over the next "
-      "rule)\n"
-      "  row: rule of the plant, column: rule of the controller; a wrong temperature is beside the diagonal\n"
-      "      ";
-  const auto rows = static_cast<std::size_t>(report.plant_rules);
-  const auto columns = static_cast<std::size_t>(report.gain_rules);
-  for (std::size_t j = 0; j < columns; ++j) text += format("%11zu", j);
-  text += "\n";
-  for (std::size_t i = 0; i < rows; ++i) {
-    text += format("  %3zu ", i);
-    for (std::size_t j = 0; j < columns; ++j) {
-      const PositiveDefiniteResult& result = report.worst_next[i][j];
-      text += std::isfinite(result.margin) ? format("  %8.2e%c", result.margin, result.certain ? ' ' : '!')
-                                           : "      none!";
-    }
-    text += "\n";
-  }
-  return text + format("  %d inequalities, with those of blended rules\n", report.inequalities);
-}
-
 std::string description(const GainTable& table) {
   const PlantIdentity& plant = table.plant;
   std::string text = format("Gain table \"%s\" (format %d)\n", str(table.name).c_str(), table.format);
@@ -82,9 +55,8 @@ std::string description(const GainTable& table) {
                  str(plant.joint_model).c_str(), plant.inertia_kgm2, plant.gear_ratio, plant.period_s);
   if (!plant.gear.view().empty()) text += "  gear " + str(plant.gear) + "\n";
   text += "  certified for: " + describe(table.box) + "\n";
-  if (!table.box.rigid())
-    text += format("  (%d cells; the state feedback, not observer, planned motion or fed forward friction)\n",
-                   table.box.cell_count);
+  text += format("  (%d cells; the state feedback, not observer, planned motion or fed forward friction)\n",
+                 table.box.cell_count);
   text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
                  table.friction.temperature_min_C, table.friction.temperature_max_C);
   text += "\nfriction rules (joint side)\n";

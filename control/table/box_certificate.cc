@@ -58,9 +58,10 @@ std::optional<std::string> find_gap(const CertifiedBox& box, int delay_periods) 
         return cell.delay_periods == delay_periods && holds(cell.stiffness_Nm_rad, stiffness) &&
                holds(cell.link_inertia_kgm2, inertia);
       });
-      if (!covered)
-        return "no cell for a delay of " + std::to_string(delay_periods) + ", stiffness " +
-               text_of(stiffness) + " N m/rad, link " + text_of(inertia) + " kg m2";
+      if (covered) continue;
+      const std::string text = "no cell for a delay of " + std::to_string(delay_periods);
+      if (box.rigid()) return text;
+      return text + ", stiffness " + text_of(stiffness) + " N m/rad, link " + text_of(inertia) + " kg m2";
     }
   }
   return std::nullopt;
@@ -72,17 +73,24 @@ std::string outside(const char* quantity, const std::string& value, const std::s
 
 }  // namespace
 
-ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods) {
-  const int n = spring_loop_states(cell.delay_periods, lead_periods);
+SpringLoop loop_of(const GainTable& table, int delay_periods) {
+  const CertifiedBox& box = table.box;
+  return {table.plant.period_s, delay_periods,      1.0, box.encoder_side,
+          box.lead_periods,     box.plant_states(), table.primary.has_integrator != 0};
+}
+
+ProofMatrix lyapunov_of(const GainTable& table, const BoxCell& cell) {
+  const int n = loop_states(table.box.plant_states(), cell.delay_periods, table.box.lead_periods);
   ProofMatrix P(n, n);
   std::size_t entry = 0;
   for (int i = 0; i < n; ++i)
     for (int j = i; j < n; ++j) P(i, j) = P(j, i) = cell.P[entry++];
-  return P;
+  const int states = loop_of(table, cell.delay_periods).states();
+  return P.bottomRightCorner(states, states);
 }
 
 SpringBox spring_box(const GainTable& table, const BoxCell& cell) {
-  return {table.box.motor_inertia_kgm2,
+  return {table.box.rigid() ? table.plant.inertia_kgm2 : table.box.motor_inertia_kgm2,
           cell.link_inertia_kgm2,
           cell.stiffness_Nm_rad,
           table.box.damping_Nms_rad,
@@ -99,9 +107,8 @@ BoxReport certify_box(const GainTable& table) {
   double margin = std::numeric_limits<double>::infinity();
   for (const BoxCell& cell : cells_of(box)) {
     const SpringReport proof =
-        certify(gains, spring_box(table, cell),
-                {table.plant.period_s, cell.delay_periods, 1.0, box.encoder_side, box.lead_periods},
-                lyapunov_of(cell, box.lead_periods), kMostBoxInequalities - report.inequalities);
+        certify(gains, spring_box(table, cell), loop_of(table, cell.delay_periods), lyapunov_of(table, cell),
+                kMostBoxInequalities - report.inequalities);
     report.inequalities += proof.inequalities;
     if (proof.certified && proof.margin >= margin) continue;
     margin = proof.margin;
@@ -112,13 +119,9 @@ BoxReport certify_box(const GainTable& table) {
   return report;
 }
 
-std::optional<std::string> find_outside_box(const GainTable& table, const LinkModel& link,
-                                            int delay_periods) {
-  const CertifiedBox& box = table.box;
-  if (box.rigid())
-    return "the table is of a rigid joint: a flexible joint takes one that is certified on "
-           "it, from "
-           "strainwave-design gains --gear --motor-inertia_kgm2 --load-inertia_kgm2 --delay";
+namespace {
+
+std::optional<std::string> find_spring_outside(const CertifiedBox& box, const LinkModel& link) {
   const TorsionSpring& spring = link.spring;
   const auto [least, most] =
       std::minmax({spring.stiffness_1_Nm_rad, spring.stiffness_2_Nm_rad, spring.stiffness_3_Nm_rad});
@@ -134,20 +137,39 @@ std::optional<std::string> find_outside_box(const GainTable& table, const LinkMo
   if (link.damping_Nms_rad > 0.0 && !box.damping_Nms_rad.holds(link.damping_Nms_rad))
     return outside("joint.damping_Nms_rad", text_of({link.damping_Nms_rad, link.damping_Nms_rad}),
                    text_of(box.damping_Nms_rad) + " N m s/rad");
-  if (delay_periods < box.least_delay || delay_periods > box.most_delay)
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> find_outside_box(const GainTable& table, const std::optional<LinkModel>& link,
+                                            int delay_periods) {
+  const CertifiedBox& box = table.box;
+  if (box.rigid() && link)
+    return "the table is of a rigid joint: a flexible joint takes one that is certified on "
+           "it, from "
+           "strainwave-design gains --gear --motor-inertia_kgm2 --load-inertia_kgm2 --delay";
+  if (!box.rigid() && !link)
+    return "the table is of a flexible joint: a rigid joint takes one from strainwave-design gains "
+           "--inertia_kgm2 without --load-inertia_kgm2";
+  if (link)
+    if (const auto outside_spring = find_spring_outside(box, *link)) return outside_spring;
+  const bool proves_nothing = box.cell_count == 0;  // which certify_box() says
+  if (!proves_nothing && (delay_periods < box.least_delay || delay_periods > box.most_delay))
     return outside("delay_periods", std::to_string(delay_periods),
                    periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}));
   return std::nullopt;
 }
 
 std::string describe(const CertifiedBox& box) {
-  if (box.rigid())
-    return std::string("rigid: one inertia, no spring; encoder on the ") + to_text(box.encoder_side);
+  const std::string delays =
+      "delay " + periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +
+      ", encoder on the " + to_text(box.encoder_side);
+  if (box.cell_count == 0) return std::string("nothing; encoder on the ") + to_text(box.encoder_side);
+  if (box.rigid()) return "a rigid joint: one inertia, no spring, " + delays;
   return "motor " + text_of({box.motor_inertia_kgm2, box.motor_inertia_kgm2}) + " kg m2, link " +
          text_of(box.link_inertia_kgm2) + " kg m2, stiffness " + text_of(box.stiffness_Nm_rad) +
-         " N m/rad, damping " + text_of(box.damping_Nms_rad) + " N m s/rad, delay " +
-         periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}) +
-         ", encoder on the " + to_text(box.encoder_side) +
+         " N m/rad, damping " + text_of(box.damping_Nms_rad) + " N m s/rad, " + delays +
          (box.lead_periods == 0.0 ? "" : ", lead " + periods_text({box.lead_periods, box.lead_periods}));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificate of a table that carries a box of joints with a spring. The receiver proves it anew without a solver: every gain rule,
-// every blend of them and the fallback are stable on every joint of the box, and the cells cover the box.
-// Not real-time. Source: spring_certificate.h, of each cell.
+// The certificate of a table. The receiver proves it anew without a solver: every gain rule, every blend of them and the fallback are
+// stable on every joint of the box, and the cells cover the box. Not real-time. Source: spring_certificate.h, of each cell.
 //
 // Proved is the feedback in the loop that the daemon closes around the encoder on the box's side: its velocity from the readings, its lead,
 // torques under way. It holds for every delay of the box, for any temperature taken for any other, and for viscous friction from 0 to the largest of
@@ -29,17 +28,21 @@ struct BoxReport {
 /// A proof that needs more inequalities than these, of all cells together, is refused: who receives a table pays for it.
 inline constexpr int kMostBoxInequalities = 120000;
 
-/// Proves the box of `table`, in which find_defect() finds nothing and which is not rigid.
+/// Proves the box of `table`, in which find_defect() finds nothing.
 BoxReport certify_box(const GainTable& table);
 
-/// The joints of `cell`, with the box's motor, damping and rules.
+/// The joints of `cell`, with the box's motor (the table's inertia where it is rigid), damping and rules.
 SpringBox spring_box(const GainTable& table, const BoxCell& cell);
 
-/// P of `cell`, whole.
-ProofMatrix lyapunov_of(const BoxCell& cell, double lead_periods);
+/// The loop of `table` at a delay.
+SpringLoop loop_of(const GainTable& table, int delay_periods);
 
-/// Which quantity of a flexible joint is outside the table's box, its value and what is allowed, or nothing.
-std::optional<std::string> find_outside_box(const GainTable& table, const LinkModel& link, int delay_periods);
+/// P of `cell`, whole, a row for each state of loop_of().
+ProofMatrix lyapunov_of(const GainTable& table, const BoxCell& cell);
+
+/// Which quantity of a joint, a rigid one without a link, is outside the table's box, its value and what is allowed, or nothing.
+std::optional<std::string> find_outside_box(const GainTable& table, const std::optional<LinkModel>& link,
+                                            int delay_periods);
 
 /// The box in words, without its cells.
 std::string describe(const CertifiedBox& box);

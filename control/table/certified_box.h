@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a gain table says of the joints that its gains are stable on, with all that the proof needs: the box, cut into cells by stiffness
-// and link inertia, each with a Lyapunov matrix. Plain structs that can be copied as bytes; real-time safe to read. What is proved of
-// them: box_certificate.h.
+// and link inertia, each with a Lyapunov matrix. A rigid joint's box has one cell for each delay. Plain structs that can be copied as
+// bytes; real-time safe to read. What is proved of them: box_certificate.h.
 #pragma once
 
 #include <array>
@@ -23,28 +23,33 @@ struct BoxRange {
 inline constexpr int kMaxBoxCells = 24;
 inline constexpr int kMaxBoxDelay = 2;
 inline constexpr double kMaxLeadPeriods = 10.0;
-/// States of the loop around a joint with a spring (spring_plant.h) without delay; each period of delay adds one, and a lead one.
-inline constexpr int kSpringLoopStates = 6;
+/// A proof may halve a cell, and its halves, so many times.
+inline constexpr int kMostHalvings = 8;
+/// States of the plant (spring_plant.h): those of a motor, and with a spring those of the wind-up.
+inline constexpr int kRigidPlantStates = 2;
+inline constexpr int kSpringPlantStates = 4;
 
-constexpr int spring_loop_states(int delay_periods, double lead_periods) noexcept {
-  return kSpringLoopStates + delay_periods + (lead_periods != 0.0 ? 1 : 0);
+/// States of the loop: the plant's, the integral, the last reading, one for each period of delay, and one for a lead.
+constexpr int loop_states(int plant_states, int delay_periods, double lead_periods) noexcept {
+  return plant_states + 2 + delay_periods + (lead_periods != 0.0 ? 1 : 0);
 }
-/// The upper triangle of a cell's P, a row and a column for each state of the loop. `delay_periods` >= 0.
-constexpr std::size_t cell_entries(int delay_periods, double lead_periods) noexcept {
-  const auto n = static_cast<std::size_t>(spring_loop_states(delay_periods, lead_periods));
-  return n * (n + 1) / 2;
+constexpr std::size_t triangle_entries(int states) noexcept {
+  return static_cast<std::size_t>(states) * static_cast<std::size_t>(states + 1) / 2;
 }
-inline constexpr std::size_t kCellEntries = cell_entries(kMaxBoxDelay, kMaxLeadPeriods);
+inline constexpr std::size_t kCellEntries =
+    triangle_entries(loop_states(kSpringPlantStates, kMaxBoxDelay, kMaxLeadPeriods));
 
 /// A part of the box with one P; in it stiffness and link inertia may be another at every sample.
 struct BoxCell {
   std::int32_t delay_periods = 0;
   BoxRange stiffness_Nm_rad;
   BoxRange link_inertia_kgm2;
-  std::array<double, kCellEntries> P{};  ///< upper triangle, row by row; zeros after it
+  /// Upper triangle, row by row, a row for each state of the loop; zeros after it, and in the integral's row without an integrator.
+  std::array<double, kCellEntries> P{};
 };
 
-/// Rigid: no cells, all but the encoder's side is 0. The friction of the motor's side is the rules' own, from 0 to the largest.
+/// Rigid: inertias, stiffness, damping and lead are 0, in the cells, too, and the inertia is the table's; no cell: nothing is proved. The
+/// friction of the motor's side is the rules' own, from 0 to the largest.
 struct CertifiedBox {
   EncoderSide encoder_side = EncoderSide::kMotor;
   double motor_inertia_kgm2 = 0.0;  ///< > 0, one number: of the motor's side, at the joint
@@ -55,10 +60,14 @@ struct CertifiedBox {
   std::int32_t most_delay = 0;
   /// Of the feedback on these joints, 0..kMaxLeadPeriods: scheduled_controller.h. Rigid joints have none.
   double lead_periods = 0.0;
-  std::int32_t cell_count = 0;  ///< 0: rigid
+  std::int32_t cell_count = 0;
   std::array<BoxCell, kMaxBoxCells> cells{};
 
-  bool rigid() const noexcept { return cell_count == 0; }
+  bool rigid() const noexcept { return link_inertia_kgm2.to == 0.0; }
+  int plant_states() const noexcept { return rigid() ? kRigidPlantStates : kSpringPlantStates; }
+  std::size_t entries_of(const BoxCell& cell) const noexcept {
+    return triangle_entries(loop_states(plant_states(), cell.delay_periods, lead_periods));
+  }
 };
 
 }  // namespace strainwave

@@ -59,23 +59,29 @@ void inspect_range(TableInspector& inspector, const std::string& key, const BoxR
   inspector.in_range(key + "[1]", range.to, range.from, most);
 }
 
+bool is_zero(const BoxRange& range) {
+  return range.from == 0.0 && range.to == 0.0;
+}
+
 void inspect_cell(TableInspector& inspector, const CertifiedBox& box, const BoxCell& cell,
                   const std::string& key) {
   inspector.in_range(key + "delay_periods", cell.delay_periods, box.least_delay, box.most_delay);
-  inspect_range(inspector, key + "stiffness_Nm_rad", cell.stiffness_Nm_rad, kMinBoxValue,
-                kMaxStiffness_Nm_rad);
-  inspect_range(inspector, key + "link_inertia_kgm2", cell.link_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);
+  if (box.rigid()) {
+    inspector.require(is_zero(cell.stiffness_Nm_rad) && is_zero(cell.link_inertia_kgm2),
+                      key + ": of a rigid joint, must say nothing of a spring");
+  } else {
+    inspect_range(inspector, key + "stiffness_Nm_rad", cell.stiffness_Nm_rad, kMinBoxValue,
+                  kMaxStiffness_Nm_rad);
+    inspect_range(inspector, key + "link_inertia_kgm2", cell.link_inertia_kgm2, kMinBoxValue,
+                  kMaxInertia_kgm2);
+  }
   if (!inspector.ok()) return;
   for (std::size_t i = 0; i < kCellEntries; ++i) {
     const std::string entry = key + "P[" + std::to_string(i) + "]";
     inspector.in_range(entry, cell.P[i], -kMaxLyapunov, kMaxLyapunov);
-    inspector.require(i < cell_entries(cell.delay_periods, box.lead_periods) || cell.P[i] == 0.0,
+    inspector.require(i < box.entries_of(cell) || cell.P[i] == 0.0,
                       entry + ": must be 0 beyond the matrix");
   }
-}
-
-bool is_zero(const BoxRange& range) {
-  return range.from == 0.0 && range.to == 0.0;
 }
 
 void inspect_cells(TableInspector& inspector, const CertifiedBox& box) {
@@ -105,9 +111,10 @@ void inspect_box(TableInspector& inspector, const GainTable& table) {
   if (box.rigid()) {
     inspector.require(box.motor_inertia_kgm2 == 0.0 && is_zero(box.link_inertia_kgm2) &&
                           is_zero(box.stiffness_Nm_rad) && is_zero(box.damping_Nms_rad) &&
-                          box.most_delay == 0 && box.lead_periods == 0.0,
-                      "box: a rigid one, without cells, must say nothing of a spring");
+                          box.lead_periods == 0.0,
+                      "box: a rigid one must say nothing of a spring");
   } else {
+    inspector.require(box.cell_count > 0, "box.cell_count = 0: must be at least 1 unless the joint is rigid");
     inspector.require(!table.plant.gear.view().empty(),
                       "plant.gear: must be named where the joint has a spring");
     inspector.in_range("box.motor_inertia_kgm2", box.motor_inertia_kgm2, kMinBoxValue, kMaxInertia_kgm2);

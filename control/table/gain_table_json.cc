@@ -64,26 +64,31 @@ ordered_json range_to_json(const BoxRange& range) {
   return {range.from, range.to};
 }
 
-ordered_json box_to_json(const CertifiedBox& box) {
-  if (box.rigid()) return {{"joint", kRigidName}, {"encoder_side", to_text(box.encoder_side)}};
-  ordered_json cells = ordered_json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i) {
-    const BoxCell& cell = box.cells[i];
-    const auto P = std::span(cell.P).first(cell_entries(cell.delay_periods, box.lead_periods));
-    cells.push_back({{"delay_periods", cell.delay_periods},
-                     {"stiffness_Nm_rad", range_to_json(cell.stiffness_Nm_rad)},
-                     {"link_inertia_kgm2", range_to_json(cell.link_inertia_kgm2)},
-                     {"P", std::vector<double>(P.begin(), P.end())}});
+ordered_json cell_to_json(const CertifiedBox& box, const BoxCell& cell) {
+  ordered_json document = {{"delay_periods", cell.delay_periods}};
+  if (!box.rigid()) {
+    document["stiffness_Nm_rad"] = range_to_json(cell.stiffness_Nm_rad);
+    document["link_inertia_kgm2"] = range_to_json(cell.link_inertia_kgm2);
   }
-  ordered_json document = {{"joint", kSpringName},
-                           {"encoder_side", to_text(box.encoder_side)},
-                           {"motor_inertia_kgm2", box.motor_inertia_kgm2},
-                           {"link_inertia_kgm2", range_to_json(box.link_inertia_kgm2)},
-                           {"stiffness_Nm_rad", range_to_json(box.stiffness_Nm_rad)},
-                           {"damping_Nms_rad", range_to_json(box.damping_Nms_rad)},
-                           {"delay_periods", {box.least_delay, box.most_delay}}};
+  const auto P = std::span(cell.P).first(box.entries_of(cell));
+  document["P"] = std::vector<double>(P.begin(), P.end());
+  return document;
+}
+
+ordered_json box_to_json(const CertifiedBox& box) {
+  ordered_json document = {{"joint", box.rigid() ? kRigidName : kSpringName},
+                           {"encoder_side", to_text(box.encoder_side)}};
+  if (!box.rigid()) {
+    document["motor_inertia_kgm2"] = box.motor_inertia_kgm2;
+    document["link_inertia_kgm2"] = range_to_json(box.link_inertia_kgm2);
+    document["stiffness_Nm_rad"] = range_to_json(box.stiffness_Nm_rad);
+    document["damping_Nms_rad"] = range_to_json(box.damping_Nms_rad);
+  }
+  document["delay_periods"] = {box.least_delay, box.most_delay};
   if (box.lead_periods != 0.0) document["lead_periods"] = box.lead_periods;
-  document["cells"] = std::move(cells);
+  document["cells"] = ordered_json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(box.cell_count); ++i)
+    document["cells"].push_back(cell_to_json(box, box.cells[i]));
   return document;
 }
 
@@ -108,12 +113,14 @@ std::int32_t delay_from_number(const StrictObject& object, double value) {
                    std::to_string(kMaxBoxDelay));
 }
 
-BoxCell cell_from_json(StrictObject& object, double lead_periods) {
+BoxCell cell_from_json(StrictObject& object, const CertifiedBox& box) {
   BoxCell cell;
   cell.delay_periods = delay_from_number(object, object.number("delay_periods"));
-  cell.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
-  cell.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
-  std::ranges::copy(object.numbers("P", cell_entries(cell.delay_periods, lead_periods)), cell.P.begin());
+  if (!box.rigid()) {
+    cell.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
+    cell.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
+  }
+  std::ranges::copy(object.numbers("P", box.entries_of(cell)), cell.P.begin());
   object.finish();
   return cell;
 }
@@ -129,14 +136,14 @@ CertifiedBox box_from_json(StrictObject object) {
     box.link_inertia_kgm2 = range_from_json(object, "link_inertia_kgm2");
     box.stiffness_Nm_rad = range_from_json(object, "stiffness_Nm_rad");
     box.damping_Nms_rad = range_from_json(object, "damping_Nms_rad");
-    const BoxRange delays = range_from_json(object, "delay_periods");
-    box.least_delay = delay_from_number(object, delays.from);
-    box.most_delay = delay_from_number(object, delays.to);
     if (object.has("lead_periods")) box.lead_periods = object.number("lead_periods");
-    std::vector<StrictObject> cells = object.objects("cells", 1, kMaxBoxCells);
-    box.cell_count = static_cast<std::int32_t>(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) box.cells[i] = cell_from_json(cells[i], box.lead_periods);
   }
+  const BoxRange delays = range_from_json(object, "delay_periods");
+  box.least_delay = delay_from_number(object, delays.from);
+  box.most_delay = delay_from_number(object, delays.to);
+  std::vector<StrictObject> cells = object.objects("cells", rigid ? 0 : 1, kMaxBoxCells);
+  box.cell_count = static_cast<std::int32_t>(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) box.cells[i] = cell_from_json(cells[i], box);
   object.finish();
   return box;
 }

@@ -18,8 +18,6 @@ constexpr std::size_t kCorners = std::size_t{1} << kDimensions;
 
 // Of a norm in the radius: what is left out of that is below 1e-10.
 constexpr double kSmallestShare = 0x1p-40;
-// A box is cut into at most 2^kMostCuts parts.
-constexpr int kMostCuts = 8;
 
 template <typename Box>
 auto& range_of(Box& box, std::size_t dimension) {
@@ -60,7 +58,7 @@ bool is_new(const SpringBox& box, std::size_t corner) {
 SpringCorners spring_corners(const SpringBox& box, double period_s) {
   SpringCorners result;
   std::array<BoundedMatrix, kCorners> generators;
-  ProofMatrix size = ProofMatrix::Zero(kSpringPlantStates + 1, kSpringPlantStates + 1);
+  ProofMatrix size = spring_generator(corner_of(box, 0), period_s).magnitude();
   for (std::size_t c = 0; c < kCorners; ++c) {
     generators[c] = spring_generator(corner_of(box, c), period_s);
     size = size.cwiseMax(generators[c].magnitude());
@@ -217,7 +215,7 @@ class BoxProof {
 SpringReport certify(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                      const ProofMatrix& P, int most_inequalities) {
   BoxProof proof(gains, loop, P, most_inequalities);
-  if (proof.report().certified) proof.prove(box, kMostCuts);
+  if (proof.report().certified) proof.prove(box, kMostHalvings);
   return proof.report();
 }
 
@@ -261,9 +259,14 @@ std::vector<GainRow> gains_of(const GainTable& table) {
 
 std::string describe(const SpringPlant& plant) {
   std::ostringstream text;
-  text << std::setprecision(5) << "link " << plant.link_inertia_kgm2 << " kg m2, stiffness "
-       << plant.stiffness_Nm_rad << " N m/rad, damping " << plant.damping_Nms_rad
-       << " N m s/rad, viscous friction " << plant.viscous_Nms_rad << " N m s/rad";
+  text << std::setprecision(5);
+  if (plant.link_inertia_kgm2 == 0.0) {
+    text << "inertia " << plant.motor_inertia_kgm2 << " kg m2";
+  } else {
+    text << "link " << plant.link_inertia_kgm2 << " kg m2, stiffness " << plant.stiffness_Nm_rad
+         << " N m/rad, damping " << plant.damping_Nms_rad << " N m s/rad";
+  }
+  text << ", viscous friction " << plant.viscous_Nms_rad << " N m s/rad";
   return text.str();
 }
 

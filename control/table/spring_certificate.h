@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificate of gains on a joint with a gear that is a spring. From gains and a matrix P the receiver proves, without a solver, that
+// The certificate of gains on a joint, rigid or with a gear that is a spring. From gains and a matrix P the receiver proves, without a solver, that
 // the sampled and held loop of spring_plant.h is stable everywhere in a box of joints. Not real-time.
 //
 //   P - H' P H / r^2 > 0,   P > 0        H = H(K, 1/Jl, D, b, j)
@@ -28,7 +28,7 @@
 
 namespace strainwave {
 
-/// The joints that are meant.
+/// The joints that are meant. A rigid one: link inertia, stiffness and damping from 0 to 0.
 struct SpringBox {
   double motor_inertia_kgm2 = 0.0;  ///< > 0
   BoxRange link_inertia_kgm2;       ///< > 0

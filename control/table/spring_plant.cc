@@ -15,14 +15,18 @@ constexpr int kTerms = 30;
 // The weighted norm up to which the remainder is far below rounding: 4^31 / 31! = 6e-16, of what is then large.
 constexpr double kMostNorm = 4.0;
 
-using Weights = Eigen::Matrix<double, kSpringPlantStates + 1, 1>;
+using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kSpringPlantStates + 1, 1>;
 
 // Positions count 1, velocities the fastest swing, the torque what makes such a velocity in a period: any weights prove, these well.
 Weights weights_of(const ProofMatrix& size) {
-  const double swing = std::max(std::sqrt(size(0, 1) * size(3, 2)), 1e-3);  // h w
+  const Eigen::Index u = size.rows() - 1;
+  const double stiffness = u == kSpringPlantStates ? size(3, 2) : 0.0;
+  const double swing = std::max(std::sqrt(size(0, 1) * stiffness), 1e-3);  // h w
   const double per_position = swing / std::max(size(0, 1), 1e-300);
-  const double torque = swing * per_position / std::max(size(1, 4), 1e-300);
-  return {1.0, per_position, 1.0, per_position, torque};
+  Weights d(u + 1);
+  for (Eigen::Index i = 0; i < u; ++i) d(i) = i % 2 == 0 ? 1.0 : per_position;
+  d(u) = swing * per_position / std::max(size(1, u), 1e-300);
+  return d;
 }
 
 double norm(const ProofMatrix& size, const Weights& d) {
@@ -54,16 +58,19 @@ double tail_of_series(double beta, int n) {
 BoundedMatrix spring_generator(const SpringPlant& plant, double period_s) {
   const Bounded h = period_s;
   const Bounded by_motor = h / plant.motor_inertia_kgm2;
-  const Bounded by_both = by_motor + h / plant.link_inertia_kgm2;
+  const bool rigid = plant.link_inertia_kgm2 == 0.0;
+  const Eigen::Index u = rigid ? kRigidPlantStates : kSpringPlantStates;
   const Bounded K = plant.stiffness_Nm_rad;
   const Bounded D = plant.damping_Nms_rad;
   const Bounded b = plant.viscous_Nms_rad;
-  BoundedMatrix M(kSpringPlantStates + 1, kSpringPlantStates + 1);
+  BoundedMatrix M(u + 1, u + 1);
   M.set(0, 1, h);
   M.set(1, 1, -(b * by_motor));
+  M.set(1, u, by_motor);
+  if (rigid) return M;
+  const Bounded by_both = by_motor + h / plant.link_inertia_kgm2;
   M.set(1, 2, K * by_motor);
   M.set(1, 3, D * by_motor);
-  M.set(1, 4, by_motor);
   M.set(2, 3, h);
   M.set(3, 1, b * by_motor);
   M.set(3, 2, -(K * by_both));
@@ -112,6 +119,11 @@ void set_row(BoundedMatrix& H, Eigen::Index row, const BoundedMatrix& entries) {
   for (Eigen::Index j = 0; j < H.value.cols(); ++j) H.set(row, j, {entries.value(0, j), entries.error(0, j)});
 }
 
+BoundedMatrix without_integral(const BoundedMatrix& H) {
+  const Eigen::Index n = H.value.rows() - 1;
+  return BoundedMatrix::from(H.value.bottomRightCorner(n, n), H.error.bottomRightCorner(n, n));
+}
+
 // u of l, which is a state, too.
 BoundedMatrix with_lead(const BoundedMatrix& law, double lead_periods) {
   BoundedMatrix torque = (Bounded(1.0) + lead_periods) * law;
@@ -124,41 +136,45 @@ BoundedMatrix with_lead(const BoundedMatrix& law, double lead_periods) {
 BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, const SpringLoop& loop) {
   const int delay_periods = loop.delay_periods;
   assert(delay_periods >= 0 && delay_periods <= kMaxSpringDelay);
-  const Eigen::Index n = loop.states();
+  const Eigen::Index plant = loop.plant_states;
+  assert(sampled.value.rows() == plant + 1);
+  const Eigen::Index n = loop_states(loop.plant_states, delay_periods, loop.lead_periods);
+  const Eigen::Index z = 1 + plant;
   const Bounded share = velocity_share(loop.encoder_side, loop.period_s);
   const Bounded by_difference = share * gain(2) / loop.period_s;
   BoundedMatrix law(1, n);
   law.set(0, 0, gain(0));
-  law.set(0, 5, -by_difference);
+  law.set(0, z, -by_difference);
   BoundedMatrix H(n, n);
   H.set(0, 0, 1.0);
-  H.set(5, 5, Bounded(1.0) - share);
+  H.set(z, z, Bounded(1.0) - share);
   // Of the states in y: the motor's position, and the link's place beside it.
   for (const Eigen::Index y : {1, 3}) {
-    if (y == 3 && loop.encoder_side == EncoderSide::kMotor) break;
+    if (y == 3 && (loop.encoder_side == EncoderSide::kMotor || plant == kRigidPlantStates)) break;
     law.set(0, y, Bounded(gain(1)) + by_difference);
     H.set(0, y, loop.period_s);
-    H.set(5, y, share);
+    H.set(z, y, share);
   }
-  for (Eigen::Index i = 0; i < kSpringPlantStates; ++i)
-    for (Eigen::Index j = 0; j < kSpringPlantStates; ++j)
+  for (Eigen::Index i = 0; i < plant; ++i)
+    for (Eigen::Index j = 0; j < plant; ++j)
       H.set(1 + i, 1 + j, {sampled.value(i, j), sampled.error(i, j)});
   const bool leads = loop.lead_periods != 0.0;
   if (leads) set_row(H, n - 1, law);
   const BoundedMatrix torque = leads ? with_lead(law, loop.lead_periods) : law;
   BoundedMatrix input(n, n);
-  for (Eigen::Index i = 0; i < kSpringPlantStates; ++i)
-    input.set(1 + i, 0, {sampled.value(i, kSpringPlantStates), sampled.error(i, kSpringPlantStates)});
+  for (Eigen::Index i = 0; i < plant; ++i)
+    input.set(1 + i, 0, {sampled.value(i, plant), sampled.error(i, plant)});
   if (delay_periods == 0) {
     BoundedMatrix first(n, n);
     set_row(first, 0, torque);
-    return H + input * first;
+    H = H + input * first;
+  } else {
+    set_row(H, z + 1, torque);
+    for (int i = 1; i < delay_periods; ++i) H.set(z + 1 + i, z + i, 1.0);
+    for (Eigen::Index i = 1; i <= plant; ++i)
+      H.set(i, z + delay_periods, {input.value(i, 0), input.error(i, 0)});
   }
-  set_row(H, kSpringLoopStates, torque);
-  for (int i = 1; i < delay_periods; ++i) H.set(kSpringLoopStates + i, kSpringLoopStates + i - 1, 1.0);
-  for (Eigen::Index i = 1; i <= kSpringPlantStates; ++i)
-    H.set(i, kSpringLoopStates + delay_periods - 1, {input.value(i, 0), input.error(i, 0)});
-  return H;
+  return loop.has_integrator ? H : without_integral(H);
 }
 
 }  // namespace strainwave

@@ -6,14 +6,15 @@
 //   Jl wl' = -K s - D v
 //
 // Static and Coulomb friction are taken away by what is fed forward, as on the rigid joint (ts_plant.h); around any equilibrium a
-// spring of several slopes is a K between its least and its largest. State of the plant and of the loop, delay d:
+// spring of several slopes is a K between its least and its largest. A rigid joint is the motor alone, without s and v. State of the plant
+// and of the loop, delay d:
 //
 //   p  = [ thm - r, wm, s, v ]
 //   y  = thm - r, or thl - r = thm - r + s where the encoder is the link's
 //   x  = [ integral, p, z, u one period ago, ..., u d periods ago, l one period ago ]
 //   p+ = A p + B u(d periods ago)          [A B; 0 1] = exp(h [Ac Bc; 0 0])
 //   l  = F_0 integral + F_1 y + F_2 a (y - z) / h
-//   u  = l + n (l - l one period ago)      n: the lead; without one l one period ago is no state
+//   u  = l + n (l - l one period ago)      n: the lead; without one l one period ago is no state, nor is the integral without an integrator
 //   z+ = z + a (y - z),   integral+ = integral + h y
 //
 // a = 1 at the motor: z is the last reading, and its velocity that of two readings; at the link a = velocity_share() (link_velocity.h), and
@@ -32,20 +33,18 @@ namespace strainwave {
 /// One linear joint.
 struct SpringPlant {
   double motor_inertia_kgm2 = 0.0;  ///< > 0
-  double link_inertia_kgm2 = 0.0;   ///< > 0
+  double link_inertia_kgm2 = 0.0;   ///< > 0; 0: a rigid joint, whose stiffness and damping do not count
   double stiffness_Nm_rad = 0.0;    ///< K >= 0
   double damping_Nms_rad = 0.0;     ///< D >= 0
   double viscous_Nms_rad = 0.0;     ///< b >= 0
 };
 
-/// States of the plant; of the loop spring_loop_states() (certified_box.h).
-inline constexpr int kSpringPlantStates = 4;
-inline constexpr int kMaxSpringDelay = kMaxProofStates - kSpringLoopStates - 1;
+inline constexpr int kMaxSpringDelay = kMaxProofStates - loop_states(kSpringPlantStates, 0, kMaxLeadPeriods);
 
-/// h [Ac Bc; 0 0], 5 x 5, each entry rounded a few times.
+/// h [Ac Bc; 0 0], 5 x 5, of a rigid joint 3 x 3, each entry rounded a few times.
 BoundedMatrix spring_generator(const SpringPlant& plant, double period_s);
 
-/// [A B; 0 1], 5 x 5: the exponential of `generator`. Its errors are infinite where the series does not converge fast enough to be
+/// [A B; 0 1]: the exponential of `generator`. Its errors are infinite where the series does not converge fast enough to be
 /// bounded: a period of more than about three radians of the free swing.
 BoundedMatrix spring_exponential(const BoundedMatrix& generator);
 
@@ -60,11 +59,15 @@ struct SpringLoop {
   double decay_rate = 1.0;  ///< r in (0, 1], what a certificate asks for
   EncoderSide encoder_side = EncoderSide::kMotor;
   double lead_periods = 0.0;  ///< n >= 0
+  int plant_states = kSpringPlantStates;
+  bool has_integrator = true;
 
-  int states() const noexcept { return spring_loop_states(delay_periods, lead_periods); }
+  int states() const noexcept {
+    return loop_states(plant_states, delay_periods, lead_periods) - (has_integrator ? 0 : 1);
+  }
 };
 
-/// x+ = H x with `sampled` = [A B; 0 1].
+/// x+ = H x with `sampled` = [A B; 0 1] of loop.plant_states and one.
 BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, const SpringLoop& loop);
 
 }  // namespace strainwave

@@ -46,8 +46,7 @@ void PendingOrders::handle(Verdict& verdict, std::int64_t now_ns) {
 }
 
 void PendingOrders::obey(Verdict& verdict, std::int64_t now_ns) {
-  if (verdict.table == nullptr || verdict.table->box.rigid() || !verdict.proves_box)
-    return give(verdict, now_ns);
+  if (verdict.table == nullptr || !verdict.proves_box) return give(verdict, now_ns);
   if (!prover_.hand_over(verdict))
     refuse(verdict, Reason::kBusy, "another table is just being proved", now_ns);
 }

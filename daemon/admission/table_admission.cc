@@ -15,9 +15,8 @@
 
 #include "control/joint/joint_catalogue.h"
 #include "control/table/box_certificate.h"
-#include "control/table/certificate.h"
-#include "control/table/rigid_loop.h"
 #include "control/table/spring_certificate.h"
+#include "control/table/ts_plant.h"
 #include "lcmtypes/gain_table_message.h"
 #include "lcmtypes/wire.h"
 
@@ -37,16 +36,6 @@ constexpr double kTolerance = 1e-9;
 // What the structure of a joint damps at least whose damping nobody knows, of critical damping: without it nothing would be stable to the
 // last digit.
 constexpr double kStructuralDamping = 0.01;
-
-TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const PlantIdentity& plant,
-                         const FuzzyFriction& friction) {
-  const CertificateReport report = certify(gains, plant, friction);
-  std::ostringstream text;
-  text << which << " gains " << gains.controller.view() << ": margin " << describe(report.worst);
-  if (report.certified) return {Reason::kAccepted, text.str()};
-  text << ": stability is not proved for this joint; design the table for it with strainwave-design gains";
-  return {Reason::kTableNotCertified, text.str()};
-}
 
 // Over the slopes, the extremes of viscous friction, and every gain of both controllers.
 WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
@@ -72,9 +61,7 @@ WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const
 
 // On a flexible joint.
 TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint) {
-  const WorstCorner worst = worst_on_spring(
-      table, *joint.link,
-      {joint.plant.period_s, joint.delay_periods, 1.0, joint.encoder_side, table.box.lead_periods});
+  const WorstCorner worst = worst_on_spring(table, *joint.link, loop_of(table, joint.delay_periods));
   if (worst.radius < 1.0) return {};
   std::ostringstream text;
   text << std::setprecision(5) << "the link swings up under these gains: eigenvalue " << worst.radius
@@ -88,13 +75,6 @@ TableVerdict judge_on_spring(const GainTable& table, const ExpectedJoint& joint)
   return {Reason::kTableNotCertified, text.str()};
 }
 
-// On a rigid joint: with the delay that it has, and one period more.
-TableVerdict judge_rigid(const GainTable& table, const ExpectedJoint& joint) {
-  if (const auto swing = find_swing(table, joint.delay_periods, joint.delay_periods + 1))
-    return {Reason::kTableNotCertified, *swing};
-  return {};
-}
-
 // Whether the joint is one of those that the table is for.
 TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) {
   if (const auto mismatch = find_identity_mismatch(
@@ -106,8 +86,9 @@ TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) 
                                         ": this joint's encoder is on the " + to_text(joint.encoder_side) +
                                         ": design the table with --encoder-side " +
                                         to_text(joint.encoder_side)};
-  if (!joint.link) return {};
-  if (const auto outside = find_outside_box(table, *joint.link, joint.delay_periods))
+  // A drive that closes its own loop needs no proof of this one.
+  if (!joint.law_acts && !joint.link) return {};
+  if (const auto outside = find_outside_box(table, joint.link, joint.delay_periods))
     return {Reason::kTableIdentity, *outside};
   return {};
 }
@@ -148,11 +129,9 @@ std::string note_of(const GainTable& table) {
 }  // namespace
 
 TableVerdict judge_box(const GainTable& table) {
-  if (table.box.rigid()) return {};
   const BoxReport report = certify_box(table);
-  if (report.certified)
-    return {Reason::kAccepted, "; with the spring (" + describe(table.box) + "): " + report.text};
-  return {Reason::kTableNotCertified, "box: " + report.text + ": stability on the spring is not proved (" +
+  if (report.certified) return {Reason::kAccepted, "; certified for " + describe(table.box) + ": " + report.text};
+  return {Reason::kTableNotCertified, "box: " + report.text + ": stability is not proved (" +
                                           describe(table.box) +
                                           "); design the table again with strainwave-design gains"};
 }
@@ -183,17 +162,12 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
     return {Reason::kAccepted,
             "its friction and inertia are used; the drive closes its own loop, of which nothing is proved" +
                 note_of(table)};
-  // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
-  const PlantIdentity& plant = joint.link ? table.plant : expected;
-  TableVerdict primary = judge_gains("primary", table.primary, plant, table.friction);
-  if (primary.reason != Reason::kAccepted) return primary;
-  TableVerdict fallback = judge_gains("fallback", table.fallback, plant, table.friction);
-  if (fallback.reason != Reason::kAccepted) return fallback;
-  TableVerdict loop = joint.link ? judge_on_spring(table, joint) : judge_rigid(table, joint);
-  if (loop.reason != Reason::kAccepted) return loop;
-  primary.text += which_torque_limit_holds(table, joint.torque_limit_Nm);
-  primary.text += note_of(table);
-  return primary;
+  TableVerdict verdict = joint.link ? judge_on_spring(table, joint) : TableVerdict{};
+  if (verdict.reason != Reason::kAccepted) return verdict;
+  verdict.text = std::string(table.primary.controller.view()) + " with fallback " +
+                 std::string(table.fallback.controller.view()) +
+                 which_torque_limit_holds(table, joint.torque_limit_Nm) + note_of(table);
+  return verdict;
 }
 
 std::int64_t table_digest(const GainTable& table) {

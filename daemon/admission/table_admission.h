@@ -29,14 +29,13 @@ struct ExpectedJoint {
       true;  ///< false: the drive closes its own loop, and of a table only friction and inertia are used
 };
 
-/// Judges `table` for a joint that is `expected`. The certificates are recomputed here, never taken on trust: that of the one inertia, and
-/// where the table carries a box that of every joint with a spring in it. A flexible joint must be in the box, by its damping
-/// only where its model has one. It is refused, too, where its link swings up with that damping, or with the least of any joint's.
+/// Judges `table` for a joint that is `expected`. The certificate is recomputed here, never taken on trust. The joint must be in the box with
+/// its delay, and by its damping only where its model has one. It is refused, too, where its link swings up with that damping, or with the least
+/// of any joint's.
 /// Where the law does not act nothing is certified.
 TableVerdict judge_table(const GainTable& table, const ExpectedJoint& expected);
 
-/// The same in two parts: all but the box's proof, which takes milliseconds, and that proof, which may take seconds. A rigid table has
-/// nothing for the second; its text says what is certified of the box.
+/// The same in two parts: all but the box's proof, which takes milliseconds, and that proof, which may take seconds.
 TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& expected);
 TableVerdict judge_box(const GainTable& table);
 

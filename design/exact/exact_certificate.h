@@ -16,7 +16,7 @@ struct ExactReport {
       refusal;  ///< the inequality that fails, or the part of the box without a cell; empty if certified
 };
 
-/// Checks the inequalities of the rigid joint and of the box, if `table` has one. find_defect() must find nothing in `table`.
+/// Checks the inequalities of every cell of the box, and that the cells cover it. find_defect() must find nothing in `table`.
 ExactReport certify_exactly(const GainTable& table);
 
 }  // namespace strainwave

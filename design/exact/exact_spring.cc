@@ -16,9 +16,6 @@ namespace {
 // Stiffness, link inertia, damping, viscous friction.
 constexpr std::size_t kDirections = 4;
 constexpr std::size_t kCorners = std::size_t{1} << kDirections;
-constexpr std::size_t kPlantStates = 4;
-// A part is at most a 2^-12th of its cell.
-constexpr int kMostHalvings = 12;
 
 using Joint = std::array<double, kDirections>;
 using Part = std::array<BoxRange, kDirections>;
@@ -31,6 +28,7 @@ Joint corner_of(const Part& part, std::size_t corner) {
 }
 
 std::string text_of(const Joint& joint) {
+  if (joint[1] == 0.0) return "viscous friction " + table_number(joint[3]) + " N m s/rad";
   return "stiffness " + table_number(joint[0]) + " N m/rad, link " + table_number(joint[1]) +
          " kg m2, damping " + table_number(joint[2]) + " N m s/rad, viscous friction " +
          table_number(joint[3]) + " N m s/rad";
@@ -46,20 +44,27 @@ void set_row(RationalMatrix& matrix, std::size_t row, const RationalMatrix& entr
   for (std::size_t j = 0; j < matrix.columns(); ++j) matrix(row, j) = entries(0, j);
 }
 
-/// h [Ac Bc; 0 0] with the states [e, w, s, v] and u.
+/// h [Ac Bc; 0 0] with the states [e, w, s, v] and u; of a rigid joint, which has no link, [e, w] and u.
 RationalMatrix generator(const Joint& joint, const mpq_class& motor_inertia_kgm2, const mpq_class& h) {
+  if (joint[1] == 0.0) {
+    RationalMatrix rigid(3, 3);
+    rigid(0, 1) = h;
+    rigid(1, 1) = -h * mpq_class(joint[3]) / motor_inertia_kgm2;
+    rigid(1, 2) = h / motor_inertia_kgm2;
+    return rigid;
+  }
   const mpq_class K = joint[0];
   const mpq_class Jl = joint[1];
   const mpq_class D = joint[2];
   const mpq_class b = joint[3];
-  RationalMatrix spring(1, kPlantStates + 1);  // K s + D v
+  RationalMatrix spring(1, 5);  // K s + D v
   spring(0, 2) = K;
   spring(0, 3) = D;
   RationalMatrix on_motor = spring;
   on_motor(0, 1) -= b;
   on_motor(0, 4) = 1;
   const RationalMatrix motor = mpq_class(1 / motor_inertia_kgm2) * on_motor;
-  RationalMatrix M(kPlantStates + 1, kPlantStates + 1);
+  RationalMatrix M(5, 5);
   M(0, 1) = 1;
   M(2, 3) = 1;
   set_row(M, 1, motor);
@@ -79,37 +84,47 @@ Feedback feedback(const GainRow& F, const GainTable& table, int delay) {
   const mpq_class lead = box.lead_periods;
   const mpq_class a = velocity_share(box.encoder_side, table.plant.period_s);
   const auto d = static_cast<std::size_t>(delay);
-  const std::size_t n = 6 + d + (lead != 0 ? 1 : 0);
+  const std::size_t reading = box.rigid() ? 3 : 5;
+  const std::size_t n = reading + 1 + d + (lead != 0 ? 1 : 0);
   const RationalMatrix integral = unit_row(n, 0);
-  const RationalMatrix z = unit_row(n, 5);
+  const RationalMatrix z = unit_row(n, reading);
   RationalMatrix y = unit_row(n, 1);
-  if (box.encoder_side == EncoderSide::kLink) y = y + unit_row(n, 3);
+  if (box.encoder_side == EncoderSide::kLink && !box.rigid()) y = y + unit_row(n, 3);
   const RationalMatrix velocity = mpq_class(a / h) * (y - z);
   const RationalMatrix law = mpq_class(F(0)) * integral + mpq_class(F(1)) * y + mpq_class(F(2)) * velocity;
   RationalMatrix torque = law;
   if (lead != 0) torque = mpq_class(1 + lead) * law - lead * unit_row(n, n - 1);
 
-  Feedback result{d == 0 ? torque : unit_row(n, 5 + d), RationalMatrix(n, n)};
+  Feedback result{d == 0 ? torque : unit_row(n, reading + d), RationalMatrix(n, n)};
   set_row(result.memory, 0, integral + h * y);
-  set_row(result.memory, 5, z + a * (y - z));
-  if (d > 0) set_row(result.memory, 6, torque);
-  for (std::size_t i = 1; i < d; ++i) set_row(result.memory, 6 + i, unit_row(n, 5 + i));
+  set_row(result.memory, reading, z + a * (y - z));
+  if (d > 0) set_row(result.memory, reading + 1, torque);
+  for (std::size_t i = 1; i < d; ++i) set_row(result.memory, reading + 1 + i, unit_row(n, reading + i));
   if (lead != 0) set_row(result.memory, n - 1, law);
+  return result;
+}
+
+/// Without its first `left_out` rows and columns.
+RationalMatrix trimmed(const RationalMatrix& matrix, std::size_t left_out) {
+  RationalMatrix result(matrix.rows() - left_out, matrix.columns() - left_out);
+  for (std::size_t i = 0; i < result.rows(); ++i)
+    for (std::size_t j = 0; j < result.columns(); ++j) result(i, j) = matrix(i + left_out, j + left_out);
   return result;
 }
 
 /// The loop around `sampled` = [A B; 0 1].
 Enclosure closed(const Enclosure& sampled, const Feedback& by) {
   const std::size_t n = by.memory.columns();
+  const std::size_t plant = sampled.value.rows() - 1;
   Enclosure H{by.memory, RationalMatrix(n, n)};
-  for (std::size_t i = 0; i < kPlantStates; ++i) {
-    for (std::size_t j = 0; j < kPlantStates; ++j) {
+  for (std::size_t i = 0; i < plant; ++i) {
+    for (std::size_t j = 0; j < plant; ++j) {
       H.value(1 + i, 1 + j) += sampled.value(i, j);
       H.radius(1 + i, 1 + j) += sampled.radius(i, j);
     }
     for (std::size_t j = 0; j < n; ++j) {
-      H.value(1 + i, j) += sampled.value(i, kPlantStates) * by.acting(0, j);
-      H.radius(1 + i, j) += sampled.radius(i, kPlantStates) * abs(by.acting(0, j));
+      H.value(1 + i, j) += sampled.value(i, plant) * by.acting(0, j);
+      H.radius(1 + i, j) += sampled.radius(i, plant) * abs(by.acting(0, j));
     }
   }
   return H;
@@ -126,14 +141,15 @@ RationalMatrix lyapunov_matrix(const BoxCell& cell, std::size_t n) {
 class CellProof {
  public:
   CellProof(const GainTable& table, const BoxCell& cell, ExactReport& report)
-      : motor_inertia_kgm2_(table.box.motor_inertia_kgm2),
+      : motor_inertia_kgm2_(table.box.rigid() ? table.plant.inertia_kgm2 : table.box.motor_inertia_kgm2),
+        left_out_(table.primary.has_integrator != 0 ? 0 : 1),
         period_s_(table.plant.period_s),
         delay_periods_(cell.delay_periods),
         report_(report) {
     for (const FeedbackGains* gains : {&table.primary, &table.fallback})
       for (int rule = 0; rule < gains->rule_count; ++rule)
         feedbacks_.push_back(feedback(gains->gain(rule), table, cell.delay_periods));
-    P_ = lyapunov_matrix(cell, feedbacks_.front().memory.columns());
+    P_ = trimmed(lyapunov_matrix(cell, feedbacks_.front().memory.columns()), left_out_);
     report_.inequalities += 1;
     if (!is_positive_definite(P_)) refuse("P is not positive definite");
   }
@@ -157,6 +173,7 @@ class CellProof {
  private:
   // Near the free swing's frequency velocities weigh as much as positions, and the stiffness as much as the torque.
   std::vector<mpq_class> scale(const Part& part) const {
+    if (part[1].to == 0.0) return {1, 1, motor_inertia_kgm2_};
     const double K = part[0].to;
     const mpq_class swing =
         power_of_two_near(std::sqrt(K * (1 / motor_inertia_kgm2_.get_d() + 1 / part[1].from)));
@@ -165,15 +182,16 @@ class CellProof {
 
   /// E of a part whose corners have these generators. Sets the direction in which most of it lies.
   RationalMatrix interpolation(const std::array<RationalMatrix, kCorners>& generators, const Part& part) {
-    RationalMatrix size(kPlantStates + 1, kPlantStates + 1);
+    const std::size_t n = generators[0].rows();
+    RationalMatrix size(n, n);
     for (const RationalMatrix& M : generators) size = larger(size, magnitude(M));
     std::array<RationalMatrix, kDirections> bounds;
-    RationalMatrix sum(kPlantStates + 1, kPlantStates + 1);
+    RationalMatrix sum(n, n);
     for (std::size_t d = 0; d < kDirections; ++d) {
-      RationalMatrix change(kPlantStates + 1, kPlantStates + 1);
+      RationalMatrix change(n, n);
       for (std::size_t c = 0; c < kCorners; ++c)
         change = larger(change, magnitude(generators[c | std::size_t{1} << d] - generators[c]));
-      bounds[d] = RationalMatrix(kPlantStates + 1, kPlantStates + 1);
+      bounds[d] = RationalMatrix(n, n);
       if (part[d].from != part[d].to) bounds[d] = interpolation_bound(size, change, scale(part));
       sum = sum + bounds[d];
     }
@@ -205,13 +223,18 @@ class CellProof {
       const Enclosure sampled = exponential(generators[c], scale(part));
       for (std::size_t gain = 0; gain < feedbacks_.size(); ++gain) {
         report_.inequalities += 1;
-        if (falls(P_, P_, closed({sampled.value, sampled.radius + E}, feedbacks_[gain]), 1)) continue;
-        if (falls(P_, P_, closed(sampled, feedbacks_[gain]), 1)) return true;
+        if (falls_within({sampled.value, sampled.radius + E}, feedbacks_[gain])) continue;
+        if (falls_within(sampled, feedbacks_[gain])) return true;
         refuse("V does not fall under gain rule " + std::to_string(gain) + " at " + text_of(joint));
         return false;
       }
     }
     return false;
+  }
+
+  bool falls_within(const Enclosure& sampled, const Feedback& by) const {
+    const Enclosure H = closed(sampled, by);
+    return falls(P_, P_, {trimmed(H.value, left_out_), trimmed(H.radius, left_out_)}, 1);
   }
 
   void refuse(const std::string& why) {
@@ -220,6 +243,7 @@ class CellProof {
   }
 
   mpq_class motor_inertia_kgm2_;
+  std::size_t left_out_ = 0;  // the integral, which is no state without an integrator
   mpq_class period_s_;
   int delay_periods_;
   std::vector<Feedback> feedbacks_;  // of every gain

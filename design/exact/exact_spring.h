@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One cell of a table's box in rational numbers: docs/certificate.md, "Flexible joint". Not real-time.
+// One cell of a table's box in rational numbers: docs/certificate.md. Not real-time.
 #pragma once
 
 #include "design/exact/exact_certificate.h"

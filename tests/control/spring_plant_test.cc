@@ -99,20 +99,20 @@ TEST(SpringPlant, TheCentreOfBothInertiasIsTheRigidJointOfTheirSum) {
 }
 
 TEST(SpringPlant, TheErrorsOfTheExponentialCoverItInLongDouble) {
-  using Wide = Eigen::Matrix<long double, 5, 5>;
+  using LongMatrix = Eigen::Matrix<long double, 5, 5>;
   for (const double stiffness : {1e3, 1e4, 1e5}) {
     SpringPlant plant = kJoint;
     plant.stiffness_Nm_rad = stiffness;
     const BoundedMatrix generator = spring_generator(plant, kPeriod_s);
-    Wide M = generator.value.cast<long double>();
-    Wide term = Wide::Identity();
-    Wide sum = term;
+    LongMatrix M = generator.value.cast<long double>();
+    LongMatrix term = LongMatrix::Identity();
+    LongMatrix sum = term;
     for (int k = 1; k < 60; ++k) {
       term = (term * M / k).eval();
       sum += term;
     }
     const BoundedMatrix actual = spring_exponential(BoundedMatrix(generator.value));
-    const Wide missed = (actual.value.cast<long double>() - sum).cwiseAbs();
+    const LongMatrix missed = (actual.value.cast<long double>() - sum).cwiseAbs();
     EXPECT_TRUE((missed.array() <= actual.error.cast<long double>().array()).all());
     EXPECT_LT((actual.error.array() / (actual.value.cwiseAbs().array() + 1.0)).maxCoeff(), 1e-9);
   }
@@ -173,7 +173,7 @@ TEST(SpringPlant, TheLoopIsWhatReadingAndLawDo) {
       Eigen::Vector4d state(0.31, 0.0, 0.001, 0.0);
       const auto reading_rad = [&] { return state(0) + (side == EncoderSide::kLink ? state(2) : 0.0); };
       reading.reset(reading_rad(), 0.0);
-      Eigen::VectorXd x = Eigen::VectorXd::Zero(spring_loop_states(delay, lead));
+      Eigen::VectorXd x = Eigen::VectorXd::Zero(loop_states(kSpringPlantStates, delay, lead));
       x(1) = state(0) - setpoint_rad;
       x(3) = state(2);
       x(5) = reading_rad() - setpoint_rad;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/table/certificate.h"
+#include "design/cost_certificate.h"
 #include "tests/support/eigenvalues.h"
 #include "tests/support/reference_joint.h"
 

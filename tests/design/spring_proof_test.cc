@@ -6,7 +6,9 @@
 #include <random>
 
 #include "base/input_error.h"
+#include "control/table/box_certificate.h"
 #include "control/table/gain_table_json.h"
+#include "design/spring_options.h"
 
 namespace strainwave {
 namespace {
@@ -59,6 +61,28 @@ TEST(SpringProof, ASecondPeriodOfDelayIsNamedUnstableWithItsCorner) {
   EXPECT_GT(proof.unstable.radius, 1.02);
   EXPECT_EQ(proof.unstable.plant.stiffness_Nm_rad, 13000.0);
   EXPECT_NE(describe(proof).find("UNSTABLE"), std::string::npos) << describe(proof);
+}
+
+// Of a rigid joint with these gains, in units of J/h^2 and J/h, an exact velocity without delay makes a stable loop, the daemon's own none.
+TEST(SpringProof, NoDeceivingGainsAreProvedOnARigidJoint) {
+  GainTable table = read_gain_table(STRAINWAVE_SOURCE_DIR "/data/tables/total-0.356/c1.json");
+  EXPECT_TRUE(box_of_rigid(table).certified) << box_of_rigid(table).text;
+  const double J_kgm2 = table.plant.inertia_kgm2;
+  const double h_s = table.plant.period_s;
+  for (const auto& [stiffness, damping] : {std::pair{0.9, 1.9}, {0.5, 1.5}, {0.2, 1.0}}) {
+    for (FeedbackGains* gains : {&table.primary, &table.fallback})
+      gains->set(0, GainRow(0.0, -stiffness * J_kgm2 / (h_s * h_s), -damping * J_kgm2 / h_s),
+                 gains->lyapunov(0));
+    const SpringVerdict verdict = box_of_rigid(table);
+    EXPECT_FALSE(verdict.certified);
+    EXPECT_NE(verdict.text.find("rigid, delay 2: UNSTABLE"), std::string::npos) << verdict.text;
+    for (const int delay : {0, 1, 2}) {
+      const BoxCell whole{delay, {}, {}, {}};
+      const bool found =
+          find_spring_lyapunov(gains_of(table), spring_box(table, whole), loop_of(table, delay)).has_value();
+      EXPECT_EQ(found, delay == 0 && stiffness == 0.2) << stiffness << " at a delay of " << delay;
+    }
+  }
 }
 
 // The statement itself: in a cell V falls for any joint of it and any blend of the gains, another at every sample.

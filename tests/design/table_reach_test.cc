@@ -37,7 +37,7 @@ class TableReachTest : public ::testing::Test {
   }
 
   void choose_gain(const GainRow& gain) {
-    H_ = spring_loop(sampled_, gain, {table_.plant.period_s, 1, 1.0, EncoderSide::kMotor, 0.0}).value;
+    H_ = spring_loop(sampled_, gain, loop_of(table_, 1)).value;
   }
 
   static ProofMatrix at_rest(double error_rad) {
@@ -55,7 +55,7 @@ class TableReachTest : public ::testing::Test {
   }
 
   double level(const ProofMatrix& x) const {
-    return x.transpose().lazyProduct(lyapunov_of(cell_, 0.0)).lazyProduct(x)(0, 0);
+    return x.transpose().lazyProduct(lyapunov_of(table_, cell_)).lazyProduct(x)(0, 0);
   }
 
   GainTable table_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/table/certificate.h"
+#include "design/cost_certificate.h"
 
 #include <gtest/gtest.h>
 

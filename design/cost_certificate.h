@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificate of a gain table. The receiver proves in milliseconds, without a solver, that the gains stabilise the sampled and held
-// joint for any time-varying weights, right or wrong. Not real-time.
+// What the design's matrix inequalities promise, checked with every rounding bounded: the gains stabilise the sampled and held joint for any
+// time-varying weights, right or wrong, and bound the cost. That joint has no delay and an exact velocity: what is proved of the loop
+// that the daemon closes is another statement (control/table/box_certificate.h). Offline.
 //
 // With A_i, B_i rule i of the plant under a zero-order hold, H_ij = A_i + B_i F_j and r the decay rate:
 //
@@ -21,7 +22,6 @@
 // product: the statement is about the real matrices, not about their floating-point images.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 
@@ -50,9 +50,6 @@ struct CertificateReport {
   int plant_rules = 0;  ///< 0: gains and plant do not fit each other, nothing was tested
   int gain_rules = 0;   ///< 1 for a temperature-free controller
   int inequalities = 0;
-  /// Row: rule i of the plant, column: rule j of the controller; pair or mistaken, the worst over the next
-  /// rule l.
-  std::array<std::array<PositiveDefiniteResult, kMaxRules>, kMaxRules> worst_next{};
   WorstInequality worst;  ///< over all of them and the P_j themselves (pairs)
 };
 

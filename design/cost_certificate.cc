@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "control/table/certificate.h"
+#include "design/cost_certificate.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -101,15 +101,12 @@ void test_rule(const Problem& problem, const BoundedDynamics& plant, std::size_t
   const bool own = problem.P.size() == 1 || i == j;
   const BoundedMatrix H = closed_loop(problem, plant, j);
   const BoundedMatrix allowed = own ? less_cost(problem, j) : problem.P[j];
-  PositiveDefiniteResult& worst = report.worst_next[i][j];
-  worst = {true, std::numeric_limits<double>::infinity()};
   for (std::size_t l = 0; l < problem.P.size(); ++l) {
     const PositiveDefiniteResult result = test_step(problem, allowed, 1.0, H, l);
     keep_worst(report, result,
                {own ? Inequality::kPair : Inequality::kMistaken, static_cast<int>(i), static_cast<int>(j),
                 static_cast<int>(l), 0.0});
     ++report.inequalities;
-    worst = {worst.certain && result.certain, std::min(worst.margin, result.margin)};
   }
 }
 
