@@ -5,56 +5,13 @@
 #include <cmath>
 
 #include "drivers/can/can_detail.h"
-#include "tests/drivers/can/drive_bench.h"
+#include "tests/drivers/can/cia402/own_loop_drive.h"
 
 namespace strainwave::testing {
 namespace {
 
-constexpr double kInitial_rad = 0.4;
-constexpr double kCount_rad = 2.0 * M_PI / 320000;
-constexpr double kPeriod_s = 1e-3;
-
-BenchDrive own_loop(DriveMode mode) {
-  BenchDrive drive = bench_drive(3);
-  drive.config.drive_mode = mode;
-  drive.config.following_error_rad = 0.1;
-  drive.config.units.velocity_rad_s_per_unit = kCount_rad;
-  drive.node.drive.has_cst = drive.node.drive.has_tq = false;
-  drive.node.drive.has_csp = drive.node.drive.has_csv = true;
-  drive.node.drive.plant.initial_position_rad = kInitial_rad;
-  return drive;
-}
-
-class OwnLoop {
- public:
-  explicit OwnLoop(const BenchDrive& drive) : bench({drive}) {
-    bench.start();
-    // As the loop has it while a joint is not controlled.
-    for (int i = 0; i < 200 && bench.reading().drive_state != DriveState::kEnabled; ++i) hold();
-    EXPECT_EQ(bench.reading().drive_state, DriveState::kEnabled);
-  }
-  void hold() { bench.step({0.0, true, bench.reading().joint_position_rad, 0.0}); }
-  /// The joint turns at `velocity_rad_s`: how far it is from where it was ordered to be by now, at most.
-  double largest_error_rad(double velocity_rad_s, int periods) {
-    double ordered_rad = bench.reading().joint_position_rad;
-    double due_rad = ordered_rad;
-    double largest_rad = 0.0;
-    for (int i = 0; i < periods; ++i) {
-      // What was ordered is reached at the end of its period, and read in the period after that.
-      const double due_next_rad = ordered_rad;
-      ordered_rad += velocity_rad_s * kPeriod_s;
-      bench.step({0.0, true, ordered_rad, velocity_rad_s});
-      if (i > periods / 2)
-        largest_rad = std::max(largest_rad, std::abs(bench.reading().joint_position_rad - due_rad));
-      due_rad = due_next_rad;
-    }
-    return largest_rad;
-  }
-  std::uint64_t controlword() { return little_endian(bench.frames(0x203, 0).back().bytes.data(), 2); }
-  double position_rad() { return bench.node().drive().plant().state().position_rad; }
-
-  DriveBench bench;
-};
+constexpr double kInitial_rad = kOwnLoopInitial_rad;
+constexpr double kCount_rad = kOwnLoopCount_rad;
 
 TEST(Cia402OwnLoop, StartUpTakesTheModeThatTheConfigurationWants) {
   for (const auto& [mode, text] :
