@@ -85,8 +85,8 @@ bool Client::rises_above(const Answer& refusal) {
 
 Answer Client::exchange(const std::string& joint, SealedMessage order, const Patience& patience) {
   ack_.reset();
-  awaited_.emplace(connection_, std::move(order), channel(options_.prefix, joint, channel_kind::kAck),
-                   patience);
+  awaited_.emplace(connection_.publisher(), std::move(order),
+                   channel(options_.prefix, joint, channel_kind::kAck), patience);
   while (!ack_ && awaited_->keep_on()) handle(awaited_->remaining_ms());
   awaited_.reset();
   if (ack_) return to_answer(*ack_);

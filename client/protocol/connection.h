@@ -81,6 +81,11 @@ class Connection {
 
   /// Throws ClientError when LCM does not take the message.
   void publish(const std::string& channel, std::span<const std::uint8_t> bytes);
+  /// publish() as a function, which must not outlive the connection.
+  auto publisher() {
+    return
+        [this](const std::string& channel, std::span<const std::uint8_t> bytes) { publish(channel, bytes); };
+  }
 
   /// From now on a separate thread reads the network, ahead of handle() by as much as memory has room for, and missing() counts.
   /// This is for recorders, which need every message. With memq:// nothing changes.

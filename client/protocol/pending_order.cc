@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "client/protocol/pending_order.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <utility>
 
@@ -13,9 +15,15 @@ Answer to_answer(const ack_v1& ack) {
   return {ack.accepted == 1, static_cast<Reason>(ack.reason), printable(text)};
 }
 
-PendingOrder::PendingOrder(Connection& connection, SealedMessage order, std::string ack_channel,
+std::string why_not(const Answer* answer) {
+  if (answer == nullptr) return "no answer";
+  return fmt::format("refused, {}{}{}", to_text(answer->reason), answer->text.empty() ? "" : ": ",
+                     answer->text);
+}
+
+PendingOrder::PendingOrder(Publish publish, SealedMessage order, std::string ack_channel,
                            const Patience& patience)
-    : connection_(&connection),
+    : publish_(std::move(publish)),
       order_(std::move(order)),
       ack_channel_(std::move(ack_channel)),
       most_transmissions_(patience.transmissions),
@@ -32,7 +40,7 @@ bool PendingOrder::keep_on() {
 }
 
 void PendingOrder::transmit() {
-  connection_->publish(order_.channel, order_.bytes);
+  publish_(order_.channel, order_.bytes);
   next_ = Deadline(repeat_s_);
   ++transmissions_;
 }

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <strainwave/ack_v1.hpp>
 #include <string>
 
 #include "client/protocol/clock.h"
-#include "client/protocol/connection.h"
 #include "client/protocol/sender.h"
 #include "strainwave/vocabulary.h"
 
@@ -24,6 +25,8 @@ struct Answer {
 };
 
 Answer to_answer(const ack_v1& ack);
+/// Of an answer that is no acceptance: "refused, joint is moving: ..."; null: "no answer".
+std::string why_not(const Answer* answer);
 
 /// How often an order is sent at the most, and how long its answer is awaited, repetitions included.
 struct Patience {
@@ -33,6 +36,9 @@ struct Patience {
 
 class PendingOrder {
  public:
+  /// Puts a message on LCM's network.
+  using Publish = std::function<void(const std::string& channel, std::span<const std::uint8_t> bytes)>;
+
   static constexpr int kRepetitions = 3;
   /// How often an order of so many bytes is sent before it is given up: four times, and once more for each further packet of Ethernet. A
   /// message is lost with any one of its packets. At a loss of 1 packet in 10, four transmissions of a path's part would leave 1 of 14
@@ -50,8 +56,7 @@ class PendingOrder {
   }
 
   /// Transmits `order` for the first time. `ack_channel`: where its answer comes from.
-  PendingOrder(Connection& connection, SealedMessage order, std::string ack_channel,
-               const Patience& patience);
+  PendingOrder(Publish publish, SealedMessage order, std::string ack_channel, const Patience& patience);
 
   /// Transmits it once more if its time has come. False when the last repetition has waited in vain, too.
   bool keep_on();
@@ -67,7 +72,7 @@ class PendingOrder {
  private:
   void transmit();
 
-  Connection* connection_;
+  Publish publish_;
   SealedMessage order_;
   std::string ack_channel_;
   int most_transmissions_;

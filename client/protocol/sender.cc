@@ -22,19 +22,21 @@ std::uint64_t hash_of(const std::string& text) {
   return hash;
 }
 
-// 62 bits of this machine's and this user's names, never 0.
-std::int64_t own_identity() {
+// 62 bits of this machine's and this user's names, and the program's if it owns for itself; never 0.
+std::int64_t own_identity(const std::string& program) {
   std::array<char, HOST_NAME_MAX + 1> host{};
   (void)::gethostname(host.data(), host.size() - 1);
   std::string machine;
   std::ifstream("/etc/machine-id") >> machine;
-  const std::string name = machine + "/" + host.data() + "/" + std::to_string(::getuid());
+  const std::string name =
+      machine + "/" + host.data() + "/" + std::to_string(::getuid()) + (program.empty() ? "" : "/" + program);
   return static_cast<std::int64_t>(hash_of(name) >> 2) + 1;
 }
 
 }  // namespace
 
-Sender::Sender(std::filesystem::path key_file) : sender_id_(own_identity()), key_file_(std::move(key_file)) {}
+Sender::Sender(std::filesystem::path key_file, const std::string& program)
+    : sender_id_(own_identity(program)), key_file_(std::move(key_file)) {}
 
 std::int64_t Sender::next_sequence(std::int64_t utime) noexcept {
   sequence_ = std::max(sequence_ + 1, utime);

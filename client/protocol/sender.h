@@ -40,7 +40,8 @@ class Sender {
  public:
   /// Takes the identity of this user on this machine: programs of theirs that follow each other own the same joints.
   /// `key_file`: the secret key to sign with, read when the first order is signed; empty: orders go out unsigned.
-  explicit Sender(std::filesystem::path key_file = {});
+  /// `program`: one that owns joints for itself; empty: it shares them with others of this user.
+  explicit Sender(std::filesystem::path key_file = {}, const std::string& program = "");
   explicit Sender(std::int64_t sender_id) : sender_id_(sender_id) {}
 
   std::int64_t sender_id() const noexcept { return sender_id_; }

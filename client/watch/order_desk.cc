@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
 
-#include "client/protocol/client.h"
 #include "client/protocol/orders.h"
 #include "lcmtypes/channels.h"
 
@@ -17,7 +15,6 @@ namespace strainwave {
 namespace {
 
 constexpr std::size_t kRefusalsKept = 8;
-constexpr int kRenewals = Client::kAttempts - 1;
 constexpr double kSaidFor_s = 10.0;
 
 command_v1 command(Action action) {
@@ -34,9 +31,9 @@ std::string full_name(const OrderDesk::Name& joint) {
 
 OrderDesk::OrderDesk(Connection& connection, const StateView& states, const std::filesystem::path& key_file,
                      double timeout_s)
-    : connection_(connection),
-      states_(states),
+    : states_(states),
       sender_(key_file),
+      orders_(connection.publisher(), sender_),
       timeout_s_(timeout_s),
       acknowledgements_(
           connection.subscribe(channel_pattern("[^.]+", channel_kind::kAck), &OrderDesk::on_ack, this)) {}
@@ -92,42 +89,27 @@ void OrderDesk::move(const Name& joint, double position_rad) {
   post(joint, channel_kind::kSetpoint, message, fmt::format("move to {:.6g} rad", position_rad));
 }
 
-void OrderDesk::post(const Name& joint, std::function<SealedMessage()> seal, const Patience& patience,
+void OrderDesk::post(const Name& joint, OpenOrders::Seal seal, const Patience& patience,
                      std::shared_ptr<Batch> batch) {
-  const auto send = [this, seal = std::move(seal), patience,
-                     to = channel(joint.first, joint.second, channel_kind::kAck)] {
-    return PendingOrder(connection_, seal(), to, patience);
-  };
-  waiting_.push_back({send(), send, full_name(joint), std::move(batch), 0});
+  orders_.post(
+      joint, std::move(seal), patience,
+      [this, joint, batch = std::move(batch)](const Answer* answer) { conclude(joint, *batch, answer); });
 }
 
-// Another program of this key was ahead. The state that it quotes stays that of when it was given.
-bool OrderDesk::renew(Waiting& waiting, const ack_v1& refusal) {
-  if (static_cast<Reason>(refusal.reason) != Reason::kOldSequence || waiting.renewals >= kRenewals)
-    return false;
-  ++waiting.renewals;
-  sender_.rise_above(refusal.last_sequence);
-  waiting.order = waiting.anew();
-  return true;
-}
-
-void OrderDesk::tick() {
-  std::erase_if(waiting_, [&](Waiting& waiting) {
-    if (waiting.order.keep_on()) return false;
-    fail(waiting, "no answer");
-    return true;
-  });
-}
-
-void OrderDesk::fail(const Waiting& waiting, const std::string& why) {
-  refusals_.push_front({now(), fmt::format("{}: {}: {}", waiting.name, waiting.batch->what, why)});
+void OrderDesk::conclude(const Name& joint, Batch& batch, const Answer* answer) {
+  if (answer != nullptr && answer->accepted) {
+    ++batch.accepted;
+    return report(batch);
+  }
+  const std::string why = why_not(answer);
+  refusals_.push_front({now(), fmt::format("{}: {}: {}", full_name(joint), batch.what, why)});
   if (refusals_.size() > kRefusalsKept) refusals_.pop_back();
-  waiting.batch->failures.push_back(waiting.batch->joints == 1 ? why : waiting.name + ": " + why);
-  report(*waiting.batch);
+  batch.failures.push_back(batch.joints == 1 ? why : full_name(joint) + ": " + why);
+  report(batch);
 }
 
 std::string OrderDesk::message(Instant at) const {
-  return waiting_.empty() && seconds_between(said_, at) > kSaidFor_s ? "" : message_;
+  return orders_.empty() && seconds_between(said_, at) > kSaidFor_s ? "" : message_;
 }
 
 void OrderDesk::say(std::string message, bool alarm) {
@@ -147,22 +129,7 @@ void OrderDesk::report(const Batch& batch) {
 }
 
 void OrderDesk::on_ack(const ReceivedMessage& message) {
-  const auto ack = decode_exactly<ack_v1>(message.bytes);
-  if (!ack) return;
-  const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.order.is_answer(*ack, message.channel);
-  });
-  if (found == waiting_.end()) return;
-  if (ack->accepted != 1 && renew(*found, *ack)) return;
-  const Waiting waiting = std::move(*found);
-  waiting_.erase(found);
-  const Answer answer = to_answer(*ack);
-  if (answer.accepted) {
-    ++waiting.batch->accepted;
-    return report(*waiting.batch);
-  }
-  fail(waiting,
-       fmt::format("refused, {}{}{}", to_text(answer.reason), answer.text.empty() ? "" : ": ", answer.text));
+  if (const auto ack = decode_exactly<ack_v1>(message.bytes)) orders_.take(message.channel, *ack);
 }
 
 }  // namespace strainwave

@@ -5,15 +5,13 @@
 
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "client/protocol/clock.h"
 #include "client/protocol/connection.h"
-#include "client/protocol/pending_order.h"
+#include "client/protocol/open_orders.h"
 #include "client/protocol/sender.h"
 #include "client/protocol/state_view.h"
 
@@ -21,7 +19,7 @@ namespace strainwave {
 
 class OrderDesk {
  public:
-  using Name = std::pair<std::string, std::string>;  ///< prefix, joint
+  using Name = OpenOrders::Name;
 
   /// `states`: where the newest of each joint is, which its orders quote. `timeout_s`: how long an order is repeated before its
   /// silence is reported.
@@ -37,7 +35,7 @@ class OrderDesk {
   void move(const Name& joint, double position_rad);
 
   /// Repeats what was not answered. Call often.
-  void tick();
+  void tick() { orders_.tick(); }
 
   /// What there is to say, the latest: "SW.elbow: enable accepted". Nothing any more ten seconds later, when it need not be true.
   std::string message(Instant at = now()) const;
@@ -59,29 +57,19 @@ class OrderDesk {
     std::size_t accepted = 0;
     std::vector<std::string> failures;
   };
-  struct Waiting {
-    PendingOrder order;
-    std::function<PendingOrder()> anew;  ///< the same with the next sequence
-    std::string name;
-    std::shared_ptr<Batch> batch;
-    int renewals = 0;
-  };
   template <typename Message>
   void post(const Name& joint, std::string_view kind, const Message& message, std::string what);
-  void post(const Name& joint, std::function<SealedMessage()> seal, const Patience& patience,
-            std::shared_ptr<Batch> batch);
+  void post(const Name& joint, OpenOrders::Seal seal, const Patience& patience, std::shared_ptr<Batch> batch);
   Quote quote(const Name& joint) const;
-  bool renew(Waiting& waiting, const ack_v1& refusal);
-  void fail(const Waiting& waiting, const std::string& why);
+  void conclude(const Name& joint, Batch& batch, const Answer* answer);
   void report(const Batch& batch);
   void say(std::string message, bool alarm);
   void on_ack(const ReceivedMessage& message);
 
-  Connection& connection_;
   const StateView& states_;
   Sender sender_;
+  OpenOrders orders_;
   double timeout_s_;
-  std::vector<Waiting> waiting_;
   std::string message_;
   Instant said_{};  ///< when `message_` was
   bool alarm_ = false;
