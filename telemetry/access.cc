@@ -61,19 +61,14 @@ std::string_view token_in(const RequestFacts& request) {
   return "";
 }
 
-/// Takes as long whatever differs, so that time tells nothing about the token.
-bool equal(std::string_view given, std::string_view token) {
-  if (given.size() != token.size()) return false;
-  unsigned int difference = 0;
-  for (std::size_t i = 0; i < given.size(); ++i)
-    difference |= static_cast<unsigned int>(static_cast<unsigned char>(given[i]) ^
-                                            static_cast<unsigned char>(token[i]));
-  return difference == 0;
-}
-
 bool is_this_machine(std::string_view host) {
   const std::string name(split(host).first);
   return name == "localhost" || is_loopback(name);
+}
+
+/// The page that this server has at / has the address that was asked for as its origin.
+bool has_own_origin(const RequestFacts& request) {
+  return request.origin == "http://" + std::string(request.host);
 }
 
 }  // namespace
@@ -112,13 +107,24 @@ std::string read_token(const std::string& file) {
 
 Access judge(const RequestFacts& request, const AccessRules& rules) {
   if (!rules.token.empty())
-    return equal(token_in(request), rules.token) ? Access::kGranted : Access::kNoToken;
-  // The page that this server has at / has the address that was asked for as its origin.
-  const bool own_page = request.origin == "http://" + std::string(request.host);
+    return equal_in_constant_time(token_in(request), rules.token) ? Access::kGranted : Access::kNoToken;
   const bool known_page =
-      request.origin.empty() || own_page ||
+      request.origin.empty() || has_own_origin(request) ||
       std::find(rules.origins.begin(), rules.origins.end(), request.origin) != rules.origins.end();
   return known_page && is_this_machine(request.host) ? Access::kGranted : Access::kForeignPage;
+}
+
+bool is_from_own_page(const RequestFacts& request) {
+  return has_own_origin(request) && is_this_machine(request.host);
+}
+
+bool equal_in_constant_time(std::string_view given, std::string_view token) {
+  if (given.size() != token.size()) return false;
+  unsigned int difference = 0;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    difference |= static_cast<unsigned int>(static_cast<unsigned char>(given[i]) ^
+                                            static_cast<unsigned char>(token[i]));
+  return difference == 0;
 }
 
 std::string_view path_of(std::string_view target) {

@@ -45,6 +45,12 @@ enum class Access { kGranted, kNoToken, kForeignPage };
 /// With a token the request must have it, as a header or in its target. Without one, see above.
 Access judge(const RequestFacts& request, const AccessRules& rules);
 
+/// Whether a browser sends it for the page of this server: the page's origin is the address that was asked for, by a name of this machine.
+bool is_from_own_page(const RequestFacts& request);
+
+/// Takes as long whatever differs, so that time tells nothing about the token.
+bool equal_in_constant_time(std::string_view given, std::string_view token);
+
 /// The target without what stands behind the question mark.
 std::string_view path_of(std::string_view target);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// strainwave-telemetry: live plots and metrics of what is said on LCM. See `strainwave-telemetry --help`.
+// strainwave-telemetry: live plots and metrics of what is said on LCM, and a page that may move joints where a key is given. See `strainwave-telemetry --help`.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -14,6 +14,7 @@ struct Options {
   std::string lcm_url = strainwave::kUsualLcmUrl;
   std::string listen = "127.0.0.1:8765";
   std::string token_file;
+  std::string key_file;
   std::vector<std::string> origins{"https://app.foxglove.dev", "file://"};
 };
 
@@ -30,6 +31,12 @@ void define(CLI::App& program, Options& options) {
   program.add_option("--token-file", options.token_file, "clients must show the token in this file")
       ->envname("STRAINWAVE_TELEMETRY_TOKEN_FILE")
       ->type_name("FILE");
+  program
+      .add_option(
+          "--key", options.key_file,
+          "an operator's secret key: the page may enable, jog and hold joints, if it is opened at the "
+          "printed address")
+      ->type_name("FILE");
   program.add_option("--origin", options.origins, "web pages that may show telemetry without a token")
       ->capture_default_str()
       ->type_name("URL");
@@ -42,6 +49,10 @@ strainwave::ExitStatus serve(const Options& options) {
   if (!is_loopback(address.host) && rules.token.empty())
     throw InputError("--listen: " + address.host +
                      " is open to other machines: give --token-file FILE, or listen on 127.0.0.1");
+  if (!is_loopback(address.host) && !options.key_file.empty())
+    throw InputError(
+        "--key: orders of a page on another machine would not be encrypted: listen on "
+        "127.0.0.1, and forward the port (ssh -L 8765:localhost:8765 HOST)");
   if (const auto defect = find_udpm_defect(options.lcm_url)) throw InputError("--lcm-url: " + *defect);
   wait_for_multicast(
       options.lcm_url,
@@ -49,12 +60,15 @@ strainwave::ExitStatus serve(const Options& options) {
         std::cerr << "strainwave-telemetry: waiting for LCM: " << problem << std::endl;
       },
       [] { return true; });
-  Telemetry telemetry(options.lcm_url, address, std::move(rules));
+  Telemetry telemetry(options.lcm_url, address, std::move(rules), options.key_file);
   const std::string host =
       address.host.find(':') == std::string::npos ? address.host : "[" + address.host + "]";
   const std::string place = host + ":" + std::to_string(telemetry.port());
   std::cout << "Foxglove: ws://" << place << "\nPrometheus: http://" << place << "/metrics\nPage: http://"
             << place << "/" << std::endl;
+  if (!telemetry.token().empty())
+    std::cout << "Page that may move joints: http://" << place << "/#token=" << telemetry.token()
+              << std::endl;
   telemetry.run();
   return ExitStatus::kDone;
 }
@@ -64,7 +78,7 @@ strainwave::ExitStatus serve(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App program(
       "Shows the messages on LCM as a page, in Foxglove (WebSocket) and in Prometheus (metrics). It sends "
-      "nothing on LCM.");
+      "nothing on LCM without --key.");
   strainwave::configure_program(
       program,
       {.program = "strainwave-telemetry",
@@ -73,7 +87,9 @@ int main(int argc, char** argv) {
                   "what to do in Foxglove and Prometheus, with a layout and alerts beside it"}},
        .examples = {{"strainwave-telemetry", "serve this machine: ws://127.0.0.1:8765 and /metrics there"},
                     {"strainwave-telemetry --listen 0.0.0.0:8765 --token-file /etc/strainwave/token",
-                     "serve other machines, by token"}},
+                     "serve other machines, by token"},
+                    {"strainwave-telemetry --key ~/.strainwave-key",
+                     "let the page at the printed address move joints"}},
        .see_also = {"strainwaved(8)", "strainwavectl(1)"}});
   Options options;
   define(program, options);

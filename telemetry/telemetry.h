@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "telemetry/acting.h"
 #include "telemetry/fleet.h"
 #include "telemetry/lcm_listener.h"
 #include "telemetry/server/server.h"
@@ -17,9 +20,13 @@ namespace strainwave {
 class Telemetry {
  public:
   /// Throws InputError or std::runtime_error that say what to do.
-  Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules);
+  /// `key_file`: an operator's key, by which the page may act; empty: nothing is sent on LCM.
+  Telemetry(const std::string& lcm_url, const ListenAddress& address, AccessRules rules,
+            const std::filesystem::path& key_file);
 
   std::uint16_t port() const { return server_.port(); }
+  /// What the page must show to act; empty: it may not act.
+  std::string token() const { return acting_ ? acting_->token() : ""; }
   /// Until SIGINT or SIGTERM.
   void run();
 
@@ -31,7 +38,6 @@ class Telemetry {
   /// The page that all get who ask at once; packed: by gzip.
   SharedText metrics(bool packed);
   std::string expose();
-  double now_s() const;
 
   LcmListener listener_;
   Topics topics_;
@@ -41,7 +47,8 @@ class Telemetry {
   SharedText page_;         ///< the latest page of metrics
   SharedText packed_page_;  ///< the same; null: not asked for yet
   double page_made_s_ = 0.0;
-  TelemetryServer server_;
+  std::unique_ptr<Acting> acting_;
+  TelemetryServer server_;  ///< the last one, whose viewers know `acting_`
 };
 
 }  // namespace strainwave

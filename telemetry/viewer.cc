@@ -80,10 +80,12 @@ std::optional<std::string_view> choose_subprotocol(std::string_view offered) {
   return std::nullopt;
 }
 
-std::string server_info(const std::string& session) {
+std::string server_info(const std::string& session, bool acting) {
+  const Json metadata = acting ? Json{{"acting", "on"}} : Json::object();
   return text_of({{"op", "serverInfo"},
                   {"name", "strainwave-telemetry " STRAINWAVE_VERSION},
                   {"capabilities", Json::array()},
+                  {"metadata", metadata},
                   {"sessionId", session}});
 }
 
@@ -110,7 +112,11 @@ MessageHead message_head(std::uint32_t subscription, std::uint64_t received_ns) 
   return head;
 }
 
-std::optional<std::string> Viewer::take(std::string_view text, const Topics& topics) {
+Viewer::~Viewer() {
+  if (acting_ != nullptr) acting_->forget(page_.number);
+}
+
+std::optional<std::string> Viewer::take(std::string_view text, const Topics& topics, double now_s) {
   const Json message = Json::parse(text, nullptr, false);
   const std::string operation = operation_of(message);
   std::string problem;
@@ -132,6 +138,8 @@ std::optional<std::string> Viewer::take(std::string_view text, const Topics& top
       std::string defect = id ? unsubscribe(*id) : "a subscription is a number";
       if (problem.empty()) problem = std::move(defect);
     }
+  } else if (operation == "act" && acting_ != nullptr) {
+    acting_->take(page_, read_page_order(message), now_s);
   } else {
     problem = operation.empty() ? "a message is a JSON object with an 'op'"
                                 : "'" + printable(operation.substr(0, kQuoted)) +

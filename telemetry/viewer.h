@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 
+#include "telemetry/acting.h"
 #include "telemetry/topics.h"
 
 namespace strainwave {
@@ -22,7 +23,8 @@ namespace strainwave {
 std::optional<std::string_view> choose_subprotocol(std::string_view offered);
 
 /// What the server sends: first the information, then the topics, and what there is to say.
-std::string server_info(const std::string& session);
+/// `acting`: the page may ask for orders.
+std::string server_info(const std::string& session, bool acting);
 std::string advertise(std::span<const Topic* const> topics);
 std::string unadvertise(std::span<const std::uint32_t> topics);
 enum class StatusLevel { kInfo = 0, kWarning = 1, kError = 2 };
@@ -39,18 +41,27 @@ class Viewer {
   /// Longer messages than this no viewer needs.
   static constexpr std::size_t kLongestMessage = 65536;
 
+  /// `acting`: what takes its orders, and outlives it; null: nothing does.
+  explicit Viewer(Acting::Page page = {}, Acting* acting = nullptr) : page_(page), acting_(acting) {}
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
   /// Takes one text from the viewer; what is to be answered, if anything.
-  std::optional<std::string> take(std::string_view text, const Topics& topics);
+  std::optional<std::string> take(std::string_view text, const Topics& topics, double now_s);
 
   /// Under which number the viewer wants the messages of `topic`, if it does.
   std::optional<std::uint32_t> subscription(std::uint32_t topic) const;
   void forget(std::uint32_t topic);
   std::size_t subscriptions() const noexcept { return by_topic_.size(); }
+  std::uint64_t id() const noexcept { return page_.number; }
 
  private:
   std::string subscribe(std::uint32_t id, std::uint32_t topic, const Topics& topics);
   std::string unsubscribe(std::uint32_t id);
 
+  Acting::Page page_;
+  Acting* acting_;
   std::map<std::uint32_t, std::uint32_t> by_topic_;  ///< topic to subscription
   std::map<std::uint32_t, std::uint32_t> topic_of_;  ///< subscription to topic
 };

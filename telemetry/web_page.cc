@@ -42,13 +42,13 @@ std::string vocabulary_json() {
 
 }  // namespace
 
-WebPage::WebPage() {
+WebPage::WebPage(bool acting) {
   std::error_code absent;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", absent);
   const std::filesystem::path folder = program.parent_path().parent_path() / "share/strainwave/web";
   for (const auto& entry : std::filesystem::directory_iterator(folder, absent)) {
     const std::string_view type = type_of(entry.path());
-    if (type.empty()) continue;
+    if (type.empty() || (!acting && entry.path().filename() == "acting.js")) continue;
     try {
       files_["/" + entry.path().filename().string()] = {std::string(type),
                                                         shared_text(read_text_file(entry.path()))};

@@ -18,8 +18,8 @@ class WebPage {
     SharedText text;
   };
 
-  /// Reads ../share/strainwave/web beside the program's own folder; without it there is no page.
-  WebPage();
+  /// Reads ../share/strainwave/web beside the program's own folder; without it there is no page. `acting`: with what orders motions.
+  explicit WebPage(bool acting);
 
   /// The file for the path of a request, "/" or "/main.js"; null: there is none. No other file of the machine is ever read.
   /// "/vocabulary.json" has the words and configuration keys of faults (by number) and notices (by bit):

@@ -69,7 +69,7 @@ void OpeningConnection::answer(const Request& request) {
     case Access::kGranted:
       break;
   }
-  if (beast::websocket::is_upgrade(request)) return become_viewer(request);
+  if (beast::websocket::is_upgrade(request)) return become_viewer(request, is_from_own_page(facts));
   if (!reads) return refuse(Status::method_not_allowed, "only GET and HEAD are answered");
   if (path_of(target) == "/metrics") {
     const bool packed = takes_gzip(view(request[http::field::accept_encoding]));
@@ -80,13 +80,13 @@ void OpeningConnection::answer(const Request& request) {
   refuse(Status::not_found, "there is / (the page), /metrics (Prometheus) and ws:// (Foxglove)");
 }
 
-void OpeningConnection::become_viewer(const Request& request) {
+void OpeningConnection::become_viewer(const Request& request, bool own_page) {
   const auto subprotocol = choose_subprotocol(view(request[http::field::sec_websocket_protocol]));
   if (!subprotocol)
     return refuse(Status::bad_request, "the subprotocols are foxglove.sdk.v1 and foxglove.websocket.v1");
   if (shared_.viewers.size() >= TelemetryServer::kMaxViewers)
     return refuse(Status::service_unavailable, "too many viewers are connected");
-  std::make_shared<ViewerConnection>(std::move(stream_), shared_)->start(request, *subprotocol);
+  std::make_shared<ViewerConnection>(std::move(stream_), shared_, own_page)->start(request, *subprotocol);
 }
 
 void OpeningConnection::refuse(Status status, const std::string& why) {

@@ -21,7 +21,7 @@ class OpeningConnection : public std::enable_shared_from_this<OpeningConnection>
 
   void on_request(const boost::beast::error_code& error);
   void answer(const Request& request);
-  void become_viewer(const Request& request);
+  void become_viewer(const Request& request, bool own_page);
   void respond(Status status, const char* type, SharedText body);
   void refuse(Status status, const std::string& why);
 

@@ -8,6 +8,7 @@
 #include "base/utime.h"
 #include "telemetry/server/opening_connection.h"
 #include "telemetry/server/viewer_connection.h"
+#include "telemetry/steady_time.h"
 
 namespace strainwave {
 
@@ -24,11 +25,21 @@ constexpr auto kReport_s = std::chrono::seconds(1);
 class TelemetryServer::Network {
  public:
   Network(const ListenAddress& address, AccessRules rules, const Topics& topics,
-          std::function<SharedText(bool packed)> metrics)
+          std::function<SharedText(bool packed)> metrics, Acting* acting)
       : acceptor_(context_),
         signals_(context_, SIGINT, SIGTERM),
         report_(context_),
-        shared_{std::move(rules), topics, std::move(metrics), {}, std::to_string(utime_now()), {}, {}, 0, 0} {
+        shared_{std::move(rules),
+                topics,
+                std::move(metrics),
+                acting,
+                WebPage(acting != nullptr),
+                std::to_string(utime_now()),
+                {},
+                {},
+                0,
+                0,
+                0} {
     const tcp::endpoint endpoint(asio::ip::make_address(address.host), address.port);
     try {
       acceptor_.open(endpoint.protocol());
@@ -47,6 +58,7 @@ class TelemetryServer::Network {
     wait_for(lcm, on_readable);
     accept();
     report(on_readable);
+    if (shared_.acting != nullptr) act();
     context_.run();
     lcm.release();
   }
@@ -105,17 +117,28 @@ class TelemetryServer::Network {
     });
   }
 
+  void act() {
+    tick_.expires_after(std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::duration<double>(Acting::kTick_s)));
+    tick_.async_wait([this](const error_code& error) {
+      if (error) return;
+      shared_.acting->tick(steady_now_s());
+      act();
+    });
+  }
+
   asio::io_context context_;
   tcp::acceptor acceptor_;
   asio::signal_set signals_;
   asio::steady_timer report_;
   asio::steady_timer pause_{context_};
+  asio::steady_timer tick_{context_};
   ServerShared shared_;
 };
 
 TelemetryServer::TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                                 std::function<SharedText(bool packed)> metrics)
-    : network_(std::make_unique<Network>(address, std::move(rules), topics, std::move(metrics))) {}
+                                 std::function<SharedText(bool packed)> metrics, Acting* acting)
+    : network_(std::make_unique<Network>(address, std::move(rules), topics, std::move(metrics), acting)) {}
 
 TelemetryServer::~TelemetryServer() = default;
 
@@ -143,6 +166,12 @@ void TelemetryServer::publish(std::uint32_t topic, std::int64_t received_us, std
   const auto body = shared_text(std::move(json));
   for (const auto& viewer : network_->shared().viewers)
     viewer->publish(topic, static_cast<std::uint64_t>(received_us) * 1000U, body);
+}
+
+void TelemetryServer::say(std::uint64_t viewer, std::string text) {
+  const auto viewers = network_->shared().viewers;
+  for (const auto& one : viewers)
+    if (one->id() == viewer) one->say(std::move(text));
 }
 
 ServerCounts TelemetryServer::counts() const {

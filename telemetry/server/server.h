@@ -12,6 +12,7 @@
 #include <string>
 
 #include "telemetry/access.h"
+#include "telemetry/acting.h"
 #include "telemetry/shared_text.h"
 #include "telemetry/topics.h"
 
@@ -29,9 +30,10 @@ class TelemetryServer {
   static constexpr std::size_t kMaxOpening = 64;
   static constexpr std::size_t kMaxViewers = 32;
 
-  /// Listens. `metrics` makes the page /metrics, plain or packed by gzip. Throws InputError when the address cannot be had. `topics` must outlive it.
+  /// Listens. `metrics` makes the page /metrics, plain or packed by gzip. `acting` takes orders of the page; null: none are taken. Throws
+  /// InputError when the address cannot be had. `topics` and `acting` must outlive it.
   TelemetryServer(const ListenAddress& address, AccessRules rules, const Topics& topics,
-                  std::function<SharedText(bool packed)> metrics);
+                  std::function<SharedText(bool packed)> metrics, Acting* acting);
   ~TelemetryServer();
   TelemetryServer(const TelemetryServer&) = delete;
   TelemetryServer& operator=(const TelemetryServer&) = delete;
@@ -44,6 +46,8 @@ class TelemetryServer {
   /// Whether any viewer wants it.
   bool is_wanted(std::uint32_t topic) const;
   void publish(std::uint32_t topic, std::int64_t received_us, std::string json);
+  /// To the viewer of that number, if it is still there.
+  void say(std::uint64_t viewer, std::string text);
 
   ServerCounts counts() const;
 

@@ -24,10 +24,12 @@ struct ServerShared {
   AccessRules rules;
   const Topics& topics;
   std::function<SharedText(bool packed)> metrics;
-  const WebPage page{};
+  Acting* acting = nullptr;  ///< null: no orders are taken
+  const WebPage page;
   std::string session;  ///< tells viewers one start of the server from the next
   std::list<std::weak_ptr<OpeningConnection>> opening;  ///< the oldest first
   std::set<std::shared_ptr<ViewerConnection>> viewers;
+  std::uint64_t viewers_so_far = 0;
   std::uint64_t refused = 0;
   std::uint64_t dropped_before = 0;  ///< of viewers that are gone
 };

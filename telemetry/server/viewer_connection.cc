@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "base/printable.h"
+#include "telemetry/steady_time.h"
 
 namespace strainwave {
 
@@ -22,8 +23,10 @@ constexpr int kSystemBuffer = 256 * 1024;
 
 }  // namespace
 
-ViewerConnection::ViewerConnection(beast::tcp_stream&& stream, ServerShared& shared)
-    : stream_(std::move(stream)), shared_(shared) {
+ViewerConnection::ViewerConnection(beast::tcp_stream&& stream, ServerShared& shared, bool own_page)
+    : stream_(std::move(stream)),
+      shared_(shared),
+      viewer_(Acting::Page{++shared.viewers_so_far, own_page}, shared.acting) {
   stream_.read_message_max(Viewer::kLongestMessage);
 }
 
@@ -42,7 +45,7 @@ void ViewerConnection::start(const beast::http::request<beast::http::empty_body>
   stream_.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
     if (error) return self->end();
     self->shared_.viewers.insert(self);
-    self->say(server_info(self->shared_.session));
+    self->say(server_info(self->shared_.session, self->shared_.acting != nullptr));
     self->shared_.topics.visit([&](const Topic& topic) { self->news_.offer(topic.id); });
     self->send();
     self->read();
@@ -86,7 +89,8 @@ void ViewerConnection::on_message(const beast::error_code& error) {
   std::optional<std::string> answer;
   if (stream_.got_text()) {
     const auto bytes = incoming_.cdata();
-    answer = viewer_.take({static_cast<const char*>(bytes.data()), bytes.size()}, shared_.topics);
+    answer =
+        viewer_.take({static_cast<const char*>(bytes.data()), bytes.size()}, shared_.topics, steady_now_s());
   } else {
     answer = status(StatusLevel::kError, "nothing can be published here", "refused");
   }

@@ -13,7 +13,8 @@ namespace strainwave {
 
 class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
  public:
-  ViewerConnection(boost::beast::tcp_stream&& stream, ServerShared& shared);
+  /// `own_page`: see is_from_own_page().
+  ViewerConnection(boost::beast::tcp_stream&& stream, ServerShared& shared, bool own_page);
 
   /// Answers the request to become a viewer, then serves it.
   void start(const boost::beast::http::request<boost::beast::http::empty_body>& request,
@@ -25,12 +26,14 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   void remove_topic(std::uint32_t topic);
   /// Tells the viewer what it has missed since the last call.
   void report_drops();
+  /// Sends it before all data.
+  void say(std::string text);
+  std::uint64_t id() const noexcept { return viewer_.id(); }
   std::uint64_t dropped() const noexcept { return queue_.dropped(); }
 
  private:
   void read();
   void on_message(const boost::beast::error_code& error);
-  void say(std::string text);
   /// Takes out what is to be sent next: news of topics and what else waits by turns, so that neither keeps the other waiting.
   std::optional<OutgoingFrame> next();
   void send();

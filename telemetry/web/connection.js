@@ -10,11 +10,13 @@ export function jointOf(topic, kinds = 'STATE') {
 }
 
 export class Connection {
-  /** `onMessage(topic, text, received_s)`: the JSON text of one message. `onChange(text)`: the state of the connection in words. */
-  constructor(url, onMessage, onChange) {
+  /** `onMessage(topic, text, received_s)`: the JSON text of one message. `onChange(text)`: the state of the connection in words.
+   *  `onControl(message)`: what is said besides topics. */
+  constructor(url, onMessage, onChange, onControl) {
     this.url = url;
     this.onMessage = onMessage;
     this.onChange = onChange;
+    this.onControl = onControl;
     this.decoder = new TextDecoder();
     this.open();
   }
@@ -22,6 +24,7 @@ export class Connection {
   open() {
     this.topics = new Map(); // by subscription, which has the topic's number
     const socket = new WebSocket(this.url, ['foxglove.sdk.v1', 'foxglove.websocket.v1']);
+    this.socket = socket;
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => this.onChange('live');
     socket.onmessage = ({data}) => (typeof data === 'string' ? this.control(socket, JSON.parse(data)) : this.message(data));
@@ -33,7 +36,7 @@ export class Connection {
 
   control(socket, message) {
     if (message.op === 'advertise') {
-      const wanted = message.channels.filter((channel) => channel.topic.endsWith('.STATE') && channel.encoding === 'json');
+      const wanted = message.channels.filter((channel) => /\.(STATE|LIMITS)$/.test(channel.topic) && channel.encoding === 'json');
       for (const channel of wanted) this.topics.set(channel.id, channel.topic);
       const subscriptions = wanted.map((channel) => ({id: channel.id, channelId: channel.id}));
       if (subscriptions.length > 0) socket.send(JSON.stringify({op: 'subscribe', subscriptions}));
@@ -41,7 +44,16 @@ export class Connection {
       for (const id of message.channelIds) this.topics.delete(id);
     } else if (message.op === 'status' && message.level > 0) {
       this.onChange(`live; ${message.message}`);
+    } else {
+      this.onControl(message);
     }
+  }
+
+  /** False: there is no connection. */
+  send(message) {
+    if (this.socket.readyState !== WebSocket.OPEN) return false;
+    this.socket.send(JSON.stringify(message));
+    return true;
   }
 
   message(data) {

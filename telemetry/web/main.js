@@ -9,11 +9,13 @@ import {JointTable} from './table.js';
 const REDRAW_MS = 100;
 const element = (id) => document.getElementById(id);
 
-const live = new Map(); // joint to {history, last, received_s}
+const live = new Map(); // joint to {history, channel, last, received_s, limits}
 let recording = null; // joint to what readRecording() says; null: live
 let chosen = null;
 let pausedAt_s = null;
 let zoom = null; // [from_s, to_s]
+let actingAsked = false;
+let acting = null; // what may order motions, where the server takes orders
 let vocabulary = {faults: {}, notices: {}};
 
 const joints = () => recording ?? live;
@@ -50,6 +52,7 @@ function redraw() {
   const joint = joints().get(chosen);
   element('plots-title').textContent = joint ? `Plots of ${chosen}` : 'Plots';
   if (joint) plots.show(joint.history, ...span(), joint.fault_s ?? null);
+  acting?.show();
 }
 
 function setPaused(paused) {
@@ -100,10 +103,15 @@ const plots = new Plots(element('plots'), (from_s, to_s) => {
 });
 
 let connectionText = 'connecting';
+function onMessage(topic, text, received_s) {
+  if (topic.endsWith('.STATE')) return onState(topic, text, received_s);
+  const joint = live.get(jointOf(topic, 'LIMITS'));
+  if (joint) joint.limits = JSON.parse(text);
+}
 function onState(topic, text, received_s) {
   const state = JSON.parse(text);
   const name = jointOf(topic);
-  if (!live.has(name)) live.set(name, {history: new History()});
+  if (!live.has(name)) live.set(name, {history: new History(), channel: topic.replace(/\.STATE$/, '')});
   const joint = live.get(name);
   const first = joint.last === undefined;
   joint.last = state;
@@ -146,10 +154,23 @@ document.addEventListener('keydown', (event) => {
 
 vocabulary = await (await fetch('vocabulary.json')).json();
 const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-const connection = new Connection(`${scheme}://${location.host}/${location.search}`, onState, (text) => {
+const connection = new Connection(`${scheme}://${location.host}/${location.search}`, onMessage, (text) => {
   connectionText = text;
   if (!recording) element('connection').textContent = text;
-});
+}, onControl);
+
+/** A server that takes no orders says nothing of them, and has no acting.js. */
+async function onControl(message) {
+  if (message.op === 'serverInfo' && message.metadata?.acting) {
+    if (actingAsked) return acting?.open();
+    actingAsked = true;
+    const {Acting} = await import('./acting.js');
+    element('only-shows').hidden = true;
+    acting = new Acting(connection, {joints: () => live, chosen: () => (recording ? null : chosen)});
+  } else {
+    acting?.take(message);
+  }
+}
 setInterval(() => {
   if (!recording && pausedAt_s === null && !document.hidden) redraw();
 }, REDRAW_MS);

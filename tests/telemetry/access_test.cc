@@ -82,5 +82,20 @@ TEST(TokenFile, IsReadOnlyWhenNobodyElseCanAndTheTokenIsLong) {
   EXPECT_THROW(read_token(folder.path() / "none"), InputError);
 }
 
+TEST(Access, KnowsTheServersOwnPageByItsOriginAndByANameOfThisMachine) {
+  const auto own = [](const char* origin, const char* host) {
+    return is_from_own_page({"/", "", origin, host});
+  };
+  EXPECT_TRUE(own("http://127.0.0.1:8765", "127.0.0.1:8765"));
+  EXPECT_TRUE(own("http://localhost:9000", "localhost:9000")) << "a port that ssh forwards";
+  EXPECT_TRUE(own("http://[::1]:8765", "[::1]:8765"));
+  EXPECT_FALSE(own("", "localhost:8765"));
+  EXPECT_FALSE(own("http://localhost:8766", "localhost:8765"));
+  EXPECT_FALSE(own("https://localhost:8765", "localhost:8765"));
+  EXPECT_FALSE(own("null", "localhost:8765"));
+  EXPECT_FALSE(own("http://evil.example:8765", "evil.example:8765"))
+      << "a page that gave its name our address";
+}
+
 }  // namespace
 }  // namespace strainwave

@@ -18,7 +18,7 @@ class ViewerTest : public ::testing::Test {
 
   /// The answer's message, or "" when there is no answer.
   std::string answer(const std::string& text) {
-    const auto answer = viewer_.take(text, topics_);
+    const auto answer = viewer_.take(text, topics_, 0.0);
     if (!answer) return "";
     const Json json = Json::parse(*answer);
     EXPECT_EQ(json["op"], "status");

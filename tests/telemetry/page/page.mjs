@@ -4,34 +4,13 @@
 //
 //   node page.mjs URL RECORDING-CSV RECORDING-MCAP HOSTILE-CSV SCREENSHOT-FOLDER
 import fs from 'node:fs';
-import readline from 'node:readline';
-import axe from 'axe-core';
-import puppeteer from 'puppeteer-core';
+import {memory_MB, obey, openPage, problems, rowsOf, say, sleep, textOf, until, violationsOf, widthWhenSmall} from './browser.mjs';
 
 const [, , url, csv, mcap, hostile, pictures] = process.argv;
-const say = (value) => console.log(JSON.stringify(value));
-const browser = await puppeteer.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
-const page = await browser.newPage();
-const problems = [];
-page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
-page.on('pageerror', (error) => problems.push(error.message));
-page.on('dialog', (dialog) => {
-  problems.push(`a dialog opened: ${dialog.message()}`);
-  dialog.dismiss();
-});
-await page.setViewport({width: 1280, height: 900});
-await page.goto(url);
-
-const rows = () => page.$$eval('#joints tr', (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+const page = await openPage(url);
+const rows = () => rowsOf(page);
+const text = (selector) => textOf(page, selector);
 const cell = async (joint, column) => (await rows()).find((row) => row[0] === joint)?.[column];
-async function until(condition, seconds) {
-  const begin = Date.now();
-  while (Date.now() - begin < 1000 * seconds) {
-    if (await condition()) return (Date.now() - begin) / 1000;
-    await new Promise((go) => setTimeout(go, 20));
-  }
-  return null;
-}
 // Pixels of the plots' areas in the colour of a curve: neither ground nor grid nor text, which are grey.
 const curvePixels = () => page.$$eval('#plots canvas', (list) => list.map((canvas) => {
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -46,7 +25,6 @@ async function upload(file) {
   const input = await page.$('#file');
   await input.uploadFile(file);
 }
-const text = (selector) => page.$eval(selector, (element) => element.textContent);
 
 const steps = {
   async joint() {
@@ -55,7 +33,7 @@ const steps = {
   },
   async plots() {
     await page.keyboard.press('1'); // ten seconds
-    await new Promise((go) => setTimeout(go, 3000));
+    await sleep(3);
     await page.screenshot({path: `${pictures}/page.png`});
     say({pixels: await curvePixels()});
   },
@@ -91,32 +69,33 @@ const steps = {
     await until(async () => (await text('#problem')) !== '', 5);
     say({problem: await text('#problem'), connection: await text('#connection')});
   },
-  async accessibility() {
-    const found = {};
-    for (const scheme of ['light', 'dark']) {
-      await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
-      // By the browser's debugger, which the page's policy does not bind.
-      await page.evaluate(axe.source);
-      const {violations} = await page.evaluate(() => axe.run());
-      found[scheme] = violations.map(({id, nodes}) => `${id}: ${nodes.map((node) => node.html).slice(0, 3).join(' ')}`);
-    }
-    say(found);
-  },
-  async small() {
-    await page.setViewport({width: 360, height: 800});
-    await new Promise((go) => setTimeout(go, 300));
-    say({width: await page.evaluate(() => document.documentElement.scrollWidth)});
+  async accessibility() { say(await violationsOf(page)); },
+  async small() { say({width: await widthWhenSmall(page)}); },
+  // A server without a key: neither the program that orders motions nor an answer to an order.
+  async orders() {
+    const {status} = await fetch(new URL('acting.js', url));
+    const answer = await page.evaluate(() => new Promise((done) => {
+      const socket = new WebSocket(`ws://${location.host}/`, ['foxglove.websocket.v1']);
+      socket.onopen = () => socket.send(JSON.stringify({op: 'act', action: 'stop', joints: ['SW.elbow']}));
+      socket.onmessage = ({data}) => typeof data === 'string' && JSON.parse(data).op === 'status' && done(JSON.parse(data).message);
+    }));
+    say({status, answer, elements: await page.$$eval('#stop, #orders', (list) => list.length)});
   },
   async problems() { say({problems}); },
-  async memory() {
-    const client = await page.createCDPSession();
-    await client.send('HeapProfiler.collectGarbage');
-    const {usedSize} = await client.send('Runtime.getHeapUsage');
-    say({used_MB: usedSize / 1e6, joints: (await rows()).length});
+  // Intervals between frames, and what the page holds.
+  async frames(seconds) {
+    const intervals = await page.evaluate((ms) => new Promise((done) => {
+      const seen = [];
+      const look = (now) => {
+        seen.push(now);
+        if (now - seen[0] < ms) requestAnimationFrame(look);
+        else done(seen.slice(1).map((time, i) => time - seen[i]));
+      };
+      requestAnimationFrame(look);
+    }), 1000 * Number(seconds)).then((list) => list.sort((a, b) => a - b));
+    const at = (share) => intervals[Math.min(intervals.length - 1, Math.floor(share * intervals.length))];
+    say({frames: intervals.length, median_ms: at(0.5), most_of_100_ms: at(0.99), longest_ms: at(1), above_20_ms: intervals.filter((ms) => ms > 20).length});
   },
+  async memory() { say({used_MB: await memory_MB(page), joints: (await rows()).length}); },
 };
-for await (const line of readline.createInterface({input: process.stdin})) {
-  if (line === 'end') break;
-  await steps[line]();
-}
-await browser.close();
+await obey(steps);

@@ -141,9 +141,10 @@ bool RawClient::is_closed_within(double seconds) const {
   return false;
 }
 
-bool RawClient::become_viewer() const {
+bool RawClient::become_viewer(const std::string& headers) const {
   send(
-      "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: "
+      "GET / HTTP/1.1\r\n" + headers +
+      "Connection: Upgrade\r\nUpgrade: "
       "websocket\r\nSec-WebSocket-Version: 13\r\n"
       "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nSec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n");
   // Byte by byte: what follows the header is the server's first messages.

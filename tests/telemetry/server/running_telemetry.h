@@ -52,8 +52,8 @@ class RawClient {
   /// Whether the other side closes within `seconds`; what comes is thrown away.
   bool is_closed_within(double seconds) const;
 
-  /// Asks to become a viewer and reads the answer's header; false: it was refused.
-  bool become_viewer() const;
+  /// Asks to become a viewer, with further `headers` of a line each, and reads the answer's header; false: it was refused.
+  bool become_viewer(const std::string& headers = "Host: localhost\r\n") const;
   /// A text of the WebSocket protocol (RFC 6455), masked with zeros.
   bool send_text(const std::string& text) const;
 

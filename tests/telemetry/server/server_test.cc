@@ -6,11 +6,13 @@
 #include <cmath>
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
+#include <strainwave/command_v1.hpp>
 #include <strainwave/limits_v1.hpp>
 #include <strainwave/state_v1.hpp>
 #include <strainwave/timing_v1.hpp>
 #include <thread>
 
+#include "client/protocol/key_file.h"
 #include "tests/support/fragment_attack.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_client.h"
@@ -130,6 +132,85 @@ TEST_F(Server, IsNotForPagesThatABrowserHappensToVisit) {
   EXPECT_EQ(answer("Host: localhost\r\n"), "HTTP/1.1 200");
   EXPECT_EQ(answer("Host: localhost\r\nOrigin: https://evil.example\r\n"), "HTTP/1.1 403");
   EXPECT_EQ(answer("Host: evil.example\r\n"), "HTTP/1.1 403");
+}
+
+/// strainwave-telemetry with an operator's key, and what it orders the joint "elbow".
+class ActingServer : public Server {
+ protected:
+  ActingServer() {
+    write_new_key(key_, Role::kOperator, "bench");
+    lcm_.subscribe("SW.elbow.COMMAND", &ActingServer::on_command, this);
+  }
+  /// What a viewer with these headers is answered when it asks for a stop.
+  std::string stop_by(const RunningTelemetry& telemetry, const std::string& headers) const {
+    const RawClient viewer(telemetry.port());
+    if (!viewer.become_viewer(headers)) return "no viewer";
+    viewer.send_text(R"({"op":"act","action":"stop","joints":["SW.elbow"]})");
+    return viewer.read_until("\"acted\",\"refused\"");
+  }
+  void on_command(const lcm::ReceiveBuffer*, const std::string&, const command_v1*) { ++commands_; }
+  void hear() {
+    while (lcm_.handleTimeout(200) > 0) {
+    }
+  }
+  static std::string own_page(const RunningTelemetry& telemetry) {
+    const std::string host = "localhost:" + std::to_string(telemetry.port());
+    return "Host: " + host + "\r\nOrigin: http://" + host + "\r\n";
+  }
+
+  TemporaryFolder folder_;
+  const std::string key_ = folder_.path() / "key";
+  int commands_ = 0;
+};
+
+TEST_F(ActingServer, TakesOrdersOfItsOwnPageAlone) {
+  const RunningTelemetry telemetry({"--key", key_});
+  const std::string host = "Host: localhost:" + std::to_string(telemetry.port()) + "\r\n";
+  for (const char* origin : {"", "Origin: https://app.foxglove.dev\r\n", "Origin: file://\r\n",
+                             "Origin: http://localhost\r\n", "Origin: https://evil.example\r\n"}) {
+    const std::string answer = stop_by(telemetry, host + origin);
+    EXPECT_TRUE(answer == "no viewer" || answer.find("page of this server alone") != std::string::npos)
+        << origin << answer;
+  }
+  hear();
+  EXPECT_EQ(commands_, 0);
+  EXPECT_NE(stop_by(telemetry, own_page(telemetry)).find("stop sent to 1 joint"), std::string::npos);
+  hear();
+  EXPECT_GT(commands_, 0);
+}
+
+TEST_F(ActingServer, TakesNoOrderByARequest) {
+  const RunningTelemetry telemetry({"--key", key_});
+  const std::string body = R"({"op":"act","action":"stop","joints":["SW.elbow"]})";
+  for (const std::string& request :
+       {"GET /?op=act&action=stop&joints=SW.elbow HTTP/1.1\r\n" + own_page(telemetry) + "\r\n",
+        "GET /act?action=stop HTTP/1.1\r\n" + own_page(telemetry) + "\r\n",
+        "POST /act HTTP/1.1\r\n" + own_page(telemetry) + "Content-Length: " + std::to_string(body.size()) +
+            "\r\n\r\n" + body}) {
+    const RawClient client(telemetry.port());
+    client.send(request);
+    EXPECT_EQ(client.read_all().find("acted"), std::string::npos);
+  }
+  hear();
+  EXPECT_EQ(commands_, 0);
+}
+
+TEST_F(ActingServer, IsNoneWithoutAKey) {
+  const RunningTelemetry telemetry;
+  const RawClient viewer(telemetry.port());
+  ASSERT_TRUE(viewer.become_viewer(own_page(telemetry)));
+  viewer.send_text(R"({"op":"act","action":"stop","joints":["SW.elbow"]})");
+  EXPECT_NE(viewer.read_until("refused").find("'act' is not offered"), std::string::npos);
+  hear();
+  EXPECT_EQ(commands_, 0);
+}
+
+TEST_F(ActingServer, DoesNotListenToOtherMachines) {
+  const std::string token = folder_.path() / "token";
+  std::ofstream(token) << "0123456789abcdef\n";
+  std::filesystem::permissions(token, std::filesystem::perms::owner_read);
+  const RunningTelemetry telemetry({"--token-file", token, "--key", key_}, "0.0.0.0");
+  EXPECT_EQ(telemetry.port(), 0);
 }
 
 }  // namespace
