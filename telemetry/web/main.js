@@ -4,6 +4,7 @@ import {Connection, jointOf} from './connection.js';
 import {History, valuesOf} from './history.js';
 import {Plots} from './plots.js';
 import {readRecording} from './recording.js';
+import {readReport} from './report.js';
 import {JointTable} from './table.js';
 
 const REDRAW_MS = 100;
@@ -71,6 +72,12 @@ function complain(text) {
 async function open(file) {
   complain('');
   try {
+    if (/\.json$/i.test(file.name)) {
+      element('reports').prepend(readReport(file.name, await file.text()));
+      element('reports-section').hidden = false;
+      element('reports').firstElementChild.scrollIntoView({block: 'nearest'});
+      return;
+    }
     const read = readRecording(file.name, new Uint8Array(await file.arrayBuffer()));
     recording = read;
     element('connection').textContent = `recording ${file.name}`;

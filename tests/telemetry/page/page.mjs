@@ -63,6 +63,14 @@ const steps = {
     say({names: (await rows()).map((row) => row[0]), elements});
     await page.click('#live');
   },
+  async report(file) {
+    await upload(file);
+    await until(async () => (await page.$('#reports details')) !== null, 5);
+    say(await page.$eval('#reports details', (report) => ({
+      title: report.querySelector('summary').textContent, facts: report.querySelector('p').textContent, rows: [...report.querySelectorAll('tr')].map((row) => [...row.cells].map((cell) => cell.textContent)),
+      elements: report.querySelectorAll('img, script').length, connection: document.getElementById('connection').textContent,
+    })));
+  },
   async nonsense() {
     fs.writeFileSync(`${pictures}/nonsense.csv`, 'a,b\n1,2\n');
     await upload(`${pictures}/nonsense.csv`);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reports of commissioning and of the doctor: JSON objects, whose lists of objects become tables. Every text goes in as text.
+
+const MOST_ROWS = 1000;
+
+const make = (tag, ...children) => {
+  const made = document.createElement(tag);
+  made.append(...children);
+  return made;
+};
+
+const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+const words = (key) => key.replaceAll('_', ' ');
+
+function textOf(value) {
+  if (value === null) return '–';
+  if (typeof value === 'number') return String(Number(value.toPrecision(6)));
+  if (Array.isArray(value)) return value.map(textOf).join('; ');
+  if (isObject(value)) return Object.entries(value).map(([key, part]) => `${words(key)}: ${textOf(part)}`).join('; ');
+  return String(value);
+}
+
+function tableOf(title, list) {
+  const columns = [...new Set(list.flatMap((entry) => Object.keys(entry)))];
+  const head = columns.map((column) => {
+    const cell = make('th', words(column));
+    cell.scope = 'col';
+    return cell;
+  });
+  const rows = list.slice(0, MOST_ROWS).map((entry) => make('tr', ...columns.map((column) => make('td', column in entry ? textOf(entry[column]) : ''))));
+  const scroll = make('div', make('table', make('caption', words(title)), make('thead', make('tr', ...head)), make('tbody', ...rows)));
+  scroll.className = 'scroll report';
+  scroll.tabIndex = 0;
+  scroll.setAttribute('role', 'region');
+  scroll.setAttribute('aria-label', words(title));
+  return scroll;
+}
+
+/** The report in `text`, a file called `name`, as an element. Throws Error with a text for the user. */
+export function readReport(name, text) {
+  const expected = `${name}: no report; a JSON file of strainwavectl doctor --json or of a commissioning is expected`;
+  let report;
+  try {
+    report = JSON.parse(text);
+  } catch {
+    throw new Error(expected);
+  }
+  const isTable = ([, value]) => Array.isArray(value) && value.length > 0 && value.every(isObject);
+  if (!isObject(report)) throw new Error(expected);
+  const entries = Object.entries(report);
+  // A healthy joint has a list without findings.
+  if (!entries.some(([, value]) => Array.isArray(value))) throw new Error(expected);
+  const facts = entries.filter((entry) => !isTable(entry)).map(([key, value]) => `${words(key)}: ${textOf(value) || 'none'}`);
+  const element = make('details', make('summary', name), make('p', facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)));
+  element.open = true;
+  return element;
+}
