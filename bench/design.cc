@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "design/controller_design.h"
-#include "design/friction_file.h"
+#include "design/friction/friction_file.h"
+#include "design/gains/controller_design.h"
 
 int main() {
   using namespace strainwave;

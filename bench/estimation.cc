@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "design/catalogue.h"
-#include "design/estimation.h"
+#include "design/friction/catalogue.h"
+#include "design/friction/estimation.h"
 
 namespace strainwave {
 namespace {

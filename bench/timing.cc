@@ -21,7 +21,7 @@
 #include "base/printable.h"
 #include "control/table/gain_table_json.h"
 #include "daemon/assembly.h"
-#include "daemon/realtime/realtime_loop.h"
+#include "daemon/realtime/loop/realtime_loop.h"
 #include "drivers/simulated_actuator.h"
 
 namespace strainwave {

@@ -8,7 +8,7 @@
 
 #include "daemon/admission/admission.h"
 #include "daemon/config/config.h"
-#include "daemon/realtime/loop_parts.h"
+#include "daemon/realtime/loop/loop_parts.h"
 
 namespace strainwave {
 

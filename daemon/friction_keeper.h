@@ -15,7 +15,7 @@
 
 #include "daemon/friction_file.h"
 #include "daemon/log.h"
-#include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/joint/joint_loop.h"
 
 namespace strainwave {
 

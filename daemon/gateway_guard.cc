@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/printable.h"
-#include "daemon/realtime/periodic_clock.h"
+#include "daemon/realtime/loop/periodic_clock.h"
 
 namespace strainwave {
 

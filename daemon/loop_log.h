@@ -3,7 +3,7 @@
 #pragma once
 
 #include "daemon/config/config.h"
-#include "daemon/realtime/orders.h"
+#include "daemon/realtime/joint/orders.h"
 
 namespace strainwave {
 

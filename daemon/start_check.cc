@@ -10,7 +10,7 @@
 #include "base/printable.h"
 #include "daemon/gateway/gateway_process.h"
 #include "daemon/initial_table.h"
-#include "daemon/realtime/realtime_setup.h"
+#include "daemon/realtime/loop/realtime_setup.h"
 #include "lcmtypes/multicast_check.h"
 
 namespace strainwave {

@@ -18,7 +18,7 @@
 #include "daemon/gateway/preference.h"
 #include "daemon/initial_table.h"
 #include "daemon/loop_log.h"
-#include "daemon/realtime/realtime_setup.h"
+#include "daemon/realtime/loop/realtime_setup.h"
 #include "lcmtypes/channels.h"
 #include "lcmtypes/fingerprints.h"
 

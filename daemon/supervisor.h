@@ -19,7 +19,7 @@
 #include "daemon/gateway_guard.h"
 #include "daemon/instance_lock.h"
 #include "daemon/log.h"
-#include "daemon/realtime/realtime_loop.h"
+#include "daemon/realtime/loop/realtime_loop.h"
 #include "daemon/service_notifier.h"
 
 namespace strainwave {

@@ -15,12 +15,12 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "control/joint/joint_catalogue.h"
-#include "design/catalogue.h"
-#include "design/descending_curve.h"
-#include "design/estimation.h"
-#include "design/fit_checks.h"
-#include "design/friction_file.h"
-#include "design/ordered_memberships.h"
+#include "design/friction/catalogue.h"
+#include "design/friction/descending_curve.h"
+#include "design/friction/estimation.h"
+#include "design/friction/fit_checks.h"
+#include "design/friction/friction_file.h"
+#include "design/friction/ordered_memberships.h"
 
 namespace strainwave {
 

@@ -9,11 +9,11 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "control/joint/joint_catalogue.h"
-#include "design/friction_file.h"
-#include "design/friction_fit.h"
-#include "design/friction_log.h"
-#include "design/sha256.h"
-#include "design/student.h"
+#include "design/friction/friction_file.h"
+#include "design/friction/friction_fit.h"
+#include "design/friction/friction_log.h"
+#include "design/friction/sha256.h"
+#include "design/friction/student.h"
 
 namespace strainwave {
 

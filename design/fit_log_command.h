@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "design/friction_update.h"
+#include "design/friction/friction_update.h"
 #include "strainwave/exit_status.h"
 
 namespace strainwave {

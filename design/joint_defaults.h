@@ -6,7 +6,7 @@
 #include <string>
 
 #include "control/joint/gear_catalogue.h"
-#include "design/friction_file.h"
+#include "design/friction/friction_file.h"
 
 namespace strainwave {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "design/controller_design.h"
+#include "design/gains/controller_design.h"
 #include "design/spring_options.h"
 
 namespace strainwave {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "design/spring_proof.h"
+#include "design/gains/spring_proof.h"
 
 namespace CLI {
 class App;

@@ -9,9 +9,9 @@
 #include "control/table/gain_table_json.h"
 #include "design/commands.h"
 #include "design/exact/exact_certificate.h"
+#include "design/gains/table_reach.h"
 #include "design/joint_defaults.h"
 #include "design/spring_options.h"
-#include "design/table_reach.h"
 #include "design/table_report.h"
 
 namespace strainwave {

@@ -142,34 +142,34 @@ TEST(Types, AreFoundAtNamespaceLevelAlone) {
 
 TEST(Layering, FollowsTheArrows) {
   EXPECT_TRUE(allowed("control/friction/friction.cc", "#include \"control/friction/friction.h\""));
-  EXPECT_TRUE(allowed("design/lmi.cc", "#include \"control/table/gain_table.h\""));
+  EXPECT_TRUE(allowed("design/gains/lmi.cc", "#include \"control/table/gain_table.h\""));
   EXPECT_TRUE(allowed("drivers/simulated_actuator.h", "#include \"sim/joint/joint_plant.h\""));
-  EXPECT_TRUE(allowed("daemon/realtime/joint_loop.h", "#include \"drivers/actuator.h\""));
+  EXPECT_TRUE(allowed("daemon/realtime/joint/joint_loop.h", "#include \"drivers/actuator.h\""));
   EXPECT_TRUE(allowed("client/protocol/client.h", "#include \"lcmtypes/channels.h\""));
   EXPECT_TRUE(allowed("client/commands/can_commands.cc", "#include \"drivers/can/can_scan.h\""));
-  EXPECT_TRUE(allowed("tests/design/lmi_test.cc", "#include \"design/lmi.h\""));
-  EXPECT_TRUE(allowed("bench/loop.cc", "#include \"daemon/realtime/joint_loop.h\""));
+  EXPECT_TRUE(allowed("tests/design/gains/lmi_test.cc", "#include \"design/gains/lmi.h\""));
+  EXPECT_TRUE(allowed("bench/loop.cc", "#include \"daemon/realtime/joint/joint_loop.h\""));
 }
 
 TEST(Layering, RefusesEveryArrowThatIsNotThere) {
-  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"design/lmi.h\""));
+  EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"design/gains/lmi.h\""));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include \"client/protocol/client.h\""));
   EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"drivers/actuator.h\""));
-  EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"design/lmi.h\""));
+  EXPECT_FALSE(allowed("control/friction/friction.cc", "#include \"design/gains/lmi.h\""));
   EXPECT_FALSE(allowed("sim/joint/joint_plant.cc", "#include \"drivers/actuator.h\""));
   EXPECT_FALSE(allowed("drivers/can/cia402.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("lcmtypes/wire.h", "#include \"daemon/config/config.h\""));
   EXPECT_FALSE(allowed("client/protocol/client.cc", "#include \"daemon/config/config.h\""));
   EXPECT_FALSE(allowed("client/protocol/client.cc", "#include \"sim/joint/joint_plant.h\""));
   EXPECT_FALSE(allowed("client/protocol/client.cc", "#include \"drivers/can/can_bus.h\""));
-  EXPECT_FALSE(allowed("design/lmi.cc", "#include \"sim/joint/joint_plant.h\""));
+  EXPECT_FALSE(allowed("design/gains/lmi.cc", "#include \"sim/joint/joint_plant.h\""));
 }
 
 TEST(Layering, HasOneStackInsideTheDaemon) {
   EXPECT_TRUE(allowed("daemon/assembly.cc", "#include \"daemon/config/config.h\""));
-  EXPECT_TRUE(allowed("daemon/config/config.h", "#include \"daemon/realtime/joint_loop.h\""));
-  EXPECT_TRUE(allowed("daemon/admission/a.h", "#include \"daemon/realtime/orders.h\""));
+  EXPECT_TRUE(allowed("daemon/config/config.h", "#include \"daemon/realtime/joint/joint_loop.h\""));
+  EXPECT_TRUE(allowed("daemon/admission/a.h", "#include \"daemon/realtime/joint/orders.h\""));
   for (const char* folder : {"gateway", "realtime", "records", "admission", "config"}) {
     const std::string file = std::string("daemon/") + folder + "/a.cc";
     EXPECT_FALSE(allowed(file.c_str(), "#include \"daemon/supervisor.h\"")) << folder;
@@ -179,9 +179,11 @@ TEST(Layering, HasOneStackInsideTheDaemon) {
     const bool is_admission = std::string_view(folder) == "admission";
     EXPECT_EQ(allowed(file.c_str(), "#include \"daemon/admission/admission.h\""), is_admission) << folder;
   }
-  EXPECT_FALSE(allowed("daemon/gateway/gateway.cc", "#include \"daemon/realtime/orders.h\""));
-  EXPECT_FALSE(allowed("daemon/realtime/joint_loop.cc", "#include \"daemon/records/flight_record_file.h\""));
-  EXPECT_FALSE(allowed("daemon/realtime/joint_loop.cc", "#include \"daemon/gateway/gateway_process.h\""));
+  EXPECT_FALSE(allowed("daemon/gateway/gateway.cc", "#include \"daemon/realtime/joint/orders.h\""));
+  EXPECT_FALSE(
+      allowed("daemon/realtime/joint/joint_loop.cc", "#include \"daemon/records/flight_record_file.h\""));
+  EXPECT_FALSE(
+      allowed("daemon/realtime/joint/joint_loop.cc", "#include \"daemon/gateway/gateway_process.h\""));
 }
 
 TEST(Layering, HasOneStackInsideTheClientTheSimulatorAndTheBus) {
@@ -208,12 +210,12 @@ TEST(Layering, LetsNothingThatIsShippedIncludeTests) {
 }
 
 TEST(Layering, SeesAnIncludeHoweverItIsSpaced) {
-  for (const char* line :
-       {"#include \"design/lmi.h\"", "  #  include   \"design/lmi.h\"", "#include\"design/lmi.h\"",
-        "#include \"design/lmi.h\"  // why", "#include <design/lmi.h>", "#include <strainwave/joint.h>"}) {
+  for (const char* line : {"#include \"design/gains/lmi.h\"", "  #  include   \"design/gains/lmi.h\"",
+                           "#include\"design/gains/lmi.h\"", "#include \"design/gains/lmi.h\"  // why",
+                           "#include <design/gains/lmi.h>", "#include <strainwave/joint.h>"}) {
     EXPECT_FALSE(allowed("daemon/a.cc", line)) << line;
   }
-  EXPECT_TRUE(allowed("daemon/a.cc", "// #include \"design/lmi.h\" would be wrong here"));
+  EXPECT_TRUE(allowed("daemon/a.cc", "// #include \"design/gains/lmi.h\" would be wrong here"));
 }
 
 TEST(Layering, WantsIncludesFromTheRoot) {
@@ -223,7 +225,7 @@ TEST(Layering, WantsIncludesFromTheRoot) {
 }
 
 TEST(Layering, KeepsLibrariesWhereTheyBelong) {
-  EXPECT_TRUE(allowed("design/sdpa_call.cc", "#include <sdpa_call.h>"));
+  EXPECT_TRUE(allowed("design/gains/sdpa_call.cc", "#include <sdpa_call.h>"));
   EXPECT_FALSE(allowed("daemon/a.cc", "#include <sdpa_call.h>"));
   EXPECT_TRUE(allowed("daemon/gateway/gateway.h", "#include <lcm/lcm-cpp.hpp>"));
   EXPECT_FALSE(allowed("daemon/supervisor.cc", "#include <lcm/lcm-cpp.hpp>"));
@@ -262,12 +264,12 @@ class SourceTree : public ::testing::Test {
 };
 
 TEST_F(SourceTree, WithAWrongLineIsReportedWithFileAndLine) {
-  write("daemon/realtime/loop.cc", "#include <array>\n#include \"design/lmi.h\"\n");
+  write("daemon/realtime/loop.cc", "#include <array>\n#include \"design/gains/lmi.h\"\n");
   write("daemon/config/config.cc", "#include \"control/units.h\"\n");
   write("daemon/main.cc", "#include \"daemon/realtime/loop.h\"\n");
   const std::vector<std::string> defects = rules().find_defects(root_);
   ASSERT_EQ(defects.size(), 1U);
-  EXPECT_EQ(defects[0], "daemon/realtime/loop.cc:2: daemon/realtime/ must not include design/lmi.h");
+  EXPECT_EQ(defects[0], "daemon/realtime/loop.cc:2: daemon/realtime/ must not include design/gains/lmi.h");
 }
 
 TEST_F(SourceTree, WithAFolderThatTheTableDoesNotKnowIsReported) {

@@ -23,8 +23,8 @@
 #include "daemon/admission/sequence_memory.h"
 #include "daemon/admission/table_admission.h"
 #include "daemon/gateway/shared_memory.h"
-#include "daemon/realtime/orders.h"
-#include "daemon/realtime/path_slots.h"
+#include "daemon/realtime/joint/orders.h"
+#include "daemon/realtime/path/path_slots.h"
 #include "strainwave/vocabulary.h"
 
 namespace strainwave {

@@ -9,7 +9,7 @@
 
 #include "daemon/admission/admission.h"
 #include "daemon/gateway/shared_memory.h"
-#include "daemon/realtime/realtime_loop.h"
+#include "daemon/realtime/loop/realtime_loop.h"
 
 namespace strainwave {
 

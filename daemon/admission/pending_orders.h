@@ -13,7 +13,7 @@
 #include "daemon/admission/fair_share.h"
 #include "daemon/admission/table_book.h"
 #include "daemon/admission/table_prover.h"
-#include "daemon/realtime/realtime_loop.h"
+#include "daemon/realtime/loop/realtime_loop.h"
 
 namespace strainwave {
 

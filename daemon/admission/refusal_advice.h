@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "daemon/realtime/orders.h"
+#include "daemon/realtime/joint/orders.h"
 
 namespace strainwave {
 

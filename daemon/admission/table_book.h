@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/joint/joint_loop.h"
 
 namespace strainwave {
 

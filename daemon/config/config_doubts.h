@@ -12,8 +12,8 @@
 #include "control/table/gain_table.h"
 #include "control/units.h"
 #include "daemon/config/config.h"
-#include "daemon/realtime/joint_loop.h"
-#include "daemon/realtime/loop_parts.h"
+#include "daemon/realtime/joint/joint_loop.h"
+#include "daemon/realtime/loop/loop_parts.h"
 
 namespace strainwave {
 

@@ -8,7 +8,7 @@
 
 #include "control/units.h"
 #include "daemon/config/config_motor.h"
-#include "daemon/realtime/periodic_clock.h"
+#include "daemon/realtime/loop/periodic_clock.h"
 #include "drivers/gpio/gpio_joint.h"
 
 namespace strainwave {

@@ -7,7 +7,7 @@
 
 namespace strainwave {
 
-/// What the load limit of a joint follows from that is given no load_Nm (daemon/realtime/load_limits.h).
+/// What the load limit of a joint follows from that is given no load_Nm (daemon/realtime/joint/load_limits.h).
 UsualLoad usual_load(const JointConfig& joint);
 
 /// Reads both of [joint.limits] into `joint`, of which all else that usual_load() asks for is known. Throws InputError.

@@ -13,7 +13,7 @@
 #include "control/joint/joint_catalogue.h"
 #include "control/units.h"
 #include "daemon/config/config_encoder.h"
-#include "daemon/realtime/periodic_clock.h"
+#include "daemon/realtime/loop/periodic_clock.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
 #include "drivers/simulated_effects.h"

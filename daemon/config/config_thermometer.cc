@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "daemon/config/config_thermometer.h"
 
-#include "daemon/realtime/periodic_clock.h"
+#include "daemon/realtime/loop/periodic_clock.h"
 
 namespace strainwave {
 

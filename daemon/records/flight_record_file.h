@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/loop/flight_recorder.h"
 
 namespace strainwave {
 

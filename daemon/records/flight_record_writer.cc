@@ -16,7 +16,7 @@
 #include "base/durations.h"
 #include "base/unique_fd.h"
 #include "base/utime.h"
-#include "daemon/realtime/periodic_clock.h"
+#include "daemon/realtime/loop/periodic_clock.h"
 #include "daemon/records/flight_record_file.h"
 
 namespace strainwave {

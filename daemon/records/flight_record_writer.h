@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "daemon/realtime/flight_recorder.h"
+#include "daemon/realtime/loop/flight_recorder.h"
 
 namespace strainwave {
 

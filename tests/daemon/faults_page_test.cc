@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "base/text_file.h"
-#include "daemon/realtime/fault_reach.h"
+#include "daemon/realtime/joint/fault_reach.h"
 #include "lcmtypes/reading_doubt.h"
 #include "strainwave/vocabulary.h"
-#include "tests/daemon/realtime/injected_fault_table.h"
+#include "tests/daemon/realtime/joint/injected_fault_table.h"
 #include "tests/support/message_files.h"
 
 namespace strainwave::testing {

@@ -11,7 +11,7 @@
 #include "base/text_file.h"
 #include "control/table/gain_table_json.h"
 #include "control/units.h"
-#include "design/friction_file.h"
+#include "design/friction/friction_file.h"
 
 namespace strainwave {
 namespace {

@@ -2,8 +2,8 @@
 // The reference case of docs/theory.md, section 7: the source's joint with the rules of its Table 5.
 #pragma once
 
-#include "design/controller_design.h"
-#include "design/friction_file.h"
+#include "design/friction/friction_file.h"
+#include "design/gains/controller_design.h"
 
 namespace strainwave {
 

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "base/input_error.h"
-#include "design/catalogue.h"
-#include "design/fit_checks.h"
-#include "design/friction_file.h"
-#include "design/friction_fit.h"
+#include "design/friction/catalogue.h"
+#include "design/friction/fit_checks.h"
+#include "design/friction/friction_file.h"
+#include "design/friction/friction_fit.h"
 #include "tests/fuzz/fuzz_file.h"
 
 namespace {

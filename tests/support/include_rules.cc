@@ -23,7 +23,7 @@ const std::vector<Library> kLibraries{
     {"Clp_", {"sim/studies/linear_program.cc"}},
     {"lcm/", {"daemon/gateway/", "client/protocol/", "tests/"}},
     {"strainwave/", {"strainwave/", "lcmtypes/", "design/", "daemon/", "client/", "telemetry/", "tests/"}},
-    {"boost/", {"telemetry/server/", "design/student.cc"}},
+    {"boost/", {"telemetry/server/", "design/friction/student.cc"}},
     {"toml++/", {"base/toml_section.cc"}},
     {"seccomp", {"daemon/gateway/"}},
     {"gpiod", {"drivers/gpio/line_request_v"}},

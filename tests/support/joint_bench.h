@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "daemon/realtime/joint_group.h"
-#include "daemon/realtime/joint_loop.h"
-#include "daemon/realtime/overrun_watch.h"
-#include "daemon/realtime/path_follower.h"
+#include "daemon/realtime/joint/joint_loop.h"
+#include "daemon/realtime/loop/overrun_watch.h"
+#include "daemon/realtime/path/joint_group.h"
+#include "daemon/realtime/path/path_follower.h"
 #include "drivers/faulty_actuator.h"
 #include "drivers/simulated_actuator.h"
 

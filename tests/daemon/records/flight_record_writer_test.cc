@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "base/text_file.h"
-#include "daemon/realtime/periodic_clock.h"
+#include "daemon/realtime/loop/periodic_clock.h"
 #include "daemon/records/flight_record_file.h"
 #include "lcmtypes/reading_doubt.h"
 #include "tests/support/temporary_folder.h"

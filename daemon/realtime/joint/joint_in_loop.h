@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One joint in the loop: its parts, and its changes of mode, which touch them all. The loop (daemon/realtime/joint/joint_loop.h) has them act in
+// their order; the functions below act on them by subject. Real-time safe.
+// Positions are the drive's; `zero` stands at the border.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "daemon/realtime/joint/fault_reach.h"
+#include "daemon/realtime/joint/homing.h"
+#include "daemon/realtime/joint/joint_drive.h"
+#include "daemon/realtime/joint/joint_law.h"
+#include "daemon/realtime/joint/joint_loop_config.h"
+#include "daemon/realtime/joint/joint_mode.h"
+#include "daemon/realtime/joint/joint_zero.h"
+#include "daemon/realtime/joint/motion_watch.h"
+#include "daemon/realtime/joint/ordered_target.h"
+#include "daemon/realtime/joint/orders.h"
+#include "daemon/realtime/loop/cycle_time.h"
+#include "daemon/realtime/path/path_slots.h"
+
+namespace strainwave {
+
+class PathFollower;
+
+struct JointInLoop {
+  enum class Service { kServing, kEnding };
+  struct StreamNotes {
+    bool approaches = false;        ///< it began far from the joint, which is not on it yet
+    std::int64_t late_samples = 0;  ///< of all streams since the start
+    std::int64_t yielded_id = 0;    ///< that a yield ended; 0: none
+  };
+
+  /// Not real-time safe. `actuator` is owned; the queue outlives this object.
+  JointInLoop(std::int64_t joint, const JointLoopConfig& joint_config, std::unique_ptr<Actuator> actuator,
+              EventQueue& event_queue);
+
+  bool change_mode(ModeEvent event, const CycleTime& time) noexcept;
+  /// With the drive's number for it, or with what the daemon found itself. The first fault stays.
+  void raise_fault(Fault fault, const CycleTime& time,
+                   std::optional<std::uint32_t> own_finding = {}) noexcept;
+  void notice(Notice notice) noexcept { notices |= static_cast<std::int32_t>(notice); }
+  void drop_path() noexcept;
+  /// A stream or a path is over.
+  void end_orders() noexcept;
+  /// As the control law has it, or the drive, or by the positions.
+  double velocity_rad_s() const noexcept {
+    return mode.controlled() ? law.motion().joint_velocity_rad_s : drive.velocity_rad_s();
+  }
+  /// As the drive counts it.
+  PositionRange reachable_range() const noexcept {
+    return {zero.to_drive_rad(config.limits.position_min_rad),
+            zero.to_drive_rad(config.limits.position_max_rad)};
+  }
+  /// Whether the joint has faulted in this cycle in a way that stops its group.
+  bool stops_group(const CycleTime& time) const noexcept;
+  /// How those must stop that stop with it. One that yields has run into something, like one that has a fault for it.
+  OthersStop others_stop() const noexcept;
+  bool at_rest() const noexcept { return mode.is(Mode::kOff) || mode.is(Mode::kFaulted); }
+
+  std::int64_t index;
+  JointLoopConfig config;
+  EventQueue& events;
+  JointDrive drive;
+  JointMode mode;
+  JointLaw law;
+  OrderedTarget ordered;
+  JointZero zero;
+  Homing homing;
+  MotionWatch motion_watch;
+  PathSlots path_slots;
+  const LoadedPath* path = nullptr;  ///< its part of one, begun or not; null: none
+  PathFollower* follower = nullptr;  ///< of all joints; set before the loop runs, outlives this object
+  std::optional<Yield> yield;        ///< since the last order that moved the joint, or cleared a fault
+  StreamNotes stream;
+  Service service = Service::kServing;
+  std::int64_t faulted_cycle = -1;  ///< the last in which it faulted
+  std::int32_t notices = 0;         ///< of this period
+
+ private:
+  void mode_changed(Mode from, const CycleTime& time) noexcept;
+};
+
+/// Obeys an order or refuses it. `tables`: the slots that kUseTable names.
+Ruling obey(JointInLoop& joint, const Order& order, const CycleTime& time,
+            std::span<const TableSlot> tables) noexcept;
+/// Whether the joint could begin `path` in this cycle: it holds where the path begins.
+Ruling may_begin_path(const JointInLoop& joint, const LoadedPath& path) noexcept;
+
+Reason begin_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+/// One period, before the control law's.
+void advance_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+/// After the control law's: once the home is found or a hold ordered, the joint holds as soon as it rests.
+void end_homing(JointInLoop& joint, const CycleTime& time) noexcept;
+
+/// After the control law: notices of the limits that it met.
+void note_limits(JointInLoop& joint) noexcept;
+/// Faults of a joint under control, and the load that it yields to.
+void check_motion(JointInLoop& joint, const CycleTime& time) noexcept;
+
+}  // namespace strainwave

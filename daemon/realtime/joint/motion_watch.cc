@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/realtime/joint/motion_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strainwave {
+
+namespace {
+
+/// Spans in which a push is looked at: a joint that turns round under it stands for less.
+constexpr double kSpan_s = 0.02;
+/// Of the time in which the joint is not blocked. Blocked for a tenth of the time, it has a root mean square of a third of its torque limit:
+/// the continuous torque of such motors (11 of 34 N.m, data/rhs17_datasheet.csv).
+constexpr double kForgets = 0.1;
+/// Share of a span at the limit, less the time on its other side, from which on the span counts: readings that flicker leave the limit for a
+/// period.
+constexpr double kPushed = 0.5;
+/// The last count is found, or given up, in less.
+constexpr double kOffTarget_s = 1.0;
+/// Ten times longer than a soft wall takes to call for the notice: what it pushes with before is not what the joint carries.
+constexpr double kUsualLoad_s = 0.5;
+/// A wall of 200 N.m/rad pushes a joint out in 70 ms, which then runs out and swings for some 0.3 s. What takes longer is no blow.
+constexpr double kLongestYield_s = 0.5;
+
+}  // namespace
+
+void MotionWatch::begin(double joint_position_rad, std::int64_t now_ns) noexcept {
+  in_vain_s_ = std::clamp(in_vain_s_ - kForgets * seconds(now_ns - looked_ns_), 0.0, config_.blocked_s);
+  looked_ns_ = now_ns;
+  begin_span(joint_position_rad, now_ns);
+  moved_before_rad_ = 0.0;
+  light_ns_ = now_ns;
+  judged_ns_ = now_ns - nanoseconds(kUsualLoad_s);  // the first load counts wholly
+  yields_since_ns_ = now_ns;
+  yielded_ns_.reset();
+  high_load_ = false;
+  in_place_ns_ = now_ns;
+}
+
+Fault MotionWatch::judge(const JointStep& motion, double joint_position_rad, std::int64_t now_ns) noexcept {
+  // Each check runs every period, whatever the other one finds.
+  const bool stands = blocked(motion, joint_position_rad, now_ns);
+  const bool heavy = overloaded(motion, now_ns);
+  if (std::abs(motion.ordered_reference.position_rad - joint_position_rad) > config_.following_error_rad)
+    return Fault::kFollowingError;
+  if (stands) return Fault::kBlocked;
+  return heavy ? Fault::kOverload : Fault::kNone;
+}
+
+// Whether a span at the limit, in `direction`, was: a free joint gets on, or goes less fast against it.
+bool MotionWatch::pushed_in_vain(double direction, double moved_rad) const noexcept {
+  const double progress_rad = config_.progress_rad_s * span_s();
+  return direction * moved_rad < progress_rad && direction * (moved_rad - moved_before_rad_) < progress_rad;
+}
+
+void MotionWatch::begin_span(double joint_position_rad, std::int64_t now_ns) noexcept {
+  span_since_ns_ = now_ns;
+  span_from_rad_ = joint_position_rad;
+  pushed_s_ = 0.0;
+}
+
+double MotionWatch::span_s() const noexcept {
+  return std::min(kSpan_s, config_.blocked_s);
+}
+
+bool MotionWatch::blocked(const JointStep& motion, double joint_position_rad, std::int64_t now_ns) noexcept {
+  const double torque_Nm = motion.output.torque_Nm;
+  if (motion.output.saturated && torque_Nm != 0.0)
+    pushed_s_ += std::copysign(seconds(now_ns - looked_ns_), torque_Nm);
+  looked_ns_ = now_ns;
+  const double passed_s = seconds(now_ns - span_since_ns_);
+  if (passed_s < span_s()) return false;
+  const double direction = std::copysign(1.0, pushed_s_);
+  const double moved_rad = joint_position_rad - span_from_rad_;
+  const bool in_vain = std::abs(pushed_s_) >= kPushed * passed_s && pushed_in_vain(direction, moved_rad);
+  in_vain_s_ = std::max(0.0, in_vain_s_ + (in_vain ? std::abs(pushed_s_) : -kForgets * passed_s));
+  begin_span(joint_position_rad, now_ns);
+  moved_before_rad_ = moved_rad;
+  return in_vain && in_vain_s_ > config_.blocked_s - 0.5 * span_s();
+}
+
+bool MotionWatch::off_target(bool holding, double distance_rad, std::int64_t now_ns) noexcept {
+  if (!holding || std::abs(distance_rad) <= config_.rest_tolerance_rad) in_place_ns_ = now_ns;
+  return seconds(now_ns - in_place_ns_) >= kOffTarget_s;
+}
+
+bool MotionWatch::has_just_yielded(std::int64_t now_ns) const noexcept {
+  return yielded_ns_ && seconds(now_ns - *yielded_ns_) < kLongestYield_s;
+}
+
+bool MotionWatch::overloaded(const JointStep& motion, std::int64_t now_ns) noexcept {
+  const double load_Nm = motion.load_Nm;
+  high_load_ = std::abs(load_Nm) > loads_.notice_Nm;
+  const double share = std::min(1.0, seconds(now_ns - judged_ns_) / kUsualLoad_s);
+  judged_ns_ = now_ns;
+  if (!high_load_) usual_load_Nm_ += share * (load_Nm - usual_load_Nm_);
+  const bool yields = motion.phase == MotionPhase::kYielding;
+  if (yields || std::abs(load_Nm) <= loads_.load_Nm) light_ns_ = now_ns;
+  if (yields)
+    yielded_ns_ = now_ns;
+  else
+    yields_since_ns_ = now_ns;
+  return seconds(now_ns - light_ns_) > config_.overload_s ||
+         seconds(now_ns - yields_since_ns_) > kLongestYield_s;
+}
+
+}  // namespace strainwave

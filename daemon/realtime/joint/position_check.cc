@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/realtime/joint/position_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/durations.h"
+
+namespace strainwave {
+
+namespace {
+
+/// The worst reading of a working sensor: quantisation at both ends, and sampling that is not exactly periodic.
+constexpr double kJumpFactor = 2.0;
+constexpr double kJumpCounts = 4.0;
+constexpr double kJumpFloor_rad = 1e-6;
+/// A joint may have more friction than its table says.
+constexpr double kFrictionFactor = 1.5;
+/// Motion owed before the sensor is called stuck.
+constexpr double kStuckCounts = 10.0;
+constexpr double kStuckFloor_rad = 1e-4;
+/// After its last change the joint may still be coming to rest under another torque.
+constexpr int kSettlingPeriods = 5;
+
+}  // namespace
+
+bool PositionCheck::plausible(double position_rad, double torque_Nm, bool driven,
+                              std::int64_t now_ns) noexcept {
+  const bool jump = driven && has_last_ && jumped(position_rad, elapsed_s(now_ns));
+  if (!driven || !has_last_) begin_stretch();
+  const bool motionless = driven && has_last_ && stuck(position_rad, torque_Nm, elapsed_s(now_ns));
+  doubt_ = jump         ? doubt_number(ReadingDoubt::kJump, std::abs(position_rad - last_position_rad_))
+           : motionless ? doubt_number(ReadingDoubt::kStuck, std::abs(owed_motion_rad_))
+                        : 0;
+  last_position_rad_ = position_rad;
+  last_ns_ = now_ns;
+  has_last_ = true;
+  return doubt_ == 0;
+}
+
+double PositionCheck::elapsed_s(std::int64_t now_ns) const noexcept {
+  return std::max(config_.period_s, seconds(now_ns - last_ns_));
+}
+
+bool PositionCheck::jumped(double position_rad, double elapsed_s) const noexcept {
+  const double allowed_rad = kJumpFactor * config_.overspeed_rad_s * elapsed_s +
+                             kJumpCounts * config_.resolution_rad + kJumpFloor_rad;
+  return std::abs(position_rad - last_position_rad_) > allowed_rad;
+}
+
+void PositionCheck::begin_stretch() noexcept {
+  unchanged_periods_ = 0;
+  owed_velocity_rad_s_ = 0.0;
+  owed_motion_rad_ = 0.0;
+}
+
+bool PositionCheck::stuck(double position_rad, double torque_Nm, double elapsed_s) noexcept {
+  if (position_rad != last_position_rad_) {
+    begin_stretch();
+    return false;
+  }
+  unchanged_periods_ = std::min(unchanged_periods_ + 1, kSettlingPeriods + 1);
+  if (unchanged_periods_ <= kSettlingPeriods) {
+    torques_Nm_.fill(torque_Nm);
+    torque_min_Nm_ = torque_Nm;
+    torque_max_Nm_ = torque_Nm;
+    return false;
+  }
+  hold_extremes(torque_Nm);
+  const double up_Nm = torque_Nm - torque_min_Nm_;
+  const double down_Nm = torque_max_Nm_ - torque_Nm;
+  const double excess_Nm = std::max(up_Nm, down_Nm) - 2.0 * kFrictionFactor * static_friction_Nm_;
+  if (excess_Nm <= 0.0) {
+    owed_velocity_rad_s_ = 0.0;  // it may have come to rest again
+    return false;
+  }
+  owed_velocity_rad_s_ += std::copysign(excess_Nm, up_Nm - down_Nm) / inertia_kgm2_ * elapsed_s;
+  owed_motion_rad_ += owed_velocity_rad_s_ * elapsed_s;
+  return std::abs(owed_motion_rad_) > std::max(kStuckCounts * config_.resolution_rad, kStuckFloor_rad);
+}
+
+void PositionCheck::hold_extremes(double torque_Nm) noexcept {
+  std::rotate(torques_Nm_.begin(), torques_Nm_.end() - 1, torques_Nm_.end());
+  torques_Nm_.front() = torque_Nm;
+  const auto [low, high] = std::minmax_element(torques_Nm_.begin(), torques_Nm_.end());
+  torque_min_Nm_ = std::min(torque_min_Nm_, *high);
+  torque_max_Nm_ = std::max(torque_max_Nm_, *low);
+}
+
+}  // namespace strainwave

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/realtime/joint/temperature_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/durations.h"
+
+namespace strainwave {
+
+double TemperatureCheck::age_s(std::int64_t now_ns) const noexcept {
+  // A thread beside the loop may have asked its sensor after this period's instant.
+  return seen() ? std::max(0.0, seconds(now_ns - measured_ns_)) : -1.0;
+}
+
+bool TemperatureCheck::is_stuck(std::int64_t now_ns) const noexcept {
+  return config_.max_constant_s > 0.0 && seconds(now_ns - changed_ns_) > config_.max_constant_s;
+}
+
+TemperatureStatus TemperatureCheck::judge(double temperature_C, std::int64_t produced_ns,
+                                          std::int64_t now_ns) const noexcept {
+  if (!std::isfinite(temperature_C) || temperature_C < config_.min_C || temperature_C > config_.max_C)
+    return TemperatureStatus::kOutOfRange;
+  if (seconds(now_ns - produced_ns) > config_.max_age_s) return TemperatureStatus::kTooOld;
+  if (is_stuck(now_ns)) return TemperatureStatus::kNotChanging;
+  if (use_ != Use::kNotYet) {
+    // Against the recent past and not the last reading, so that a fast drift cannot pass in small steps; the longer
+    // nothing was believed, the more may have changed, so that the signal can return.
+    const double silence_s = std::max(0.0, seconds(produced_ns - accepted_ns_));
+    const double allowed_C = config_.max_step_C + config_.max_rate_C_s * silence_s;
+    if (std::abs(temperature_C - recent_C_) > allowed_C) return TemperatureStatus::kTooFast;
+  }
+  return TemperatureStatus::kValid;
+}
+
+void TemperatureCheck::update(bool has_reading, double temperature_C, std::int64_t produced_ns,
+                              std::int64_t now_ns) noexcept {
+  if (has_reading) {
+    if (!seen() || temperature_C != measured_C_) changed_ns_ = now_ns;
+    measured_C_ = std::isfinite(temperature_C) ? temperature_C : std::numeric_limits<double>::quiet_NaN();
+    measured_ns_ = produced_ns;
+    status_ = judge(temperature_C, produced_ns, now_ns);
+  } else if (seen() && seconds(now_ns - measured_ns_) > config_.max_age_s) {
+    status_ = TemperatureStatus::kTooOld;
+  }
+
+  if (status_ != TemperatureStatus::kValid) {
+    if (use_ == Use::kUsed) use_ = Use::kRecovering;
+    good_since_ns_ = now_ns;
+    return;
+  }
+  if (has_reading) {
+    const double time_constant_s = config_.max_step_C / config_.max_rate_C_s;
+    const double elapsed_s = std::max(0.0, seconds(produced_ns - accepted_ns_));
+    recent_C_ += use_ != Use::kNotYet
+                     ? (temperature_C - recent_C_) * elapsed_s / (time_constant_s + elapsed_s)
+                     : temperature_C;
+    accepted_C_ = temperature_C;
+    accepted_ns_ = produced_ns;
+  }
+  if (use_ == Use::kNotYet || seconds(now_ns - good_since_ns_) >= config_.recovery_s) use_ = Use::kUsed;
+}
+
+}  // namespace strainwave

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/realtime/loop/realtime_setup.h"
+
+#include <fcntl.h>
+#include <linux/capability.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+#include <thread>
+
+namespace strainwave {
+
+namespace {
+
+constexpr std::size_t kStackToTouch = std::size_t{256} * 1024;
+
+std::string error_text(int error) {
+  return std::generic_category().message(error);
+}
+
+/// The processors that the cpuset leaves to the process, whatever its threads chose among them: "0-1,4".
+std::string processors_of_cpuset() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  for (std::size_t i = 0; i < CPU_SETSIZE; ++i) CPU_SET(i, &set);
+  (void)::sched_setaffinity(0, sizeof set, &set);  // of this thread, which has no processor of its own yet
+  if (::sched_getaffinity(0, sizeof set, &set) != 0) return "?";
+  std::string text;
+  for (std::size_t first = 0; first < CPU_SETSIZE; ++first) {
+    if (!CPU_ISSET(first, &set)) continue;
+    std::size_t last = first;
+    while (last + 1 < CPU_SETSIZE && CPU_ISSET(last + 1, &set)) ++last;
+    text += (text.empty() ? "" : ",") + std::to_string(first);
+    if (last > first) text += "-" + std::to_string(last);
+    first = last;
+  }
+  return text;
+}
+
+/// Empty when granted, or when `cpu` is negative.
+std::string pin_this_thread(int cpu) {
+  if (cpu < 0) return "";
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(cpu), &set);
+  if (::sched_setaffinity(0, sizeof set, &set) == 0) return "";
+  const std::string error = error_text(errno);
+  return "daemon.cpu = " + std::to_string(cpu) + ": processor " + std::to_string(cpu) + " cannot be used (" +
+         error + "): the cpuset of this process has " + processors_of_cpuset() +
+         "; name one of these, or give it this one (container: --cpuset-cpus, service: AllowedCPUs)";
+}
+
+/// Where cgroups of version 1 have it; with version 2 the kernel shows none.
+std::optional<long> cgroup_rt_runtime_us() {
+  std::string path;
+  std::ifstream own("/proc/self/cgroup");
+  for (std::string line; std::getline(own, line);)
+    if (line.find(":cpu:") != std::string::npos || line.find(":cpu,") != std::string::npos)
+      path = line.substr(line.rfind(':') + 1);
+  // In a container its own cgroup is mounted as the root.
+  for (const std::string& folder : {path, std::string()}) {
+    for (const char* const controller : {"cpu", "cpu,cpuacct"}) {
+      std::ifstream file(std::string("/sys/fs/cgroup/") + controller + "/" + folder + "/cpu.rt_runtime_us");
+      if (long budget_us = 0; file >> budget_us) return budget_us;
+    }
+  }
+  return std::nullopt;
+}
+
+// Pages of the stack that the loop may reach exist before it starts.
+__attribute__((noinline)) void touch_stack() {
+  std::array<char, kStackToTouch> stack;
+  volatile char* page = stack.data();
+  for (std::size_t i = 0; i < kStackToTouch; i += 1024) page[i] = 0;
+}
+
+}  // namespace
+
+std::string processor_problem(int cpu) {
+  std::string problem;
+  std::thread([&] { problem = pin_this_thread(cpu); }).join();
+  return problem;
+}
+
+RealTimeRights real_time_rights() {
+  RealTimeRights rights;
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("CapEff:"))
+      rights.cap_sys_nice = (std::strtoull(line.c_str() + 7, nullptr, 16) >> CAP_SYS_NICE & 1U) != 0;
+  rlimit limit{};
+  ::getrlimit(RLIMIT_RTPRIO, &limit);
+  rights.rtprio = limit.rlim_cur;
+  rights.cgroup_rt_runtime_us = cgroup_rt_runtime_us();
+  return rights;
+}
+
+std::string real_time_remedy(const RealTimeRights& rights, int priority) {
+  const std::string wanted = std::to_string(priority);
+  std::string remedy;
+  if (!rights.cap_sys_nice && rights.rtprio < static_cast<rlim_t>(priority))
+    remedy = "the process has neither CAP_SYS_NICE nor RLIMIT_RTPRIO of " + wanted + " (it is " +
+             std::to_string(rights.rtprio) + "): run under the service, or after `ulimit -r " + wanted +
+             "`; a container needs --cap-add SYS_NICE or --ulimit rtprio=" + wanted;
+  if (rights.cgroup_rt_runtime_us && *rights.cgroup_rt_runtime_us == 0)
+    remedy += std::string(remedy.empty() ? "" : "; besides, ") +
+              "cpu.rt_runtime_us of its cgroup is 0, no time for real-time threads: a container needs "
+              "--cpu-rt-runtime=950000, or the machine a kernel without CONFIG_RT_GROUP_SCHED";
+  if (!remedy.empty()) return remedy;
+  return "neither CAP_SYS_NICE, RLIMIT_RTPRIO nor cpu.rt_runtime_us of its cgroup is in the way: a parent "
+         "cgroup without real-time budget or a seccomp filter of the container is";
+}
+
+std::string lock_memory() {
+  // The kernel merges and splits huge pages at any time, and a thread that touches one meanwhile waits.
+  if (::prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) != 0)
+    return "transparent huge pages cannot be switched off (" + error_text(errno) + ")";
+  // Freed memory stays mapped and large blocks come from the heap: no page appears or disappears later.
+  ::mallopt(M_TRIM_THRESHOLD, -1);  // NOLINT(concurrency-mt-unsafe): before the loop's thread
+  ::mallopt(M_MMAP_MAX, 0);         // NOLINT(concurrency-mt-unsafe): before the loop's thread
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return "";
+  return "memory cannot be locked (" + error_text(errno) +
+         "): the process needs CAP_IPC_LOCK or RLIMIT_MEMLOCK without a limit: run under the service, or "
+         "after "
+         "`ulimit -l unlimited`; a container needs --ulimit memlock=-1";
+}
+
+std::string compaction_warning(const std::string& setting_path) {
+  std::ifstream setting(setting_path);
+  int allowed = 0;
+  if (!(setting >> allowed) || allowed == 0) return "";
+  return "the kernel may move locked memory, and the loop would wait for it: sysctl "
+         "vm.compact_unevictable_allowed=0";
+}
+
+std::string make_thread_real_time(int priority, int cpu) {
+  touch_stack();
+  if (std::string problem = pin_this_thread(cpu); !problem.empty()) return problem;
+  sched_param parameter{};
+  parameter.sched_priority = priority;
+  if (const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter))
+    return "SCHED_FIFO priority " + std::to_string(priority) + " is refused (" + error_text(error) +
+           "): " + real_time_remedy(real_time_rights(), priority);
+  return "";
+}
+
+UniqueFd avoid_sleep_states(std::string& refusal, const std::string& file) {
+  UniqueFd descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  const bool absent = !descriptor && errno == ENOENT;
+  const std::int32_t latency_us = 0;
+  const bool granted =
+      descriptor && ::write(descriptor.get(), &latency_us, sizeof latency_us) == sizeof latency_us;
+  refusal = absent || granted ? ""
+                              : file + " cannot be written (" + error_text(errno) +
+                                    "): wake-ups may be late by the sleep states' exit times; allow the "
+                                    "service to write it";
+  return descriptor;
+}
+
+long thread_page_faults() noexcept {
+  rusage usage{};
+  ::getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_minflt + usage.ru_majflt;
+}
+
+}  // namespace strainwave

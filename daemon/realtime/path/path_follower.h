@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joints on paths: which belong together, and where each is to be in a period. The joints of a path have one clock
+// (control/trajectory/path_clock.h): they leave, pause, go on and arrive in the same cycle, and are on the path in between.
+// A joint may follow its plan later than another, by its delay, its jerk limit or its spring. The slowest gets the clock's own time, each other
+// an earlier one: the joints are together, their setpoints are not. Real-time safe.
+//
+//   resume   -> all joints of the path begin in the next cycle, or none
+//   pause    -> the path's time comes to rest, as quickly as the accelerations allow
+//   hold, or a joint that is lost (fault, disable, another order)
+//            -> likewise, and then the path is over: the others rest on it and hold
+//   a joint that is lost to what is in its way, or that others live on as well (daemon/realtime/joint/fault_reach.h)
+//            -> each of the others stops on its own, at once
+//
+// Where the path is just using what deceleration there is, resting along it waits. Joints that are to end, and do not rest along the path in
+// twice the time that they need on their own, stop on their own.
+//
+// After a gap of more than kMaxElapsedPeriods in which the loop did not run each joint comes to rest on its own, and the path is over.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "control/trajectory/path_clock.h"
+#include "daemon/realtime/joint/orders.h"
+#include "daemon/realtime/loop/cycle_time.h"
+
+namespace strainwave {
+
+class JointLoop;
+
+class PathFollower {
+ public:
+  /// `joints` outlive this object and refer to it.
+  PathFollower(std::span<const std::unique_ptr<JointLoop>> joints, double period_s);
+  PathFollower(const PathFollower&) = delete;
+  PathFollower& operator=(const PathFollower&) = delete;
+
+  /// Starts the path that `joint` has a part of, with all of its joints, or goes on with it.
+  Ruling resume(std::size_t joint) noexcept;
+  Ruling pause(std::size_t joint) noexcept;
+  /// The path of `joint` ends, along it. False when it is on none that moves yet.
+  bool end(std::size_t joint) noexcept;
+
+  /// Before the joints' own steps: gives each one on a path its setpoint.
+  void advance(const CycleTime& time) noexcept;
+
+ private:
+  static constexpr std::size_t kNoTravel = static_cast<std::size_t>(-1);
+  enum class Phase { kFree, kBeginning, kUnderWay, kEnding };
+  /// One path that is travelled.
+  struct Travel {
+    Phase phase = Phase::kFree;
+    PathClock clock;
+    PathTimes times;                   ///< of the clock
+    double most_behind_periods = 0.0;  ///< of its members
+    double duration_s = 0.0;
+    std::int64_t rest_cycles = 0;  ///< left for coming to rest along the path, while it ends
+  };
+  /// A joint's place on it.
+  struct Member {
+    std::size_t travel = kNoTravel;
+    PathReader reader;
+    double behind_periods = 0.0;  ///< the clock: what the slowest joint is later than this one
+  };
+  template <typename Act>
+  void for_each_member(std::size_t travel, const Act& act) noexcept;
+  Ruling begin(std::size_t joint) noexcept;
+  bool begin_all(std::size_t travel, const CycleTime& time) noexcept;
+  void wait_for_the_slowest(std::size_t travel) noexcept;
+  void advance(std::size_t travel, const CycleTime& time) noexcept;
+  bool release_lost(std::size_t travel) noexcept;
+  bool is_over(std::size_t travel) noexcept;
+  void stop_each(std::size_t travel) noexcept;
+  void bring_to_rest(std::size_t travel) noexcept;
+  RateRoom room(std::size_t travel) noexcept;
+  void free(std::size_t travel) noexcept;
+
+  std::span<const std::unique_ptr<JointLoop>> joints_;
+  double period_s_;
+  std::vector<Member> members_;  ///< by joint
+  std::vector<Travel> travels_;  ///< by the joint that was ordered to begin
+};
+
+}  // namespace strainwave

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the friction of a file came from when it was measured on a joint: part of the friction file. Joint
+// side. Offline.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/strict_json.h"
+#include "design/friction/friction_regression.h"
+#include "design/friction/friction_update.h"
+
+namespace strainwave {
+
+struct IdentificationRecord {
+  std::string prior_file;
+  std::string prior_sha256;
+  UpdateWeights weights;
+  double noise_Nm = 0.0;                     ///< standard deviation of a point
+  double confidence = 0.0;                   ///< of the intervals
+  std::vector<FrictionRegression> measured;  ///< one per temperature
+};
+
+nlohmann::ordered_json to_json(const IdentificationRecord& record);
+IdentificationRecord identification_from_json(StrictObject object);
+
+}  // namespace strainwave

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/realtime/loop/histogram.h"
+
+#include <gtest/gtest.h>
+
+namespace strainwave {
+namespace {
+
+TEST(Histogram, PutsEachDurationBelowItsBucketsBoundAndNotBelowTheOneBefore) {
+  for (const std::int64_t duration_ns :
+       {0L, 999L, 1000L, 1189L, 1190L, 5000L, 123456L, 1000000L, 40000000L}) {
+    Histogram histogram;
+    histogram.add(duration_ns);
+    const HistogramCounts counts = histogram.counts();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] == 0) continue;
+      EXPECT_LT(static_cast<double>(duration_ns), bucket_upper_ns(i));
+      if (i > 0) {
+        EXPECT_GE(static_cast<double>(duration_ns), std::floor(bucket_upper_ns(i - 1)));
+      }
+    }
+  }
+}
+
+TEST(Histogram, KeepsTheMaximumAndCountsWhatIsBeyondTheLastBucket) {
+  Histogram histogram;
+  histogram.add(10'000'000'000);
+  histogram.add(-5);
+  EXPECT_EQ(histogram.max_ns(), 10'000'000'000);
+  EXPECT_EQ(histogram.counts().back(), 1);
+  EXPECT_EQ(histogram.counts().front(), 1);
+}
+
+TEST(Histogram, PercentilesLieInTheirBucketAndGrowWithTheFraction) {
+  Histogram histogram;
+  for (int i = 1; i <= 1000; ++i) histogram.add(i * 1000);
+  const HistogramCounts counts = histogram.counts();
+  EXPECT_GE(percentile_ns(counts, 0.5), 500e3 / 1.19);
+  EXPECT_LE(percentile_ns(counts, 0.5), 500e3 * 1.19);
+  EXPECT_LE(percentile_ns(counts, 0.5), percentile_ns(counts, 0.99));
+  EXPECT_EQ(percentile_ns(HistogramCounts{}, 0.5), 0.0);
+}
+
+}  // namespace
+}  // namespace strainwave

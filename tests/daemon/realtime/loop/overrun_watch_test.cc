@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "daemon/realtime/loop/overrun_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace strainwave {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+
+TEST(OverrunWatch, SpeaksAtTheLimitOfLateCyclesInARowAndBeginsAnew) {
+  OverrunWatch watch({3, 1.0, 1.0}, kPeriod_s);
+  for (int round = 0; round < 4; ++round) {
+    EXPECT_EQ(watch.judge(1), Fault::kNone);
+    EXPECT_EQ(watch.judge(1), Fault::kNone);
+    EXPECT_EQ(watch.judge(1), Fault::kOverruns);
+  }
+}
+
+TEST(OverrunWatch, BeginsToCountARowAnewWithACycleInTime) {
+  OverrunWatch watch({3, 1.0, 1.0}, kPeriod_s);
+  for (int round = 0; round < 100; ++round) {
+    EXPECT_EQ(watch.judge(1), Fault::kNone);
+    EXPECT_EQ(watch.judge(1), Fault::kNone);
+    EXPECT_EQ(watch.judge(0), Fault::kNone);
+  }
+}
+
+TEST(OverrunWatch, SpeaksAtOnceOfAStallThatIsTooLong) {
+  OverrunWatch watch({1000, 0.02, 1.0}, kPeriod_s);
+  EXPECT_EQ(watch.judge(19), Fault::kNone) << "20 ms from one cycle to the next";
+  EXPECT_EQ(watch.judge(20), Fault::kLoopStalled);
+  EXPECT_EQ(watch.judge(1'000'000'000), Fault::kLoopStalled);
+  EXPECT_EQ(watch.judge(0), Fault::kNone);
+}
+
+TEST(OverrunWatch, SpeaksWhenALargerShareOfASecondIsMissedThanAllowedHoweverItIsSpread) {
+  for (const std::int64_t skipped : {1, 3, 15}) {
+    // A cycle that misses `skipped` periods, then as many in time that the share is a little too large, or a little too small.
+    for (const double share : {0.08, 0.12}) {
+      OverrunWatch watch({1000, 0.02, 0.1}, kPeriod_s);
+      const auto in_time = static_cast<std::int64_t>(static_cast<double>(skipped) * (1.0 / share - 1.0));
+      bool spoken = false;
+      for (std::int64_t periods = 0; periods < 5000 && !spoken; periods += skipped + in_time) {
+        spoken = watch.judge(skipped) == Fault::kPeriodsMissed;
+        for (std::int64_t i = 1; i < in_time; ++i) EXPECT_EQ(watch.judge(0), Fault::kNone);
+      }
+      EXPECT_EQ(spoken, share > 0.1) << skipped << " missed at a time";
+    }
+  }
+}
+
+TEST(OverrunWatch, ForgetsWhatIsMoreThanASecondAgo) {
+  OverrunWatch watch({1000, 0.02, 0.1}, kPeriod_s);
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(watch.judge(10), Fault::kNone) << "90 of a thousand";
+    for (int i = 0; i < 1100; ++i) EXPECT_EQ(watch.judge(0), Fault::kNone);
+  }
+}
+
+TEST(OverrunWatch, ToleratesAnythingWhereTheLimitsSaySo) {
+  OverrunWatch watch({1'000'000, 1e6, 1.0}, kPeriod_s);
+  for (int i = 0; i < 10000; ++i) EXPECT_EQ(watch.judge(50), Fault::kNone);
+}
+
+}  // namespace
+}  // namespace strainwave
