@@ -138,34 +138,5 @@ TEST(JointControllerLoad, MakesNoStepWhenTheStreamIsOver) {
   EXPECT_NEAR(loop.position_rad(), 0.4, 0.5e-3);
 }
 
-/// Root of the mean square error of a joint that carries 0.3 kg m2 besides its own, over the first 0.6 s of a motion.
-double error_with_a_payload(double told_kgm2) {
-  constexpr double kQuick_rad_s = 2.0 * std::numbers::pi * 2.0;
-  JointPlantConfig plant = realistic_plant();
-  plant.joint.inertia_kgm2 += 0.3;
-  ControlledJoint loop(plant);
-  double squares = 0.0;
-  for (int k = 0; k < 600; ++k) {
-    const double phase = kQuick_rad_s * (k + 30) * 1e-3;
-    if (k % 10 == 0)
-      loop.controller().follow({0.05 * (1.0 - std::cos(phase)),
-                                0.05 * kQuick_rad_s * std::sin(phase),
-                                0.05 * kQuick_rad_s * kQuick_rad_s * std::cos(phase),
-                                2,
-                                30,
-                                {0.0, told_kgm2}},
-                               k == 0, 0.0, {});
-    const JointStep step = loop.step();
-    squares += std::pow(step.ordered_reference.position_rad - loop.position_rad(), 2);
-  }
-  return std::sqrt(squares / 600);
-}
-
-TEST(JointControllerLoad, AnInertiaThatIsToldIsAcceleratedFromTheFirstSampleOn) {
-  const double untold_rad = error_with_a_payload(0.0);
-  EXPECT_LT(error_with_a_payload(0.3), 0.4 * untold_rad);
-  EXPECT_GT(error_with_a_payload(0.6), 1.5 * error_with_a_payload(0.3)) << "it is the inertia that helps";
-}
-
 }  // namespace
 }  // namespace strainwave::testing

@@ -78,21 +78,6 @@ TEST(LawInUse, HasTheTablesLeadOnASpring) {
   EXPECT_LT(second_torque_Nm(with_lead(2.0), true), 2.0 * law_Nm) << "both push back";
 }
 
-TEST(LawInUse, ALeadBeginsAnewOnceAnotherTorqueWasAppliedOrTheReferenceJumps) {
-  const auto torque_after_Nm = [](double lead_periods, const auto& between) {
-    LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
-    law.load(with_lead(lead_periods));
-    law.choose_gains(20.0);
-    law.step(input_at(1e-3, 0.0));
-    between(law);
-    return law.step(input_at(1.2e-3, 0.2)).torque_Nm;
-  };
-  const auto interrupt = [](LawInUse& law) { law.interrupt(); };
-  const auto jump = [](LawInUse& law) { law.reference_jumps(); };
-  EXPECT_EQ(torque_after_Nm(2.0, interrupt), torque_after_Nm(0.0, interrupt));
-  EXPECT_EQ(torque_after_Nm(2.0, jump), torque_after_Nm(0.0, jump));
-}
-
 TEST(LawInUse, ACountMakesMoreWithALead) {
   LawInUse law(kPeriod_s, kCount_rad, 1.0, true);
   law.load(with_lead(0.0));

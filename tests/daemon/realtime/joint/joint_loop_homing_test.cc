@@ -113,14 +113,6 @@ TEST_F(JointLoopHoming, RefusesSetpointsWhileItLastsAndEndsWithAHold) {
   EXPECT_TRUE(home()) << "but can begin anew";
 }
 
-TEST_F(JointLoopHoming, EndsWithADisable) {
-  hold(joint_to_be_homed());
-  ASSERT_EQ(bench_->order(0, OrderKind::kHome), Reason::kAccepted);
-  bench_->run(0.3);
-  ASSERT_EQ(bench_->order(0, OrderKind::kDisable), Reason::kAccepted);
-  EXPECT_GE(bench_->step_until([&] { return bench_->mode(0) == Mode::kOff; }, 2000), 0);
-}
-
 TEST_F(JointLoopHoming, ThatFindsNothingIsAFaultAndThePositionStaysUnknown) {
   BenchJoint joint = joint_to_be_homed();
   joint.loop.homing.travel_rad = 0.2;

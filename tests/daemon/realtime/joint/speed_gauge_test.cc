@@ -15,13 +15,6 @@ double counted(double position_rad) {
   return kCount_rad * std::round(position_rad / kCount_rad);
 }
 
-TEST(SpeedGauge, SaysNothingBeforeTwoPositions) {
-  SpeedGauge gauge;
-  EXPECT_EQ(gauge.velocity_rad_s(), 0.0);
-  gauge.see(5.0, kStep_ns);
-  EXPECT_EQ(gauge.velocity_rad_s(), 0.0);
-}
-
 TEST(SpeedGauge, MeasuresASteadySpeedThroughTheEncodersCounts) {
   for (const double velocity_rad_s : {0.02, -0.5, 3.6}) {
     SpeedGauge gauge;
