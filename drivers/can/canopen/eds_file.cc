@@ -136,7 +136,9 @@ class Reader {
       if (const auto found = result_.entries.find(entry); found != result_.entries.end())
         found->second.value = value_of(found->second, value);
     if (result_.entries.empty())
-      throw InputError(result_.file + ": has no objects: it is no electronic data sheet");
+      throw InputError(result_.file +
+                       ": has no objects: an EDS or DCF file is text with sections such as [6040]; one in "
+                       "UTF-16 or XML (XDD, XDC) must be converted");
     return std::move(result_);
   }
 

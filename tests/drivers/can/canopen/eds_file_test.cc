@@ -132,6 +132,7 @@ TEST(EdsFile, WithoutObjectsIsRefused) {
   for (const char* text : {"[FileInfo]\nFileName=x\n", "", "a=1\n", "[10]\nDataType=7\n"}) {
     const std::string refused = testing::refusal_of([&] { (void)parse(text); });
     EXPECT_NE(refused.find("x.eds: has no objects"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("UTF-16"), std::string::npos) << refused;
   }
 }
 
