@@ -80,6 +80,7 @@ ExitStatus verify(const VerifyOptions& options) {
   bool certified = report.certified;
   std::printf("box: %s\n  %s; %s, %d inequalities\n", describe(table.box).c_str(),
               report.certified ? "certified" : "NOT CERTIFIED", report.text.c_str(), report.inequalities);
+  if (report.certified) std::fputs(stiffness_text(table.box).c_str(), stdout);
   if (report.certified) std::fputs(describe(reach_of(table), table.torque_limit_Nm).c_str(), stdout);
   if (options.exact) certified = verify_exactly(table) && certified;
   if (spring) certified = verify_spring(table, gear_of(options, table), *spring) && certified;

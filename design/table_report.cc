@@ -2,6 +2,7 @@
 #include "design/table_report.h"
 
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -48,6 +49,17 @@ std::string gains_text(const FeedbackGains& gains, const char* role) {
 
 }  // namespace
 
+std::string stiffness_text(const CertifiedBox& box) {
+  if (box.rigid()) return "";
+  const BoxRange links = links_with_any_stiffness(box);
+  if (!(links.from < links.to)) return "  the stiffness may change within a cell only, whatever the link\n";
+  const double from_kgm2 = 1e-4 * std::ceil(1e4 * links.from);
+  std::string text =
+      format("  the stiffness may change at any instant with links of %.4g..%.4g kg m2", from_kgm2, links.to);
+  if (links.from > box.link_inertia_kgm2.from) text += ", with lighter ones within a cell only";
+  return text + "\n";
+}
+
 std::string description(const GainTable& table) {
   const PlantIdentity& plant = table.plant;
   std::string text = format("Gain table \"%s\" (format %d)\n", str(table.name).c_str(), table.format);
@@ -57,6 +69,7 @@ std::string description(const GainTable& table) {
   text += "  certified for: " + describe(table.box) + "\n";
   text += format("  (%d cells; the state feedback, not observer, planned motion or fed forward friction)\n",
                  table.box.cell_count);
+  text += stiffness_text(table.box);
   text += format("  torque limit %g Nm; temperature %g to %g degC\n", table.torque_limit_Nm,
                  table.friction.temperature_min_C, table.friction.temperature_max_C);
   text += "\nfriction rules (joint side)\n";

@@ -8,6 +8,9 @@
 
 namespace strainwave {
 
+/// In a line, where the spring's stiffness may change: at any instant, or within a cell. Nothing of a rigid joint.
+std::string stiffness_text(const CertifiedBox& box);
+
 /// What the table is for, its rules, gains, and where it came from.
 std::string description(const GainTable& table);
 

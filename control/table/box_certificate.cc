@@ -75,8 +75,13 @@ std::string outside(const char* quantity, const std::string& value, const std::s
 
 SpringLoop loop_of(const GainTable& table, int delay_periods) {
   const CertifiedBox& box = table.box;
-  return {table.plant.period_s, delay_periods,      1.0, box.encoder_side,
-          box.lead_periods,     box.plant_states(), table.primary.has_integrator != 0};
+  return {table.plant.period_s,
+          delay_periods,
+          1.0,
+          box.encoder_side,
+          box.lead_periods,
+          box.plant_states(),
+          table.primary.has_integrator != 0};
 }
 
 ProofMatrix lyapunov_of(const GainTable& table, const BoxCell& cell) {
@@ -106,9 +111,8 @@ BoxReport certify_box(const GainTable& table) {
   const std::vector<GainRow> gains = gains_of(table);
   double margin = std::numeric_limits<double>::infinity();
   for (const BoxCell& cell : cells_of(box)) {
-    const SpringReport proof =
-        certify(gains, spring_box(table, cell), loop_of(table, cell.delay_periods), lyapunov_of(table, cell),
-                kMostBoxInequalities - report.inequalities);
+    const SpringReport proof = certify(gains, spring_box(table, cell), loop_of(table, cell.delay_periods),
+                                       lyapunov_of(table, cell), kMostBoxInequalities - report.inequalities);
     report.inequalities += proof.inequalities;
     if (proof.certified && proof.margin >= margin) continue;
     margin = proof.margin;
@@ -159,6 +163,14 @@ std::optional<std::string> find_outside_box(const GainTable& table, const std::o
     return outside("delay_periods", std::to_string(delay_periods),
                    periods_text({static_cast<double>(box.least_delay), static_cast<double>(box.most_delay)}));
   return std::nullopt;
+}
+
+BoxRange links_with_any_stiffness(const CertifiedBox& box) {
+  BoxRange links = box.link_inertia_kgm2;
+  for (const BoxCell& cell : cells_of(box))
+    if (!holds(cell.stiffness_Nm_rad, box.stiffness_Nm_rad))
+      links.from = std::max(links.from, cell.link_inertia_kgm2.to);
+  return links;
 }
 
 std::string describe(const CertifiedBox& box) {

@@ -79,8 +79,7 @@ void inspect_cell(TableInspector& inspector, const CertifiedBox& box, const BoxC
   for (std::size_t i = 0; i < kCellEntries; ++i) {
     const std::string entry = key + "P[" + std::to_string(i) + "]";
     inspector.in_range(entry, cell.P[i], -kMaxLyapunov, kMaxLyapunov);
-    inspector.require(i < box.entries_of(cell) || cell.P[i] == 0.0,
-                      entry + ": must be 0 beyond the matrix");
+    inspector.require(i < box.entries_of(cell) || cell.P[i] == 0.0, entry + ": must be 0 beyond the matrix");
   }
 }
 

@@ -156,8 +156,7 @@ BoundedMatrix spring_loop(const BoundedMatrix& sampled, const GainRow& gain, con
     H.set(z, y, share);
   }
   for (Eigen::Index i = 0; i < plant; ++i)
-    for (Eigen::Index j = 0; j < plant; ++j)
-      H.set(1 + i, 1 + j, {sampled.value(i, j), sampled.error(i, j)});
+    for (Eigen::Index j = 0; j < plant; ++j) H.set(1 + i, 1 + j, {sampled.value(i, j), sampled.error(i, j)});
   const bool leads = loop.lead_periods != 0.0;
   if (leads) set_row(H, n - 1, law);
   const BoundedMatrix torque = leads ? with_lead(law, loop.lead_periods) : law;

@@ -130,7 +130,8 @@ std::string note_of(const GainTable& table) {
 
 TableVerdict judge_box(const GainTable& table) {
   const BoxReport report = certify_box(table);
-  if (report.certified) return {Reason::kAccepted, "; certified for " + describe(table.box) + ": " + report.text};
+  if (report.certified)
+    return {Reason::kAccepted, "; certified for " + describe(table.box) + ": " + report.text};
   return {Reason::kTableNotCertified, "box: " + report.text + ": stability is not proved (" +
                                           describe(table.box) +
                                           "); design the table again with strainwave-design gains"};

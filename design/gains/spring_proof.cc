@@ -109,19 +109,28 @@ double inertia_ratio(const SpringBox& box) {
   return (motor_1_kgm2 + 1.0 / box.link_inertia_kgm2.from) / (motor_1_kgm2 + 1.0 / box.link_inertia_kgm2.to);
 }
 
-// In two, at the geometric mean of what changes the free swing more. False when both are narrow.
-bool cut(const SpringBox& box, std::array<SpringBox, 2>& halves) {
+double middle_of(const BoxRange& range) {
+  return std::sqrt(range.from * range.to);
+}
+
+// The lightest link is the hardest: where it has a P for every stiffness, these may change at any instant.
+bool may_change_stiffness(std::span<const GainRow> gains, SpringBox box, const SpringLoop& loop) {
+  box.link_inertia_kgm2.to = box.link_inertia_kgm2.from;
+  return find_spring_lyapunov(gains, box, loop).has_value();
+}
+
+// In two, at the geometric mean: of the link's inertia where the stiffness is to stay whole, else of what changes the free swing more.
+// False when that is narrow.
+bool cut(const SpringBox& box, bool keeps_stiffness, std::array<SpringBox, 2>& halves) {
   if (box.link_inertia_kgm2.to == 0.0) return false;  // rigid
   const double by_stiffness = box.stiffness_Nm_rad.to / box.stiffness_Nm_rad.from;
-  const bool stiffness = by_stiffness >= inertia_ratio(box);
-  if (std::max(by_stiffness, inertia_ratio(box)) < kNarrowest) return false;
+  const bool stiffness = by_stiffness >= inertia_ratio(box) && !keeps_stiffness;
+  if ((stiffness ? by_stiffness : inertia_ratio(box)) < kNarrowest) return false;
   halves = {box, box};
   const auto range = [stiffness](SpringBox& half) -> BoxRange& {
     return stiffness ? half.stiffness_Nm_rad : half.link_inertia_kgm2;
   };
-  const double middle = std::sqrt(range(halves[0]).from * range(halves[0]).to);
-  range(halves[0]).to = middle;
-  range(halves[1]).from = middle;
+  range(halves[0]).to = range(halves[1]).from = middle_of(range(halves[0]));
   return true;
 }
 
@@ -148,8 +157,12 @@ SpringProof prove_spring_box(std::span<const GainRow> gains, const SpringBox& bo
       if (report.margin < proof.worst.margin) proof.worst = report;
       continue;
     }
+    const BoxRange& stiffness = proof.cell.stiffness_Nm_rad;
+    const bool whole = stiffness.from == box.stiffness_Nm_rad.from && stiffness.to == box.stiffness_Nm_rad.to;
+    const bool keeps_stiffness = whole && may_change_stiffness(gains, proof.cell, loop);
     std::array<SpringBox, 2> halves;
-    if (static_cast<int>(proof.cells.size() + open.size()) + 2 > most_cells || !cut(proof.cell, halves))
+    if (static_cast<int>(proof.cells.size() + open.size()) + 2 > most_cells ||
+        !cut(proof.cell, keeps_stiffness, halves))
       return proof;
     open.insert(open.end(), halves.begin(), halves.end());
   }

@@ -37,7 +37,7 @@ struct TableReach {
 TableReach reach_of(std::span<const GainRow> gains, const SpringBox& box, const SpringLoop& loop,
                     const ProofMatrix& P);
 
-/// Of `table`, which has a box that certify_box() proves: the worst of its cells.
+/// Of `table`, whose box certify_box() proves: the worst of its cells.
 TableReach reach_of(const GainTable& table);
 
 /// In two lines. `torque_Nm` > 0: the most that may be left.

@@ -214,12 +214,13 @@ void compare(std::span<const GainTable> sound, int usual) {
       const bool missed = exact.refusal.find("no proof between") != std::string::npos;
       undecided += first && missed ? 1 : 0;
       EXPECT_FALSE(first && !exact.certified && !missed)
-          << table.name.view() << ", change " << change.kind << " at " << change.place
-          << ", off the edge by " << side * off << ": " << exact.refusal;
+          << table.name.view() << ", change " << change.kind << " at " << change.place << ", off the edge by "
+          << side * off << ": " << exact.refusal;
     }
   }
-  std::printf("%d tables: both accept %d, both refuse %d, exact alone accepts %d, first alone %d (%d undecided)\n",
-              judged, count[1][1], count[0][0], count[1][0], count[0][1], undecided);
+  std::printf(
+      "%d tables: both accept %d, both refuse %d, exact alone accepts %d, first alone %d (%d undecided)\n",
+      judged, count[1][1], count[0][0], count[1][0], count[0][1], undecided);
   EXPECT_GE(count[1][1], judged / 10);
   EXPECT_GE(count[0][0], judged / 10);
 }

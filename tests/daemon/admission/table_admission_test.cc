@@ -104,7 +104,8 @@ TEST_F(TableAdmission, RefusesGainsThatAreStableWithoutDelayAlone) {
 TEST_F(TableAdmission, RefusesADelayBeyondTheTablesStatement) {
   for (const int delay_periods : {0, 1, 2, 3}) {
     const TableVerdict verdict = judge_table(table_, {joint_, torque_limit_Nm_, {}, delay_periods});
-    EXPECT_EQ(verdict.reason, delay_periods <= 2 ? Reason::kAccepted : Reason::kTableIdentity) << verdict.text;
+    EXPECT_EQ(verdict.reason, delay_periods <= 2 ? Reason::kAccepted : Reason::kTableIdentity)
+        << verdict.text;
   }
   table_.box.most_delay = 1;  // its third cell is then outside of its box
   EXPECT_EQ(judge(), Reason::kTableDefect);
@@ -230,8 +231,7 @@ TEST_F(TableAdmissionOnASpring, AcceptsEveryLinkOfTheBoxAndSaysWhatIsProved) {
   for (const double link_kgm2 : {0.05, 0.3}) {
     const TableVerdict verdict = judge(link_kgm2, 1);
     EXPECT_EQ(verdict.reason, Reason::kAccepted) << verdict.text;
-    EXPECT_NE(verdict.text.find("certified for motor 0.089 kg m2, link 0.05..0.3 kg m2"),
-              std::string::npos)
+    EXPECT_NE(verdict.text.find("certified for motor 0.089 kg m2, link 0.05..0.3 kg m2"), std::string::npos)
         << verdict.text;
   }
 }
