@@ -28,6 +28,13 @@ constexpr double kReturn_1_s = 10.0;
 
 // With the spring between motor and encoder the loop is stable with half the rate of learning, and not with the whole (docs/certificate.md).
 constexpr double kLinkLearning = 0.5;
+// A drive's own integrator is quick; what is learned of its torque, with its noise, need not be (strainwave-sim own-loop).
+constexpr double kOwnLoopLearning = 0.1;
+
+double learning_share(const JointControllerConfig& config) noexcept {
+  if (config.drive_closes_loop()) return kOwnLoopLearning;
+  return config.encoder_side == EncoderSide::kLink ? kLinkLearning : 1.0;
+}
 
 bool left_out(const JointMeasurement& measurement) noexcept {
   return measurement.elapsed_periods > kMaxElapsedPeriods;
@@ -238,8 +245,7 @@ bool JointController::learn(const JointMeasurement& measurement, const Controlle
   // What a drive adds at rest may be held by friction.
   if (config_.drive_closes_loop() && (!moves || !measurement.drive_torque_Nm)) return false;
   if (config_.without == (moves ? Mechanism::kFrictionLearning : Mechanism::kLoadLearning)) return false;
-  const double learns_for_s =
-      config_.period_s * (config_.encoder_side == EncoderSide::kLink ? kLinkLearning : 1.0);
+  const double learns_for_s = config_.period_s * learning_share(config_);
   if (!moves)
     friction_.learn_load(output.feedback_torque_Nm, learns_for_s);
   else if (velocity_rad_s != 0.0 && !plan_.corrections().begun())

@@ -50,6 +50,7 @@ class OwnLoop final : public LoopController {
     if (tick_ % steps_ == 0) take_order(sample);
     const double share = static_cast<double>(tick_ % steps_) / steps_;
     ++tick_;
+    torque_sum_Nm_ += sample.torque_applied_Nm;
     const double place_rad = from_rad_ + share * (acting_.motor.position_rad - from_rad_);
     return cascade_.step({place_rad, acting_.motor.velocity_rad_s, 0.0}, sample.joint_position_rad) +
            acting_.torque_Nm;
@@ -72,7 +73,10 @@ class OwnLoop final : public LoopController {
       pending_ = {{path_.at(sample.time_s + 2.0 * kBusPeriod_s).position_rad, 0.0}, 0.0};
       return;
     }
-    const JointStep step = daemon_.step(sample);
+    LoopSample seen = sample;
+    seen.torque_applied_Nm = torque_sum_Nm_ / steps_;
+    torque_sum_Nm_ = 0.0;
+    const JointStep step = daemon_.step(seen);
     pending_ = {step.order, told_ == Told::kAllOffsets ? step.output.torque_Nm : 0.0};
   }
 
@@ -84,6 +88,7 @@ class OwnLoop final : public LoopController {
   Sent acting_;   ///< until the next SYNC
   Sent pending_;  ///< from then on
   double from_rad_ = 0.0;
+  double torque_sum_Nm_ = 0.0;  ///< since the last SYNC: the drive says the mean
   long tick_ = 0;
 };
 
