@@ -119,6 +119,7 @@ void Acting::stop(const Page& page, const PageOrder& order) {
   for (const auto& [joint, record] : fleet_.joints()) joints.insert(joint);
   const auto count = std::make_shared<Count>(Count{joints.size(), 0, 0, {}});
   answer(page.number, fmt::format("stop sent to {}", counted(joints.size(), "joint")), false);
+  const bool awaited = orders_.size() < kMostOpen;
   for (const Name& joint : joints) {
     jogs_.erase(joint);
     const auto record = fleet_.joints().find(joint);
@@ -126,6 +127,11 @@ void Acting::stop(const Page& page, const PageOrder& order) {
                        quote = record == fleet_.joints().end() ? Quote{} : quote_of(record->second.state)] {
       return sender_.seal_stop(to, command_message(Action::kDisable), quote);
     };
+    if (!awaited) {
+      const SealedMessage sealed = seal();
+      publish_(sealed.channel, sealed.bytes);
+      continue;
+    }
     orders_.post(joint, seal, PendingOrder::stop_patience(kAnswer_s),
                  [this, count, joint, number = page.number](const Answer* result) {
                    ++count->answered;

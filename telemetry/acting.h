@@ -33,6 +33,8 @@ class Acting {
   static constexpr double kJogSpeedShare = 0.1;
   /// A jog lasts so long after the page's last word: three of its repetitions (acting.js) may be lost.
   static constexpr double kJogLasts_s = 0.3;
+  /// With so many orders unanswered, a stop is sent once and not repeated: stops need no token, and may come by the thousand.
+  static constexpr std::size_t kMostOpen = 1024;
   /// Between two samples of a jog; call tick() as often.
   static constexpr double kTick_s = 0.02;
 

@@ -34,7 +34,7 @@ class OpenOrders {
   /// An answer that came on `channel`.
   void take(const std::string& channel, const ack_v1& ack);
 
-  bool empty() const noexcept { return waiting_.empty(); }
+  std::size_t size() const noexcept { return waiting_.size(); }
 
  private:
   struct Waiting {

@@ -109,7 +109,7 @@ void OrderDesk::conclude(const Name& joint, Batch& batch, const Answer* answer) 
 }
 
 std::string OrderDesk::message(Instant at) const {
-  return orders_.empty() && seconds_between(said_, at) > kSaidFor_s ? "" : message_;
+  return orders_.size() == 0 && seconds_between(said_, at) > kSaidFor_s ? "" : message_;
 }
 
 void OrderDesk::say(std::string message, bool alarm) {

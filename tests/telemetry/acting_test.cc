@@ -3,16 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <chrono>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
+#include <thread>
 #include <vector>
 
-#include "base/input_error.h"
 #include "client/protocol/key_file.h"
 #include "lcmtypes/signing.h"
 #include "tests/support/temporary_folder.h"
@@ -163,13 +164,6 @@ TEST_F(ActingTest, SendsNothingForAnotherServersPageEvenWithTheToken) {
   EXPECT_EQ(said(kForeignPage)["refused"], true);
 }
 
-TEST_F(ActingTest, MakesATokenThatNoOtherStartHas) {
-  const Acting other(
-      folder_.path() / "key", fleet_, [](const auto&, const auto&) {}, [](auto, const auto&) {});
-  EXPECT_NE(other.token(), acting_.token());
-  EXPECT_GE(acting_.token().size(), 32U);
-}
-
 TEST_F(ActingTest, StopsEveryJointWithoutATokenAndCountsTheAnswers) {
   take(kTab, {{"action", "stop"}, {"joints", {"SW.knee", "left.unheard", "nonsense", 7}}});
   EXPECT_EQ(actions("SW.elbow.COMMAND"), std::vector{Action::kDisable});
@@ -177,6 +171,22 @@ TEST_F(ActingTest, StopsEveryJointWithoutATokenAndCountsTheAnswers) {
   EXPECT_EQ(actions("left.unheard.COMMAND"), std::vector{Action::kDisable});
   EXPECT_EQ(sent_.size(), 3U);
   EXPECT_EQ(said(kTab)["text"], "stop sent to 3 joints");
+}
+
+TEST_F(ActingTest, SendsEveryStopOfAFloodButRepeatsABoundedNumber) {
+  constexpr std::size_t kStops = 8;
+  for (std::size_t stop = 0; stop < kStops; ++stop) {
+    Json names = Json::array();
+    for (std::size_t i = 0; i < PageOrder::kMostJoints; ++i)
+      names.push_back("left.j" + std::to_string(stop * PageOrder::kMostJoints + i));
+    take(kTab, {{"action", "stop"}, {"joints", names}});
+  }
+  EXPECT_GE(sent_.size(), kStops * PageOrder::kMostJoints);
+  sent_.clear();
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));  // a stop is repeated after half a second
+  acting_.tick(now_s_);
+  EXPECT_GT(sent_.size(), 0U);
+  EXPECT_LE(sent_.size(), Acting::kMostOpen + 2 * PageOrder::kMostJoints);
 }
 
 TEST_F(ActingTest, StopsWithoutAKey) {
@@ -187,6 +197,22 @@ TEST_F(ActingTest, StopsWithoutAKey) {
   EXPECT_EQ(said(kTab)["refused"], true);
   take(kTab, order("stop"));
   EXPECT_EQ(actions(), std::vector{Action::kDisable});
+}
+
+TEST_F(ActingTest, AnswersNonsense) {
+  open(kTab);
+  for (const Json& asked :
+       {Json::object(), order("fly"), Json{{"action", "enable"}}, order("enable", "elbow"),
+        Json{{"action", 7}}, Json{{"action", "stop"}, {"joints", 7}}}) {
+    texts_.clear();
+    take(kTab, asked);
+    EXPECT_EQ(said(kTab)["op"], "acted") << asked;
+  }
+  Json rounded = order("enable");
+  rounded["challenge"] = 9223372036854775807;
+  sent_.clear();
+  take(kTab, rounded);
+  EXPECT_TRUE(sent_.empty()) << "a number may have been rounded on its way";
 }
 
 TEST_F(ActingTest, JogsOnlyAsLongAsThePageGoesOnAskingThenHolds) {
@@ -266,33 +292,6 @@ TEST_F(ActingTest, SendsNoSampleBeforeTheFirstIsAcceptedAndNoneAfterARefusal) {
   tick(0.1);
   EXPECT_EQ(sent_.size(), sent) << "nor a hold, which would stop the joint's new owner";
   EXPECT_EQ(said(kTab)["text"], "SW.elbow: jog ended: refused, another client has the joint");
-}
-
-TEST_F(ActingTest, AnswersNonsense) {
-  open(kTab);
-  for (const Json& asked :
-       {Json::object(), order("fly"), Json{{"action", "enable"}}, order("enable", "elbow"),
-        Json{{"action", 7}}, Json{{"action", "stop"}, {"joints", 7}}}) {
-    texts_.clear();
-    take(kTab, asked);
-    EXPECT_EQ(said(kTab)["op"], "acted") << asked;
-  }
-  Json rounded = order("enable");
-  rounded["challenge"] = 9223372036854775807;
-  sent_.clear();
-  take(kTab, rounded);
-  EXPECT_TRUE(sent_.empty()) << "a number may have been rounded on its way";
-}
-
-TEST_F(ActingTest, TakesAnOperatorsKeyAlone) {
-  write_new_key(folder_.path() / "engineer", Role::kEngineer, "bench");
-  const auto act = [&](const char* file) {
-    const Acting acting(
-        folder_.path() / file, fleet_, [](const auto&, const auto&) {}, [](auto, const auto&) {});
-  };
-  EXPECT_THROW(act("engineer"), InputError);
-  EXPECT_THROW(act("absent"), InputError);
-  EXPECT_NO_THROW(act("key"));
 }
 
 }  // namespace
