@@ -26,7 +26,7 @@ enum class ActuatorFault : std::int32_t {
   kDriveFault = 3,      ///< the drive reports its own fault
   kPowerLost = 4,       ///< supply absent or out of range
   kImplausible = 5,     ///< the reading contradicts itself (stuck, jumped, not finite)
-  kLinkLost = 6,        ///< bus or device gone
+  kConnectionLost = 6,  ///< bus or device gone
   kEmergencyStop = 7,   ///< the e-stop input is active
   kDriveRestarted = 8,  ///< the drive has restarted by itself and forgotten its settings
   kBusError = 9,        ///< the bus's controller counts too many errors

@@ -31,7 +31,7 @@ enum class Fault : std::int32_t {
   kDriveFault = 3,
   kPowerLost = 4,
   kImplausibleReading = 5,
-  kLinkLost = 6,
+  kConnectionLost = 6,
   kEmergencyStop = 7,
   kDriveRestarted = 8,
   kBusError = 9,

@@ -74,7 +74,7 @@ void CanBus::take_link(CanLink link) noexcept {
   outstanding_ = 0;
   heartbeat_waits_ = false;
   bus_off_ = false;
-  latch(ActuatorFault::kLinkLost, link_gone_ ? CanDetail::kInterfaceGone : CanDetail::kInterfaceDown);
+  latch(ActuatorFault::kConnectionLost, link_gone_ ? CanDetail::kInterfaceGone : CanDetail::kInterfaceDown);
 }
 
 void CanBus::take_troubles(std::uint32_t troubles) noexcept {
@@ -111,7 +111,8 @@ void CanBus::account_outstanding(bool emptied) noexcept {
   held_back_ = outstanding_ > sent_last_period_;
   sent_last_period_ = 0;
   held_back_periods_ = held_back_ ? held_back_periods_ + 1 : 0;
-  if (held_back_periods_ >= config_.stuck_periods) latch(ActuatorFault::kLinkLost, CanDetail::kFramesStuck);
+  if (held_back_periods_ >= config_.stuck_periods)
+    latch(ActuatorFault::kConnectionLost, CanDetail::kFramesStuck);
 }
 
 void CanBus::latch(ActuatorFault fault, CanDetail detail, std::uint32_t value) noexcept {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every kind of drive on a CAN bus is watched for alike, and the latch of its faults. Real-time safe.
 //
-// A trouble is either there as long as its cause lasts, in use or not (`link_trouble`), or it concerns only a drive that is in
+// A trouble is either there as long as its cause lasts, in use or not (`connection_trouble`), or it concerns only a drive that is in
 // use, which its node knows. Of a drive in use the first trouble is latched; only an operator's clear() ends it. Of a drive
 // that is not in use the present one is shown, so that enabling shows why it cannot be.
 #pragma once
@@ -31,11 +31,11 @@ class NodeWatch {
   /// The drive was heard, or has been set up.
   void hear(std::int64_t now_ns) noexcept { heard_ns_ = now_ns; }
   /// Bus, failed set-up, heartbeat, in this order. A drive that is being set up has no trouble.
-  NodeFault link_trouble(const SetUpState& setup, std::int64_t now_ns) const noexcept {
+  NodeFault connection_trouble(const SetUpState& setup, std::int64_t now_ns) const noexcept {
     if (!bus_is_well()) return bus_trouble_;
     if (setup.failed()) return trouble(ActuatorFault::kDriveRestarted, CanDetail::kSetupFailed);
     if (setup.ready() && now_ns - heard_ns_ > heartbeat_timeout_ns_)
-      return trouble(ActuatorFault::kLinkLost, CanDetail::kHeartbeatMissing);
+      return trouble(ActuatorFault::kConnectionLost, CanDetail::kHeartbeatMissing);
     return {};
   }
   /// A fault with one of our reasons.

@@ -67,7 +67,7 @@ void GpioActuator::read_inputs(ActuatorReading& reading) noexcept {
 }
 
 ActuatorFault GpioActuator::fault_of_inputs() const noexcept {
-  if (lines_failed_) return ActuatorFault::kLinkLost;
+  if (lines_failed_) return ActuatorFault::kConnectionLost;
   if ((active_ & bit(LineRole::kEmergencyStop)) != 0) return ActuatorFault::kEmergencyStop;
   // An amplifier that is off may well say that it is not ready.
   if (sequence_.amplifier_ready() && (active_ & bit(LineRole::kAmplifierFault)) != 0)

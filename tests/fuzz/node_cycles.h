@@ -59,7 +59,7 @@ inline void run_cycles(CanNode& node, FuzzInput& input, std::int64_t now_ns,
     node.begin_cycle(now_ns);
     for (unsigned frames = order & 0x03U; frames > 0; --frames)
       node.receive(input.frame(ids[input.byte() % ids.size()]), now_ns);
-    node.note_bus((order & 0x40U) != 0 ? NodeFault{ActuatorFault::kLinkLost, 1U << 24U} : NodeFault{});
+    node.note_bus((order & 0x40U) != 0 ? NodeFault{ActuatorFault::kConnectionLost, 1U << 24U} : NodeFault{});
     const ActuatorReading reading = node.read(now_ns);
     check_reading(reading, now_ns);
     if ((order & 0x10U) != 0) node.stop();

@@ -41,7 +41,7 @@ void JointInLoop::raise_fault(Fault fault, const CycleTime& time,
   const Mode from = mode.mode();
   if (!mode.latch(fault, own_finding.value_or(drive.reading().drive_error), time.now_ns)) return;
   // Counts may be missing from now on.
-  if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kLinkLost ||
+  if (fault == Fault::kReadFailed || fault == Fault::kImplausibleReading || fault == Fault::kConnectionLost ||
       fault == Fault::kDriveRestarted)
     zero.forget();
   mode_changed(from, time);

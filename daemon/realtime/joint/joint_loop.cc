@@ -12,9 +12,9 @@ namespace strainwave {
 namespace {
 
 // Of each ActuatorFault, in their order.
-constexpr std::array kFaults{Fault::kNone,       Fault::kReadFailed,    Fault::kWriteRefused,
-                             Fault::kDriveFault, Fault::kPowerLost,     Fault::kImplausibleReading,
-                             Fault::kLinkLost,   Fault::kEmergencyStop, Fault::kDriveRestarted,
+constexpr std::array kFaults{Fault::kNone,           Fault::kReadFailed,    Fault::kWriteRefused,
+                             Fault::kDriveFault,     Fault::kPowerLost,     Fault::kImplausibleReading,
+                             Fault::kConnectionLost, Fault::kEmergencyStop, Fault::kDriveRestarted,
                              Fault::kBusError};
 static_assert(kFaults.size() == static_cast<std::size_t>(ActuatorFault::kBusError) + 1);
 

@@ -33,14 +33,14 @@ void Node::receive_emergency(const canopen::Emergency& emergency) noexcept {
 // out of its.
 void Node::note_bus(const NodeFault& trouble) noexcept {
   watch_.note_bus(trouble);
-  if (trouble.fault == ActuatorFault::kLinkLost || detail_of(trouble.drive_error) == CanDetail::kBusOff)
+  if (trouble.fault == ActuatorFault::kConnectionLost || detail_of(trouble.drive_error) == CanDetail::kBusOff)
     setup_.wear_out();
 }
 
 void Node::supervise() noexcept {
   missed_ = fresh_ ? 0 : std::min(missed_ + 1, config_.quick_stop_after + 1);
   const NodeFault present = present_trouble();
-  if (present.fault == ActuatorFault::kLinkLost || present.fault == ActuatorFault::kDriveRestarted)
+  if (present.fault == ActuatorFault::kConnectionLost || present.fault == ActuatorFault::kDriveRestarted)
     setup_.wear_out();
   if (out_of_reach() && (command_.enable || power_.has_torque())) {
     last_resort_.begin(now_ns_);
@@ -63,7 +63,7 @@ bool Node::out_of_reach() const noexcept {
 // What holds as long as its cause lasts, in use or not.
 NodeFault Node::present_trouble() const noexcept {
   if (watch_.bus_is_well() && setup_.ready() && restarted_.fault != ActuatorFault::kNone) return restarted_;
-  const NodeFault link = watch_.link_trouble(setup_, now_ns_);
+  const NodeFault link = watch_.connection_trouble(setup_, now_ns_);
   if (link.fault != ActuatorFault::kNone || !setup_.ready()) return link;
   if (wrong_mode_) return watch_.trouble(ActuatorFault::kWriteRefused, CanDetail::kWrongMode, shown_mode_);
   return {};

@@ -175,14 +175,14 @@ void Node::note_bus(const NodeFault& trouble) noexcept {
 
 ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   supervise();
-  const NodeFault shown = watch_.shown(watch_.link_trouble(setup_, now_ns_));
+  const NodeFault shown = watch_.shown(watch_.connection_trouble(setup_, now_ns_));
   ActuatorReading reading;
   reading.joint_position_rad = position_rad_ + velocity_rad_s_ * seconds(position_age_ns());
   reading.joint_velocity_rad_s = velocity_rad_s_;
   reading.has_position = reading.has_velocity = has_position();
   // One that was out of sight may have restarted: it has no message that tells of it.
   reading.position_lost = !config_.absolute_encoder &&
-                          (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kLinkLost);
+                          (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kConnectionLost);
   reading.torque_measured = closes_loop(config_.drive_mode) && now_ns_ - torque_ns_ < 2 * period_ns_;
   reading.torque_applied_Nm = closes_loop(config_.drive_mode) ? torque_measured_Nm_
                               : closed_loop()                 ? sent_.torque_Nm
@@ -212,7 +212,7 @@ void Node::supervise() noexcept {
   if (!command_.enable) return;
   // Nobody fed the idle drive before this loop began; being enabled is the operator's order to go on from there.
   if (heartbeat_.errors == kWatchdogExpired && !was_armed_ && !closed_loop()) clear_ordered_ = true;
-  watch_.latch(watch_.link_trouble(setup_, now_ns_));
+  watch_.latch(watch_.connection_trouble(setup_, now_ns_));
   watch_.latch(use_trouble());
   was_armed_ = was_armed_ || closed_loop();
 }
@@ -279,7 +279,7 @@ void Node::lead_state(CanTransmitter& bus) noexcept {
 }
 
 void Node::clear_fault() noexcept {
-  const bool was_away = watch_.latched_fault().fault == ActuatorFault::kLinkLost || setup_.failed();
+  const bool was_away = watch_.latched_fault().fault == ActuatorFault::kConnectionLost || setup_.failed();
   watch_.clear();
   clear_ordered_ = true;
   was_armed_ = false;

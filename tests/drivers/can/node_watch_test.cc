@@ -23,7 +23,7 @@ TEST(NodeWatch, KeepsTheFirstFaultUntilItIsCleared) {
   watch.latch({});
   EXPECT_FALSE(watch.latched());
   watch.latch(watch.trouble(ActuatorFault::kReadFailed, CanDetail::kPositionMissing));
-  watch.latch(watch.trouble(ActuatorFault::kLinkLost, CanDetail::kHeartbeatMissing));
+  watch.latch(watch.trouble(ActuatorFault::kConnectionLost, CanDetail::kHeartbeatMissing));
   EXPECT_EQ(watch.shown({}).fault, ActuatorFault::kReadFailed);
   watch.clear();
   EXPECT_EQ(watch.shown({}).fault, ActuatorFault::kNone);
@@ -31,8 +31,8 @@ TEST(NodeWatch, KeepsTheFirstFaultUntilItIsCleared) {
 
 TEST(NodeWatch, ShowsThePresentTroubleOnlyWhileNothingIsLatched) {
   NodeWatch watch(kTimeout_ns);
-  const NodeFault present = watch.trouble(ActuatorFault::kLinkLost, CanDetail::kHeartbeatMissing);
-  EXPECT_EQ(watch.shown(present).fault, ActuatorFault::kLinkLost);
+  const NodeFault present = watch.trouble(ActuatorFault::kConnectionLost, CanDetail::kHeartbeatMissing);
+  EXPECT_EQ(watch.shown(present).fault, ActuatorFault::kConnectionLost);
   watch.latch(watch.trouble(ActuatorFault::kDriveFault, CanDetail::kFaultState));
   EXPECT_EQ(watch.shown(present).fault, ActuatorFault::kDriveFault);
 }
@@ -41,16 +41,16 @@ TEST(NodeWatch, MissesAHeartbeatAfterItsTimeAndNotBefore) {
   NodeWatch watch(kTimeout_ns);
   const Ready setup;
   watch.hear(1000);
-  EXPECT_EQ(watch.link_trouble(setup, 1000 + kTimeout_ns).fault, ActuatorFault::kNone);
-  EXPECT_EQ(watch.link_trouble(setup, 1001 + kTimeout_ns).fault, ActuatorFault::kLinkLost);
+  EXPECT_EQ(watch.connection_trouble(setup, 1000 + kTimeout_ns).fault, ActuatorFault::kNone);
+  EXPECT_EQ(watch.connection_trouble(setup, 1001 + kTimeout_ns).fault, ActuatorFault::kConnectionLost);
   watch.hear(1001 + kTimeout_ns);
-  EXPECT_EQ(watch.link_trouble(setup, 1001 + kTimeout_ns).fault, ActuatorFault::kNone);
+  EXPECT_EQ(watch.connection_trouble(setup, 1001 + kTimeout_ns).fault, ActuatorFault::kNone);
 }
 
 TEST(NodeWatch, ExpectsNoHeartbeatOfADriveThatIsBeingSetUp) {
   const NodeWatch watch(kTimeout_ns);
   const SetUpState setup;
-  EXPECT_EQ(watch.link_trouble(setup, 100 * kTimeout_ns).fault, ActuatorFault::kNone);
+  EXPECT_EQ(watch.connection_trouble(setup, 100 * kTimeout_ns).fault, ActuatorFault::kNone);
 }
 
 TEST(NodeWatch, NamesTheBusBeforeTheSetUpAndTheSetUpBeforeTheHeartbeat) {
@@ -58,19 +58,20 @@ TEST(NodeWatch, NamesTheBusBeforeTheSetUpAndTheSetUpBeforeTheHeartbeat) {
   SetUpState setup;
   setup.end(false);
   setup.look();
-  EXPECT_EQ(detail_of(watch.link_trouble(setup, 100 * kTimeout_ns).drive_error), CanDetail::kSetupFailed);
+  EXPECT_EQ(detail_of(watch.connection_trouble(setup, 100 * kTimeout_ns).drive_error),
+            CanDetail::kSetupFailed);
   watch.note_bus({ActuatorFault::kBusError, drive_error_of(CanDetail::kBusOff)});
-  EXPECT_EQ(detail_of(watch.link_trouble(setup, 0).drive_error), CanDetail::kBusOff);
+  EXPECT_EQ(detail_of(watch.connection_trouble(setup, 0).drive_error), CanDetail::kBusOff);
   watch.note_bus({});
-  EXPECT_EQ(detail_of(watch.link_trouble(setup, 0).drive_error), CanDetail::kSetupFailed);
+  EXPECT_EQ(detail_of(watch.connection_trouble(setup, 0).drive_error), CanDetail::kSetupFailed);
 }
 
 TEST(NodeWatch, MarksItsOwnDetailsAndNoTroubleStaysUnmarked) {
   NodeWatch watch(kTimeout_ns, kMark);
   watch.note_bus({ActuatorFault::kBusError, drive_error_of(CanDetail::kBusOff)});
-  EXPECT_EQ(watch.link_trouble(Ready(), 0).drive_error, kMark | drive_error_of(CanDetail::kBusOff));
+  EXPECT_EQ(watch.connection_trouble(Ready(), 0).drive_error, kMark | drive_error_of(CanDetail::kBusOff));
   watch.note_bus({});
-  EXPECT_EQ(watch.link_trouble(Ready(), 0).drive_error, 0U);
+  EXPECT_EQ(watch.connection_trouble(Ready(), 0).drive_error, 0U);
   EXPECT_EQ(watch.trouble(ActuatorFault::kDriveFault, CanDetail::kEnableStep, 7).drive_error,
             kMark | drive_error_of(CanDetail::kEnableStep, 7));
 }

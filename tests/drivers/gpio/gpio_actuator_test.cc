@@ -154,8 +154,8 @@ TEST_F(GpioActuatorTest, BelievesAnAmplifiersFaultOnlyOnceItHasHadItsTimeToStart
 TEST_F(GpioActuatorTest, LosesItsLinkWhenTheKernelRefusesTheLines) {
   switch_on();
   lines_->broken = true;
-  EXPECT_EQ(cycle(true, 10.0).fault, ActuatorFault::kLinkLost);
-  EXPECT_EQ(cycle(true, 10.0).fault, ActuatorFault::kLinkLost);
+  EXPECT_EQ(cycle(true, 10.0).fault, ActuatorFault::kConnectionLost);
+  EXPECT_EQ(cycle(true, 10.0).fault, ActuatorFault::kConnectionLost);
   EXPECT_EQ(duty(), 0.0) << "what can still be made safe is";
 }
 

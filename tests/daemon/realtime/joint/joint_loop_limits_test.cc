@@ -18,7 +18,7 @@ TEST_F(JointLoopLimits, TurnEveryFaultOfTheDriveIntoTheJointsWithinOneCycle) {
       {ActuatorFault::kDriveFault, Fault::kDriveFault},
       {ActuatorFault::kPowerLost, Fault::kPowerLost},
       {ActuatorFault::kImplausible, Fault::kImplausibleReading},
-      {ActuatorFault::kLinkLost, Fault::kLinkLost},
+      {ActuatorFault::kConnectionLost, Fault::kConnectionLost},
       {ActuatorFault::kEmergencyStop, Fault::kEmergencyStop},
       {ActuatorFault::kDriveRestarted, Fault::kDriveRestarted},
       {ActuatorFault::kBusError, Fault::kBusError},

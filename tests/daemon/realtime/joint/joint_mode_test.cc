@@ -112,7 +112,7 @@ TEST(JointMode, KeepsTheFirstFaultAndTheDrivesNumberForIt) {
   JointMode mode;
   ASSERT_TRUE(mode.apply(ModeEvent::kEnableOrdered, 1));
   EXPECT_TRUE(mode.latch(Fault::kDriveFault, 0x3210, 2));
-  EXPECT_FALSE(mode.latch(Fault::kLinkLost, 0x8130, 3));
+  EXPECT_FALSE(mode.latch(Fault::kConnectionLost, 0x8130, 3));
   EXPECT_EQ(mode.fault(), Fault::kDriveFault);
   EXPECT_EQ(mode.drive_error(), 0x3210U);
   EXPECT_EQ(mode.faults_total(), 1);

@@ -57,13 +57,13 @@ TEST_F(Cia402BusFailure, AnInterfaceThatWasDownForAMomentCarriesTheStopAsSoonAsI
     EXPECT_EQ(order.bytes[0] & 0x08, 0) << "it is ordered nothing but to stop";
     EXPECT_EQ(little_endian(&order.bytes[2], 2), 0U);
   }
-  EXPECT_EQ(bench.reading().fault, ActuatorFault::kLinkLost);
+  EXPECT_EQ(bench.reading().fault, ActuatorFault::kConnectionLost);
 }
 
 TEST_F(Cia402BusFailure, AnInterfaceThatGoesDownIsAFaultAndNothingOldIsSentWhenItReturns) {
   bench_.can().set_down();
   EXPECT_EQ(bench_.periods_until_fault(2, kMoving), 1);
-  expect_fault(ActuatorFault::kLinkLost, CanDetail::kInterfaceDown);
+  expect_fault(ActuatorFault::kConnectionLost, CanDetail::kInterfaceDown);
   bench_.run(300, {0.0, false});
   EXPECT_FALSE(drive_has_torque()) << "the drive's own supervision";
   bench_.can().set_up();
@@ -71,7 +71,7 @@ TEST_F(Cia402BusFailure, AnInterfaceThatGoesDownIsAFaultAndNothingOldIsSentWhenI
   bench_.run(100, {0.0, false});
   for (const CanFrame& order : bench_.frames(0x203, up_ns))
     EXPECT_EQ(order.bytes[0] & 0x08, 0) << "no operation before an operator's order";
-  EXPECT_EQ(bench_.reading().fault, ActuatorFault::kLinkLost);
+  EXPECT_EQ(bench_.reading().fault, ActuatorFault::kConnectionLost);
   bench_.clear(300);
   EXPECT_EQ(bench_.reading().fault, ActuatorFault::kNone) << can_detail_text(bench_.reading().drive_error);
   EXPECT_TRUE(bench_.enable());
@@ -81,16 +81,16 @@ TEST_F(Cia402BusFailure, AClearedFaultStaysWhileTheInterfaceIsDown) {
   bench_.can().set_down();
   bench_.step(kMoving);
   bench_.clear(10);
-  expect_fault(ActuatorFault::kLinkLost, CanDetail::kInterfaceDown);
+  expect_fault(ActuatorFault::kConnectionLost, CanDetail::kInterfaceDown);
 }
 
 TEST_F(Cia402BusFailure, AnInterfaceThatHasGoneNeverComesBack) {
   bench_.can().set_gone();
   EXPECT_EQ(bench_.periods_until_fault(2, kMoving), 1);
-  expect_fault(ActuatorFault::kLinkLost, CanDetail::kInterfaceGone);
+  expect_fault(ActuatorFault::kConnectionLost, CanDetail::kInterfaceGone);
   bench_.can().set_up();
   bench_.clear(10);
-  expect_fault(ActuatorFault::kLinkLost, CanDetail::kInterfaceGone);
+  expect_fault(ActuatorFault::kConnectionLost, CanDetail::kInterfaceGone);
 }
 
 TEST_F(Cia402BusFailure, ABusThatTakesNoFramesHoldsNoMoreThanTwoPeriodsOfThem) {
@@ -114,7 +114,7 @@ TEST_F(Cia402BusFailure, AClearedFaultStaysWhileOldFramesWait) {
   bench_.can().hold(true);
   bench_.run(100, kMoving);
   bench_.clear(5);
-  EXPECT_EQ(bench_.reading().fault, ActuatorFault::kLinkLost);
+  EXPECT_EQ(bench_.reading().fault, ActuatorFault::kConnectionLost);
   bench_.can().hold(false);
   bench_.run(300, {0.0, false});
   bench_.clear(300);

@@ -138,7 +138,7 @@ TEST_F(Cia402Failure, AMissingHeartbeatIsAFaultAfterItsTimeOut) {
   const int periods = bench_.periods_until_fault(300, kMoving);
   EXPECT_GE(periods, 100);
   EXPECT_LE(periods, 151);
-  expect_fault(ActuatorFault::kLinkLost, CanDetail::kHeartbeatMissing);
+  expect_fault(ActuatorFault::kConnectionLost, CanDetail::kHeartbeatMissing);
   bench_.tell_node("heartbeat on");
   bench_.run(200, {0.0, false});
   bench_.clear();

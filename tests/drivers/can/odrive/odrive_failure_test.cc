@@ -73,11 +73,11 @@ TEST_F(OdriveFailure, IsSetUpAgainAfterALostLinkOnAnOperatorsOrderOnly) {
   run(100, kOff);
   tell("heartbeat off");
   run(400, {0.0, true});
-  EXPECT_EQ(reading_.fault, ActuatorFault::kLinkLost);
+  EXPECT_EQ(reading_.fault, ActuatorFault::kConnectionLost);
   EXPECT_EQ(detail(), CanDetail::kHeartbeatMissing);
   tell("heartbeat on");
   run(200, {0.0, true});
-  EXPECT_EQ(reading_.fault, ActuatorFault::kLinkLost) << "latched";
+  EXPECT_EQ(reading_.fault, ActuatorFault::kConnectionLost) << "latched";
   run(10, kOff);
   tell("firmware 0 5 6");  // another drive was plugged in
   joint_->clear_fault();
