@@ -12,8 +12,11 @@ from bench import (BUS, FAULTS, JOINT, MODES, Daemon, ctl, daemon_toml, joint_st
 
 
 # An interpreter does not answer every millisecond.
-PATIENT = joint_toml(can='zero_torque_after = 100\nquick_stop_after = 1000') + \
-    '\n[joint.supervision]\nmissed_readings_limit = 1000\n'
+SLOW = 'zero_torque_after = 100\nquick_stop_after = 1000\n'
+PATIENCE = '\n[joint.supervision]\nmissed_readings_limit = 1000\n'
+PATIENT = joint_toml(can=SLOW) + PATIENCE
+BY_POSITION = joint_toml(can=SLOW + 'drive_mode = "position"') + PATIENCE
+PLACE = 160000
 
 
 class Peer(unittest.TestCase):
@@ -26,9 +29,9 @@ class Peer(unittest.TestCase):
         self.start_peer()
         self.addCleanup(self.stop_peer)
 
-    def start_peer(self):
+    def start_peer(self, *mode):
         with open(self.log, 'w') as log:
-            self.process = subprocess.Popen(['node', 'peer.js', BUS, '3'], stdin=subprocess.PIPE, stdout=log,
+            self.process = subprocess.Popen(['node', 'peer.js', BUS, '3', *mode], stdin=subprocess.PIPE, stdout=log,
                                             stderr=subprocess.STDOUT, text=True)
         wait_until(lambda: 'ready' in self.log.read_text(), 10, 'the peer runs')
 
@@ -41,9 +44,9 @@ class Peer(unittest.TestCase):
         self.process.stdin.flush()
         wait_until(lambda: f'told {line}' in self.log.read_text(), 5, 'the peer has heard it')
 
-    def start_daemon(self):
+    def start_daemon(self, joint=PATIENT):
         """It ends before the bus goes: one that outlives its bus faults, and says so in a log that then misleads."""
-        daemon = Daemon(daemon_toml([PATIENT]))
+        daemon = Daemon(daemon_toml([joint]))
         self.addCleanup(daemon.kill)
         return daemon
 
@@ -94,6 +97,22 @@ class Peer(unittest.TestCase):
         time.sleep(2)
         self.assertEqual(joint_state()['mode'], MODES['holding'], daemon.text())
         self.assertNotIn('were not sent', daemon.text())
+
+    def test_is_held_where_it_stands_by_its_own_loop_and_stopped_by_it_at_an_emergency(self):
+        self.stop_peer()
+        self.start_peer('position')
+        daemon = self.start_daemon(BY_POSITION)
+        self.assertIn('mode 8 (CSP)', daemon.text())
+        self.assertIn('(6065h)', daemon.text())
+        self.enable()
+        time.sleep(1)
+        self.assertEqual(joint_state()['mode'], MODES['holding'], daemon.text())
+        places = [int(line.split()[1]) for line in self.log.read_text().splitlines() if line.startswith('place')]
+        self.assertTrue(places, 'it was sent somewhere')
+        self.assertLessEqual(max(abs(place - PLACE) for place in places), 1)
+        self.tell('emcy 0x2310')
+        self.assertEqual(self.wait_for_fault(), FAULTS['drive fault'])
+        wait_until(lambda: 'controlword 2 ' in self.log.read_text(), 2, 'a quick stop')
 
     def test_an_emergency_of_its_own_stack_is_a_fault_with_its_code(self):
         daemon = self.start_daemon()

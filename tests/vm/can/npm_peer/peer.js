@@ -3,17 +3,18 @@
 // EMCY, against which our client proves itself. Ours is only what makes a servo drive of it: the objects of CiA 402, and the
 // statusword that answers the controlword. There is no joint behind it: its position stays where it is.
 //
-//   node peer.js INTERFACE NODE-ID
+//   node peer.js INTERFACE NODE-ID [position]     position: it closes its own loop and has no torque mode
 //
-// Records NMT states and controlwords. Lines on standard input: "emcy CODE"; "late MS": its SDO answers wait so long;
+// Records NMT states, controlwords, and where it is sent. Lines on standard input: "emcy CODE"; "late MS": its SDO answers wait so long;
 // "wrong": they are about another object than was asked for; "right": neither.
 'use strict';
 const readline = require('readline');
 const can = require('socketcan');
 const { AccessType, DataType, Device, Eds, NmtState, ObjectType } = require('canopen');
 
-const [interfaceName, idText] = process.argv.slice(2);
+const [interfaceName, idText, modeText] = process.argv.slice(2);
 const id = Number(idText);
+const byPosition = modeText === 'position';
 const { INTEGER8, INTEGER16, INTEGER32, UNSIGNED8, UNSIGNED16, UNSIGNED32 } = DataType;
 
 // A reset goes back to an entry's default.
@@ -52,7 +53,9 @@ function makeObjects() {
   const modeDisplay = addVariable(eds, 0x6061, INTEGER8, 0, AccessType.READ_ONLY);
   const position = addVariable(eds, 0x6064, INTEGER32, 160000, AccessType.READ_ONLY);
   addVariable(eds, 0x606C, INTEGER32, 0, AccessType.READ_ONLY);
-  const torque = addVariable(eds, 0x6071, INTEGER16, 0);
+  const torque = byPosition ? null : addVariable(eds, 0x6071, INTEGER16, 0);
+  const place = addVariable(eds, 0x607A, INTEGER32, 0);
+  const torqueOffset = addVariable(eds, 0x60B2, INTEGER16, 0);
   const torqueActual = addVariable(eds, 0x6077, INTEGER16, 0, AccessType.READ_ONLY);
   addVariable(eds, 0x6007, INTEGER16, 1);
   addVariable(eds, 0x603F, UNSIGNED16, 0, AccessType.READ_ONLY);
@@ -61,7 +64,8 @@ function makeObjects() {
   addVariable(eds, 0x6072, UNSIGNED16, 1000);
   addVariable(eds, 0x6075, UNSIGNED32, 1000, AccessType.READ_ONLY);
   addVariable(eds, 0x6076, UNSIGNED32, 192, AccessType.READ_ONLY);
-  addVariable(eds, 0x6502, UNSIGNED32, 1 << 9, AccessType.READ_ONLY);
+  addVariable(eds, 0x6065, UNSIGNED32, 2000);
+  addVariable(eds, 0x6502, UNSIGNED32, byPosition ? 1 << 7 : 1 << 9, AccessType.READ_ONLY);
   const interpolation = eds.addEntry(0x60C2, { parameterName: 'interpolation period', objectType: ObjectType.RECORD });
   interpolation.addSubObject(1, { parameterName: 'period', dataType: UNSIGNED8, accessType: AccessType.READ_WRITE });
   interpolation.addSubObject(2, { parameterName: 'exponent', dataType: INTEGER8, accessType: AccessType.READ_WRITE });
@@ -72,10 +76,11 @@ function makeObjects() {
   keep(temperature.at(1), 253);
 
   // The library maps PDOs when it starts; these are the ones that our driver asks for.
-  eds.addReceivePdo({ cobId: 0x200 + id, transmissionType: 1, dataObjects: [controlword, torque] }, kept);
+  const orders = byPosition ? [controlword, place, torqueOffset] : [controlword, torque];
+  eds.addReceivePdo({ cobId: 0x200 + id, transmissionType: 1, dataObjects: orders }, kept);
   eds.addTransmitPdo({ cobId: 0x180 + id, transmissionType: 1, dataObjects: [position, statusword, torqueActual] }, kept);
   eds.addTransmitPdo({ cobId: 0x280 + id, transmissionType: 10, dataObjects: [temperature.at(1), modeDisplay] }, kept);
-  return { eds, controlword, statusword, mode, modeDisplay };
+  return { eds, controlword, statusword, mode, modeDisplay, place };
 }
 
 // CiA 402: the statusword that a controlword leads to. No faults and no delays: a drive that obeys.
@@ -109,12 +114,15 @@ function main() {
   });
   channel.addListener('onMessage', (message) => device.receive(message));
   let lastOrder = -1;
+  let lastPlace = 0;
   // An RPDO changes the entries silently and tells of itself instead.
   const obey = () => {
     const order = objects.controlword.value;
     objects.statusword.value = statusAfter(objects.statusword.value, order);
     if (order !== lastOrder) console.log(`controlword ${order.toString(16)} status ${objects.statusword.value.toString(16)}`);
     lastOrder = order;
+    if (byPosition && objects.place.value !== lastPlace) console.log(`place ${objects.place.value}`);
+    lastPlace = objects.place.value;
   };
   objects.controlword.addListener('update', obey);
   device.pdo.addListener('pdo', obey);
