@@ -11,7 +11,7 @@ namespace {
 
 /// The token of a page that acts with this key.
 std::string token_with(const std::filesystem::path& key) {
-  const Fleet fleet;
+  const Fleet fleet{};
   const Acting acting(
       key, fleet, [](const auto&, const auto&) {}, [](auto, const auto&) {});
   return acting.token();
