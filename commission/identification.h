@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Identifies a joint from a trace of its motion. It needs no particular motion: each function takes from the trace what it can use, and
+// returns nothing where there is too little. Not real-time. Joint side, SI.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "commission/estimates.h"
+#include "commission/joint_trace.h"
+
+namespace strainwave {
+
+/// Whether positive torque moves the joint to larger positions, by the sign of the torque's work: what a joint that comes back to where it
+/// was takes up is lost to friction, so it is positive. Nothing where the joint hardly moved, or work out and back nearly cancel.
+std::optional<int> find_direction(const JointTrace& trace);
+
+/// Sizes of the torque at which the joint left rest, means by direction (first positive); half width from their spread, and at least
+/// what the torque changed by from the first count to sliding.
+std::array<std::optional<Estimate>, 2> find_breakaway(const JointTrace& trace, double gear_ratio);
+
+/// Friction over speed from stretches of steady speed, of at least a whole motor turn each, in both directions over the same positions:
+///   F(w) = (mean torque there - mean torque back) / 2
+std::vector<FrictionPoint> find_friction(const JointTrace& trace, double gear_ratio);
+
+/// Delay, inertias, spring, damping, gravity and kinematic error by nonlinear least squares over stretches in which the motor slides one
+/// way. Nothing when there are fewer than kLeastWindows stretches, or the motion is too even to show the inertia.
+std::optional<MotionEstimates> fit_motion(const JointTrace& trace, const ToldJoint& told);
+inline constexpr int kLeastWindows = 6;
+
+/// All of the above.
+JointEstimates identify(const JointTrace& trace, const ToldJoint& told);
+
+}  // namespace strainwave

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a joint did, period by period: what an identification is made from. Joint side, SI. Plain data; not real-time safe, since it grows.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace strainwave {
+
+/// One period: what was read at its start, and the torque ordered then, which acts from then on after the drive's delay.
+struct JointSample {
+  double motor_position_rad = 0.0;                                      ///< accumulated, at the joint's scale
+  double link_position_rad = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no encoder on the link
+  double torque_ordered_Nm = 0.0;
+  double torque_applied_Nm =
+      0.0;  ///< in the period before, as the drive says; the order where it does not measure
+  double temperature_C = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not known
+};
+
+/// Samples without a gap.
+struct JointTrace {
+  double period_s = 0.001;              ///< > 0
+  double encoder_resolution_rad = 0.0;  ///< of the motor's encoder, at the joint, >= 0
+  std::vector<JointSample> samples;
+
+  double time_s(std::size_t index) const noexcept { return period_s * static_cast<double>(index); }
+};
+
+}  // namespace strainwave

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commission/motion_spans.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+constexpr std::size_t kHalfSpan = 4;
+}
+
+double speed_around(const JointTrace& trace, std::size_t sample) {
+  const std::size_t from = sample > kHalfSpan ? sample - kHalfSpan : 0;
+  const std::size_t to = std::min(sample + kHalfSpan, trace.samples.size() - 1);
+  if (to <= from) return 0.0;
+  return (trace.samples[to].motor_position_rad - trace.samples[from].motor_position_rad) /
+         (trace.period_s * static_cast<double>(to - from));
+}
+
+double sliding_speed_rad_s(double gear_ratio) {
+  return joint_velocity_rad_s_from_motor_rpm(2.0 * 20.0, gear_ratio);
+}
+
+std::vector<MotionSpan> sliding_spans(const JointTrace& trace, double gear_ratio, std::size_t least) {
+  const double slowest = sliding_speed_rad_s(gear_ratio);
+  std::vector<MotionSpan> spans;
+  MotionSpan open{0, 0, 0.0};
+  const auto close = [&](std::size_t end) {
+    // The speed is a mean over 8 periods: the ends of a stretch may still be sticking.
+    if (open.direction != 0.0 && end > open.first + least + 2 * kHalfSpan)
+      spans.push_back({open.first + kHalfSpan, end - open.first - 2 * kHalfSpan, open.direction});
+    open.direction = 0.0;
+  };
+  for (std::size_t i = 0; i < trace.samples.size(); ++i) {
+    const double speed = speed_around(trace, i);
+    const double direction = std::abs(speed) > slowest ? std::copysign(1.0, speed) : 0.0;
+    if (direction == open.direction) continue;
+    close(i);
+    if (direction != 0.0) open = {i, 0, direction};
+  }
+  close(trace.samples.size());
+  return spans;
+}
+
+}  // namespace strainwave
