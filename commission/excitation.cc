@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commission/excitation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/input_error.h"
+#include "commission/motion_spans.h"
+#include "control/units.h"
+
+namespace strainwave {
+
+namespace {
+
+// Of the way between the limits, at either end: what braking and the guard need.
+constexpr double kMargin = 0.1;
+// Ramps to the torque limit in this time: a count of delay between order and motion is then a small part of the torque.
+constexpr double kRamp_s = 3.0;
+constexpr std::size_t kRamps = 4;  // both ways, twice
+constexpr int kSpeeds = 4;
+constexpr int kShakenStrokes = 10;
+// Steady strokes last at most so long, and at least these motor turns.
+constexpr double kLongestStroke_s = 4.0;
+constexpr double kLeastTurns = 2.3;
+constexpr double kTopSpeedShare = 0.7;  // of the speed limit
+// The speed loop's bandwidth. Its speed is a mean over 32 ms, which leaves little of the gear's resonance.
+constexpr double kBandwidth_rad_s = 10.0;
+constexpr double kIntegral_per_s = 4.0;
+constexpr std::size_t kMean = 32;
+constexpr std::size_t kQuickMean = 8;
+// Root mean square of the acceleration by which the first shaken stroke shakes, of a joint of the told inertia.
+constexpr double kFirstShake_rad_s2 = 1.0;
+// Three standard deviations of the speed's swing take this share of what is between the stroke's speed and sticking.
+constexpr double kSwingShare = 0.8;
+constexpr double kBraked_rad_s = 0.01;
+constexpr long kLongestBraking = 1500;
+
+/// Planned positions have this from the limits.
+double margin_rad(const ExcitationLimits& limits) {
+  return kMargin * (limits.position_max_rad - limits.position_min_rad);
+}
+
+double shaken_speed_rad_s(const ExcitationConfig& config, double way_rad) {
+  const double sliding = sliding_speed_rad_s(config.gear_ratio);
+  return std::clamp(way_rad / 1.5, std::min(3.0 * sliding, kTopSpeedShare * config.limits.speed_rad_s),
+                    0.5 * config.limits.speed_rad_s);
+}
+
+}  // namespace
+
+std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
+  const ExcitationLimits& limits = config.limits;
+  const double low = limits.position_min_rad + margin_rad(limits);
+  const double high = limits.position_max_rad - margin_rad(limits);
+  const double turn_rad = kTurn_rad / config.gear_ratio;
+  if (config.start_rad < low || config.start_rad > high)
+    throw InputError("commission", "position_rad", std::to_string(config.start_rad),
+                     "must be within " + std::to_string(low) + " to " + std::to_string(high) +
+                         " rad, a tenth inside of joint.limits: move the joint there");
+  if (high - low < kLeastTurns * turn_rad)
+    throw InputError("joint.limits", "position_max_rad", std::to_string(limits.position_max_rad),
+                     "must be at least " + std::to_string(kLeastTurns * turn_rad / (1.0 - 2.0 * kMargin)) +
+                         " rad above position_min_rad: the motor must turn twice");
+  const double slowest = 1.5 * sliding_speed_rad_s(config.gear_ratio);
+  const double fastest = std::min(kTopSpeedShare * limits.speed_rad_s,
+                                  std::sqrt(0.25 * limits.acceleration_rad_s2 * (high - low)));
+  if (fastest < 1.2 * slowest)
+    throw InputError("joint.limits", "speed_limit_rad_s", std::to_string(limits.speed_rad_s),
+                     "must be at least " + std::to_string(1.2 * slowest / kTopSpeedShare) +
+                         " rad/s: below, the motor sticks and slips");
+  std::vector<Stroke> strokes;
+  const double middle = 0.5 * (low + high);
+  for (int i = 0; i < kSpeeds; ++i) {
+    const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / (kSpeeds - 1));
+    const double ramps = speed * speed / limits.acceleration_rad_s2;
+    const double way =
+        std::min(high - low, std::max(kLeastTurns * turn_rad, speed * kLongestStroke_s) + ramps);
+    strokes.push_back({middle - 0.5 * way, speed, false});
+    strokes.push_back({middle + 0.5 * way, speed, false});
+    strokes.push_back({middle - 0.5 * way, speed, false});
+    // Slowly and gently first: the inertia that this shows is needed to turn round in time at higher speeds.
+    if (i == 0)
+      for (const double to : {high, low}) strokes.push_back({to, 2.0 * slowest, true});
+  }
+  for (int i = 0; i < kShakenStrokes; ++i)
+    strokes.push_back({i % 2 == 0 ? high : low, shaken_speed_rad_s(config, high - low), true});
+  return strokes;
+}
+
+Excitation::Excitation(const ExcitationConfig& config)
+    : config_(config),
+      guard_(config.limits),
+      quick_speed_(config.period_s, kQuickMean),
+      mean_speed_(config.period_s, kMean),
+      strokes_(plan_strokes(config)),
+      trace_{config.period_s, config.encoder_resolution_rad, {}},
+      inertia_kgm2_(2.0 * config.motor_inertia_kgm2),
+      sines_(config.period_s),
+      shake_rms_Nm_(kFirstShake_rad_s2 * inertia_kgm2_) {}
+
+void Excitation::abort(const std::string& why) {
+  if (stage_ == Stage::kDone || stage_ == Stage::kBraking) return;
+  problem_ = why;
+  stage_ = Stage::kBraking;
+  stage_periods_ = 0;
+  planned_rad_s_ = 0.0;
+  hold_Nm_ = {};
+}
+
+ActuatorCommand Excitation::step(const ActuatorReading& reading) {
+  if (stage_ == Stage::kDone) return {};
+  const double speed = mean_speed_.step(reading.joint_position_rad);
+  quick_rad_s_ = quick_speed_.step(reading.joint_position_rad);
+  if (stage_ != Stage::kBraking)
+    if (const std::optional<std::string> wrong = guard_.judge(reading, quick_rad_s_, true)) abort(*wrong);
+  if (reading.fault != ActuatorFault::kNone ||
+      (stage_ == Stage::kBraking && reading.drive_state != DriveState::kEnabled)) {
+    stage_ = Stage::kDone;
+    return {};
+  }
+  ++stage_periods_;
+  double torque = 0.0;
+  if (reading.drive_state == DriveState::kEnabled && !reading.brake_shut)
+    torque = std::clamp(torque_Nm(reading.joint_position_rad, speed), -config_.limits.torque_Nm,
+                        config_.limits.torque_Nm);
+  if (stage_ == Stage::kDone) return {};
+  record(reading, torque);
+  return {torque, true};
+}
+
+double Excitation::torque_Nm(double position_rad, double speed_rad_s) {
+  switch (stage_) {
+    case Stage::kEnabling:
+      stage_ = Stage::kBreakingAway;
+      stage_periods_ = 0;
+      return 0.0;
+    case Stage::kBreakingAway:
+      return ramp_Nm(position_rad);
+    case Stage::kStroking:
+    case Stage::kReturning:
+      return stroke_Nm(position_rad, speed_rad_s);
+    case Stage::kBraking:
+      if (std::abs(speed_rad_s) < kBraked_rad_s || stage_periods_ > kLongestBraking) stage_ = Stage::kDone;
+      return follow_Nm(speed_rad_s, 0.0);
+    case Stage::kDone:
+      break;
+  }
+  return 0.0;
+}
+
+/// Raises the torque until the joint slides, lets it stop, and does the same the other way.
+double Excitation::ramp_Nm(double position_rad) {
+  const double way = done_ % 2 == 0 ? 1.0 : -1.0;
+  const long rest = std::lround(0.25 / config_.period_s);
+  if (stage_periods_ <= rest) return 0.0;  // the joint comes to rest
+  const double torque = way * config_.limits.torque_Nm * config_.period_s / kRamp_s *
+                        static_cast<double>(stage_periods_ - rest);
+  if (std::abs(torque) > 0.95 * config_.limits.torque_Nm) {
+    abort(fmt::format(
+        "the joint has not moved at {:.2f} N.m, and {:.2f} N.m is allowed: is the brake open? Else a larger "
+        "torque_limit_Nm or a warmer joint is needed",
+        torque, config_.limits.torque_Nm));
+    return 0.0;
+  }
+  if (std::abs(quick_rad_s_) < sliding_speed_rad_s(config_.gear_ratio)) return torque;
+  if (quick_rad_s_ * way < 0.0) {
+    abort(fmt::format(
+        "a torque of {:.2f} N.m moves the joint the other way at {:.4f} rad: change the drive's direction",
+        torque, position_rad));
+    return 0.0;
+  }
+  hold_Nm_[way > 0.0 ? 0 : 1] = torque;
+  ++done_;
+  stage_periods_ = 0;
+  if (done_ == kRamps) {
+    stage_ = Stage::kStroking;
+    done_ = 0;
+  }
+  return 0.0;
+}
+
+double Excitation::stroke_Nm(double position_rad, double speed_rad_s) {
+  const Stroke stroke = stage_ == Stage::kReturning
+                            ? Stroke{config_.start_rad, strokes_.front().speed_rad_s, false}
+                            : strokes_[done_];
+  const double left = stroke.to_rad - position_rad;
+  const double way = left > 0.0 ? 1.0 : -1.0;
+  const double most = config_.limits.acceleration_rad_s2;
+  // The speed from which half of the acceleration allowed brakes to rest at the target.
+  const double wanted = way * std::min(stroke.speed_rad_s, std::sqrt(most * std::abs(left)));
+  const double before = planned_rad_s_;
+  planned_rad_s_ += std::clamp(wanted - before, -most * config_.period_s, most * config_.period_s);
+  // There, half of the speed is left, and the next stroke begins.
+  if (std::abs(left) < stroke.speed_rad_s * stroke.speed_rad_s / (4.0 * most)) {
+    next_stroke();
+    return follow_Nm(speed_rad_s, 0.0);
+  }
+  const double torque = follow_Nm(speed_rad_s, (planned_rad_s_ - before) / config_.period_s);
+  if (!stroke.shaken || std::abs(planned_rad_s_) < 0.999 * stroke.speed_rad_s) return torque;
+  const double shaken = torque + shake_Nm(quick_rad_s_ - planned_rad_s_);
+  sines_.respond(shaken, quick_rad_s_);
+  return shaken;
+}
+
+void Excitation::next_stroke() {
+  stage_periods_ = 0;
+  if (stage_ == Stage::kReturning) {
+    stage_ = Stage::kBraking;
+    planned_rad_s_ = 0.0;
+    return;
+  }
+  if (strokes_[done_].shaken) adapt_shaking();
+  if (++done_ == strokes_.size()) stage_ = Stage::kReturning;
+}
+
+/// Towards the planned speed. Friction and load are held by an integral of their own for each direction. A joint that sticks gets
+/// more and more of it, as in a ramp.
+double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
+  const double gain = inertia_kgm2_ * kBandwidth_rad_s;
+  const double error = planned_rad_s_ - speed_rad_s;
+  if (planned_rad_s_ == 0.0) return gain * error;
+  const double way = planned_rad_s_ > 0.0 ? 1.0 : -1.0;
+  double& hold = hold_Nm_[way > 0.0 ? 0 : 1];
+  const double limit = config_.limits.torque_Nm;
+  double rate = gain * kIntegral_per_s * error;
+  if (std::abs(speed_rad_s) < 0.1 * std::abs(planned_rad_s_)) rate += way * limit / kRamp_s;
+  hold = std::clamp(hold + rate * config_.period_s, -limit, limit);
+  return hold + gain * error + inertia_kgm2_ * acceleration_rad_s2;
+}
+
+double Excitation::shake_Nm(double speed_rad_s) {
+  shake_squares_ += speed_rad_s * speed_rad_s;
+  ++shaken_periods_;
+  return shake_rms_Nm_ * sines_.step();
+}
+
+/// After a stroke: as much as the motion around the next one's speed allows.
+void Excitation::adapt_shaking() {
+  sines_.restart();
+  if (const std::optional<double> inertia = sines_.inertia_kgm2())
+    inertia_kgm2_ = std::max(*inertia, config_.motor_inertia_kgm2);
+  if (shaken_periods_ < 100) return;
+  const double swing = std::sqrt(shake_squares_ / static_cast<double>(shaken_periods_));
+  const double room = strokes_[std::min(done_ + 1, strokes_.size() - 1)].speed_rad_s -
+                      sliding_speed_rad_s(config_.gear_ratio);
+  const double factor = std::clamp(kSwingShare * room / (3.0 * swing), 0.3, 2.5);
+  shake_rms_Nm_ = std::min(factor * shake_rms_Nm_, 0.15 * config_.limits.torque_Nm);
+  shake_squares_ = 0.0;
+  shaken_periods_ = 0;
+}
+
+void Excitation::record(const ActuatorReading& reading, double torque_Nm) {
+  JointSample sample;
+  sample.motor_position_rad = reading.joint_position_rad;
+  if (reading.has_link_position) sample.link_position_rad = reading.link_position_rad;
+  sample.torque_ordered_Nm = torque_Nm;
+  sample.torque_applied_Nm = reading.torque_applied_Nm;
+  if (reading.has_temperature) sample.temperature_C = reading.temperature_C;
+  trace_.samples.push_back(sample);
+}
+
+}  // namespace strainwave
