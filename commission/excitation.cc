@@ -14,6 +14,8 @@ namespace strainwave {
 
 namespace {
 
+// Of the torque of breaking away, sliding takes between this, warm, and almost all, cold: data/friction_parameters.csv.
+constexpr double kSlidingShare = 0.5;
 // Of the way between the limits, at either end: what braking and the guard need.
 constexpr double kMargin = 0.1;
 // Ramps to the torque limit in this time: a count of delay between order and motion is then a small part of the torque.
@@ -28,6 +30,8 @@ constexpr double kTopSpeedShare = 0.7;  // of the speed limit
 // The speed loop's bandwidth. Its speed is a mean over 32 ms, which leaves little of the gear's resonance.
 constexpr double kBandwidth_rad_s = 10.0;
 constexpr double kIntegral_per_s = 4.0;
+// Motor and link over what was told: three times the motor's inertia as a load, and the told one a third of the motor's.
+constexpr double kMostInertia = 12.0;
 constexpr std::size_t kMean = 32;
 constexpr std::size_t kQuickMean = 8;
 // Root mean square of the acceleration by which the first shaken stroke shakes, of a joint of the told inertia.
@@ -72,6 +76,8 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
                          " rad/s: below, the motor sticks and slips");
   std::vector<Stroke> strokes;
   const double middle = 0.5 * (low + high);
+  // Slowly and gently first: the inertia that this shows is needed to turn round in time.
+  for (const double to : {high, low}) strokes.push_back({to, 2.0 * slowest, true});
   for (int i = 0; i < kSpeeds; ++i) {
     const double speed = slowest * std::pow(fastest / slowest, static_cast<double>(i) / (kSpeeds - 1));
     const double ramps = speed * speed / limits.acceleration_rad_s2;
@@ -80,9 +86,6 @@ std::vector<Stroke> plan_strokes(const ExcitationConfig& config) {
     strokes.push_back({middle - 0.5 * way, speed, false});
     strokes.push_back({middle + 0.5 * way, speed, false});
     strokes.push_back({middle - 0.5 * way, speed, false});
-    // Slowly and gently first: the inertia that this shows is needed to turn round in time at higher speeds.
-    if (i == 0)
-      for (const double to : {high, low}) strokes.push_back({to, 2.0 * slowest, true});
   }
   for (int i = 0; i < kShakenStrokes; ++i)
     strokes.push_back({i % 2 == 0 ? high : low, shaken_speed_rad_s(config, high - low), true});
@@ -171,7 +174,7 @@ double Excitation::ramp_Nm(double position_rad) {
         torque, position_rad));
     return 0.0;
   }
-  hold_Nm_[way > 0.0 ? 0 : 1] = torque;
+  hold_Nm_[way > 0.0 ? 0 : 1] = kSlidingShare * torque;
   ++done_;
   stage_periods_ = 0;
   if (done_ == kRamps) {
@@ -200,6 +203,7 @@ double Excitation::stroke_Nm(double position_rad, double speed_rad_s) {
   const double torque = follow_Nm(speed_rad_s, (planned_rad_s_ - before) / config_.period_s);
   if (!stroke.shaken || std::abs(planned_rad_s_) < 0.999 * stroke.speed_rad_s) return torque;
   const double shaken = torque + shake_Nm(quick_rad_s_ - planned_rad_s_);
+  if (std::abs(quick_rad_s_) < 0.5 * sliding_speed_rad_s(config_.gear_ratio)) sines_.forget_repetition();
   sines_.respond(shaken, quick_rad_s_);
   return shaken;
 }
@@ -215,19 +219,27 @@ void Excitation::next_stroke() {
   if (++done_ == strokes_.size()) stage_ = Stage::kReturning;
 }
 
-/// Towards the planned speed. Friction and load are held by an integral of their own for each direction. A joint that sticks gets
-/// more and more of it, as in a ramp.
+/// Towards the planned speed. Friction and load are held by an integral of their own for each direction of the motion. A joint that
+/// sticks gets more and more besides, as in a ramp, until it slides.
 double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
   const double gain = inertia_kgm2_ * kBandwidth_rad_s;
   const double error = planned_rad_s_ - speed_rad_s;
   if (planned_rad_s_ == 0.0) return gain * error;
   const double way = planned_rad_s_ > 0.0 ? 1.0 : -1.0;
+  const double feedback = gain * error + inertia_kgm2_ * acceleration_rad_s2;
+  const double slides = 0.5 * sliding_speed_rad_s(config_.gear_ratio);
+  // While the joint still goes the other way friction brakes it: the load alone is held.
+  if (quick_rad_s_ * way < -slides) return 0.5 * (hold_Nm_[0] + hold_Nm_[1]) + feedback;
   double& hold = hold_Nm_[way > 0.0 ? 0 : 1];
   const double limit = config_.limits.torque_Nm;
-  double rate = gain * kIntegral_per_s * error;
-  if (std::abs(speed_rad_s) < 0.1 * std::abs(planned_rad_s_)) rate += way * limit / kRamp_s;
-  hold = std::clamp(hold + rate * config_.period_s, -limit, limit);
-  return hold + gain * error + inertia_kgm2_ * acceleration_rad_s2;
+  if (std::abs(quick_rad_s_) < slides) {
+    sticking_Nm_ += way * limit * config_.period_s / kRamp_s;
+  } else {
+    hold += kSlidingShare * sticking_Nm_ + gain * kIntegral_per_s * error * config_.period_s;
+    sticking_Nm_ = 0.0;
+  }
+  hold = std::clamp(hold, -limit, limit);
+  return hold + sticking_Nm_ + feedback;
 }
 
 double Excitation::shake_Nm(double speed_rad_s) {
@@ -240,7 +252,8 @@ double Excitation::shake_Nm(double speed_rad_s) {
 void Excitation::adapt_shaking() {
   sines_.restart();
   if (const std::optional<double> inertia = sines_.inertia_kgm2())
-    inertia_kgm2_ = std::max(*inertia, config_.motor_inertia_kgm2);
+    inertia_kgm2_ =
+        std::clamp(*inertia, config_.motor_inertia_kgm2, kMostInertia * config_.motor_inertia_kgm2);
   if (shaken_periods_ < 100) return;
   const double swing = std::sqrt(shake_squares_ / static_cast<double>(shaken_periods_));
   const double room = strokes_[std::min(done_ + 1, strokes_.size() - 1)].speed_rad_s -

@@ -79,6 +79,7 @@ class Excitation {
   double planned_rad_s_ = 0.0;       ///< speed that is followed
   double inertia_kgm2_;              ///< of motor and link
   std::array<double, 2> hold_Nm_{};  ///< integral of the speed's error, by direction: friction and load
+  double sticking_Nm_ = 0.0;         ///< against stiction
   SineSum sines_;
   double shake_rms_Nm_;
   double shake_squares_ = 0.0;  ///< of the speed around the stroke's

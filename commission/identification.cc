@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "commission/motion_spans.h"
+#include "control/units.h"
 
 namespace strainwave {
 
@@ -15,11 +16,15 @@ namespace {
 constexpr double kLeastWorkShare = 0.2;
 constexpr double kLeastWay_counts = 20.0;
 constexpr std::size_t kRestSamples = 20;
-// A stretch of steady speed keeps within this share of its first speed, as a mean over so many samples.
-constexpr double kSteady = 0.15;
+// A stretch of steady speed keeps within this share of its first speed, as a mean over so many samples, and its speed around that mean
+// has less than this share, root mean square.
+constexpr double kSteady = 0.1;
+constexpr double kRipple = 0.15;
 constexpr std::size_t kSteadySamples = 50;
 // Speeds there and back that count as the same.
 constexpr double kSameSpeed = 0.1;
+// Of friction, what its place on the way and the torque's ripple leave: commission_study.
+constexpr double kFrictionShare = 0.015;
 
 /// Mean and 1.96 standard deviations of it, with `least` at least.
 Estimate mean_of(const std::vector<double>& values, double least) {
@@ -45,8 +50,15 @@ double mean_speed(const JointTrace& trace, std::size_t from, std::size_t to) {
          (trace.period_s * static_cast<double>(to - from));
 }
 
+/// Of the speed over 8 periods around `speed`, root mean square, as a share of it.
+double ripple(const JointTrace& trace, std::size_t first, std::size_t last, double speed) {
+  double squares = 0.0;
+  for (std::size_t k = first; k < last; ++k) squares += std::pow(speed_around(trace, k) / speed - 1.0, 2);
+  return std::sqrt(squares / static_cast<double>(last - first));
+}
+
 std::vector<SteadyRun> steady_runs(const JointTrace& trace, double gear_ratio) {
-  const double turn_rad = 2.0 * std::numbers::pi / gear_ratio;
+  const double turn_rad = kTurn_rad / gear_ratio;
   std::vector<SteadyRun> runs;
   for (const MotionSpan& span : sliding_spans(trace, gear_ratio, 2 * kSteadySamples)) {
     const std::size_t end = span.first + span.count;
@@ -58,49 +70,65 @@ std::vector<SteadyRun> steady_runs(const JointTrace& trace, double gear_ratio) {
         ++last;
       const double speed = mean_speed(trace, first, last);
       const double way = std::abs(speed) * trace.period_s * static_cast<double>(last - first);
-      if (way >= turn_rad) runs.push_back({first, last, span.direction, std::abs(speed)});
+      if (way >= turn_rad && ripple(trace, first, last, speed) < kRipple)
+        runs.push_back({first, last, span.direction, std::abs(speed)});
       first = way >= turn_rad ? last : first + kSteadySamples / 2;
     }
   }
   return runs;
 }
 
-/// Mean torque of `run` over positions from..to, for each whole turn of them.
-std::vector<double> torque_by_turn(const JointTrace& trace, const SteadyRun& run, double from, double to,
-                                   int turns) {
-  std::vector<double> sums(static_cast<std::size_t>(turns), 0.0);
-  std::vector<double> counts(sums.size(), 0.0);
+/// Over one motor turn.
+struct TurnMean {
+  double torque_Nm = 0.0;  ///< without what changed the speed
+  double speed_rad_s = 0.0;
+};
+
+/// Of `run` over positions from..to, for each whole turn of them.
+std::vector<TurnMean> means_by_turn(const JointTrace& trace, const SteadyRun& run, double from, double to,
+                                    int turns, double inertia_kgm2) {
+  std::vector<TurnMean> means(static_cast<std::size_t>(turns));
+  std::vector<double> counts(means.size(), 0.0);
   for (std::size_t k = run.first; k < run.end; ++k) {
     const double share = (trace.samples[k].motor_position_rad - from) / (to - from);
     if (share < 0.0 || share >= 1.0) continue;
     const auto turn = static_cast<std::size_t>(share * turns);
-    sums[turn] += trace.samples[k].torque_ordered_Nm;
+    const double speed = speed_around(trace, k);
+    const double acceleration = (speed_around(trace, k + 1) - speed) / trace.period_s;
+    means[turn].torque_Nm += trace.samples[k].torque_ordered_Nm - inertia_kgm2 * acceleration;
+    means[turn].speed_rad_s += speed;
     counts[turn] += 1.0;
   }
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(1.0, counts[i]);
-  return sums;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    means[i].torque_Nm /= std::max(1.0, counts[i]);
+    means[i].speed_rad_s /= std::max(1.0, counts[i]);
+  }
+  return means;
 }
 
-struct Pair {
+/// One motor turn there and back.
+struct FrictionSample {
   double speed_rad_s = 0.0;
   double temperature_C = 0.0;
-  std::vector<double> friction_Nm;  ///< of each turn
+  double friction_Nm = 0.0;
 };
 
-/// What `there` and `back` have in common: whole turns of the same positions; nothing without one.
-std::optional<Pair> pair_up(const JointTrace& trace, const SteadyRun& there, const SteadyRun& back,
-                            double turn_rad) {
+/// What `there` and `back` have in common: whole turns of the same positions.
+void pair_up(const JointTrace& trace, const SteadyRun& there, const SteadyRun& back,
+             const FrictionSearch& search, std::vector<FrictionSample>& samples) {
   const auto position = [&](std::size_t k) { return trace.samples[k].motor_position_rad; };
   const double low = std::max(position(there.first), position(back.end - 1));
   const double high = std::min(position(there.end - 1), position(back.first));
+  const double turn_rad = kTurn_rad / search.gear_ratio;
   const int turns = static_cast<int>((high - low) / turn_rad);
-  if (turns < 1) return std::nullopt;
+  if (turns < 1) return;
   const double end = low + turns * turn_rad;
-  const std::vector<double> up = torque_by_turn(trace, there, low, end, turns);
-  const std::vector<double> down = torque_by_turn(trace, back, low, end, turns);
-  Pair pair{0.5 * (there.speed_rad_s + back.speed_rad_s), trace.samples[there.end - 1].temperature_C, {}};
-  for (std::size_t i = 0; i < up.size(); ++i) pair.friction_Nm.push_back(0.5 * (up[i] - down[i]));
-  return pair;
+  const std::vector<TurnMean> up = means_by_turn(trace, there, low, end, turns, search.inertia_kgm2);
+  const std::vector<TurnMean> down = means_by_turn(trace, back, low, end, turns, search.inertia_kgm2);
+  for (std::size_t i = 0; i < up.size(); ++i)
+    samples.push_back({0.5 * (up[i].speed_rad_s - down[i].speed_rad_s),
+                       trace.samples[there.end - 1].temperature_C,
+                       0.5 * (up[i].torque_Nm - down[i].torque_Nm)});
 }
 
 }  // namespace
@@ -148,36 +176,33 @@ std::array<std::optional<Estimate>, 2> find_breakaway(const JointTrace& trace, d
   return found;
 }
 
-std::vector<FrictionPoint> find_friction(const JointTrace& trace, double gear_ratio) {
-  const double turn_rad = 2.0 * std::numbers::pi / gear_ratio;
-  std::vector<Pair> pairs;
-  const std::vector<SteadyRun> runs = steady_runs(trace, gear_ratio);
+std::vector<FrictionPoint> find_friction(const JointTrace& trace, const FrictionSearch& search) {
+  std::vector<FrictionSample> samples;
+  const std::vector<SteadyRun> runs = steady_runs(trace, search.gear_ratio);
   for (const SteadyRun& there : runs)
-    for (const SteadyRun& back : runs) {
-      if (there.direction < 0.0 || back.direction > 0.0 ||
-          std::abs(there.speed_rad_s - back.speed_rad_s) > kSameSpeed * there.speed_rad_s)
-        continue;
-      if (std::optional<Pair> pair = pair_up(trace, there, back, turn_rad)) pairs.push_back(*std::move(pair));
-    }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Pair& a, const Pair& b) { return a.speed_rad_s < b.speed_rad_s; });
+    for (const SteadyRun& back : runs)
+      if (there.direction > 0.0 && back.direction < 0.0 &&
+          std::abs(there.speed_rad_s - back.speed_rad_s) <= kSameSpeed * there.speed_rad_s)
+        pair_up(trace, there, back, search, samples);
+  std::sort(samples.begin(), samples.end(),
+            [](const FrictionSample& a, const FrictionSample& b) { return a.speed_rad_s < b.speed_rad_s; });
   std::vector<FrictionPoint> points;
-  for (std::size_t first = 0; first < pairs.size();) {
-    std::vector<double> all;
-    double speed = 0.0, temperature = 0.0;
-    std::size_t end = first;
-    for (; end < pairs.size() && pairs[end].speed_rad_s <= (1.0 + kSameSpeed) * pairs[first].speed_rad_s;
-         ++end) {
-      all.insert(all.end(), pairs[end].friction_Nm.begin(), pairs[end].friction_Nm.end());
-      speed += pairs[end].speed_rad_s;
-      temperature += pairs[end].temperature_C;
+  for (std::size_t first = 0; first < samples.size();) {
+    std::vector<double> torques;
+    FrictionPoint point;
+    const double fastest = (1.0 + kSameSpeed) * samples[first].speed_rad_s;
+    for (; first < samples.size() && samples[first].speed_rad_s <= fastest; ++first) {
+      torques.push_back(samples[first].friction_Nm);
+      point.speed_rad_s += samples[first].speed_rad_s;
+      point.temperature_C += samples[first].temperature_C;
     }
-    const auto n = static_cast<double>(end - first);
-    // One turn alone has no spread; its ends are known to a sample of the torque's 2 % ripple.
-    const Estimate torque = mean_of(all, 0.0);
-    points.push_back(
-        {speed / n, temperature / n, {torque.value, std::max(torque.half_width_95, 0.01 * torque.value)}});
-    first = end;
+    const auto n = static_cast<double>(torques.size());
+    point.speed_rad_s /= n;
+    point.temperature_C /= n;
+    point.torque_Nm = mean_of(torques, 0.0);
+    point.torque_Nm.half_width_95 =
+        std::max(point.torque_Nm.half_width_95, kFrictionShare * point.torque_Nm.value);
+    points.push_back(point);
   }
   return points;
 }
@@ -189,8 +214,9 @@ JointEstimates identify(const JointTrace& trace, const ToldJoint& told) {
     const auto both = find_breakaway(trace, told.gear_ratio);
     return std::pair(both[0], both[1]);
   }();
-  found.friction = find_friction(trace, told.gear_ratio);
   found.motion = fit_motion(trace, told);
+  found.friction =
+      find_friction(trace, {told.gear_ratio, found.motion ? found.motion->total_inertia_kgm2.value : 0.0});
   return found;
 }
 

@@ -20,9 +20,14 @@ std::optional<int> find_direction(const JointTrace& trace);
 /// what the torque changed by from the first count to sliding.
 std::array<std::optional<Estimate>, 2> find_breakaway(const JointTrace& trace, double gear_ratio);
 
+struct FrictionSearch {
+  double gear_ratio = 0.0;    ///< N > 0
+  double inertia_kgm2 = 0.0;  ///< motor and link: what changes of the speed took; 0: not known
+};
+
 /// Friction over speed from stretches of steady speed, of at least a whole motor turn each, in both directions over the same positions:
 ///   F(w) = (mean torque there - mean torque back) / 2
-std::vector<FrictionPoint> find_friction(const JointTrace& trace, double gear_ratio);
+std::vector<FrictionPoint> find_friction(const JointTrace& trace, const FrictionSearch& search);
 
 /// Delay, inertias, spring, damping, gravity and kinematic error by nonlinear least squares over stretches in which the motor slides one
 /// way. Nothing when there are fewer than kLeastWindows stretches, or the motion is too even to show the inertia.

@@ -46,13 +46,17 @@ void SineSum::respond(double torque_Nm, double speed_rad_s) {
   torque_ += torque_Nm * turning;
   speed_ += speed_rad_s * turning;
   if (periods_ % std::lround(1.0 / (kBase_Hz * period_s_)) != 0) return;
-  whole_torque_ += torque_;
-  whole_speed_ += speed_;
+  if (good_) {
+    whole_torque_ += torque_;
+    whole_speed_ += speed_;
+  }
+  good_ = true;
   torque_ = speed_ = 0.0;
 }
 
 void SineSum::restart() {
   periods_ = 0;
+  good_ = true;
   torque_ = speed_ = 0.0;
 }
 

@@ -20,6 +20,8 @@ class SineSum {
   double step();
   /// In the same period: what was ordered and what the joint did.
   void respond(double torque_Nm, double speed_rad_s);
+  /// What responded in this repetition does not count: the joint stuck.
+  void forget_repetition() { good_ = false; }
   /// Begins again; what responded in a repetition that is not whole is forgotten.
   void restart();
 
@@ -30,6 +32,7 @@ class SineSum {
  private:
   double period_s_;
   long periods_ = 0;
+  bool good_ = true;                                 ///< this repetition
   std::complex<double> torque_, speed_;              ///< of this repetition
   std::complex<double> whole_torque_, whole_speed_;  ///< of those before
 };

@@ -136,9 +136,15 @@ std::vector<Comparison> compare(const RandomJoint& joint, const JointEstimates& 
       m ? std::optional(m->delay_s) : std::nullopt);
   if (plant.effects.gravity.torque_Nm > 0.0)
     add("gravity", plant.effects.gravity.torque_Nm, m ? std::optional(m->gravity_Nm) : std::nullopt);
+  // What friction adds in proportion to the load: gravity's, in the middle of the way.
+  const ExcitationLimits& limits = joint.excitation.limits;
+  const double added =
+      plant.effects.friction.transmitted_share *
+      std::abs(plant.effects.gravity.at(0.5 * (limits.position_min_rad + limits.position_max_rad)));
   for (const FrictionPoint& point : found.friction) {
     const FrictionParameters f = plant.joint.friction.at(point.temperature_C);
-    add("friction", stribeck_friction_Nm(f, plant.joint.stribeck, point.speed_rad_s), point.torque_Nm);
+    add("friction", added + stribeck_friction_Nm(f, plant.joint.stribeck, point.speed_rad_s),
+        point.torque_Nm);
   }
   return all;
 }
