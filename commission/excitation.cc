@@ -30,6 +30,10 @@ constexpr double kTopSpeedShare = 0.7;  // of the speed limit
 // The speed loop's bandwidth. Its speed is a mean over 32 ms, which leaves little of the gear's resonance.
 constexpr double kBandwidth_rad_s = 10.0;
 constexpr double kIntegral_per_s = 4.0;
+// Of what was needed against stiction, this is kept for the motion that follows.
+constexpr double kStickingShare = 0.25;
+// Over the planned speed.
+constexpr double kTooFast = 1.4;
 // Motor and link over what was told: three times the motor's inertia as a load, and the told one a third of the motor's.
 constexpr double kMostInertia = 12.0;
 constexpr std::size_t kMean = 32;
@@ -228,17 +232,19 @@ double Excitation::follow_Nm(double speed_rad_s, double acceleration_rad_s2) {
   const double way = planned_rad_s_ > 0.0 ? 1.0 : -1.0;
   const double feedback = gain * error + inertia_kgm2_ * acceleration_rad_s2;
   const double slides = 0.5 * sliding_speed_rad_s(config_.gear_ratio);
-  // While the joint still goes the other way friction brakes it: the load alone is held.
-  if (quick_rad_s_ * way < -slides) return 0.5 * (hold_Nm_[0] + hold_Nm_[1]) + feedback;
+  // A joint that still goes the other way, or much too fast, is braked by its friction: the load alone is held.
+  const double load = 0.5 * (hold_Nm_[0] + hold_Nm_[1]);
+  if (quick_rad_s_ * way < -slides) return load + feedback;
   double& hold = hold_Nm_[way > 0.0 ? 0 : 1];
   const double limit = config_.limits.torque_Nm;
   if (std::abs(quick_rad_s_) < slides) {
     sticking_Nm_ += way * limit * config_.period_s / kRamp_s;
   } else {
-    hold += kSlidingShare * sticking_Nm_ + gain * kIntegral_per_s * error * config_.period_s;
+    hold += kStickingShare * sticking_Nm_ + gain * kIntegral_per_s * error * config_.period_s;
     sticking_Nm_ = 0.0;
   }
   hold = std::clamp(hold, -limit, limit);
+  if (quick_rad_s_ * way > slides + kTooFast * std::abs(planned_rad_s_)) return load + feedback;
   return hold + sticking_Nm_ + feedback;
 }
 

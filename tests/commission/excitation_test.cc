@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commission/excitation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/input_error.h"
+#include "tests/commission/random_joints.h"
+
+namespace strainwave::testing {
+namespace {
+
+TEST(Excitation, StaysInsideItsLimitsAndComesBack) {
+  for (const std::uint64_t seed : {2U, 4U, 6U, 8U}) {
+    const RandomJoint joint = random_joint(seed);
+    const CommissionedJoint run = excite(joint);
+    EXPECT_EQ(run.problem, "") << seed;
+    const ExcitationLimits& limits = joint.excitation.limits;
+    for (const JointSample& sample : run.trace.samples) {
+      ASSERT_GE(sample.motor_position_rad, limits.position_min_rad) << seed;
+      ASSERT_LE(sample.motor_position_rad, limits.position_max_rad) << seed;
+      ASSERT_LE(std::abs(sample.torque_ordered_Nm), limits.torque_Nm) << seed;
+    }
+    EXPECT_LE(run.most_speed_rad_s, limits.speed_rad_s) << seed;
+    EXPECT_LT(run.duration_s, 180.0) << seed;
+    EXPECT_NEAR(run.trace.samples.back().motor_position_rad, joint.excitation.start_rad, 0.02) << seed;
+  }
+}
+
+/// A drive that holds what a test says of it.
+ActuatorReading reading_at(double position_rad) {
+  ActuatorReading reading;
+  reading.joint_position_rad = position_rad;
+  reading.has_position = true;
+  reading.drive_state = DriveState::kEnabled;
+  return reading;
+}
+
+TEST(Excitation, EndsWhereTorqueMovesTheJointTheOtherWay) {
+  const RandomJoint joint = random_joint(2);
+  SimulatedActuator drive(joint.drive);
+  Excitation excitation(joint.excitation);
+  for (std::int64_t k = 0; k < 20'000 && !excitation.ended(); ++k) {
+    ActuatorReading reading = drive.read(k * 1'000'000);
+    ActuatorCommand command = excitation.step(reading);
+    command.torque_Nm *= -1.0;
+    drive.write(command);
+  }
+  EXPECT_TRUE(excitation.ended());
+  EXPECT_NE(excitation.problem().find("the other way"), std::string::npos) << excitation.problem();
+}
+
+TEST(Excitation, EndsWithTheNumbersWhereTheJointIsOutsideItsLimits) {
+  const RandomJoint joint = random_joint(2);
+  Excitation excitation(joint.excitation);
+  excitation.step(reading_at(joint.excitation.start_rad));
+  excitation.step(reading_at(joint.excitation.limits.position_max_rad + 0.01));
+  EXPECT_NE(excitation.problem().find("outside"), std::string::npos) << excitation.problem();
+  EXPECT_EQ(excitation.stage(), Excitation::Stage::kBraking);
+}
+
+TEST(Excitation, EndsAtOnceWithAFaultOfTheDrive) {
+  const RandomJoint joint = random_joint(2);
+  Excitation excitation(joint.excitation);
+  ActuatorReading reading = reading_at(joint.excitation.start_rad);
+  excitation.step(reading);
+  reading.fault = ActuatorFault::kPowerLost;
+  EXPECT_FALSE(excitation.step(reading).enable);
+  EXPECT_TRUE(excitation.ended());
+}
+
+TEST(Excitation, BrakesBeforeItEndsWhenItIsAborted) {
+  const RandomJoint joint = random_joint(2);
+  SimulatedActuator drive(joint.drive);
+  Excitation excitation(joint.excitation);
+  std::int64_t k = 0;
+  for (; k < 8'000; ++k) drive.write(excitation.step(drive.read(k * 1'000'000)));
+  excitation.abort("a key was pressed");
+  for (const std::int64_t end = k + 3'000; k < end && !excitation.ended(); ++k)
+    drive.write(excitation.step(drive.read(k * 1'000'000)));
+  EXPECT_TRUE(excitation.ended());
+  EXPECT_EQ(excitation.problem(), "a key was pressed");
+  EXPECT_LT(std::abs(drive.plant().state().velocity_rad_s), 0.2 * joint.excitation.limits.speed_rad_s);
+}
+
+TEST(Excitation, RefusesLimitsThatAreTooNarrowForTwoMotorTurns) {
+  ExcitationConfig config = random_joint(2).excitation;
+  config.limits.position_min_rad = config.start_rad - 0.01;
+  config.limits.position_max_rad = config.start_rad + 0.01;
+  EXPECT_THROW(plan_strokes(config), InputError);
+}
+
+}  // namespace
+}  // namespace strainwave::testing
