@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "commission/window_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace strainwave {
+
+namespace {
+
+constexpr Eigen::Index kLag = 3;
+// A step of the parameters changes a logarithm by at most this.
+constexpr double kMostChange = 0.7;
+
+/// Steps of the difference quotients of what a stretch has of its own: position, speed, wind-up, its speed, friction.
+WindowVector own_steps() {
+  return (WindowVector() << 1e-6, 1e-4, 1e-6, 1e-4, 1e-3).finished();
+}
+
+double parameter_step(Eigen::Index i) {
+  if (i == kDelay) return 1e-6;
+  if (i >= kError1Sin) return 1e-7;
+  return i == kViscous || i == kGravitySin || i == kGravityCos ? 1e-3 : 1e-4;
+}
+
+}  // namespace
+
+WindowFit::WindowFit(const MotionModel& model, const MotionPrior& prior,
+                     const std::vector<MotionWindow>& windows, const MotionVector& start)
+    : model_(model), prior_(prior), parameters_(start) {
+  stretches_.resize(windows.size());
+  for (std::size_t i = 0; i < windows.size(); ++i) stretches_[i].window = windows[i];
+  model_.keep_in_bounds(parameters_);
+}
+
+void WindowFit::run(int iterations) {
+  linearise();
+  double damping = 1e-3;
+  for (int i = 0; i < iterations; ++i) {
+    const double before = cost_;
+    const MotionVector kept = parameters_;
+    std::vector<WindowVector> kept_own;
+    for (const Stretch& stretch : stretches_) kept_own.push_back(stretch.own);
+    Covariance damped = normal_;
+    damped.diagonal() += damping * normal_.diagonal();
+    const MotionVector change = damped.ldlt().solve(right_).cwiseMax(-kMostChange).cwiseMin(kMostChange);
+    parameters_ += change;
+    model_.keep_in_bounds(parameters_);
+    const MotionVector moved = parameters_ - kept;
+    for (Stretch& s : stretches_) s.own += s.own_normal.ldlt().solve(s.own_right - s.cross * moved);
+    if (present_cost() < before) {
+      damping = std::max(1e-7, damping * 0.2);
+      linearise();
+      if (before - cost_ < 1e-5 * before) break;
+    } else {
+      parameters_ = kept;
+      for (std::size_t k = 0; k < stretches_.size(); ++k) stretches_[k].own = kept_own[k];
+      damping *= 10.0;
+      if (damping > 1e4) break;
+    }
+  }
+}
+
+double WindowFit::residual_rad() const {
+  return std::sqrt(squares_ / std::max(1.0, count_));
+}
+
+WindowFit::Covariance WindowFit::covariance() const {
+  Covariance scores = Covariance::Zero();
+  for (const Stretch& s : stretches_) scores += s.score * s.score.transpose();
+  const auto n = static_cast<double>(stretches_.size());
+  const double small = n / std::max(1.0, n - 4.0);
+  Covariance middle = small * scores;
+  const double variance = noise_variance();
+  for (Eigen::Index i = 0; i < kMotionParameters; ++i)
+    if (prior_.deviation[i] > 0.0) middle(i, i) += std::pow(variance / prior_.deviation[i], 2);
+  const Covariance inverse = normal_.ldlt().solve(Covariance::Identity());
+  return inverse * middle * inverse.transpose();
+}
+
+Eigen::VectorXd WindowFit::residuals(const Stretch& stretch, const MotionVector& parameters,
+                                     const WindowVector& own) const {
+  const auto n = static_cast<Eigen::Index>(stretch.window.count);
+  Eigen::VectorXd error(n);
+  model_.simulate(parameters, stretch.window, own, error);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto at = stretch.window.first + static_cast<std::size_t>(k);
+    error[k] = model_.trace().samples[at].motor_position_rad - error[k];
+  }
+  return error.tail(n - kLag) - error.head(n - kLag);
+}
+
+double WindowFit::noise_variance() const {
+  return std::max(squares_ / std::max(1.0, count_), 1e-16);
+}
+
+double WindowFit::prior_cost() const {
+  double cost = 0.0;
+  for (Eigen::Index i = 0; i < kMotionParameters; ++i)
+    if (prior_.deviation[i] > 0.0)
+      cost += std::pow((parameters_[i] - prior_.mean[i]) / prior_.deviation[i], 2);
+  return cost * prior_variance_;
+}
+
+double WindowFit::present_cost() const {
+  double squares = 0.0;
+  for (const Stretch& stretch : stretches_)
+    squares += residuals(stretch, parameters_, stretch.own).squaredNorm();
+  return std::isfinite(squares) ? squares + prior_cost() : std::numeric_limits<double>::infinity();
+}
+
+void WindowFit::linearise() {
+  normal_.setZero();
+  right_.setZero();
+  squares_ = count_ = 0.0;
+  for (Stretch& stretch : stretches_) linearise(stretch);
+  prior_variance_ = noise_variance();
+  for (Eigen::Index i = 0; i < kMotionParameters; ++i) {
+    if (prior_.deviation[i] <= 0.0) continue;
+    const double weight = prior_variance_ / (prior_.deviation[i] * prior_.deviation[i]);
+    normal_(i, i) += weight;
+    right_[i] -= weight * (parameters_[i] - prior_.mean[i]);
+  }
+  cost_ = squares_ + prior_cost();
+}
+
+void WindowFit::linearise(Stretch& s) {
+  const WindowVector own_step = own_steps();
+  const Eigen::VectorXd r = residuals(s, parameters_, s.own);
+  Eigen::Matrix<double, Eigen::Dynamic, kMotionParameters> J(r.size(), kMotionParameters);
+  Eigen::Matrix<double, Eigen::Dynamic, kWindowParameters> L(r.size(), kWindowParameters);
+  for (Eigen::Index i = 0; i < kMotionParameters; ++i) {
+    MotionVector p = parameters_;
+    p[i] += parameter_step(i);
+    J.col(i) = (r - residuals(s, p, s.own)) / parameter_step(i);
+  }
+  for (Eigen::Index i = 0; i < kWindowParameters; ++i) {
+    WindowVector own = s.own;
+    own[i] += own_step[i];
+    L.col(i) = (r - residuals(s, parameters_, own)) / own_step[i];
+  }
+  s.own_normal = L.transpose() * L;
+  s.own_normal.diagonal() *= 1.0 + 1e-9;
+  // Position has no effect on differences, but through gravity: keep it where it is.
+  s.own_normal(0, 0) += 1.0;
+  s.own_right = L.transpose() * r;
+  s.cross = L.transpose() * J;
+  const Eigen::LDLT<Eigen::Matrix<double, kWindowParameters, kWindowParameters>> own = s.own_normal.ldlt();
+  s.score = J.transpose() * r - s.cross.transpose() * own.solve(s.own_right);
+  normal_ += J.transpose() * J - s.cross.transpose() * own.solve(s.cross);
+  right_ += s.score;
+  squares_ += r.squaredNorm();
+  count_ += static_cast<double>(r.size());
+}
+
+}  // namespace strainwave
