@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Of what the daemon itself reports: temperature, faults, readings, timing, clocks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "doctor/features.h"
+#include "doctor/stretches.h"
+#include "doctor/told_friction.h"
+#include "lcmtypes/reading_doubt.h"
+#include "strainwave/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+constexpr double kShareTolerance = 0.002;  // of cycles that are late or missing on a healthy bus
+constexpr double kOverrunTolerance = 0.0005;
+constexpr double kClockTolerance = 1e-3;
+constexpr double kJumpTolerance_s = 0.02;
+
+template <typename Condition>
+double share_of(const Evidence& evidence, const Condition& condition) {
+  const auto count = std::count_if(evidence.samples.begin(), evidence.samples.end(), condition);
+  return static_cast<double>(count) / static_cast<double>(evidence.samples.size());
+}
+
+auto with_notice(Notice notice) {
+  return [notice](const DoctorSample& sample) {
+    return (sample.notices & static_cast<std::int32_t>(notice)) != 0;
+  };
+}
+
+void add_temperature(const Evidence& evidence, Features& features) {
+  const double silent = share_of(evidence, [](const DoctorSample& sample) {
+    const auto status = static_cast<TemperatureStatus>(sample.temperature_status);
+    return status == TemperatureStatus::kNeverSeen || status == TemperatureStatus::kTooOld;
+  });
+  const double doubtful = share_of(evidence, [](const DoctorSample& sample) {
+    const auto status = static_cast<TemperatureStatus>(sample.temperature_status);
+    return status != TemperatureStatus::kValid && status != TemperatureStatus::kNeverSeen &&
+           status != TemperatureStatus::kTooOld;
+  });
+  // Outside the table's range is rare, and no proof.
+  const double clamped = share_of(evidence, with_notice(Notice::kTemperatureClamped));
+  double last_C = friction_temperature_C(evidence);
+  for (const temperature_v1& temperature : evidence.temperatures) last_C = temperature.temperature_measured_C;
+  features[Feature::kTemperatureSilent] =
+      Observation{silent, 0.05, fmt::format("in {:.0f} % of the time no temperature came", 100.0 * silent)};
+  features[Feature::kTemperatureDoubt] = Observation{
+      doubtful + 0.25 * clamped, 0.05,
+      fmt::format(
+          "in {:.0f} % of the time the temperature could not be believed, in {:.0f} % it was outside the "
+          "table; the sensor said {:.1f} degC",
+          100.0 * doubtful, 100.0 * clamped, last_C)};
+}
+
+void add_faults(const Evidence& evidence, Features& features) {
+  bool counts = false, power = false, bus = false;
+  for (const DoctorSample& sample : evidence.samples) {
+    const auto fault = static_cast<Fault>(sample.fault);
+    counts = counts || (fault == Fault::kImplausibleReading &&
+                        (sample.drive_error >> 24) == static_cast<int>(ReadingDoubt::kCountsMissing));
+    power = power || fault == Fault::kPowerLost;
+    bus = bus || fault == Fault::kBusError || fault == Fault::kLinkLost || fault == Fault::kReadFailed;
+  }
+  const auto add = [&](Feature feature, bool seen, const char* text) {
+    features[feature] = Observation{seen ? 1.0 : 0.0, 0.1, text};
+  };
+  add(Feature::kCountsFault, counts, "the drive found missing or wrong counts (fault 5, cause 6)");
+  add(Feature::kPowerFault, power, "the supply failed (fault 4)");
+  add(Feature::kBusFault, bus, "the bus failed (fault 1, 6 or 9)");
+}
+
+void add_bus(const Evidence& evidence, Features& features) {
+  const double missed = share_of(evidence, with_notice(Notice::kReadingMissed));
+  const double late = share_of(evidence, with_notice(Notice::kPositionLate));
+  features[Feature::kReadingsMissed] = Observation{
+      missed, kShareTolerance, fmt::format("in {:.2f} % of the cycles no position came", 100.0 * missed)};
+  features[Feature::kPositionsLate] = Observation{
+      late, kShareTolerance, fmt::format("in {:.2f} % of the cycles the position was late", 100.0 * late)};
+}
+
+void add_timing(const Evidence& evidence, Features& features) {
+  if (evidence.timings.empty()) {
+    features.not_judged.emplace_back("real time: the recording has no TIMING message");
+    return;
+  }
+  const timing_v1& first = evidence.timings.front();
+  const timing_v1& last = evidence.timings.back();
+  // A single message has the totals since the start.
+  const bool one = evidence.timings.size() == 1;
+  const double overruns = static_cast<double>(last.overruns - (one ? 0 : first.overruns));
+  const double cycles = static_cast<double>(last.cycles - (one ? 0 : first.cycles));
+  const double share = overruns / std::max(1.0, overruns + cycles);
+  features[Feature::kOverruns] =
+      Observation{share, kOverrunTolerance,
+                  fmt::format("{:.3f} % of the periods were left out, the longest wake-up took {:.2f} ms",
+                              100.0 * share, 1e-6 * static_cast<double>(last.wakeup_latency_max_ns))};
+  features[Feature::kNoRealTime] =
+      Observation{last.real_time != 0 ? 0.0 : 1.0, 0.1, "the system refused real time to the daemon"};
+}
+
+void add_clock(const Evidence& evidence, Features& features) {
+  std::vector<double> lead_s;  // of the sender's clock before the loop's
+  std::vector<double> at_s;
+  for (const DoctorSample& sample : evidence.samples) {
+    if (sample.utime == 0) continue;
+    at_s.push_back(static_cast<double>(sample.cycle - evidence.samples.front().cycle) * evidence.period_s);
+    lead_s.push_back(1e-6 * static_cast<double>(sample.utime - evidence.samples.front().utime) - at_s.back());
+  }
+  constexpr double kLeast_s = 2.0;
+  if (at_s.size() < 10 || at_s.back() < kLeast_s) {
+    features.not_judged.emplace_back(
+        "clocks: the recording has no time of the sender, or lasts less than 2 s");
+    return;
+  }
+  double jumps_s = 0.0;
+  double jumped_s = 0.0;
+  for (std::size_t i = 1; i < lead_s.size(); ++i) {
+    const double step_s = lead_s[i] - lead_s[i - 1];
+    if (std::abs(step_s) < kJumpTolerance_s) continue;
+    jumps_s = std::max(jumps_s, std::abs(step_s));
+    jumped_s += step_s;
+  }
+  const double rate = (lead_s.back() - jumped_s) / at_s.back();
+  features[Feature::kClockRate] =
+      Observation{rate, kClockTolerance,
+                  fmt::format("the clock of the daemon's messages goes {:+.2f} % against the loop's periods",
+                              100.0 * rate)};
+  features[Feature::kClockJumps] =
+      Observation{jumps_s, kJumpTolerance_s,
+                  fmt::format("the clock of the daemon's messages jumped by up to {:.3f} s", jumps_s)};
+}
+
+void add_supply(const Evidence& evidence, Features& features) {
+  double lost = 0.0, moving = 0.0, worst_Nm = 0.0, at_rad_s = 0.0;
+  for (const Stretch& stretch : controlled_stretches(evidence))
+    for (std::size_t i = 6; i < stretch.position_rad.size(); ++i) {
+      if (std::abs(stretch.velocity_rad_s[i]) < 0.1) continue;
+      ++moving;
+      // Whatever the delay is: less than the smallest of the recent commands.
+      double least_Nm = std::abs(stretch.torque_Nm[i]);
+      for (std::size_t k = i - 6; k < i; ++k) least_Nm = std::min(least_Nm, std::abs(stretch.torque_Nm[k]));
+      const double missing_Nm = least_Nm - std::abs(stretch.applied_Nm[i]);
+      if (missing_Nm < 0.05 * least_Nm + 0.2) continue;
+      ++lost;
+      if (missing_Nm <= worst_Nm) continue;
+      worst_Nm = missing_Nm;
+      at_rad_s = std::abs(stretch.velocity_rad_s[i]);
+    }
+  if (moving < 50) return;
+  features[Feature::kTorqueLost] =
+      Observation{lost / moving, 0.002,
+                  fmt::format("in {:.1f} % of the motion the drive gave less torque than commanded, {:.1f} "
+                              "N.m less at {:.2f} rad/s",
+                              100.0 * lost / moving, worst_Nm, at_rad_s)};
+}
+
+}  // namespace
+
+void add_daemon_features(const Evidence& evidence, Features& features) {
+  if (evidence.samples.empty()) return;
+  add_temperature(evidence, features);
+  add_faults(evidence, features);
+  add_bus(evidence, features);
+  add_timing(evidence, features);
+  add_clock(evidence, features);
+  add_supply(evidence, features);
+}
+
+Features features_of(const Evidence& evidence) {
+  Features features;
+  add_motion_features(evidence, features);
+  add_encoder_features(evidence, features);
+  add_daemon_features(evidence, features);
+  return features;
+}
+
+}  // namespace strainwave

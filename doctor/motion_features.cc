@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Of the motion against torque: inertia, friction, stiffness, delay, load.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "doctor/features.h"
+#include "doctor/motion_fit.h"
+#include "doctor/told_friction.h"
+#include "strainwave/vocabulary.h"
+
+namespace strainwave {
+
+namespace {
+
+// What healthy joints differ by from their configuration, as standard deviations. Notices begin at about three of them
+// (kOtherInertia 30 %, kFrictionDiffers 1.5 times).
+constexpr double kInertiaTolerance = 0.08;
+constexpr double kFrictionTolerance = 0.13;
+constexpr double kViscousTolerance = 0.15;
+constexpr double kViscousFit_Nms_rad = 0.08;  // by which the rules of tables miss warm friction's slope
+constexpr double kStiffnessTolerance = 0.15;
+constexpr double kDelayTolerance_periods = 0.2;
+constexpr double kLoadShare = 0.015;  // of the torque limit
+// What is known worse than by this share, or at this many deviations, is not known.
+constexpr double kKnownShare = 0.25;
+constexpr double kSure = 4.0;
+
+Observation ratio_of(double measured, double told, double deviation, double tolerance, std::string text) {
+  const double share = deviation / std::abs(measured);
+  return {std::log(std::abs(measured) / told), std::hypot(tolerance, share), std::move(text)};
+}
+
+void add_friction(const Evidence& evidence, const MotionFit& fit, Features& features) {
+  const auto told = told_friction(evidence);
+  if (!told) {
+    features.not_judged.emplace_back(
+        "friction, torque constant and temperature sensor by friction: give --config with joint.table");
+    return;
+  }
+  // Too little of either to be compared: the joint hardly moved.
+  const auto known = [](const MotionEstimate& estimate) {
+    return estimate.value > 0.0 && estimate.deviation < kKnownShare * estimate.value;
+  };
+  if (known(fit.coulomb_Nm))
+    features[Feature::kCoulomb] = ratio_of(
+        fit.coulomb_Nm.value, told->coulomb_Nm, fit.coulomb_Nm.deviation, kFrictionTolerance,
+        fmt::format("friction at slow speed is {:.2f} +-{:.2f} N.m, the table says {:.2f} N.m at {:.1f} degC",
+                    fit.coulomb_Nm.value, fit.coulomb_Nm.deviation, told->coulomb_Nm,
+                    friction_temperature_C(evidence)));
+  if (known(fit.viscous_Nms_rad))
+    features[Feature::kViscous] = ratio_of(
+        fit.viscous_Nms_rad.value, told->viscous_Nms_rad, fit.viscous_Nms_rad.deviation,
+        std::hypot(kViscousTolerance, kViscousFit_Nms_rad / told->viscous_Nms_rad),
+        fmt::format("friction grows by {:.2f} +-{:.2f} N.m.s/rad over speed, the table says {:.2f}",
+                    fit.viscous_Nms_rad.value, fit.viscous_Nms_rad.deviation, told->viscous_Nms_rad));
+}
+
+void add_inertia(const Evidence& evidence, const MotionFit& fit, Features& features) {
+  const MotionEstimate& inertia = fit.inertia_kgm2;
+  const bool known = std::abs(inertia.value) > kSure * inertia.deviation;
+  if (!known) return;
+  if (inertia.value < 0.0)
+    features[Feature::kReversed] =
+        Observation{1.0, 0.1,
+                    fmt::format("torque accelerates the joint against its sign: {:.3f} +-{:.3f} kg m2",
+                                inertia.value, inertia.deviation)};
+  if (evidence.told.inertia_kgm2)
+    features[Feature::kInertia] =
+        ratio_of(inertia.value, *evidence.told.inertia_kgm2, inertia.deviation, kInertiaTolerance,
+                 fmt::format("inertia is {:.4f} +-{:.4f} kg m2, the configuration says {:.4f}", inertia.value,
+                             inertia.deviation, *evidence.told.inertia_kgm2));
+}
+
+void add_delay(const Evidence& evidence, const MotionFit& fit, Features& features) {
+  if (!evidence.told.delay_periods) {
+    features.not_judged.emplace_back("delay: give --config with delay_periods");
+    return;
+  }
+  if (fit.delay_periods.deviation > 0.5) {
+    features.not_judged.emplace_back(
+        fmt::format("delay: it is known to {:.1f} periods only; set daemon.state_rate_Hz to the loop's rate",
+                    fit.delay_periods.deviation));
+    return;
+  }
+  features[Feature::kDelay] = Observation{
+      fit.delay_periods.value - *evidence.told.delay_periods,
+      std::hypot(kDelayTolerance_periods, fit.delay_periods.deviation),
+      fmt::format("torque acts {:.2f} +-{:.2f} periods after its command, the configuration says {}",
+                  fit.delay_periods.value, fit.delay_periods.deviation, *evidence.told.delay_periods)};
+}
+
+void add_stiffness(const Evidence& evidence, const MotionFit& fit, Features& features) {
+  if (!evidence.told.link) return;
+  if (!fit.stiffness_scale || fit.stiffness_scale->deviation > kKnownShare * fit.stiffness_scale->value) {
+    features.not_judged.emplace_back("stiffness: the motion does not show it");
+    return;
+  }
+  const MotionEstimate& scale = *fit.stiffness_scale;
+  const double told_Nm_rad = evidence.told.link->spring.stiffness_1_Nm_rad;
+  features[Feature::kStiffness] =
+      ratio_of(scale.value, 1.0, scale.deviation, kStiffnessTolerance,
+               fmt::format("stiffness is {:.0f} +-{:.0f} N.m/rad, the configuration says {:.0f}",
+                           scale.value * told_Nm_rad, scale.deviation * told_Nm_rad, told_Nm_rad));
+}
+
+// A joint that runs away is soon stopped: too short for the fit. Its energy grows while the torque works against its motion.
+void add_runaway(const Evidence& evidence, Features& features) {
+  constexpr double kBefore_s = 0.06;
+  constexpr double kLeastTorque = 0.2;  // of the limit, mean: a load that falls is held back by less
+  constexpr double kLeastSpeed_rad_s = 0.3;
+  const double limit_Nm = evidence.limits ? evidence.limits->torque_limit_Nm : 30.0;
+  const auto& samples = evidence.samples;
+  for (std::size_t end = 2; end < samples.size(); ++end) {
+    if (samples[end].fault == 0 || samples[end - 1].fault != 0) continue;
+    // A torque that oscillates is as often against the motion as with it.
+    if (static_cast<Fault>(samples[end].fault) == Fault::kChatter) return;
+    std::size_t begin = end - 1;
+    double work_J = 0.0, torque_Nm = 0.0;
+    while (begin > 0 &&
+           static_cast<double>(samples[end].cycle - samples[begin].cycle) * evidence.period_s < kBefore_s) {
+      const double step_rad = samples[begin].joint_position_rad - samples[begin - 1].joint_position_rad;
+      work_J += samples[begin - 1].torque_commanded_Nm * step_rad;
+      torque_Nm += std::abs(samples[begin].torque_commanded_Nm);
+      --begin;
+    }
+    torque_Nm /= static_cast<double>(end - begin);
+    const double speed_rad_s =
+        (samples[end].joint_position_rad - samples[end - 1].joint_position_rad) /
+        (static_cast<double>(samples[end].cycle - samples[end - 1].cycle) * evidence.period_s);
+    const bool runaway =
+        work_J < 0.0 && torque_Nm > kLeastTorque * limit_Nm && std::abs(speed_rad_s) > kLeastSpeed_rad_s;
+    if (runaway)
+      features[Feature::kReversed] = Observation{
+          1.0, 0.1,
+          fmt::format("before the fault the joint gained {:.1f} rad/s against a torque of {:.1f} N.m",
+                      std::abs(speed_rad_s), torque_Nm)};
+    return;
+  }
+}
+
+}  // namespace
+
+void add_motion_features(const Evidence& evidence, Features& features) {
+  add_runaway(evidence, features);
+  const auto fit = fit_motion(evidence);
+  if (!fit) {
+    features.not_judged.emplace_back(fmt::format(
+        "inertia, friction, delay, load: the recording has fewer than {} windows of controlled motion",
+        kLeastWindows));
+    return;
+  }
+  add_inertia(evidence, *fit, features);
+  add_friction(evidence, *fit, features);
+  add_delay(evidence, *fit, features);
+  add_stiffness(evidence, *fit, features);
+  const double limit_Nm = evidence.limits ? evidence.limits->torque_limit_Nm : 30.0;
+  features[Feature::kLoad] = Observation{
+      fit->load_Nm, std::hypot(kLoadShare * limit_Nm, fit->load_deviation_Nm),
+      fmt::format("at {:.2f} rad {:+.2f} +-{:.2f} N.m push the joint besides the configured gravity",
+                  fit->load_at_rad, -fit->load_Nm, fit->load_deviation_Nm)};
+}
+
+}  // namespace strainwave

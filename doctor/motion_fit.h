@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a recorded motion shows of the joint, by least squares. Joint side, SI. Not real-time.
+//
+//   tau(t - d) = Jm q'' + Jl l''(q + e(q)) + Fc sign(q') + Fv q' + b + gs sin q + gc cos q
+//
+// q is the measured position, tau the torque commanded, l the link, which the configured spring times `scale` makes of q and of the
+// gear's kinematic error e. Both sides are weighted by a bump phi(t) of T = 0.03 s and integrated, so that phi takes the derivatives: Int phi q'' = Int phi'' q. Windows in
+// which the joint rests or the torque is at its limit are left out. Jm .. gc are linear; d and scale are found on a grid.
+#pragma once
+
+#include <optional>
+
+#include "doctor/evidence.h"
+
+namespace strainwave {
+
+/// A quantity and its standard deviation.
+struct MotionEstimate {
+  double value = 0.0;
+  double deviation = 0.0;
+};
+
+struct MotionFit {
+  MotionEstimate inertia_kgm2;  ///< Jm + Jl; negative: the torque acts against its sign
+  MotionEstimate coulomb_Nm;
+  MotionEstimate viscous_Nms_rad;
+  MotionEstimate delay_periods;
+  std::optional<MotionEstimate>
+      stiffness_scale;   ///< over the configured; nothing: rigid, or motions do not show it
+  double load_Nm = 0.0;  ///< what the position alone explains beyond the configured gravity, largest amount
+  double load_at_rad = 0.0;  ///< where
+  double load_deviation_Nm = 0.0;
+  double remainder_Nm = 0.0;  ///< standard deviation of what is not explained
+  int windows = 0;
+};
+
+/// Nothing: fewer than kLeastWindows windows of motion.
+std::optional<MotionFit> fit_motion(const Evidence& evidence);
+
+inline constexpr int kLeastWindows = 12;
+
+}  // namespace strainwave

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The windows of a recording over which the equation of motion is integrated, and its two sides there; see motion_fit.h. Not real-time.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "doctor/stretches.h"
+
+namespace strainwave {
+
+/// Columns of the equation. The last four: Jl times the amplitudes of the gear's kinematic error, once and twice per motor turn.
+enum MotionParameter { kMotor, kLink, kCoulomb, kViscous, kBias, kSine, kCosine, kError };
+inline constexpr int kMotionParameters = 11;
+using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, kMotionParameters>;
+
+class MotionWindows {
+ public:
+  static constexpr int kMostDelay = 8;  ///< periods
+
+  /// `evidence` outlives this.
+  explicit MotionWindows(const Evidence& evidence);
+
+  int count() const noexcept { return static_cast<int>(windows_.size()); }
+  /// Whether a spring is configured between motor and link, and the motor's position is measured.
+  bool flexible() const noexcept { return evidence_.told.link && !evidence_.told.link->measured_at_link; }
+  /// The left side, N.m, for a delay of 0 to kMostDelay periods.
+  Eigen::VectorXd torques(double delay_periods) const;
+  /// The right side's columns, with the configured spring times `scale`.
+  MotionRows rows(double scale) const;
+  /// Positions in the middle of each window.
+  std::vector<double> positions_rad() const;
+
+ private:
+  struct Window {
+    const Stretch* stretch;
+    int center;
+  };
+  void find_windows(const Stretch& stretch);
+  double normaliser() const noexcept;
+  std::array<std::vector<double>, 5> link_responses(const Stretch& stretch, double scale) const;
+
+  const Evidence& evidence_;
+  std::vector<Stretch> stretches_;
+  std::vector<Window> windows_;
+  double step_s_ = 0.0;
+  int half_ = 0;  ///< of a window, samples
+};
+
+}  // namespace strainwave

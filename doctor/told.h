@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the configuration says of a joint, as far as the doctor compares it with what is measured. Joint side, SI. Not real-time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "control/friction/fuzzy_friction.h"
+#include "control/joint/gravity_load.h"
+#include "control/joint/torsion_spring.h"
+
+namespace strainwave {
+
+struct ToldLink {
+  double motor_inertia_kgm2 = 0.0;  ///< > 0
+  double link_inertia_kgm2 = 0.0;   ///< > 0
+  TorsionSpring spring;
+  double damping_Nms_rad = 0.0;   ///< >= 0
+  bool measured_at_link = false;  ///< the position is the link's
+};
+
+/// What is empty is not known.
+struct ToldJoint {
+  std::optional<double> inertia_kgm2;  ///< motor and load together
+  std::optional<ToldLink> link;        ///< of a flexible joint
+  std::optional<int> delay_periods;
+  std::optional<double> count_rad;  ///< position of one count at the joint
+  std::optional<GravityLoad> gravity;
+  std::optional<FuzzyFriction> friction;  ///< of its gain table
+};
+
+/// Reads what the configuration file says of `joint`; what its driver alone derives (delay, counts) only where it stands as a number.
+/// The daemon has checked the rest of the file. Throws InputError: unreadable, no such joint, a value out of range.
+ToldJoint read_told(const std::filesystem::path& config, const std::string& joint);
+
+}  // namespace strainwave

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The doctor on motions whose numbers are known, and on random joints: three for each cause, of the study's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "doctor/causes.h"
+#include "doctor/diagnosis.h"
+#include "doctor/motion_fit.h"
+#include "doctor/test_motion.h"
+#include "tests/doctor/patient.h"
+
+namespace strainwave::testing {
+namespace {
+
+struct Truth {
+  double inertia_kgm2 = 0.2, coulomb_Nm = 1.5, viscous_Nms_rad = 0.6, load_Nm = 0.0;
+  int delay_periods = 2;
+};
+
+/// Strokes of a rigid joint, written down from their formula: q = sum of two sines, torque so many periods before it acts.
+Evidence swinging(const Truth& truth, std::int64_t stride) {
+  Evidence evidence;
+  const double period_s = evidence.period_s;
+  const auto torque_Nm = [&](double t) {
+    const double speed = 1.5 * std::cos(3.0 * t) + 0.4 * std::cos(17.0 * t);
+    const double acceleration = -4.5 * std::sin(3.0 * t) - 6.8 * std::sin(17.0 * t);
+    return truth.inertia_kgm2 * acceleration + std::copysign(truth.coulomb_Nm, speed) +
+           truth.viscous_Nms_rad * speed + truth.load_Nm;
+  };
+  for (std::int64_t cycle = 0; cycle < 12'000; cycle += stride) {
+    const double t = static_cast<double>(cycle) * period_s;
+    DoctorSample sample;
+    sample.cycle = cycle;
+    sample.mode = static_cast<std::int32_t>(Mode::kTracking);
+    sample.joint_position_rad = 0.5 * std::sin(3.0 * t) + 0.4 / 17.0 * std::sin(17.0 * t);
+    sample.torque_commanded_Nm = torque_Nm(t + (truth.delay_periods + 0.5) * period_s);
+    sample.torque_applied_Nm = sample.torque_commanded_Nm;
+    evidence.samples.push_back(sample);
+  }
+  return evidence;
+}
+
+TEST(MotionFit, FindsTheNumbersThatMadeTheMotion) {
+  for (const std::int64_t stride : {1, 5}) {
+    Truth truth;
+    truth.load_Nm = 0.4;
+    const auto fit = fit_motion(swinging(truth, stride));
+    ASSERT_TRUE(fit) << stride;
+    EXPECT_NEAR(fit->inertia_kgm2.value, truth.inertia_kgm2, 0.03 * truth.inertia_kgm2) << stride;
+    EXPECT_NEAR(fit->coulomb_Nm.value, truth.coulomb_Nm, 0.05 * truth.coulomb_Nm) << stride;
+    EXPECT_NEAR(fit->viscous_Nms_rad.value, truth.viscous_Nms_rad, 0.1 * truth.viscous_Nms_rad) << stride;
+    EXPECT_NEAR(fit->load_Nm, truth.load_Nm, 0.1) << stride;
+    EXPECT_NEAR(fit->delay_periods.value, truth.delay_periods, 0.3) << stride;
+  }
+}
+
+TEST(MotionFit, SeesTorqueThatActsAgainstItsSign) {
+  Evidence evidence = swinging({}, 1);
+  for (DoctorSample& sample : evidence.samples) sample.torque_commanded_Nm *= -1.0;
+  const auto fit = fit_motion(evidence);
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->inertia_kgm2.value, 0.0);
+}
+
+TEST(MotionFit, NeedsMotionUnderControl) {
+  Evidence evidence = swinging({}, 1);
+  for (DoctorSample& sample : evidence.samples) sample.mode = static_cast<std::int32_t>(Mode::kOff);
+  EXPECT_FALSE(fit_motion(evidence));
+}
+
+TEST(Doctor, SaysWhatItCouldNotJudgeWithoutAConfiguration) {
+  const Diagnosis diagnosis = diagnose(swinging({}, 1));
+  std::string all;
+  for (const std::string& open : diagnosis.not_judged) all += open + "\n";
+  for (const char* what : {"friction", "delay", "--config", "real time", "coupling"})
+    EXPECT_NE(all.find(what), std::string::npos) << what << " in\n" << all;
+}
+
+TEST(TestMotion, StaysWithinLimitsAndReachAndComesBack) {
+  limits_v1 limits{};
+  limits.position_min_rad = -0.2;
+  limits.position_max_rad = 3.0;
+  limits.speed_limit_rad_s = 4.0;
+  limits.acceleration_rad_s2 = 30.0;
+  const auto strokes = plan_test_motion(limits, 0.1, 0.5);
+  ASSERT_FALSE(strokes.empty());
+  for (const TestStroke& stroke : strokes) {
+    EXPECT_GE(stroke.position_rad, -0.2);
+    EXPECT_LE(stroke.position_rad, 0.6);
+    EXPECT_LE(stroke.speed_rad_s, 4.0);
+    EXPECT_GT(stroke.speed_rad_s, 0.0);
+  }
+  EXPECT_EQ(strokes.back().position_rad, 0.1);
+  EXPECT_LT(duration_s(strokes, limits, 0.1), 60.0);
+  limits.position_max_rad = -0.15;
+  EXPECT_TRUE(plan_test_motion(limits, -0.18, 0.5).empty());
+}
+
+// The whole study is doctor_study: 10 joints a cause.
+TEST(DoctorStudy, NamesNineOfTenCausesFirst) {
+  constexpr int kJoints = 3;
+  int named = 0;
+  std::ostringstream missed;
+  for (const Cause& cause : causes()) {
+    int of_this = 0;
+    for (int i = 0; i < kJoints; ++i) {
+      double seconds = 0.0;
+      const Diagnosis diagnosis = diagnose(examine(random_patient(std::string(cause.name), i), 1, seconds));
+      const bool right = !diagnosis.findings.empty() && diagnosis.findings.front().cause == cause.name;
+      EXPECT_LT(seconds, 120.0);
+      of_this += right ? 1 : 0;
+      if (!right) missed << cause.name << ' ' << i << '\n';
+    }
+    EXPECT_GT(of_this, 0) << "no joint with: " << cause.name;
+    named += of_this;
+  }
+  EXPECT_GE(named, std::lround(0.9 * kJoints * static_cast<double>(causes().size()))) << missed.str();
+}
+
+TEST(DoctorStudy, FindsNothingOnHealthyJoints) {
+  for (int i = 0; i < 10; ++i) {
+    double seconds = 0.0;
+    const Diagnosis diagnosis = diagnose(examine(random_patient("", i), 1, seconds));
+    for (const Finding& finding : diagnosis.findings) ADD_FAILURE() << "joint " << i << ": " << finding.cause;
+  }
+}
+
+}  // namespace
+}  // namespace strainwave::testing
