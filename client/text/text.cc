@@ -52,6 +52,8 @@ std::string meaning(std::string_view field, const state_v1& state) {
       texts.emplace_back(to_text(notice));
       if (notice == Notice::kFrictionDiffers)
         texts.back() += fmt::format(" ({:.2f} times)", state.friction_factor);
+      if (notice == Notice::kOtherInertia && std::isfinite(state.inertia_estimated_kgm2))
+        texts.back() += fmt::format(" ({:.3g} kg m2)", state.inertia_estimated_kgm2);
     }
     return fmt::format("{}", fmt::join(texts, ", "));
   }
