@@ -63,7 +63,7 @@ void add_faults(const Evidence& evidence, Features& features) {
     counts = counts || (fault == Fault::kImplausibleReading &&
                         (sample.drive_error >> 24) == static_cast<int>(ReadingDoubt::kCountsMissing));
     power = power || fault == Fault::kPowerLost;
-    bus = bus || fault == Fault::kBusError || fault == Fault::kLinkLost || fault == Fault::kReadFailed;
+    bus = bus || fault == Fault::kBusError || fault == Fault::kConnectionLost || fault == Fault::kReadFailed;
   }
   const auto add = [&](Feature feature, bool seen, const char* text) {
     features[feature] = Observation{seen ? 1.0 : 0.0, 0.1, text};

@@ -78,6 +78,18 @@ struct IdentifyArguments {
 };
 void identify(Client& client, const Output& output, const IdentifyArguments& arguments);
 
+/// Names what is wrong with `joint`: from a test motion, or from a recording. Throws ClientError (refused) when it finds something, after it
+/// has said what.
+struct DoctorArguments {
+  std::string joint;             ///< with a flight record empty: the record's
+  std::filesystem::path log;     ///< an LCM event log or a flight record; empty: a test motion
+  std::filesystem::path config;  ///< the daemon's file; empty: what it says is not judged
+  double reach_rad = 0.5;        ///< of the test motion, to either side
+  bool dry_run = false;          ///< say what the test motion would be, move nothing
+};
+void examine_joint(Client& client, const Output& output, const DoctorArguments& arguments);
+void examine_log(const Output& output, const DoctorArguments& arguments);
+
 /// Draws a flight record (docs/flight-recorder.md) with gnuplot.
 struct PlotRecordArguments {
   std::filesystem::path file;

@@ -23,6 +23,7 @@ void configure(CLI::App& app, Invocation& invocation) {
   add_observing_commands(app, invocation);
   add_order_commands(app, invocation);
   add_identify_command(app, invocation);
+  add_doctor_command(app, invocation);
   add_log_commands(app, invocation);
   add_key_commands(app, invocation);
   add_hardware_commands(app, invocation);

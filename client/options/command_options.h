@@ -36,6 +36,7 @@ void add_common_options(CLI::App& app, Invocation& invocation);
 void add_observing_commands(CLI::App& app, Invocation& invocation);  ///< status, timing, watch
 void add_order_commands(CLI::App& app, Invocation& invocation);      ///< enable ... load-table
 void add_identify_command(CLI::App& app, Invocation& invocation);
+void add_doctor_command(CLI::App& app, Invocation& invocation);
 void add_log_commands(CLI::App& app, Invocation& invocation);       ///< record, export, play, plot-record
 void add_key_commands(CLI::App& app, Invocation& invocation);       ///< keygen
 void add_hardware_commands(CLI::App& app, Invocation& invocation);  ///< can-scan, can-check, gpio-check

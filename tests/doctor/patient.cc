@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "control/table/gain_table_json.h"
-#include "daemon/realtime/joint_loop.h"
+#include "daemon/realtime/joint/joint_loop.h"
 #include "doctor/test_motion.h"
 #include "drivers/faulty_actuator.h"
 #include "tests/support/flexible_bench.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/realtime/joint_loop_config.h"
+#include "daemon/realtime/joint/joint_loop_config.h"
 #include "doctor/evidence.h"
 #include "drivers/injected_fault.h"
 #include "drivers/simulated_actuator.h"
