@@ -11,7 +11,7 @@
 namespace strainwave {
 
 /// The true value is within half_width_95 of `value` in 95 of 100 cases.
-struct Estimate {
+struct IntervalEstimate {
   double value = 0.0;
   double half_width_95 = 0.0;
 
@@ -32,34 +32,34 @@ struct ToldJoint {
 struct FrictionPoint {
   double speed_rad_s = 0.0;
   double temperature_C = 0.0;
-  Estimate torque_Nm;
+  IntervalEstimate torque_Nm;
 };
 
 /// Of the motion: what torque and position say together while the motor slides. Absent is what the trace does not show.
 struct MotionEstimates {
-  Estimate
+  IntervalEstimate
       delay_s;  ///< from an order to its torque: the drive's delay and the time constant of its current loop
-  Estimate total_inertia_kgm2;
-  std::optional<Estimate> motor_inertia_kgm2;
-  std::optional<Estimate> link_inertia_kgm2;
-  std::optional<Estimate> stiffness_1_Nm_rad;  ///< the spring's first slope
-  std::optional<Estimate> damping_Nms_rad;
-  std::optional<Estimate> resonance_Hz;      ///< motor against link, at the first slope
-  std::optional<Estimate> antiresonance_Hz;  ///< link against a motor that stands
-  Estimate gravity_Nm;                       ///< m g l >= 0
+  IntervalEstimate total_inertia_kgm2;
+  std::optional<IntervalEstimate> motor_inertia_kgm2;
+  std::optional<IntervalEstimate> link_inertia_kgm2;
+  std::optional<IntervalEstimate> stiffness_1_Nm_rad;  ///< the spring's first slope
+  std::optional<IntervalEstimate> damping_Nms_rad;
+  std::optional<IntervalEstimate> resonance_Hz;      ///< motor against link, at the first slope
+  std::optional<IntervalEstimate> antiresonance_Hz;  ///< link against a motor that stands
+  IntervalEstimate gravity_Nm;                       ///< m g l >= 0
   double gravity_zero_rad =
       0.0;  ///< where the link hangs; meaningless where gravity is 0 within its interval
-  std::array<Estimate, 2> kinematic_error_rad;  ///< amplitudes once and twice per motor turn
-  double residual_rad = 0.0;                    ///< root mean square of what the fit leaves of the position
-  int windows = 0;                              ///< stretches of motion that it was made from
+  std::array<IntervalEstimate, 2> kinematic_error_rad;  ///< amplitudes once and twice per motor turn
+  double residual_rad = 0.0;  ///< root mean square of what the fit leaves of the position
+  int windows = 0;            ///< stretches of motion that it was made from
 };
 
 struct JointEstimates {
   std::optional<int>
       direction;  ///< +1: positive torque moves the joint to larger positions; -1: the other way
-  std::optional<Estimate> breakaway_positive_Nm;  ///< torque at which the joint began to slide
-  std::optional<Estimate> breakaway_negative_Nm;  ///< its size
-  std::vector<FrictionPoint> friction;            ///< by rising speed
+  std::optional<IntervalEstimate> breakaway_positive_Nm;  ///< torque at which the joint began to slide
+  std::optional<IntervalEstimate> breakaway_negative_Nm;  ///< its size
+  std::vector<FrictionPoint> friction;                    ///< by rising speed
   std::optional<MotionEstimates> motion;
 };
 

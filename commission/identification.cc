@@ -27,7 +27,7 @@ constexpr double kSameSpeed = 0.1;
 constexpr double kFrictionShare = 0.015;
 
 /// Mean and 1.96 standard deviations of it, with `least` at least.
-Estimate mean_of(const std::vector<double>& values, double least) {
+IntervalEstimate mean_of(const std::vector<double>& values, double least) {
   const auto n = static_cast<double>(values.size());
   double mean = 0.0;
   for (const double value : values) mean += value / n;
@@ -146,7 +146,7 @@ std::optional<int> find_direction(const JointTrace& trace) {
   return work > 0.0 ? 1 : -1;
 }
 
-std::array<std::optional<Estimate>, 2> find_breakaway(const JointTrace& trace, double gear_ratio) {
+std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& trace, double gear_ratio) {
   const double sliding = sliding_speed_rad_s(gear_ratio);
   std::array<std::vector<double>, 2> torques;
   std::array<double, 2> uncertainty{};
@@ -170,7 +170,7 @@ std::array<std::optional<Estimate>, 2> find_breakaway(const JointTrace& trace, d
       rest = 0;
     }
   }
-  std::array<std::optional<Estimate>, 2> found;
+  std::array<std::optional<IntervalEstimate>, 2> found;
   for (std::size_t way = 0; way < 2; ++way)
     if (!torques[way].empty()) found[way] = mean_of(torques[way], uncertainty[way]);
   return found;

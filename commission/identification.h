@@ -18,7 +18,7 @@ std::optional<int> find_direction(const JointTrace& trace);
 
 /// Sizes of the torque at which the joint left rest, means by direction (first positive); half width from their spread, and at least
 /// what the torque changed by from the first count to sliding.
-std::array<std::optional<Estimate>, 2> find_breakaway(const JointTrace& trace, double gear_ratio);
+std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& trace, double gear_ratio);
 
 struct FrictionSearch {
   double gear_ratio = 0.0;    ///< N > 0

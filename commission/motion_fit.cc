@@ -85,7 +85,8 @@ MotionVector search(const MotionModel& model, const MotionPrior& prior) {
 
 /// Of a function of the parameters: its value, and 1.96 standard deviations by its gradient.
 template <typename Function>
-Estimate estimate_of(const MotionVector& p, const WindowFit::Covariance& covariance, Function function) {
+IntervalEstimate estimate_of(const MotionVector& p, const WindowFit::Covariance& covariance,
+                             Function function) {
   MotionVector gradient;
   for (Eigen::Index i = 0; i < kMotionParameters; ++i) {
     const double step = std::max(1e-7, 1e-5 * std::abs(p[i]));
@@ -98,7 +99,7 @@ Estimate estimate_of(const MotionVector& p, const WindowFit::Covariance& covaria
   return {function(p), 1.96 * std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)))};
 }
 
-std::optional<Estimate> if_known(const Estimate& estimate) {
+std::optional<IntervalEstimate> if_known(const IntervalEstimate& estimate) {
   return estimate.half_width_95 < 0.5 * std::abs(estimate.value) ? std::optional(estimate) : std::nullopt;
 }
 

@@ -117,8 +117,8 @@ std::vector<Comparison> compare(const RandomJoint& joint, const JointEstimates& 
   const JointPlantConfig& plant = joint.drive.plant;
   const Transmission& gear = *plant.effects.transmission;
   std::vector<Comparison> all;
-  const auto add = [&](const char* quantity, double truth, const std::optional<Estimate>& estimate) {
-    all.push_back({quantity, truth, estimate.value_or(Estimate{}), !estimate});
+  const auto add = [&](const char* quantity, double truth, const std::optional<IntervalEstimate>& estimate) {
+    all.push_back({quantity, truth, estimate.value_or(IntervalEstimate{}), !estimate});
   };
   const std::optional<MotionEstimates>& m = found.motion;
   const double K = gear.spring.stiffness_1_Nm_rad;

@@ -35,7 +35,7 @@ CommissionedJoint excite(const RandomJoint& joint);
 struct Comparison {
   std::string quantity;
   double truth = 0.0;
-  Estimate found;
+  IntervalEstimate found;
   bool absent = false;
 
   double error() const { return absent ? 1.0 : std::abs(found.value / truth - 1.0); }
