@@ -29,7 +29,7 @@ struct ToldJoint {
 };
 
 /// Friction of steady motion, the mean of both directions.
-struct FrictionPoint {
+struct FrictionAtSpeed {
   double speed_rad_s = 0.0;
   double temperature_C = 0.0;
   IntervalEstimate torque_Nm;
@@ -59,7 +59,7 @@ struct JointEstimates {
       direction;  ///< +1: positive torque moves the joint to larger positions; -1: the other way
   std::optional<IntervalEstimate> breakaway_positive_Nm;  ///< torque at which the joint began to slide
   std::optional<IntervalEstimate> breakaway_negative_Nm;  ///< its size
-  std::vector<FrictionPoint> friction;                    ///< by rising speed
+  std::vector<FrictionAtSpeed> friction;                  ///< by rising speed
   std::optional<MotionEstimates> motion;
 };
 

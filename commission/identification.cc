@@ -176,7 +176,7 @@ std::array<std::optional<IntervalEstimate>, 2> find_breakaway(const JointTrace& 
   return found;
 }
 
-std::vector<FrictionPoint> find_friction(const JointTrace& trace, const FrictionSearch& search) {
+std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const FrictionSearch& search) {
   std::vector<FrictionSample> samples;
   const std::vector<SteadyRun> runs = steady_runs(trace, search.gear_ratio);
   for (const SteadyRun& there : runs)
@@ -186,10 +186,10 @@ std::vector<FrictionPoint> find_friction(const JointTrace& trace, const Friction
         pair_up(trace, there, back, search, samples);
   std::sort(samples.begin(), samples.end(),
             [](const FrictionSample& a, const FrictionSample& b) { return a.speed_rad_s < b.speed_rad_s; });
-  std::vector<FrictionPoint> points;
+  std::vector<FrictionAtSpeed> points;
   for (std::size_t first = 0; first < samples.size();) {
     std::vector<double> torques;
-    FrictionPoint point;
+    FrictionAtSpeed point;
     const double fastest = (1.0 + kSameSpeed) * samples[first].speed_rad_s;
     for (; first < samples.size() && samples[first].speed_rad_s <= fastest; ++first) {
       torques.push_back(samples[first].friction_Nm);

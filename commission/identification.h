@@ -27,7 +27,7 @@ struct FrictionSearch {
 
 /// Friction over speed from stretches of steady speed, of at least a whole motor turn each, in both directions over the same positions:
 ///   F(w) = (mean torque there - mean torque back) / 2
-std::vector<FrictionPoint> find_friction(const JointTrace& trace, const FrictionSearch& search);
+std::vector<FrictionAtSpeed> find_friction(const JointTrace& trace, const FrictionSearch& search);
 
 /// Delay, inertias, spring, damping, gravity and kinematic error by nonlinear least squares over stretches in which the motor slides one
 /// way. Nothing when there are fewer than kLeastWindows stretches, or the motion is too even to show the inertia.

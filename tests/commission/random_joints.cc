@@ -141,7 +141,7 @@ std::vector<Comparison> compare(const RandomJoint& joint, const JointEstimates& 
   const double added =
       plant.effects.friction.transmitted_share *
       std::abs(plant.effects.gravity.at(0.5 * (limits.position_min_rad + limits.position_max_rad)));
-  for (const FrictionPoint& point : found.friction) {
+  for (const FrictionAtSpeed& point : found.friction) {
     const FrictionParameters f = plant.joint.friction.at(point.temperature_C);
     add("friction", added + stribeck_friction_Nm(f, plant.joint.stribeck, point.speed_rad_s),
         point.torque_Nm);
