@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "design/gains/spring_proof.h"
+#include "design/gains/spring_verdict.h"
 
 namespace CLI {
 class App;
@@ -26,30 +26,8 @@ struct SpringOptions {
 /// --motor-inertia_kgm2, --load-inertia_kgm2 alias --load, --damping_Nms_rad, --delay.
 void add_spring_options(CLI::App& command, SpringOptions& options);
 
-/// What of a box the options say; stiffness and friction are the gear's and the table's. Throws InputError naming `place`.
-struct SpringRequest {
-  double motor_inertia_kgm2 = 0.0;
-  BoxRange link_inertia_kgm2;
-  BoxRange damping_Nms_rad;
-  int least_delay = 0;
-  int most_delay = 0;
-};
+/// Throws InputError naming `place`.
 SpringRequest spring_request(const SpringOptions& options, const std::string& place,
                              double motor_inertia_kgm2);
-
-/// One line per delay, each of which has its own proof: a joint has one.
-struct SpringVerdict {
-  bool certified = true;
-  std::string text;
-  CertifiedBox box;  ///< for the table, where all are certified
-};
-SpringVerdict judge_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request);
-
-/// The same for a table that is to be written: at most kMaxBoxCells cells and kMaxBoxDelay periods, and no delay after the
-/// first without a proof.
-SpringVerdict box_on_spring(const GainTable& table, const std::string& gear, const SpringRequest& request);
-
-/// The box of a rigid joint with the table's inertia, at every delay from 0 to kMaxBoxDelay periods.
-SpringVerdict box_of_rigid(const GainTable& table);
 
 }  // namespace strainwave

@@ -78,11 +78,13 @@ TEST_F(OdriveConfigTest, ReadsTheLoopThatTheDriveClosesAndWhetherItsOrdersFit) {
   const DaemonConfig scaled = read(replaced(fast, position, position + "\ninput_vel_scale = 500"));
   EXPECT_EQ(drive_of(scaled).units.velocity_units_per_turn_s, 500.0);
   EXPECT_NO_THROW(read(replaced(fast, "\"position\"", "\"velocity\"")));
-  expect_mentions(error_after("torque_side = \"motor\"", "torque_side = \"joint\"\ndrive_mode = \"position\""),
-                  {"drive_mode", "32.767", "34 N.m"});
-  expect_mentions(error_of(replaced(replaced(example("odrive.toml"), "torque_side = \"motor\"", position),
-                                    "torque_limit_Nm = 34", "torque_limit_Nm = 34\non_overload = \"hold_load\"")),
-                  {"drive_mode", "hold_load"});
+  expect_mentions(
+      error_after("torque_side = \"motor\"", "torque_side = \"joint\"\ndrive_mode = \"position\""),
+      {"drive_mode", "32.767", "34 N.m"});
+  expect_mentions(
+      error_of(replaced(replaced(example("odrive.toml"), "torque_side = \"motor\"", position),
+                        "torque_limit_Nm = 34", "torque_limit_Nm = 34\non_overload = \"hold_load\"")),
+      {"drive_mode", "hold_load"});
 }
 
 TEST_F(OdriveConfigTest, WantsBothEndpointsOfTheWatchdogOrNone) {

@@ -8,7 +8,7 @@
 #include "base/input_error.h"
 #include "control/table/box_certificate.h"
 #include "control/table/gain_table_json.h"
-#include "design/spring_options.h"
+#include "design/gains/spring_verdict.h"
 
 namespace strainwave {
 namespace {
