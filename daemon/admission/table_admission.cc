@@ -15,6 +15,7 @@
 
 #include "control/joint/joint_catalogue.h"
 #include "control/table/box_certificate.h"
+#include "control/table/cost_certificate.h"
 #include "control/table/spring_certificate.h"
 #include "control/table/ts_plant.h"
 #include "lcmtypes/gain_table_message.h"
@@ -36,6 +37,18 @@ constexpr double kTolerance = 1e-9;
 // What the structure of a joint damps at least whose damping nobody knows, of critical damping: without it nothing would be stable to the
 // last digit.
 constexpr double kStructuralDamping = 0.01;
+
+// The anti-windup takes its shares from P of these gains, which no cell of the box proves.
+TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const PlantIdentity& plant,
+                         const FuzzyFriction& friction) {
+  const CertificateReport report = certify(gains, plant, friction);
+  if (report.certified) return {};
+  return {Reason::kTableNotCertified,
+          std::string(which) + " gains " + std::string(gains.controller.view()) + ": margin " +
+              describe(report.worst) +
+              ": the inequalities of their design do not hold for this joint; design the table for it with "
+              "strainwave-design gains"};
+}
 
 // Over the slopes, the extremes of viscous friction, and every gain of both controllers.
 WorstCorner worst_on_spring(const GainTable& table, const LinkModel& link, const SpringLoop& loop) {
@@ -87,7 +100,7 @@ TableVerdict judge_identity(const GainTable& table, const ExpectedJoint& joint) 
                                         ": design the table with --encoder-side " +
                                         to_text(joint.encoder_side)};
   // A drive that closes its own loop needs no proof of this one.
-  if (!joint.law_acts && !joint.link) return {};
+  if (!joint.law_acts) return {};
   if (const auto outside = find_outside_box(table, joint.link, joint.delay_periods))
     return {Reason::kTableIdentity, *outside};
   return {};
@@ -163,7 +176,13 @@ TableVerdict judge_table_but_box(const GainTable& table, const ExpectedJoint& jo
     return {Reason::kAccepted,
             "its friction and inertia are used; the drive closes its own loop, of which nothing is proved" +
                 note_of(table)};
-  TableVerdict verdict = joint.link ? judge_on_spring(table, joint) : TableVerdict{};
+  // The joint's own inertia but for what its box holds: there the one that the gains are designed for is one of many.
+  const PlantIdentity& plant = joint.link ? table.plant : expected;
+  TableVerdict verdict = judge_gains("primary", table.primary, plant, table.friction);
+  if (verdict.reason != Reason::kAccepted) return verdict;
+  verdict = judge_gains("fallback", table.fallback, plant, table.friction);
+  if (verdict.reason != Reason::kAccepted) return verdict;
+  if (joint.link) verdict = judge_on_spring(table, joint);
   if (verdict.reason != Reason::kAccepted) return verdict;
   verdict.text = std::string(table.primary.controller.view()) + " with fallback " +
                  std::string(table.fallback.controller.view()) +

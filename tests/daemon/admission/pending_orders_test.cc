@@ -41,6 +41,7 @@ class PendingOrdersTest : public ::testing::Test {
     verdict.requester.stop = kind == OrderKind::kDisable || kind == OrderKind::kHold;
     verdict.requester.takes_over = kind == OrderKind::kEndStream;
     if (kind == OrderKind::kUseTable) verdict.table = std::make_unique<GainTable>(testing::demo_table());
+    verdict.proves_box = false;  // at once, without the prover's thread
     orders_.handle(verdict, now_ns_);
     return verdict;
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the design's matrix inequalities promise, checked with every rounding bounded: the gains stabilise the sampled and held joint for any
 // time-varying weights, right or wrong, and bound the cost. That joint has no delay and an exact velocity: what is proved of the loop
-// that the daemon closes is another statement (control/table/box_certificate.h). Offline.
+// that the daemon closes is another statement (control/table/box_certificate.h). The daemon checks both: the anti-windup takes its shares from
+// P_0. Not real-time.
 //
 // With A_i, B_i rule i of the plant under a zero-order hold, H_ij = A_i + B_i F_j and r the decay rate:
 //
