@@ -206,8 +206,9 @@ MotorPlan MotorPlanner::step(const Reference& planned, const TorqueRange& possib
   follow(momentum_Nms / h + gravity_Nm, wanted_end, possible, taken_Nm);
   const double wanted_rad_s2 = (wanted_end.link_velocity_rad_s - wanted_.link_velocity_rad_s) / h;
   wanted_ = wanted_end;
-  // A regulator at its torque limit can excite the spring in a limit cycle: where it needs more torque than the motion the model gives way.
-  if (config_.gives_way && exhausted_ && regulates_)
+  // A regulator at its torque limit can excite the spring in a limit cycle: where it needs more torque than the motion the model gives way;
+  // a motion that has ended needs none.
+  if (config_.gives_way && exhausted_ && (ended || regulates_))
     next_ = moved(next_, moved(wanted_, next_, -1.0), kYield);
   if (ended) settle();
   MotorPlan plan = this->plan();

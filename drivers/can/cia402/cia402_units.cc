@@ -64,9 +64,9 @@ std::optional<VelocityUnit> velocity_unit(std::uint32_t unit) {
   return std::nullopt;
 }
 
-/// As a configuration rounds it.
+/// As a configuration of three digits rounds it.
 bool is_near(double a, double b) {
-  return std::abs(a - b) < 1e-3 * b;
+  return std::abs(a - b) < 1e-2 * b;
 }
 
 /// The settings that agree with the current, for the message.

@@ -184,9 +184,10 @@ ActuatorReading Node::read(std::int64_t /*now_ns*/) noexcept {
   reading.position_lost = !config_.absolute_encoder &&
                           (!setup_.ready() || watch_.latched_fault().fault == ActuatorFault::kConnectionLost);
   reading.torque_measured = closes_loop(config_.drive_mode) && now_ns_ - torque_ns_ < 2 * period_ns_;
-  reading.torque_applied_Nm = closes_loop(config_.drive_mode) ? torque_measured_Nm_
-                              : closed_loop()                 ? sent_.torque_Nm
-                                                              : 0.0;
+  if (closes_loop(config_.drive_mode))
+    reading.torque_applied_Nm = reading.torque_measured ? torque_measured_Nm_ : 0.0;
+  else
+    reading.torque_applied_Nm = closed_loop() ? sent_.torque_Nm : 0.0;
   reading.has_temperature = has_temperature_;
   reading.temperature_C = temperature_C_;
   reading.temperature_produced_ns = temperature_ns_;
@@ -273,9 +274,11 @@ void Node::lead_state(CanTransmitter& bus) noexcept {
   // Taking the power off does not wait.
   const bool urgent = !wanted && sent_.enable;
   if (!urgent && now_ns_ - state_sent_ns_ < kRepeatStateAfter_ns) return;
-  state_sent_ns_ = now_ns_;
   if (wanted) (void)bus.send(mode_frame(config_.node_id, control_mode(config_.drive_mode)));
-  (void)bus.send(axis_state_frame(config_.node_id, wanted ? AxisState::kClosedLoop : AxisState::kIdle));
+  const bool sent =
+      bus.send(axis_state_frame(config_.node_id, wanted ? AxisState::kClosedLoop : AxisState::kIdle));
+  // What the bus did not take is sent again in the next period.
+  state_sent_ns_ = sent ? now_ns_ : now_ns_ - kRepeatStateAfter_ns;
 }
 
 void Node::clear_fault() noexcept {

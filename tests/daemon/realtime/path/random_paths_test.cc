@@ -29,7 +29,7 @@ constexpr double kKept = 1.0 + 1e-6;
 /// As far as a joint is to be from its path at most, at moderate speed.
 constexpr double kFarOff_rad = 0.5e-3;
 /// Half a second after its end: what small motions at rest leave.
-constexpr double kLeft_rad = 4e-4;
+constexpr double kLeft_rad = 5e-4;
 constexpr double kLeftOnSpring_rad = 4e-4;
 constexpr double kPause_s = 0.4;
 /// For coming to rest, and for going on, along the path.
