@@ -14,7 +14,8 @@ const std::vector<Cause>& causes() {
   using enum Feature;
   static const std::vector<Cause> kCauses{
       {"wrong sign",
-       "turn the sign of the torque or of the encoder: joint.<driver>.invert or the wiring; compare with a "
+       "turn the sign of the torque or of the encoder: `direction` (CAN), `reversed` (GPIO) or the wiring; "
+       "compare with a "
        "turn by hand",
        {},
        {kReversed}},

@@ -36,7 +36,7 @@ struct DoctorSample {
 };
 
 struct Evidence {
-  ToldJoint told;
+  ConfiguredJoint told;
   double period_s = 0.001;  ///< of the loop; limits and timing messages correct it
   std::vector<DoctorSample> samples;
   std::vector<temperature_v1> temperatures;

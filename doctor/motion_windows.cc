@@ -99,7 +99,7 @@ MotionRows MotionWindows::rows(double scale) const {
 
 // To the motor's motion, and to each part of a kinematic error of 0.1 mrad.
 std::array<std::vector<double>, 5> MotionWindows::link_responses(const Stretch& stretch, double scale) const {
-  const ToldLink& told = *evidence_.told.link;
+  const ConfiguredLink& told = *evidence_.told.link;
   std::array<std::vector<double>, 5> responses{
       link_acceleration(stretch.position_rad, stretch.step_s, told, scale), {}, {}, {}, {}};
   const double ratio = evidence_.limits ? evidence_.limits->gear_ratio : 0.0;

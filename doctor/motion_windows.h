@@ -11,7 +11,7 @@
 namespace strainwave {
 
 /// Columns of the equation. The last four: Jl times the amplitudes of the gear's kinematic error, once and twice per motor turn.
-enum MotionParameter { kMotor, kLink, kCoulomb, kViscous, kBias, kSine, kCosine, kError };
+enum MotionQuantity { kMotor, kLink, kCoulomb, kViscous, kBias, kSine, kCosine, kError };
 inline constexpr int kMotionParameters = 11;
 using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, kMotionParameters>;
 

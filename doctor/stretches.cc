@@ -88,7 +88,7 @@ std::vector<Stretch> controlled_stretches(const Evidence& evidence) {
 }
 
 std::vector<double> link_acceleration(const std::vector<double>& drive_rad, double step_s,
-                                      const ToldLink& told, double scale) {
+                                      const ConfiguredLink& told, double scale) {
   std::vector<double> acceleration;
   acceleration.reserve(drive_rad.size());
   double link_rad = drive_rad.front();

@@ -24,6 +24,6 @@ std::vector<Stretch> controlled_stretches(const Evidence& evidence);
 
 /// Acceleration of a link that hangs on `told`'s spring times `scale`, where the motor's side of the spring is at `drive_rad`.
 std::vector<double> link_acceleration(const std::vector<double>& drive_rad, double step_s,
-                                      const ToldLink& told, double scale);
+                                      const ConfiguredLink& told, double scale);
 
 }  // namespace strainwave

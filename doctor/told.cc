@@ -30,12 +30,12 @@ TorsionSpring read_spring(TomlSection& joint) {
   return {slopes[0], torques[0], slopes[1], torques[1], slopes[2]};
 }
 
-void read_inertia(TomlSection& joint, ToldJoint& told) {
+void read_inertia(TomlSection& joint, ConfiguredJoint& told) {
   if (joint.text("model") != "flexible") {
     told.inertia_kgm2 = joint.number("inertia_kgm2", kPositive);
     return;
   }
-  ToldLink link;
+  ConfiguredLink link;
   link.motor_inertia_kgm2 = joint.number("motor_inertia_kgm2", kPositive);
   link.link_inertia_kgm2 = joint.number("load_inertia_kgm2", kPositive);
   link.damping_Nms_rad = joint.number_or("damping_Nms_rad", 0.0, kNotNegative);
@@ -44,7 +44,10 @@ void read_inertia(TomlSection& joint, ToldJoint& told) {
   told.link = link;
 }
 
-void read_driver(TomlSection driver, ToldJoint& told) {
+void read_driver(TomlSection& joint, ConfiguredJoint& told) {
+  TomlSection driver = joint.section_or_empty(joint.text("driver"));
+  if (driver.text_or("drive_mode", "torque") != "torque")
+    driver.fail("drive_mode", "\"torque\" is allowed: of another the torque that was ordered is not known");
   if (driver.has("delay_periods"))
     told.delay_periods = static_cast<int>(driver.integer("delay_periods", 0, 1000));
   if (told.link && driver.text_or("encoder_side", "motor") == "link") told.link->measured_at_link = true;
@@ -54,16 +57,16 @@ void read_driver(TomlSection driver, ToldJoint& told) {
 
 }  // namespace
 
-ToldJoint read_told(const std::filesystem::path& config, const std::string& name) {
+ConfiguredJoint read_configured_joint(const std::filesystem::path& config, const std::string& name) {
   TomlSection file = TomlSection::read(config);
   for (TomlSection& joint : file.sections("joint")) {
     if (joint.text("name") != name) continue;
-    ToldJoint told;
+    ConfiguredJoint told;
     read_inertia(joint, told);
     TomlSection control = joint.section_or_empty("control");
     told.gravity = GravityLoad{control.number_or("gravity_Nm", 0.0, kNotNegative),
                                control.number_or("gravity_zero_rad", 0.0, {-kTurn_rad, kTurn_rad})};
-    if (joint.has("driver")) read_driver(joint.section_or_empty(joint.text("driver")), told);
+    if (joint.has("driver")) read_driver(joint, told);
     if (joint.has("table"))
       told.friction = read_gain_table(config.parent_path() / joint.text("table")).friction;
     return told;

@@ -12,7 +12,7 @@
 
 namespace strainwave {
 
-struct ToldLink {
+struct ConfiguredLink {
   double motor_inertia_kgm2 = 0.0;  ///< > 0
   double link_inertia_kgm2 = 0.0;   ///< > 0
   TorsionSpring spring;
@@ -21,9 +21,9 @@ struct ToldLink {
 };
 
 /// What is empty is not known.
-struct ToldJoint {
+struct ConfiguredJoint {
   std::optional<double> inertia_kgm2;  ///< motor and load together
-  std::optional<ToldLink> link;        ///< of a flexible joint
+  std::optional<ConfiguredLink> link;  ///< of a flexible joint
   std::optional<int> delay_periods;
   std::optional<double> count_rad;  ///< position of one count at the joint
   std::optional<GravityLoad> gravity;
@@ -32,6 +32,6 @@ struct ToldJoint {
 
 /// Reads what the configuration file says of `joint`; what its driver alone derives (delay, counts) only where it stands as a number.
 /// The daemon has checked the rest of the file. Throws InputError: unreadable, no such joint, a value out of range.
-ToldJoint read_told(const std::filesystem::path& config, const std::string& joint);
+ConfiguredJoint read_configured_joint(const std::filesystem::path& config, const std::string& joint);
 
 }  // namespace strainwave

@@ -25,7 +25,7 @@ namespace {
 
 Evidence begun(const DoctorArguments& arguments, const std::string& joint) {
   Evidence evidence;
-  if (!arguments.config.empty()) evidence.told = read_told(arguments.config, joint);
+  if (!arguments.config.empty()) evidence.told = read_configured_joint(arguments.config, joint);
   return evidence;
 }
 

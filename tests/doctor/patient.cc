@@ -273,15 +273,15 @@ Patient random_patient(const std::string& cause, int index) {
                   .told = {},
                   .table = flexible ? &flexible_table() : &demo_table(),
                   .seed = seed};
-  ToldJoint& told = patient.told;
+  ConfiguredJoint& told = patient.told;
   told.inertia_kgm2 = patient.table->plant.inertia_kgm2;
   told.delay_periods = patient.loop.controller.delay_periods;
   told.count_rad = patient.loop.controller.encoder_resolution_rad;
   told.gravity = GravityLoad{};
   told.friction = patient.table->friction;
   if (const auto& link = patient.loop.controller.link)
-    told.link = ToldLink{link->motor_inertia_kgm2, link->link_inertia_kgm2, find_gear("csf-17-50")->spring,
-                         link->damping_Nms_rad};
+    told.link = ConfiguredLink{link->motor_inertia_kgm2, link->link_inertia_kgm2,
+                               find_gear("csf-17-50")->spring, link->damping_Nms_rad};
   patient.loop.controller.link ? void(patient.loop.controller.link->spring = find_gear("csf-17-50")->spring)
                                : void();
   make_ill(cause, index, dice, patient);

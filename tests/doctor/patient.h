@@ -18,7 +18,7 @@ struct Patient {
   SimulatedActuatorConfig drive;
   Mistakes mistakes;
   std::vector<Injection> faults;
-  ToldJoint told;
+  ConfiguredJoint told;
   const GainTable* table = nullptr;
   unsigned seed = 0;
   // Of the daemon around it.
