@@ -254,7 +254,9 @@ void add_design_options(CLI::App& command, GainsOptions& options) {
                   "fraction by which weights and limits are tightened in the design")
       ->capture_default_str();
   command
-      .add_option("--decay-rate", options.decay_rate, "the Lyapunov function falls by its square each sample")
+      .add_option("--decay-rate", options.decay_rate,
+                  "in the design the Lyapunov function falls by its square each sample; the certificate "
+                  "promises no rate")
       ->capture_default_str();
   command.add_option("--max-torque_Nm", options.max_torque_Nm,
                      "bound on the feedback torque from --x0 (Theorem 2)");
