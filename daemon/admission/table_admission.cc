@@ -43,11 +43,11 @@ TableVerdict judge_gains(const char* which, const FeedbackGains& gains, const Pl
                          const FuzzyFriction& friction) {
   const CertificateReport report = certify(gains, plant, friction);
   if (report.certified) return {};
-  return {Reason::kTableNotCertified,
-          std::string(which) + " gains " + std::string(gains.controller.view()) + ": margin " +
-              describe(report.worst) +
-              ": the inequalities of their design do not hold for this joint; design the table for it with "
-              "strainwave-design gains"};
+  return {
+      Reason::kTableNotCertified,
+      std::string(which) + " gains " + std::string(gains.controller.view()) + ": margin " +
+          describe(report.worst) +
+          ": stability is not proved for this joint; design the table for it with strainwave-design gains"};
 }
 
 // Over the slopes, the extremes of viscous friction, and every gain of both controllers.
