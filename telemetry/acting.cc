@@ -82,7 +82,7 @@ void Acting::obey(const Page& page, const PageOrder& order, double now_s) {
     return answer(page.number,
                   "orders are taken from the page of this server alone, opened at its own address", true);
   if (order.action == "open") return open(page, order);
-  if (order.action == "stop") return stop(page, order);
+  if (order.action == "stop") return stop(page);
   if (!open_.contains(page.number))
     return answer(page.number, "this page has no token: open the address that strainwave-telemetry printed",
                   true);
@@ -108,32 +108,28 @@ void Acting::open(const Page& page, const PageOrder& order) {
   say_(page.number, Json{{"op", "acting"}, {"open", right}, {"jog_speed_share", kJogSpeedShare}}.dump());
 }
 
-void Acting::stop(const Page& page, const PageOrder& order) {
+void Acting::stop(const Page& page) {
   struct Count {
     std::size_t joints = 0;
     std::size_t answered = 0;
     std::size_t accepted = 0;
     std::string failures;
   };
-  std::set<Name> joints = order.joints;
-  for (const auto& [joint, record] : fleet_.joints()) joints.insert(joint);
+  std::map<Name, Quote> joints;
+  for (const auto& [joint, record] : fleet_.joints()) joints.emplace(joint, quote_of(record.state));
+  for (const auto& [joint, jog] : jogs_) joints.emplace(joint, jog.quote);
+  jogs_.clear();
+  if (joints.empty())
+    return answer(page.number, "stop sent to 0 joints: none is heard; use the emergency stop", true);
   const auto count = std::make_shared<Count>(Count{joints.size(), 0, 0, {}});
   answer(page.number, fmt::format("stop sent to {}", counted(joints.size(), "joint")), false);
-  const bool awaited = orders_.size() < kMostOpen;
-  for (const Name& joint : joints) {
-    jogs_.erase(joint);
-    const auto record = fleet_.joints().find(joint);
-    const auto seal = [this, to = channel(joint.first, joint.second, channel_kind::kCommand),
-                       quote = record == fleet_.joints().end() ? Quote{} : quote_of(record->second.state)] {
+  for (const auto& [joint, quote] : joints) {
+    const auto seal = [this, to = channel(joint.first, joint.second, channel_kind::kCommand), quote = quote] {
       return sender_.seal_stop(to, command_message(Action::kDisable), quote);
     };
-    if (!awaited) {
-      const SealedMessage sealed = seal();
-      publish_(sealed.channel, sealed.bytes);
-      continue;
-    }
+    orders_.withdraw(joint);
     orders_.post(joint, seal, PendingOrder::stop_patience(kAnswer_s),
-                 [this, count, joint, number = page.number](const Answer* result) {
+                 [this, count, joint = joint, number = page.number](const Answer* result) {
                    ++count->answered;
                    if (result != nullptr && result->accepted)
                      ++count->accepted;
@@ -186,6 +182,9 @@ void Acting::jog(std::uint64_t page, const PageOrder& order, double now_s) {
   const auto record = fleet_.joints().find(joint);
   if (record == fleet_.joints().end() || !record->second.limits)
     return refuse("its state and limits have not come yet");
+  const std::int64_t session_id = record->second.limits->session_id;
+  if (session_id != record->second.state.session_id || session_id != order.quote->session_id)
+    return refuse("its limits are of another session");
   const limits_v1& limits = *record->second.limits;
   const JogLimits allowed{limits.position_min_rad, limits.position_max_rad,
                           kJogSpeedShare * limits.speed_limit_rad_s,
@@ -193,9 +192,6 @@ void Acting::jog(std::uint64_t page, const PageOrder& order, double now_s) {
   if (!(allowed.position_min_rad <= allowed.position_max_rad && allowed.speed_rad_s > 0.0 &&
         allowed.acceleration_rad_s2 > 0.0))
     return refuse("its limits are no limits");
-  if (!(std::abs(*order.velocity_rad_s) <= allowed.speed_rad_s))
-    return refuse(fmt::format("velocity_rad_s = {}: at most {} is allowed, {} of the joint's speed limit",
-                              *order.velocity_rad_s, allowed.speed_rad_s, kJogSpeedShare));
   const state_v1& state = record->second.state;
   const double position_rad =
       std::isfinite(state.link_position_rad) ? state.link_position_rad : state.joint_position_rad;
@@ -272,11 +268,12 @@ void Acting::tick(double now_s) {
   for (auto next = jogs_.begin(); next != jogs_.end();) {
     const auto current = next++;
     Jog& jog = current->second;
-    if (now_s - jog.renewed_s > kJogLasts_s) {
-      end_jog(current, "the page is silent");
+    if (now_s - std::min(jog.renewed_s, jog.stepped_s) > kJogLasts_s) {
+      end_jog(current, "the page, or this program, was silent");
       continue;
     }
-    const double step_s = now_s - std::exchange(jog.stepped_s, now_s);
+    // After a pause the jog does not catch up.
+    const double step_s = std::min(now_s - std::exchange(jog.stepped_s, now_s), 2.0 * kTick_s);
     if (!jog.begun) continue;
     jog.motion.step(jog.wanted_rad_s, step_s);
     const SealedMessage sealed =

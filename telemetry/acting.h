@@ -31,10 +31,8 @@ class Acting {
 
   /// A jog goes at this share of the joint's speed limit at most: the tenth that drives' manuals call a jog.
   static constexpr double kJogSpeedShare = 0.1;
-  /// A jog lasts so long after the page's last word: three of its repetitions (acting.js) may be lost.
+  /// A jog lasts so long after the page's last word, of which three (acting.js) may be lost, and after the last tick().
   static constexpr double kJogLasts_s = 0.3;
-  /// With so many orders unanswered, a stop is sent once and not repeated: stops need no token, and may come by the thousand.
-  static constexpr std::size_t kMostOpen = 1024;
   /// Between two samples of a jog; call tick() as often.
   static constexpr double kTick_s = 0.02;
 
@@ -70,7 +68,9 @@ class Acting {
 
   void obey(const Page& page, const PageOrder& order, double now_s);
   void open(const Page& page, const PageOrder& order);
-  void stop(const Page& page, const PageOrder& order);
+  /// Of every joint that is heard or jogged, and the end of every jog. One stop of a joint waits for its answer: stops need no token, and
+  /// may come by the thousand.
+  void stop(const Page& page);
   void command(std::uint64_t page, const Name& joint, Action action, const Quote& quote);
   void jog(std::uint64_t page, const PageOrder& order, double now_s);
   void begin_jog(const Name& joint, Jog jog);

@@ -52,7 +52,7 @@ strainwave::ExitStatus serve(const Options& options) {
   if (!is_loopback(address.host) && !options.key_file.empty())
     throw InputError(
         "--key: orders of a page on another machine would not be encrypted: listen on "
-        "127.0.0.1, and forward the port (ssh -L 8765:localhost:8765 HOST)");
+        "127.0.0.1, and forward the port (ssh -L 8765:127.0.0.1:8765 HOST)");
   if (const auto defect = find_udpm_defect(options.lcm_url)) throw InputError("--lcm-url: " + *defect);
   wait_for_multicast(
       options.lcm_url,

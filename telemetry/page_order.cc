@@ -58,10 +58,6 @@ PageOrder read_page_order(const Json& json) {
   if (session_id && challenge) order.quote = Quote{*session_id, *challenge};
   order.jog = whole_in(field("jog"));
   order.velocity_rad_s = real_in(field("velocity_rad_s"));
-  if (const Json names = field("joints"); names.is_array())
-    for (const Json& name : names)
-      if (const auto joint = joint_in(name); joint && order.joints.size() < PageOrder::kMostJoints)
-        order.joints.insert(*joint);
   return order;
 }
 

@@ -3,7 +3,7 @@
 // A text with "op": "act" and an "action":
 //
 //   open      token                                              the others but stop need it
-//   stop      joints                                             disables each of them; needs no token
+//   stop                                                         disables every joint that is heard; needs no token
 //   enable    joint, session_id, challenge
 //   hold      joint, session_id, challenge                       also ends a jog
 //   jog       joint, session_id, challenge, jog, velocity_rad_s  repeated while the button is held
@@ -12,11 +12,9 @@
 // A joint is PREFIX.JOINT. 64-bit numbers are texts, as message_json.h writes them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "client/protocol/open_orders.h"
@@ -26,11 +24,8 @@ namespace strainwave {
 
 /// What is not there, or is not what it should be, is empty.
 struct PageOrder {
-  static constexpr std::size_t kMostJoints = 512;
-
   std::string action;
   std::string token;
-  std::set<OpenOrders::Name> joints;  ///< kMostJoints at most
   std::optional<OpenOrders::Name> joint;
   std::optional<Quote> quote;
   std::optional<std::int64_t> jog;       ///< number of the jog, which rises

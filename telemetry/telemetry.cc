@@ -32,10 +32,11 @@ Telemetry::Telemetry(const std::string& lcm_url, const ListenAddress& address, A
           acting_.get()) {}
 
 void Telemetry::run() {
-  server_.run(listener_.descriptor(), [this] {
+  const auto receive = [this] {
     listener_.receive([this](const LcmSource& from, std::string_view channel,
                              std::span<const std::uint8_t> bytes) { take(from, channel, bytes); });
-  });
+  };
+  server_.run(listener_.descriptor(), receive, [this] { fleet_.forget_silent(steady_now_s()); });
 }
 
 void Telemetry::take(const LcmSource& from, std::string_view channel, std::span<const std::uint8_t> bytes) {
@@ -73,7 +74,6 @@ SharedText Telemetry::metrics(bool packed) {
 }
 
 std::string Telemetry::expose() {
-  fleet_.forget_silent(steady_now_s());
   Exposition page;
   expose_joints(page, fleet_.joints(), steady_now_s());
   expose_daemons(page, fleet_.daemons());

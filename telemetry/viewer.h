@@ -55,6 +55,8 @@ class Viewer {
   void forget(std::uint32_t topic);
   std::size_t subscriptions() const noexcept { return by_topic_.size(); }
   std::uint64_t id() const noexcept { return page_.number; }
+  /// Orders are taken, and from this viewer.
+  bool may_act() const noexcept { return acting_ != nullptr && page_.is_own; }
 
  private:
   std::string subscribe(std::uint32_t id, std::uint32_t topic, const Topics& topics);

@@ -22,7 +22,11 @@ void OpenOrders::post(const Name& joint, Seal seal, const Patience& patience, Do
                      to = channel(joint.first, joint.second, channel_kind::kAck)] {
     return PendingOrder(publish_, seal(), to, patience);
   };
-  waiting_.push_back({send(), send, std::move(done), 0});
+  waiting_.push_back({joint, send(), send, std::move(done), 0});
+}
+
+void OpenOrders::withdraw(const Name& joint) {
+  std::erase_if(waiting_, [&](const Waiting& waiting) { return waiting.joint == joint; });
 }
 
 void OpenOrders::tick() {

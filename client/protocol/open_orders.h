@@ -25,9 +25,12 @@ class OpenOrders {
   /// `sender` has sealed, and will seal, what is posted; it must outlive this.
   OpenOrders(PendingOrder::Publish publish, Sender& sender);
 
-  /// Sends what `seal` makes to `joint` and calls `done` once: from tick() or take(). What is refused unread, since another program of
+  /// Sends what `seal` makes to `joint` and calls `done` at most once: from tick() or take(). What is refused unread, since another program of
   /// this key was ahead, is sent with a higher sequence, a few times. Throws what `seal` throws.
   void post(const Name& joint, Seal seal, const Patience& patience, Done done);
+
+  /// Drops what waits for an answer of `joint`: it is not repeated, and its `done` is not called. A stop does so first.
+  void withdraw(const Name& joint);
 
   /// Repeats what was not answered. Call often.
   void tick();
@@ -38,6 +41,7 @@ class OpenOrders {
 
  private:
   struct Waiting {
+    Name joint;
     PendingOrder order;
     std::function<PendingOrder()> anew;  ///< the same with the next sequence
     Done done;

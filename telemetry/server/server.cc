@@ -52,12 +52,12 @@ class TelemetryServer::Network {
     }
   }
 
-  void run(int descriptor, const std::function<void()>& on_readable) {
+  void run(int descriptor, const std::function<void()>& on_readable, const std::function<void()>& on_second) {
     asio::posix::stream_descriptor lcm(context_, descriptor);
     signals_.async_wait([this](const error_code&, int) { context_.stop(); });
     wait_for(lcm, on_readable);
     accept();
-    report(on_readable);
+    report(on_readable, on_second);
     if (shared_.acting != nullptr) act();
     context_.run();
     lcm.release();
@@ -105,15 +105,16 @@ class TelemetryServer::Network {
   }
 
   // Also looks at the network, which may have changed where nothing comes any more.
-  void report(const std::function<void()>& on_readable) {
+  void report(const std::function<void()>& on_readable, const std::function<void()>& on_second) {
     report_.expires_after(kReport_s);
     report_.async_wait([&, this](const error_code& error) {
       if (error) return;
       on_readable();
+      on_second();
       // A viewer that is given up meanwhile leaves the set.
       const std::set<std::shared_ptr<ViewerConnection>> viewers = shared_.viewers;
       for (const auto& viewer : viewers) viewer->report_drops();
-      report(on_readable);
+      report(on_readable, on_second);
     });
   }
 
@@ -181,8 +182,9 @@ ServerCounts TelemetryServer::counts() const {
   return counts;
 }
 
-void TelemetryServer::run(int descriptor, const std::function<void()>& on_readable) {
-  network_->run(descriptor, on_readable);
+void TelemetryServer::run(int descriptor, const std::function<void()>& on_readable,
+                          const std::function<void()>& on_second) {
+  network_->run(descriptor, on_readable, on_second);
 }
 
 }  // namespace strainwave

@@ -51,8 +51,8 @@ class TelemetryServer {
 
   ServerCounts counts() const;
 
-  /// Serves until SIGINT or SIGTERM; calls `on_readable` when `descriptor` has something to read.
-  void run(int descriptor, const std::function<void()>& on_readable);
+  /// Serves until SIGINT or SIGTERM; calls `on_readable` when `descriptor` has something to read, and `on_second` each second.
+  void run(int descriptor, const std::function<void()>& on_readable, const std::function<void()>& on_second);
 
  private:
   class Network;

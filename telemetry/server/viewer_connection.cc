@@ -45,7 +45,7 @@ void ViewerConnection::start(const beast::http::request<beast::http::empty_body>
   stream_.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
     if (error) return self->end();
     self->shared_.viewers.insert(self);
-    self->say(server_info(self->shared_.session, self->shared_.acting != nullptr));
+    self->say(server_info(self->shared_.session, self->viewer_.may_act()));
     self->shared_.topics.visit([&](const Topic& topic) { self->news_.offer(topic.id); });
     self->send();
     self->read();

@@ -145,8 +145,16 @@ class ActingServer : public Server {
   std::string stop_by(const RunningTelemetry& telemetry, const std::string& headers) const {
     const RawClient viewer(telemetry.port());
     if (!viewer.become_viewer(headers)) return "no viewer";
-    viewer.send_text(R"({"op":"act","action":"stop","joints":["SW.elbow"]})");
+    viewer.send_text(R"({"op":"act","action":"stop"})");
     return viewer.read_until("\"acted\",\"refused\"");
+  }
+  /// True: the joint "elbow" has been heard.
+  bool show_elbow(const RunningTelemetry& telemetry) {
+    const state_v1 state{};
+    return comes_true([&] {
+      lcm_.publish("SW.elbow.STATE", &state);
+      return telemetry.metric(R"(strainwave_joint_mode{prefix="SW",joint="elbow"})") == 0.0;
+    });
   }
   void on_command(const lcm::ReceiveBuffer*, const std::string&, const command_v1*) { ++commands_; }
   void hear() {
@@ -165,6 +173,7 @@ class ActingServer : public Server {
 
 TEST_F(ActingServer, TakesOrdersOfItsOwnPageAlone) {
   const RunningTelemetry telemetry({"--key", key_});
+  ASSERT_TRUE(show_elbow(telemetry));
   const std::string host = "Host: localhost:" + std::to_string(telemetry.port()) + "\r\n";
   for (const char* origin : {"", "Origin: https://app.foxglove.dev\r\n", "Origin: file://\r\n",
                              "Origin: http://localhost\r\n", "Origin: https://evil.example\r\n"}) {
@@ -181,12 +190,12 @@ TEST_F(ActingServer, TakesOrdersOfItsOwnPageAlone) {
 
 TEST_F(ActingServer, TakesNoOrderByARequest) {
   const RunningTelemetry telemetry({"--key", key_});
-  const std::string body = R"({"op":"act","action":"stop","joints":["SW.elbow"]})";
-  for (const std::string& request :
-       {"GET /?op=act&action=stop&joints=SW.elbow HTTP/1.1\r\n" + own_page(telemetry) + "\r\n",
-        "GET /act?action=stop HTTP/1.1\r\n" + own_page(telemetry) + "\r\n",
-        "POST /act HTTP/1.1\r\n" + own_page(telemetry) + "Content-Length: " + std::to_string(body.size()) +
-            "\r\n\r\n" + body}) {
+  ASSERT_TRUE(show_elbow(telemetry));
+  const std::string body = R"({"op":"act","action":"stop"})";
+  for (const std::string& request : {"GET /?op=act&action=stop HTTP/1.1\r\n" + own_page(telemetry) + "\r\n",
+                                     "GET /act?action=stop HTTP/1.1\r\n" + own_page(telemetry) + "\r\n",
+                                     "POST /act HTTP/1.1\r\n" + own_page(telemetry) + "Content-Length: " +
+                                         std::to_string(body.size()) + "\r\n\r\n" + body}) {
     const RawClient client(telemetry.port());
     client.send(request);
     EXPECT_EQ(client.read_all().find("acted"), std::string::npos);
@@ -195,11 +204,23 @@ TEST_F(ActingServer, TakesNoOrderByARequest) {
   EXPECT_EQ(commands_, 0);
 }
 
+TEST_F(ActingServer, AnnouncesOrdersToItsOwnPageAlone) {
+  const RunningTelemetry telemetry({"--key", key_});
+  const auto announcement = [&](const std::string& headers) {
+    const RawClient viewer(telemetry.port());
+    return viewer.become_viewer(headers) ? viewer.read_until("sessionId") : "no viewer";
+  };
+  EXPECT_NE(announcement(own_page(telemetry)).find("acting"), std::string::npos);
+  const std::string other = announcement("Host: localhost\r\nOrigin: https://app.foxglove.dev\r\n");
+  EXPECT_NE(other.find("sessionId"), std::string::npos);
+  EXPECT_EQ(other.find("acting"), std::string::npos);
+}
+
 TEST_F(ActingServer, IsNoneWithoutAKey) {
   const RunningTelemetry telemetry;
   const RawClient viewer(telemetry.port());
   ASSERT_TRUE(viewer.become_viewer(own_page(telemetry)));
-  viewer.send_text(R"({"op":"act","action":"stop","joints":["SW.elbow"]})");
+  viewer.send_text(R"({"op":"act","action":"stop"})");
   EXPECT_NE(viewer.read_until("refused").find("'act' is not offered"), std::string::npos);
   hear();
   EXPECT_EQ(commands_, 0);

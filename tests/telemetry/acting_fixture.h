@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pages that order joints "elbow" and "knee" of a fleet, and what is sent for them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <strainwave/ack_v1.hpp>
+#include <strainwave/command_v1.hpp>
+#include <strainwave/setpoint_v1.hpp>
+#include <vector>
+
+#include "client/protocol/key_file.h"
+#include "lcmtypes/signing.h"
+#include "telemetry/acting.h"
+#include "tests/support/temporary_folder.h"
+
+namespace strainwave {
+
+inline constexpr Acting::Page kTab{1, true};
+inline constexpr Acting::Page kOtherTab{2, true};
+inline constexpr Acting::Page kForeignPage{3, false};
+
+class ActingTest : public ::testing::Test {
+ protected:
+  using Json = nlohmann::json;
+  struct Sent {
+    std::string channel;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  ActingTest() : key_(write_new_key(folder_.path() / "key", Role::kOperator, "bench").key) {
+    for (const char* joint : {"elbow", "knee"}) {
+      state_v1 state{};
+      state.session_id = 42;
+      state.challenge = 7;
+      state.joint_position_rad = 0.5;
+      state.link_position_rad = std::numeric_limits<double>::quiet_NaN();
+      fleet_.take({"SW", joint, "STATE"}, state, 0.0);
+    }
+    limits_v1 limits{};
+    limits.session_id = 42;
+    limits.position_min_rad = -2.0;
+    limits.position_max_rad = 2.0;
+    limits.speed_limit_rad_s = 4.0;
+    limits.acceleration_rad_s2 = limits.deceleration_rad_s2 = 30.0;
+    fleet_.take({"SW", "elbow", "LIMITS"}, limits, 0.0);
+  }
+
+  void take(const Acting::Page& page, Json order) {
+    order["op"] = "act";
+    acting_.take(page, read_page_order(order), now_s_);
+  }
+  void open(const Acting::Page& page) { take(page, {{"action", "open"}, {"token", acting_.token()}}); }
+  static Json order(const std::string& action, const std::string& joint = "SW.elbow") {
+    return {{"action", action}, {"joint", joint}, {"session_id", "42"}, {"challenge", "9223372036854775807"}};
+  }
+  static Json jog(int number, double velocity_rad_s, const std::string& joint = "SW.elbow") {
+    Json json = order("jog", joint);
+    json["jog"] = number;
+    json["velocity_rad_s"] = velocity_rad_s;
+    return json;
+  }
+  void tick(double seconds) {
+    for (const double end_s = now_s_ + seconds; now_s_ < end_s - 1e-9;) {
+      now_s_ += Acting::kTick_s;
+      acting_.tick(now_s_);
+    }
+  }
+  /// The daemon's answer to the latest message.
+  void acknowledge(Reason reason = Reason::kAccepted) {
+    ack_v1 ack{};
+    visit_latest([&](const auto& message) {
+      ack.sender_id = message.sender_id;
+      ack.sequence = message.sequence;
+    });
+    ack.accepted = reason == Reason::kAccepted ? 1 : 0;
+    ack.reason = static_cast<std::int32_t>(reason);
+    const auto name = parse_channel(sent_.back().channel);
+    acting_.take({name->prefix, name->joint, "ACK"}, ack);
+  }
+  template <typename Visit>
+  void visit_latest(const Visit& visit) const {
+    if (const auto command = decode_exactly<command_v1>(sent_.back().bytes)) return visit(*command);
+    visit(*decode_exactly<setpoint_v1>(sent_.back().bytes));
+  }
+  std::vector<Action> actions(const std::string& channel = "SW.elbow.COMMAND") const {
+    std::vector<Action> found;
+    for (const Sent& sent : sent_)
+      if (sent.channel == channel)
+        found.push_back(static_cast<Action>(decode_exactly<command_v1>(sent.bytes)->action));
+    return found;
+  }
+  std::vector<setpoint_v1> setpoints() const {
+    std::vector<setpoint_v1> found;
+    for (const Sent& sent : sent_)
+      if (const auto setpoint = decode_exactly<setpoint_v1>(sent.bytes)) found.push_back(*setpoint);
+    return found;
+  }
+  bool signed_by_key(const Sent& sent) const { return verify(sent.channel, key_, sent.bytes); }
+  /// The last text that `page` got; empty: none.
+  Json said(const Acting::Page& page) const {
+    return texts_.contains(page.number) ? texts_.at(page.number) : Json();
+  }
+  void begin_jog(const Acting::Page& page, int number = 1) {
+    open(page);
+    take(page, jog(number, 0.2));
+    ASSERT_EQ(setpoints().size(), 1U) << said(page);
+    acknowledge();
+  }
+
+  TemporaryFolder folder_;
+  PublicKey key_;
+  Fleet fleet_;
+  std::vector<Sent> sent_;
+  std::map<std::uint64_t, Json> texts_;
+  double now_s_ = 100.0;
+  Acting acting_{folder_.path() / "key", fleet_,
+                 [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
+                   sent_.push_back({channel, {bytes.begin(), bytes.end()}});
+                 },
+                 [this](std::uint64_t page, const std::string& text) { texts_[page] = Json::parse(text); }};
+};
+
+}  // namespace strainwave
