@@ -4,6 +4,7 @@
 // Orders quote session and challenge of the state that the page shows: the daemon refuses those that come late.
 
 const REPEAT_MS = 100; // of a jog: the server ends it after 0.3 s of silence
+const STOP_ANSWER_MS = 1000; // the server answers a stop at once, and counts the joints' answers later
 const KEPT_ANSWERS = 5;
 
 const make = (tag, properties = {}, ...children) => {
@@ -20,6 +21,7 @@ export class Acting {
     this.jogs = 0;
     this.jogging = null; // {button, number, velocity_rad_s, timer}
     this.jogShare = 0;
+    this.stopTimer = null; // runs from a stop until the server's next answer
     this.build();
     this.listen();
     this.open();
@@ -55,8 +57,9 @@ export class Acting {
     this.holdButton.addEventListener('click', () => this.order('hold'));
     this.speed.addEventListener('input', () => this.show());
     const isSpace = (event) => event.code === 'Space' && !event.ctrlKey && !event.metaKey && !event.altKey;
-    // Wherever the focus is: the space bar presses no button and opens no list here.
+    // Wherever the focus is: the space bar presses no button and opens no list here, and a held Enter presses a button once.
     addEventListener('keydown', (event) => {
+      if (event.key === 'Enter' && event.repeat) event.preventDefault();
       if (!isSpace(event)) return;
       event.preventDefault();
       event.stopPropagation();
@@ -80,16 +83,19 @@ export class Acting {
       });
       button.addEventListener('keyup', (event) => event.key === 'Enter' && released());
     });
+    addEventListener('hashchange', () => this.open());
     for (const kind of ['blur', 'pagehide']) addEventListener(kind, () => this.endJog());
     document.addEventListener('visibilitychange', () => document.hidden && this.endJog());
   }
 
-  /** Shows the token; after each new connection. */
+  /** Shows the token; after each new connection. The address, which others may see, has it only at first; the tab keeps it. */
   open() {
     this.endJog();
-    const token = new URLSearchParams(location.hash.slice(1)).get('token');
+    const given = new URLSearchParams(location.hash.slice(1)).get('token');
+    if (given !== null) history.replaceState({token: given}, '', location.pathname + location.search);
+    const token = history.state?.token;
     this.unlock(false);
-    if (token !== null) this.send({action: 'open', token});
+    if (token !== undefined) this.send({action: 'open', token});
   }
 
   unlock(open) {
@@ -114,11 +120,15 @@ export class Acting {
 
   stop() {
     this.endJog();
-    this.send({action: 'stop', joints: [...this.bench.joints().values()].map((joint) => joint.channel)});
+    if (!this.send({action: 'stop'})) return;
+    this.stopTimer ??= setTimeout(() => {
+      this.stopTimer = null;
+      this.answer('no answer to the stop; use the emergency stop', true);
+    }, STOP_ANSWER_MS);
   }
 
   speed_rad_s(joint) {
-    return joint.limits ? this.jogShare * joint.limits.speed_limit_rad_s * Number(this.speed.value) / 100 : 0;
+    return joint.limits ? this.jogShare * joint.limits.speed_limit_rad_s * (Number(this.speed.value) / 100) : 0;
   }
 
   jog(sign, button) {
@@ -151,6 +161,8 @@ export class Acting {
       this.unlock(message.open);
       this.show();
     } else if (message.op === 'acted') {
+      clearTimeout(this.stopTimer);
+      this.stopTimer = null;
       this.answer(message.text, message.refused);
     }
   }

@@ -8,6 +8,7 @@ import {readReport} from './report.js';
 import {JointTable} from './table.js';
 
 const REDRAW_MS = 100;
+const SILENT_S = 10; // of a joint that is gone
 const element = (id) => document.getElementById(id);
 
 const live = new Map(); // joint to {history, channel, last, received_s, limits}
@@ -47,13 +48,26 @@ function span() {
   return [to_s - Number(element('span').value), to_s];
 }
 
-function redraw() {
+function showJoints() {
   element('empty').hidden = joints().size > 0;
   for (const [name, joint] of joints()) table.show(name, joint.last, words(joint.last), recording ? 0 : now_s() - joint.received_s);
+  acting?.show();
+}
+
+function redraw() {
+  showJoints();
   const joint = joints().get(chosen);
   element('plots-title').textContent = joint ? `Plots of ${chosen}` : 'Plots';
   if (joint) plots.show(joint.history, ...span(), joint.fault_s ?? null);
-  acting?.show();
+}
+
+/** But the chosen joint, whose last plots may tell why. */
+function forgetSilent() {
+  for (const [name, {received_s}] of live) {
+    if (name === chosen || now_s() - received_s < SILENT_S) continue;
+    live.delete(name);
+    if (!recording) table.remove(name);
+  }
 }
 
 function setPaused(paused) {
@@ -171,7 +185,11 @@ async function onControl(message) {
   if (message.op === 'serverInfo' && message.metadata?.acting) {
     if (actingAsked) return acting?.open();
     actingAsked = true;
-    const {Acting} = await import('./acting.js');
+    const {Acting} = await import('./acting.js').catch((error) => {
+      actingAsked = false;
+      complain(`there is no stop on this page, load it again: ${error.message}`);
+      throw error;
+    });
     element('only-shows').hidden = true;
     acting = new Acting(connection, {joints: () => live, chosen: () => (recording ? null : chosen)});
   } else {
@@ -179,5 +197,8 @@ async function onControl(message) {
   }
 }
 setInterval(() => {
-  if (!recording && pausedAt_s === null && !document.hidden) redraw();
+  forgetSilent();
+  if (recording || document.hidden) return;
+  if (pausedAt_s === null) redraw();
+  else showJoints();
 }, REDRAW_MS);

@@ -31,6 +31,11 @@ export class JointTable {
     this.rows.get(names[at]).scrollIntoView({block: 'nearest'});
   }
 
+  remove(name) {
+    this.rows.get(name)?.remove();
+    this.rows.delete(name);
+  }
+
   clear() {
     this.rows.clear();
     this.body.replaceChildren();

@@ -6,6 +6,7 @@ import {obey, openPage, problems, rowsOf, say, sleep, until, violationsOf, width
 
 const [, , pictures] = process.argv;
 const JOG_S = 1;
+const SHOWN_S = 0.5; // until a page that was hidden shows what is
 const tabs = {};
 const mode = async (tab) => (await rowsOf(tab))[0][1];
 const position_rad = async (tab) => Number((await rowsOf(tab))[0][2]);
@@ -33,7 +34,7 @@ const steps = {
     const tab = tabs[name] = await openPage(url);
     await until(async () => (await rowsOf(tab)).length > 0 && await tab.$('#stop') !== null, 10);
     await sleep(1.5); // the limits come once a second
-    say({panel: await visible(tab, '#orders-panel'), stop: await visible(tab, '#stop'), limits: await tab.$eval('#orders-limits', (element) => element.textContent)});
+    say({panel: await visible(tab, '#orders-panel'), stop: await visible(tab, '#stop'), limits: await tab.$eval('#orders-limits', (element) => element.textContent), hash: new URL(tab.url()).hash});
   },
   async click(name, selector, expected) {
     const tab = tabs[name];
@@ -66,6 +67,7 @@ const steps = {
     await sleep(JOG_S);
     await other.close();
     await tab.bringToFront(); // hidden, it shows nothing; the button is still held
+    await sleep(SHOWN_S);
     const result = await stopped(tab, from_rad);
     await tab.mouse.up();
     say(result);
@@ -86,6 +88,7 @@ const steps = {
       return document.querySelector('#answers li')?.textContent;
     });
     await first.close();
+    await sleep(SHOWN_S);
     say({refused, ...await stopped(tab, from_rad)});
   },
   // By the keyboard alone: Enter jogs, the space bar stops while Enter is still held.
@@ -102,10 +105,42 @@ const steps = {
     await tab.keyboard.up('Enter');
     say({during, ...result});
   },
+  // While the plots stand still, the table and what is quoted from it go on. A held Enter orders once.
+  async pause(name) {
+    const tab = tabs[name];
+    await tab.bringToFront();
+    await tab.click('#pause');
+    await sleep(2.5); // longer than a challenge is valid
+    await tab.$eval('#answers', (list) => list.replaceChildren());
+    await tab.focus('#enable');
+    for (let i = 0; i < 4; ++i) await tab.keyboard.down('Enter');
+    await tab.keyboard.up('Enter');
+    const seconds = await until(async () => await mode(tab) === 'holding', 3);
+    await sleep(0.5);
+    await tab.click('#pause');
+    say({seconds, answers: await answers(tab)});
+  },
+  async reload(name) {
+    const tab = tabs[name];
+    await tab.bringToFront();
+    await tab.reload();
+    const seconds = await until(async () => await tab.$('#stop') !== null && await visible(tab, '#orders-panel'), 10);
+    await sleep(1.5); // as above
+    say({panel: seconds !== null});
+  },
+  // strainwave-telemetry stands still.
+  async silence(name) {
+    const tab = tabs[name];
+    await tab.bringToFront();
+    const stops = setInterval(() => tab.keyboard.press('Space'), 300);
+    const seconds = await until(async () => (await answers(tab))[0]?.includes('no answer'), 5);
+    clearInterval(stops);
+    say({seconds, answers: await answers(tab)});
+  },
   // The page's own orders once more, by a connection of the page that shows no token, then with it; and an old order again.
   async replay(name) {
     say(await tabs[name].evaluate(async () => {
-      const token = new URLSearchParams(location.hash.slice(1)).get('token');
+      const {token} = history.state;
       const socket = new WebSocket(`ws://${location.host}/`, ['foxglove.websocket.v1']);
       const texts = [];
       let state = null;

@@ -84,7 +84,7 @@ const steps = {
     const {status} = await fetch(new URL('acting.js', url));
     const answer = await page.evaluate(() => new Promise((done) => {
       const socket = new WebSocket(`ws://${location.host}/`, ['foxglove.websocket.v1']);
-      socket.onopen = () => socket.send(JSON.stringify({op: 'act', action: 'stop', joints: ['SW.elbow']}));
+      socket.onopen = () => socket.send(JSON.stringify({op: 'act', action: 'stop'}));
       socket.onmessage = ({data}) => typeof data === 'string' && JSON.parse(data).op === 'status' && done(JSON.parse(data).message);
     }));
     say({status, answer, elements: await page.$$eval('#stop, #orders', (list) => list.length)});
