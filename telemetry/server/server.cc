@@ -172,7 +172,7 @@ void TelemetryServer::publish(std::uint32_t topic, std::int64_t received_us, std
 void TelemetryServer::say(std::uint64_t viewer, std::string text) {
   const auto viewers = network_->shared().viewers;
   for (const auto& one : viewers)
-    if (one->id() == viewer) one->say(std::move(text));
+    if (one->id() == viewer) return one->say(std::move(text));
 }
 
 ServerCounts TelemetryServer::counts() const {

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <strainwave/ack_v1.hpp>
 #include <strainwave/command_v1.hpp>
 #include <strainwave/setpoint_v1.hpp>
+#include <string>
 #include <vector>
 
 #include "client/protocol/key_file.h"
@@ -31,38 +31,12 @@ class ActingTest : public ::testing::Test {
     std::vector<std::uint8_t> bytes;
   };
 
-  ActingTest() : key_(write_new_key(folder_.path() / "key", Role::kOperator, "bench").key) {
-    for (const char* joint : {"elbow", "knee"}) {
-      state_v1 state{};
-      state.session_id = 42;
-      state.challenge = 7;
-      state.joint_position_rad = 0.5;
-      state.link_position_rad = std::numeric_limits<double>::quiet_NaN();
-      fleet_.take({"SW", joint, "STATE"}, state, 0.0);
-    }
-    limits_v1 limits{};
-    limits.session_id = 42;
-    limits.position_min_rad = -2.0;
-    limits.position_max_rad = 2.0;
-    limits.speed_limit_rad_s = 4.0;
-    limits.acceleration_rad_s2 = limits.deceleration_rad_s2 = 30.0;
-    fleet_.take({"SW", "elbow", "LIMITS"}, limits, 0.0);
-  }
+  ActingTest();
 
-  void take(const Acting::Page& page, Json order) {
-    order["op"] = "act";
-    acting_.take(page, read_page_order(order), now_s_);
-  }
-  void open(const Acting::Page& page) { take(page, {{"action", "open"}, {"token", acting_.token()}}); }
-  static Json order(const std::string& action, const std::string& joint = "SW.elbow") {
-    return {{"action", action}, {"joint", joint}, {"session_id", "42"}, {"challenge", "9223372036854775807"}};
-  }
-  static Json jog(int number, double velocity_rad_s, const std::string& joint = "SW.elbow") {
-    Json json = order("jog", joint);
-    json["jog"] = number;
-    json["velocity_rad_s"] = velocity_rad_s;
-    return json;
-  }
+  void take(const Acting::Page& page, const Json& order);
+  void open(const Acting::Page& page);
+  static Json order(const std::string& action, const std::string& joint = "SW.elbow");
+  static Json jog(int number, double velocity_rad_s, const std::string& joint = "SW.elbow");
   void tick(double seconds) {
     for (const double end_s = now_s_ + seconds; now_s_ < end_s - 1e-9;) {
       now_s_ += Acting::kTick_s;
@@ -101,27 +75,20 @@ class ActingTest : public ::testing::Test {
   }
   bool signed_by_key(const Sent& sent) const { return verify(sent.channel, key_, sent.bytes); }
   /// The last text that `page` got; empty: none.
-  Json said(const Acting::Page& page) const {
-    return texts_.contains(page.number) ? texts_.at(page.number) : Json();
-  }
-  void begin_jog(const Acting::Page& page, int number = 1) {
-    open(page);
-    take(page, jog(number, 0.2));
-    ASSERT_EQ(setpoints().size(), 1U) << said(page);
-    acknowledge();
-  }
+  Json said(const Acting::Page& page) const;
+  void begin_jog(const Acting::Page& page, int number = 1);
 
   TemporaryFolder folder_;
   PublicKey key_;
   Fleet fleet_;
   std::vector<Sent> sent_;
-  std::map<std::uint64_t, Json> texts_;
+  std::map<std::uint64_t, std::string> texts_;
   double now_s_ = 100.0;
   Acting acting_{folder_.path() / "key", fleet_,
                  [this](const std::string& channel, std::span<const std::uint8_t> bytes) {
                    sent_.push_back({channel, {bytes.begin(), bytes.end()}});
                  },
-                 [this](std::uint64_t page, const std::string& text) { texts_[page] = Json::parse(text); }};
+                 [this](std::uint64_t page, const std::string& text) { texts_[page] = text; }};
 };
 
 }  // namespace strainwave

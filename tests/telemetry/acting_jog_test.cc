@@ -2,6 +2,7 @@
 // Jogs of the page (telemetry/acting.h).
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tests/telemetry/acting_fixture.h"
 
