@@ -211,17 +211,17 @@ class LatePositions(unittest.TestCase):
         self.assertFalse(any(int(row['notices']) & POSITION_LATE for row in rows if int(row['utime']) < at_us))
         return [row for row in rows if int(row['utime']) > at_us + 100000]
 
-    def test_2_4_ms_are_a_notice_where_the_configuration_allows_for_them(self):
-        rows = self.rows_with_lateness(2400, 3)
+    def test_1_4_ms_are_a_notice_where_the_configuration_allows_for_them(self):
+        rows = self.rows_with_lateness(1400, 2)
         self.assertTrue(all(int(row['notices']) & POSITION_LATE for row in rows))
         self.assertIsNone(first_fault(rows, 0))
         must('disable', JOINT)
 
-    def test_2_4_ms_are_a_fault_where_it_allows_for_one(self):
-        self.expect_fault(self.rows_with_lateness(2400, 1))
+    def test_1_4_ms_are_a_fault_where_it_allows_for_one(self):
+        self.expect_fault(self.rows_with_lateness(1400, 1))
 
     def test_10_4_ms_are_a_fault_whatever_it_allows_for(self):
-        self.expect_fault(self.rows_with_lateness(10400, 4))  # the table bears no more
+        self.expect_fault(self.rows_with_lateness(10400, 2))  # the table bears no more
 
     def expect_fault(self, rows):
         self.assertTrue(all(int(row['fault']) == FAULTS['read failed'] for row in rows))

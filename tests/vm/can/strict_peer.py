@@ -76,8 +76,8 @@ class StrictPeer(StrictBench):
         self.assertIn('delay_periods', said)
 
     def test_positions_that_become_later_than_is_allowed_for_are_a_fault(self):
-        process = self.start_node('--late', '0.0104', '--torque-lag', '2', '--track', 'track')
-        daemon = self.start_daemon('delay_periods = 3\n')
+        process = self.start_node('--late', '0.0104', '--torque-lag', '1', '--track', 'track')
+        daemon = self.start_daemon('delay_periods = 2\n')
         self.enable()
         process.send_signal(signal.SIGUSR2)
         wait_until(lambda: joint_state()['mode'] == MODES['faulted'], 3, 'the joint faults: ' + daemon.text())

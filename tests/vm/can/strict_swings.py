@@ -50,15 +50,15 @@ class StrictSwings(StrictBench):
         self.enable()
         self.expect_exact_swings(notices=0)
 
-    def test_a_joint_whose_positions_are_2_4_ms_late_from_the_start_is_exact(self):
-        self.start_node('--tpdo-delay', '0.0024', '--track', 'track')
-        self.start_daemon('delay_periods = 3\n')
+    def test_a_joint_whose_positions_are_1_4_ms_late_from_the_start_is_exact(self):
+        self.start_node('--tpdo-delay', '0.0014', '--track', 'track')
+        self.start_daemon('delay_periods = 2\n')
         self.enable()
         self.expect_exact_swings(notices=POSITION_LATE)
 
-    def test_a_joint_whose_positions_become_2_4_ms_late_in_operation_is_exact_and_says_so(self):
-        process = self.start_node('--late', '0.0024', '--torque-lag', '2', '--track', 'track')
-        self.start_daemon('delay_periods = 3\n')
+    def test_a_joint_whose_positions_become_1_4_ms_late_in_operation_is_exact_and_says_so(self):
+        process = self.start_node('--late', '0.0014', '--torque-lag', '1', '--track', 'track')
+        self.start_daemon('delay_periods = 2\n')
         self.enable()
         self.expect_exact_swings(notices=0)
         process.send_signal(signal.SIGUSR2)
