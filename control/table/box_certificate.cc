@@ -157,7 +157,7 @@ std::optional<std::string> find_outside_box(const GainTable& table, const std::o
     return "the table is of a flexible joint: a rigid joint takes one from strainwave-design gains "
            "--inertia_kgm2 without --load-inertia_kgm2";
   if (link)
-    if (const auto outside_spring = find_spring_outside(box, *link)) return outside_spring;
+    if (auto outside_spring = find_spring_outside(box, *link)) return outside_spring;
   const bool proves_nothing = box.cell_count == 0;  // which certify_box() says
   if (!proves_nothing && (delay_periods < box.least_delay || delay_periods > box.most_delay))
     return outside("delay_periods", std::to_string(delay_periods),
