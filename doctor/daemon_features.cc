@@ -7,7 +7,6 @@
 
 #include "doctor/features.h"
 #include "doctor/stretches.h"
-#include "doctor/told_friction.h"
 #include "lcmtypes/reading_doubt.h"
 #include "strainwave/vocabulary.h"
 
@@ -44,7 +43,7 @@ void add_temperature(const Evidence& evidence, Features& features) {
   });
   // Outside the table's range is rare, and no proof.
   const double clamped = share_of(evidence, with_notice(Notice::kTemperatureClamped));
-  double last_C = friction_temperature_C(evidence);
+  double last_C = evidence.mean_temperature_C();
   for (const temperature_v1& temperature : evidence.temperatures) last_C = temperature.temperature_measured_C;
   features[Feature::kTemperatureSilent] =
       Observation{silent, 0.05, fmt::format("in {:.0f} % of the time no temperature came", 100.0 * silent)};

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "doctor/causes.h"
-#include "doctor/told_friction.h"
 
 namespace strainwave {
 
@@ -27,7 +26,8 @@ using Predicted = std::array<double, kFeatureCount>;
 
 class Explanation {
  public:
-  Explanation(const Evidence& evidence, const Cause& cause) : evidence_(evidence), cause_(cause) {}
+  Explanation(const Evidence& evidence, double temperature_C, const Cause& cause)
+      : evidence_(evidence), temperature_C_(temperature_C), cause_(cause) {}
 
   /// The best lambda's, over `features`.
   void fit(const Features& features) {
@@ -53,7 +53,7 @@ class Explanation {
   std::vector<double> sizes() const {
     std::vector<double> sizes;
     if (cause_.by_catalogue) {
-      const double told = evidence_.limits ? evidence_.limits->gear_ratio : 0.0;
+      const double told = evidence_.gear_ratio();
       for (const double ratio : kRatios)
         if (told > 0.0 && std::abs(ratio - told) > 0.05 * told) sizes.push_back(std::log(ratio / told));
     } else if (cause_.moves.empty() && !cause_.by_temperature) {
@@ -70,8 +70,8 @@ class Explanation {
     for (const auto& [feature, factor] : cause_.moves)
       predicted[static_cast<std::size_t>(feature)] = factor * lambda;
     if (cause_.by_temperature) {
-      const auto told = told_friction(evidence_);
-      const auto there = told_friction(evidence_, lambda);
+      const auto told = evidence_.friction_at(temperature_C_);
+      const auto there = evidence_.friction_at(temperature_C_ + lambda);
       if (told && there) {
         predicted[static_cast<std::size_t>(Feature::kCoulomb)] =
             std::log(there->coulomb_Nm / told->coulomb_Nm);
@@ -94,6 +94,7 @@ class Explanation {
   }
 
   const Evidence& evidence_;
+  double temperature_C_;  ///< mean of the evidence
   const Cause& cause_;
   double misfit_ = 0.0;
   Predicted predicted_{};
@@ -126,7 +127,8 @@ Diagnosis diagnose(const Evidence& evidence) {
   Diagnosis diagnosis;
   diagnosis.not_judged = features.not_judged;
   std::vector<Explanation> explanations;
-  for (const Cause& cause : causes()) explanations.emplace_back(evidence, cause);
+  const double temperature_C = evidence.mean_temperature_C();
+  for (const Cause& cause : causes()) explanations.emplace_back(evidence, temperature_C, cause);
   while (diagnosis.findings.size() < kMostFindings) {
     const double none = misfit_of_none(features);
     for (Explanation& explanation : explanations) explanation.fit(features);

@@ -45,4 +45,20 @@ std::int64_t Evidence::stride_periods() const {
   return *middle;
 }
 
+double Evidence::mean_temperature_C() const {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const DoctorSample& sample : samples) {
+    if (!std::isfinite(sample.temperature_used_C) || sample.temperature_status != 0) continue;
+    sum += sample.temperature_used_C;
+    ++count;
+  }
+  return sum / count;
+}
+
+std::optional<FrictionParameters> Evidence::friction_at(double temperature_C) const {
+  if (!told.friction || !std::isfinite(temperature_C)) return std::nullopt;
+  return told.friction->blend(told.friction->weights(temperature_C));
+}
+
 }  // namespace strainwave

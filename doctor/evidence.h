@@ -12,7 +12,7 @@
 #include <strainwave/timing_v1.hpp>
 #include <vector>
 
-#include "doctor/told.h"
+#include "doctor/configured_joint.h"
 
 namespace strainwave {
 
@@ -54,6 +54,14 @@ struct Evidence {
 
   /// Of the encoder; a usual one where the configuration does not say.
   double count_rad() const { return told.count_rad.value_or(5e-5); }
+  /// The joint's; a usual one where no limits came.
+  double torque_limit_Nm() const { return limits ? limits->torque_limit_Nm : 30.0; }
+  /// 0: not known.
+  double gear_ratio() const { return limits ? limits->gear_ratio : 0.0; }
+  /// Mean of the temperatures that the controller used; NaN: none.
+  double mean_temperature_C() const;
+  /// What the configured gain table says at this temperature. Nothing: no table, or no temperature.
+  std::optional<FrictionParameters> friction_at(double temperature_C) const;
   /// The usual distance of two samples, periods; 0: fewer than two samples.
   std::int64_t stride_periods() const;
 };

@@ -37,7 +37,7 @@ enum class Feature : std::size_t {
   kClockRate,          ///< sender's clock against the loop's, share
   kClockJumps          ///< sudden steps of the sender's clock, s
 };
-inline constexpr std::size_t kFeatureCount = 23;
+inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::kClockJumps) + 1;
 
 struct Observation {
   double value = 0.0;

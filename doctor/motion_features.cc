@@ -7,7 +7,6 @@
 
 #include "doctor/features.h"
 #include "doctor/motion_fit.h"
-#include "doctor/told_friction.h"
 #include "strainwave/vocabulary.h"
 
 namespace strainwave {
@@ -33,7 +32,8 @@ Observation ratio_of(double measured, double told, double deviation, double tole
 }
 
 void add_friction(const Evidence& evidence, const MotionFit& fit, Features& features) {
-  const auto told = told_friction(evidence);
+  const double temperature_C = evidence.mean_temperature_C();
+  const auto told = evidence.friction_at(temperature_C);
   if (!told) {
     features.not_judged.emplace_back(
         "friction, torque constant and temperature sensor by friction: give --config with joint.table");
@@ -47,8 +47,7 @@ void add_friction(const Evidence& evidence, const MotionFit& fit, Features& feat
     features[Feature::kCoulomb] = ratio_of(
         fit.coulomb_Nm.value, told->coulomb_Nm, fit.coulomb_Nm.deviation, kFrictionTolerance,
         fmt::format("friction at slow speed is {:.2f} +-{:.2f} N.m, the table says {:.2f} N.m at {:.1f} degC",
-                    fit.coulomb_Nm.value, fit.coulomb_Nm.deviation, told->coulomb_Nm,
-                    friction_temperature_C(evidence)));
+                    fit.coulomb_Nm.value, fit.coulomb_Nm.deviation, told->coulomb_Nm, temperature_C));
   if (known(fit.viscous_Nms_rad))
     features[Feature::kViscous] = ratio_of(
         fit.viscous_Nms_rad.value, told->viscous_Nms_rad, fit.viscous_Nms_rad.deviation,
@@ -110,7 +109,7 @@ void add_runaway(const Evidence& evidence, Features& features) {
   constexpr double kBefore_s = 0.06;
   constexpr double kLeastTorque = 0.2;  // of the limit, mean: a load that falls is held back by less
   constexpr double kLeastSpeed_rad_s = 0.3;
-  const double limit_Nm = evidence.limits ? evidence.limits->torque_limit_Nm : 30.0;
+  const double limit_Nm = evidence.torque_limit_Nm();
   const auto& samples = evidence.samples;
   for (std::size_t end = 2; end < samples.size(); ++end) {
     if (samples[end].fault == 0 || samples[end - 1].fault != 0) continue;
@@ -148,16 +147,15 @@ void add_motion_features(const Evidence& evidence, Features& features) {
   if (!fit) {
     features.not_judged.emplace_back(fmt::format(
         "inertia, friction, delay, load: the recording has fewer than {} windows of controlled motion",
-        kLeastWindows));
+        kLeastMotionWindows));
     return;
   }
   add_inertia(evidence, *fit, features);
   add_friction(evidence, *fit, features);
   add_delay(evidence, *fit, features);
   add_stiffness(evidence, *fit, features);
-  const double limit_Nm = evidence.limits ? evidence.limits->torque_limit_Nm : 30.0;
   features[Feature::kLoad] = Observation{
-      fit->load_Nm, std::hypot(kLoadShare * limit_Nm, fit->load_deviation_Nm),
+      fit->load_Nm, std::hypot(kLoadShare * evidence.torque_limit_Nm(), fit->load_deviation_Nm),
       fmt::format("at {:.2f} rad {:+.2f} +-{:.2f} N.m push the joint besides the configured gravity",
                   fit->load_at_rad, -fit->load_Nm, fit->load_deviation_Nm)};
 }

@@ -16,7 +16,7 @@ constexpr double kNoise_Nm = 0.3;       // of a window: what weighs measurement 
 constexpr double kScaleNoise_Nm = 0.6;  // likewise, for the spring
 constexpr double kScalePrior = 0.5;     // of ln(scale), standard deviation
 constexpr double kCoarse = 0.1, kFine = 0.02;
-constexpr int kParameters = kMotionParameters;
+constexpr int kParameters = kMotionColumns;
 using Rows = MotionRows;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 using Solution = Eigen::Matrix<double, kParameters, 1>;
@@ -27,7 +27,7 @@ class Regression {
       : evidence_(evidence), windows_(evidence), weights_(Eigen::VectorXd::Ones(windows_.count())) {}
 
   std::optional<MotionFit> run() {
-    if (windows_.count() < kLeastWindows) return std::nullopt;
+    if (windows_.count() < kLeastMotionWindows) return std::nullopt;
     for (int d = 0; d <= 2 * MotionWindows::kMostDelay; ++d) torques_.push_back(windows_.torques(0.5 * d));
     const bool flexible = windows_.flexible();
     // A swing with 2 % of damping is a fiftieth of its frequency wide.
@@ -53,7 +53,7 @@ class Regression {
 
   // Weak: what the motions do not show stays near what is usual.
   Solution priors() const {
-    const double limit_Nm = evidence_.limits ? evidence_.limits->torque_limit_Nm : 30.0;
+    const double limit_Nm = evidence_.torque_limit_Nm();
     Solution prior;
     const double error = evidence_.told.link ? 3.0 * evidence_.told.link->link_inertia_kgm2 : 1e-6;
     prior << 1e3, 1e3, 1e3, 1e3, 0.01 * limit_Nm, 0.3 * limit_Nm, 0.3 * limit_Nm, error, error, error, error;

@@ -34,9 +34,9 @@ struct MotionFit {
   int windows = 0;
 };
 
-/// Nothing: fewer than kLeastWindows windows of motion.
+/// Nothing: fewer than kLeastMotionWindows windows of motion.
 std::optional<MotionFit> fit_motion(const Evidence& evidence);
 
-inline constexpr int kLeastWindows = 12;
+inline constexpr int kLeastMotionWindows = 12;
 
 }  // namespace strainwave

@@ -68,7 +68,7 @@ Eigen::VectorXd MotionWindows::torques(double delay_periods) const {
 }
 
 MotionRows MotionWindows::rows(double scale) const {
-  MotionRows rows(static_cast<Eigen::Index>(windows_.size()), kMotionParameters);
+  MotionRows rows(static_cast<Eigen::Index>(windows_.size()), kMotionColumns);
   const Stretch* at = nullptr;
   std::array<std::vector<double>, 5> link;
   const double half_s = half_ * step_s_;
@@ -76,7 +76,7 @@ MotionRows MotionWindows::rows(double scale) const {
     const Stretch& stretch = *windows_[w].stretch;
     if (flexible() && at != &stretch) link = link_responses(stretch, scale);
     at = &stretch;
-    Eigen::Matrix<double, kMotionParameters, 1> row = Eigen::Matrix<double, kMotionParameters, 1>::Zero();
+    Eigen::Matrix<double, kMotionColumns, 1> row = Eigen::Matrix<double, kMotionColumns, 1>::Zero();
     for (int i = -half_; i <= half_; ++i) {
       const Bump bump(static_cast<double>(i) / half_);
       const auto k = static_cast<std::size_t>(windows_[w].center + i);
@@ -102,7 +102,7 @@ std::array<std::vector<double>, 5> MotionWindows::link_responses(const Stretch& 
   const ConfiguredLink& told = *evidence_.told.link;
   std::array<std::vector<double>, 5> responses{
       link_acceleration(stretch.position_rad, stretch.step_s, told, scale), {}, {}, {}, {}};
-  const double ratio = evidence_.limits ? evidence_.limits->gear_ratio : 0.0;
+  const double ratio = evidence_.gear_ratio();
   for (std::size_t part = 1; part < 5; ++part) {
     std::vector<double> error_rad;
     for (const double position_rad : stretch.position_rad) {

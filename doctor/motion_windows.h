@@ -12,8 +12,8 @@ namespace strainwave {
 
 /// Columns of the equation. The last four: Jl times the amplitudes of the gear's kinematic error, once and twice per motor turn.
 enum MotionQuantity { kMotor, kLink, kCoulomb, kViscous, kBias, kSine, kCosine, kError };
-inline constexpr int kMotionParameters = 11;
-using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, kMotionParameters>;
+inline constexpr int kMotionColumns = 11;
+using MotionRows = Eigen::Matrix<double, Eigen::Dynamic, kMotionColumns>;
 
 class MotionWindows {
  public:

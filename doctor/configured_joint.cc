@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/told.h"
-
-#include <array>
+#include "doctor/configured_joint.h"
 
 #include "base/input_error.h"
 #include "base/toml_section.h"
