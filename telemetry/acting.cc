@@ -17,6 +17,7 @@
 #include "base/input_error.h"
 #include "base/printable.h"
 #include "client/protocol/key_file.h"
+#include "client/protocol/orders.h"
 #include "lcmtypes/channels.h"
 #include "telemetry/access.h"
 
@@ -27,16 +28,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kAnswer_s = 2.0;  // how long an order is repeated, as strainwavectl does
-
-std::string full_name(const OpenOrders::Name& joint) {
-  return joint.first + "." + joint.second;
-}
-
-command_v1 command_message(Action action) {
-  command_v1 message{};
-  message.action = static_cast<std::int32_t>(action);
-  return message;
-}
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};

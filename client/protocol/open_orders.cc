@@ -61,4 +61,8 @@ bool OpenOrders::renew(Waiting& waiting, const ack_v1& refusal) {
   return true;
 }
 
+std::string full_name(const OpenOrders::Name& joint) {
+  return joint.first + "." + joint.second;
+}
+
 }  // namespace strainwave

@@ -54,4 +54,7 @@ class OpenOrders {
   std::vector<Waiting> waiting_;
 };
 
+/// As people read it.
+std::string full_name(const OpenOrders::Name& joint);
+
 }  // namespace strainwave

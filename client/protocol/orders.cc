@@ -16,12 +16,6 @@ bool is_enabled(Mode mode) {
   return mode == Mode::kHolding || mode == Mode::kTracking || mode == Mode::kHoming;
 }
 
-command_v1 command_message(Action action) {
-  command_v1 message{};
-  message.action = static_cast<std::int32_t>(action);
-  return message;
-}
-
 /// Waits for what an accepted order leads to.
 template <typename Decided>
 void wait_for_mode(Client& client, const std::string& joint, const Decided& decided) {
@@ -37,6 +31,12 @@ void wait_for_mode(Client& client, const std::string& joint, const Decided& deci
 }
 
 }  // namespace
+
+command_v1 command_message(Action action) {
+  command_v1 message{};
+  message.action = static_cast<std::int32_t>(action);
+  return message;
+}
 
 Mode mode_of(const JointView& view) {
   return static_cast<Mode>(view.state.mode);

@@ -32,6 +32,8 @@ std::string lines_of(const std::vector<ClientError>& errors);
 void require_accepted(const Answer& answer, const std::string& joint, const std::string& what,
                       const std::string& hint = "");
 
+command_v1 command_message(Action action);
+
 /// Sends `action`, which has to be accepted.
 void order_accepted(Client& client, const std::string& joint, Action action);
 

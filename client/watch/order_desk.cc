@@ -17,16 +17,6 @@ namespace {
 constexpr std::size_t kRefusalsKept = 8;
 constexpr double kSaidFor_s = 10.0;
 
-command_v1 command(Action action) {
-  command_v1 message{};
-  message.action = static_cast<std::int32_t>(action);
-  return message;
-}
-
-std::string full_name(const OrderDesk::Name& joint) {
-  return joint.first + "." + joint.second;
-}
-
 }  // namespace
 
 OrderDesk::OrderDesk(Connection& connection, const StateView& states, const std::filesystem::path& key_file,
@@ -51,7 +41,7 @@ void OrderDesk::stop(const std::vector<Name>& joints) {
         joint,
         [this, joint, quoted = quote(joint)] {
           return sender_.seal_stop(channel(joint.first, joint.second, channel_kind::kCommand),
-                                   command(Action::kDisable), quoted);
+                                   command_message(Action::kDisable), quoted);
         },
         PendingOrder::stop_patience(timeout_s_), batch);
   report(*batch);
@@ -79,7 +69,7 @@ void OrderDesk::order(const Name& joint, Action action) {
   if (action == Action::kClearFault && view != nullptr && mode_of(*view) != Mode::kFaulted) {
     return say(full_name(joint) + ": has no fault", false);
   }
-  post(joint, channel_kind::kCommand, command(action), std::string(to_text(action)));
+  post(joint, channel_kind::kCommand, command_message(action), std::string(to_text(action)));
 }
 
 void OrderDesk::move(const Name& joint, double position_rad) {
