@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/csv.h"
 #include "client/commands/commands.h"
 #include "client/commands/guarded_strokes.h"
 #include "client/protocol/event_log_writer.h"
@@ -68,10 +67,7 @@ Evidence from_flight_record(const DoctorArguments& arguments, const std::string&
   evidence.period_s = period_s;
   const CsvText csv = read_csv_text(arguments.log);
   const auto column = [&](const char* name) { return csv.column(name); };
-  const auto number = [&](std::size_t row, std::size_t at) {
-    const std::string& text = csv.rows[row][at];
-    return text == "nan" ? DoctorSample::kUnknown : parse_number(text, csv.place(row), csv.columns[at]);
-  };
+  const auto number = [&](std::size_t row, std::size_t at) { return flight_number(csv, row, at); };
   const std::size_t cycle = column("cycle"), speed = column("setpoint_velocity_rad_s"),
                     position = column("joint_position_rad"), commanded = column("torque_commanded_Nm"),
                     applied = column("torque_applied_Nm"), temperature = column("temperature_used_C"),

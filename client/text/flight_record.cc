@@ -5,10 +5,10 @@
 
 #include <array>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string_view>
 
-#include "base/csv.h"
 #include "base/gnuplot.h"
 #include "base/input_error.h"
 #include "lcmtypes/cycle_fields.h"
@@ -93,6 +93,12 @@ FlightRecordInfo read_flight_record(const std::filesystem::path& file) {
       throw InputError(file.string() + " has no column " + std::string(name) + ": it is incomplete");
   info.period_s = period_of(info, file);
   return info;
+}
+
+double flight_number(const CsvText& csv, std::size_t row, std::size_t column) {
+  const std::string& text = csv.rows[row][column];
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  return parse_number(text, csv.place(row), csv.columns[column]);
 }
 
 std::string plot_script(const FlightRecordInfo& info, const std::filesystem::path& file,

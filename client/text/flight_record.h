@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "base/csv.h"
+
 namespace strainwave {
 
 struct FlightRecordInfo {
@@ -19,6 +21,9 @@ struct FlightRecordInfo {
 /// Reads the head. Throws InputError when the file cannot be read or is no flight record of kFlightRecordFormat with the
 /// columns that the drawing needs.
 FlightRecordInfo read_flight_record(const std::filesystem::path& file);
+
+/// A number of its rows, of which "nan" is one. Throws InputError naming the row and the column.
+double flight_number(const CsvText& csv, std::size_t row, std::size_t column);
 
 /// Draws `file` into `png`; with `around_s` only so much before and after the fault.
 std::string plot_script(const FlightRecordInfo& info, const std::filesystem::path& file,

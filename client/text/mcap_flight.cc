@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -71,22 +70,15 @@ std::string schema_of(const CsvText& csv) {
   return std::move(schema).end();
 }
 
-/// "nan" is a number here.
-double number_of(const CsvText& csv, std::size_t row, std::size_t column) {
-  const std::string& text = csv.rows[row][column];
-  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
-  return parse_number(text, csv.place(row), csv.columns[column]);
-}
-
 std::string message_of(const CsvText& csv, std::size_t row) {
   json::Object object;
   for (std::size_t c = 0; c < csv.columns.size(); ++c) {
     if (json::is_a_name(csv.columns[c]))
       object.add(csv.columns[c], std::string_view(csv.rows[row][c]));
     else
-      object.add(csv.columns[c], number_of(csv, row, c));
+      object.add(csv.columns[c], flight_number(csv, row, c));
   }
-  const auto value = [&](const char* name) { return number_of(csv, row, csv.column(name)); };
+  const auto value = [&](const char* name) { return flight_number(csv, row, csv.column(name)); };
   object.add("mode_text", std::string_view(to_text(static_cast<Mode>(std::lround(value("mode"))))));
   object.add("fault_text", fault_words(static_cast<Fault>(std::lround(value("fault"))),
                                        std::llround(value("drive_error"))));
@@ -111,7 +103,7 @@ FlightMcap write_flight_mcap(const std::filesystem::path& file, const std::files
   McapWriter writer(mcap, "strainwave " STRAINWAVE_VERSION);
   const std::uint16_t channel = writer.add_channel(written.topic, kSchemaName, schema_of(csv));
   for (std::size_t row = 0; row < csv.rows.size(); ++row) {
-    const double time_s = number_of(csv, row, time);
+    const double time_s = flight_number(csv, row, time);
     if (!(std::abs(time_s) < 1e6))
       throw InputError(csv.place(row), "time_s", csv.rows[row][time], "seconds from the fault are allowed");
     const auto ns = static_cast<std::uint64_t>(at_ns + std::llround(1e9 * time_s));
