@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "base/printable.h"
 #include "control/joint/gear_catalogue.h"
+#include "control/units.h"
 
 namespace strainwave {
 
@@ -31,8 +31,8 @@ bool is_decimal_part(double unit, double whole) {
 
 /// Drives count speed in the counts of their position, or in turns of the motor.
 void doubt_velocity_unit(const TomlSection& section, const cia402::UnitConfig& units) {
-  const double counts_rad_s = 2.0 * std::numbers::pi / units.counts_per_output_revolution;
-  const double rpm_rad_s = 2.0 * std::numbers::pi / 60.0 / units.gear_ratio;
+  const double counts_rad_s = kTurn_rad / units.counts_per_output_revolution;
+  const double rpm_rad_s = joint_velocity_rad_s_from_motor_rpm(1.0, units.gear_ratio);
   const double unit_rad_s = units.velocity_rad_s_per_unit;
   if (unit_rad_s == 0.0 || is_decimal_part(unit_rad_s, counts_rad_s) ||
       is_decimal_part(unit_rad_s, rpm_rad_s))

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "base/input_error.h"
@@ -52,7 +51,6 @@ std::optional<VelocityUnit> velocity_unit(std::uint32_t unit) {
     double value;
     const char* name;
   };
-  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
   constexpr Code kAngles[]{{0xB4, kTurn_rad, "rev"}, {0x10, 1.0, "rad"}, {0x41, kTurn_rad / 360.0, "deg"}};
   constexpr Code kTimes[]{{0x03, 1.0, "s"}, {0x47, 60.0, "min"}};
   const double power = std::pow(10.0, static_cast<std::int8_t>(unit >> 24U));
@@ -149,7 +147,7 @@ std::int16_t TorqueScale::per_mille(double joint_torque_Nm) const noexcept {
 }
 
 PositionScale::PositionScale(const UnitConfig& units)
-    : rad_per_count_(units.direction * 2.0 * std::numbers::pi / units.counts_per_output_revolution),
+    : rad_per_count_(units.direction * kTurn_rad / units.counts_per_output_revolution),
       offset_rad_(units.position_offset_rad),
       velocity_rad_s_per_unit_(units.direction * units.velocity_rad_s_per_unit) {}
 

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 
 namespace strainwave::cia402 {
+
+inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// What the configuration says of a drive's units.
 struct UnitConfig {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <numbers>
 
 #include "base/input_error.h"
 #include "drivers/can/canopen/canopen.h"
@@ -38,7 +37,6 @@ constexpr std::uint32_t kServoDrive = 0x00020192;
 constexpr std::uint32_t kAllModes = 0x3FF;
 constexpr std::uint32_t kDisabledAndPowered = 0x0250;
 constexpr double kAssumedCurrent_A = 1.0;
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// What the data sheet answers on the bus, without any time passing but that which somebody waits.
 class DataSheetDrive final : public CanPort {

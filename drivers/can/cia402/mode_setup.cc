@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of a CiA 402 drive's set-up that is about its mode of operation, and about a loop of its own.
 #include <array>
-#include <numbers>
 #include <sstream>
 
 #include "drivers/can/cia402/cia402_description.h"
@@ -111,8 +110,8 @@ void configure_own_loop(SdoClient& client, const DriveConfig& config, std::vecto
   const auto window = client.upload_if_there(kFollowingErrorWindow, 4);
   std::ostringstream text;
   text << client.who() << ": the drive ";
-  const double window_rad = 2.0 * std::numbers::pi * static_cast<double>(window.value_or(0)) /
-                            config.units.counts_per_output_revolution;
+  const double window_rad =
+      kTurn_rad * static_cast<double>(window.value_or(0)) / config.units.counts_per_output_revolution;
   if (!window || *window == kNoWindow)
     text << "does not watch its following error (6065h)";
   else
