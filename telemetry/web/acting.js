@@ -3,15 +3,11 @@
 // key (--key), signs the orders, and takes them from this page alone, if it was opened with the token that the server printed.
 // Orders quote session and challenge of the state that the page shows: the daemon refuses those that come late.
 
+import {make} from './dom.js';
+
 const REPEAT_MS = 100; // of a jog: the server ends it after 0.3 s of silence
 const STOP_ANSWER_MS = 1000; // the server answers a stop at once, and counts the joints' answers later
 const KEPT_ANSWERS = 5;
-
-const make = (tag, properties = {}, ...children) => {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-};
 
 export class Acting {
   /** `bench`: what the page shows: joints() all live ones by name, each {channel, last, limits}; chosen() the name of the one whose orders are shown, or null. */

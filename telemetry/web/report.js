@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reports of commissioning and of the doctor: JSON objects, whose lists of objects become tables. Every text goes in as text.
 
-const MOST_ROWS = 1000;
+import {make} from './dom.js';
 
-const make = (tag, ...children) => {
-  const made = document.createElement(tag);
-  made.append(...children);
-  return made;
-};
+const MOST_ROWS = 1000;
 
 const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 const words = (key) => key.replaceAll('_', ' ');
@@ -22,15 +18,9 @@ function textOf(value) {
 
 function tableOf(title, list) {
   const columns = [...new Set(list.flatMap((entry) => Object.keys(entry)))];
-  const head = columns.map((column) => {
-    const cell = make('th', words(column));
-    cell.scope = 'col';
-    return cell;
-  });
-  const rows = list.slice(0, MOST_ROWS).map((entry) => make('tr', ...columns.map((column) => make('td', column in entry ? textOf(entry[column]) : ''))));
-  const scroll = make('div', make('table', make('caption', words(title)), make('thead', make('tr', ...head)), make('tbody', ...rows)));
-  scroll.className = 'scroll report';
-  scroll.tabIndex = 0;
+  const head = columns.map((column) => make('th', {scope: 'col'}, words(column)));
+  const rows = list.slice(0, MOST_ROWS).map((entry) => make('tr', {}, ...columns.map((column) => make('td', {}, column in entry ? textOf(entry[column]) : ''))));
+  const scroll = make('div', {className: 'scroll report', tabIndex: 0}, make('table', {}, make('caption', {}, words(title)), make('thead', {}, make('tr', {}, ...head)), make('tbody', {}, ...rows)));
   scroll.setAttribute('role', 'region');
   scroll.setAttribute('aria-label', words(title));
   return scroll;
@@ -51,7 +41,7 @@ export function readReport(name, text) {
   // A healthy joint has a list without findings.
   if (!entries.some(([, value]) => Array.isArray(value))) throw new Error(expected);
   const facts = entries.filter((entry) => !isTable(entry)).map(([key, value]) => `${words(key)}: ${textOf(value) || 'none'}`);
-  const element = make('details', make('summary', name), make('p', facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)));
+  const element = make('details', {}, make('summary', {}, name), make('p', {}, facts.join(' · ')), ...entries.filter(isTable).map(([key, list]) => tableOf(key, list)));
   element.open = true;
   return element;
 }
