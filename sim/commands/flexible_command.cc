@@ -58,10 +58,15 @@ void run_peers(const FlexibleTables& gains, const std::filesystem::path& out) {
 
 /// The daemon's controller, configured wrongly, on the grid and on joints drawn at random.
 void run_wrong(const FlexibleTables& gains, const FlexibleOptions& options) {
+  const auto print = [](const std::string& title, const std::vector<FlexibleCell>& cells,
+                        const Contender& daemon) {
+    std::cout << wrongly_configured_summary(title, run_wrongly_configured(cells, daemon)).markdown();
+  };
   const Contender daemon = daemon_contender(gains);
-  for (const auto& cells :
-       {wrongly_configured_grid(), wrongly_configured_joints(options.joints.count, options.joints.seed)})
-    std::cout << wrongly_configured_summary(run_wrongly_configured(cells, daemon)).markdown();
+  print("Grid", wrongly_configured_grid(), daemon);
+  print("Gains for delays of one and two periods", late_grid(),
+        extended_contender("daemon", gains.shipped_for_delays));
+  print("Random joints", wrongly_configured_joints(options.joints.count, options.joints.seed), daemon);
 }
 
 void run(const FlexibleOptions& options) {

@@ -90,7 +90,7 @@ const std::vector<Wrong>& wrongs() {
       {"stiffness in the model 25 % too low", 1.0, 0.75},
       {"friction +30 %", 1.0, 1.0, 1.3},
       {"friction -30 %", 1.0, 1.0, 0.7},
-      {"one period of delay more", 1.0, 1.0, 1.0, 1.0},
+      {kOneMorePeriod, 1.0, 1.0, 1.0, 1.0},
       {"one period of delay less", 1.0, 1.0, 1.0, -1.0},
       {"jitter 0.3 ms", 1.0, 1.0, 1.0, 0.0, 0.3},
       {"model too slow, friction -30 %, jitter", 1.3, 0.75, 0.7, 0.0, 0.3},
@@ -176,6 +176,14 @@ std::vector<FlexibleCell> wrongly_configured_grid() {
     everything.nominal.effects.gravity = everything.plant.effects.gravity;
     cells.push_back(everything);
   }
+  return cells;
+}
+
+std::vector<FlexibleCell> late_grid() {
+  std::vector<FlexibleCell> cells;
+  for (const FlexibleCell& cell : wrongly_configured_grid())
+    if (cell.link_inertia_kgm2 > 0.05 && (cell.effect == "none" || cell.effect == kOneMorePeriod))
+      cells.push_back(cell);
   return cells;
 }
 

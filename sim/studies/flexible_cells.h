@@ -33,6 +33,10 @@ std::vector<FlexibleCell> first_grid();
 /// The joints of the grid with links up to 0.267 kg m2, first with the right model (effect "none"). Then each has one thing or several
 /// that are wrong or missing in the model: `nominal` differs from the joint.
 std::vector<FlexibleCell> wrongly_configured_grid();
+/// Effect of that grid.
+inline constexpr const char* kOneMorePeriod = "one period of delay more";
+/// Those joints of wrongly_configured_grid() that the boxes of the shipped tables hold, with the right model and with one period of delay more.
+std::vector<FlexibleCell> late_grid();
 /// `count` joints of random_joints, effects and all, each twice: with the right model (effect "none"), and with load, stiffness and
 /// friction wrong by up to 30, 25 and 30 %.
 std::vector<FlexibleCell> wrongly_configured_joints(int count, std::uint64_t seed);

@@ -139,6 +139,8 @@ const GainTable& FlexibleTables::nearest(const std::vector<GainTable>& tables, d
 
 FlexibleTables read_flexible_tables(const std::filesystem::path& directory) {
   FlexibleTables tables;
+  tables.shipped = read_gain_table(directory / "csf-17-50.json");
+  tables.shipped_for_delays = read_gain_table(directory / "csf-17-50-delays.json");
   for (const char* total : {"total-0.119", "total-0.178", "total-0.356", "total-1.089"}) {
     tables.c1.push_back(read_gain_table(directory / total / "c1.json"));
     tables.c2.push_back(read_gain_table(directory / total / "c2.json"));
@@ -148,10 +150,7 @@ FlexibleTables read_flexible_tables(const std::filesystem::path& directory) {
 }
 
 Contender daemon_contender(const FlexibleTables& tables, Mechanism without) {
-  return {"daemon", [family = tables.c4, without](const JointPlantConfig& plant) {
-            const GainTable& table = FlexibleTables::nearest(family, total_inertia(plant));
-            return extended_contender("daemon", table, kNoMotionLimits, without).make(plant);
-          }};
+  return extended_contender("daemon", tables.shipped, kNoMotionLimits, without);
 }
 
 std::vector<Contender> flexible_contenders(const FlexibleTables& tables, bool all) {

@@ -64,15 +64,15 @@ std::vector<WronglyConfiguredRow> run_wrongly_configured(const std::vector<Flexi
   return rows;
 }
 
-TextTable wrongly_configured_summary(const std::vector<WronglyConfiguredRow>& rows) {
+TextTable wrongly_configured_summary(const std::string& title,
+                                     const std::vector<WronglyConfiguredRow>& rows) {
   std::vector<std::string> wrongs;
   for (const WronglyConfiguredRow& row : rows)
     if (std::find(wrongs.begin(), wrongs.end(), row.cell.effect) == wrongs.end())
       wrongs.push_back(row.cell.effect);
   TextTable table;
   table.title =
-      "Wrong model: the link's sum above 40 urad over that of the same joint with the right model; median, "
-      "95 %";
+      title + ": the link's sum above 40 urad over that of the same joint with the right model; median, 95 %";
   table.header = {"wrong",
                   "joints",
                   "0.001 rad",

@@ -22,6 +22,6 @@ std::vector<WronglyConfiguredRow> run_wrongly_configured(const std::vector<Flexi
                                                          const Contender& contender);
 
 /// A row for each thing that is wrong in the model, in the order of the cells.
-TextTable wrongly_configured_summary(const std::vector<WronglyConfiguredRow>& rows);
+TextTable wrongly_configured_summary(const std::string& title, const std::vector<WronglyConfiguredRow>& rows);
 
 }  // namespace strainwave
